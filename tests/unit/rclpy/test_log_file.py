@@ -10,12 +10,15 @@ import pytest
 from rclpy import logging
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.context import Context
+from rclpy.impl import log_routing
+from rclpy.impl.log_file import LogFile
 from rclpy.impl.log_format import ENVELOPE_VARIABLE
 
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The folder for log files, which is not there yet; lines are without times."""
+    """The folder for log files, which is not there yet; lines are without times, and no other test's context counts."""
+    monkeypatch.setattr(log_routing.state(), "log_file", LogFile())
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     monkeypatch.setenv("RCUTILS_CONSOLE_OUTPUT_FORMAT", "[{severity}] [{name}]: {message}")
     return tmp_path / "log"
@@ -27,13 +30,13 @@ def content(folder: Path) -> list[str]:
 
 
 def test_lines_are_in_a_file_named_after_the_process(ros: Any, folder: Path, capfd: Any) -> None:
-    node = ros.node("talker")
+    node = ros.node("speaker_of_this_test")
     assert content(folder) == []
     node.get_logger().info("one\nmore \u00fc")
     node.get_logger().debug("not said")
     logging.clear_config()
     logging.get_logger("other").warning("two")
-    assert content(folder) == ["[INFO] [talker]: one\nmore \u00fc\n[WARN] [other]: two\n"]
+    assert content(folder) == ["[INFO] [speaker_of_this_test]: one\nmore \u00fc\n[WARN] [other]: two\n"]
     (path,) = folder.iterdir()
     assert path.name.split("_")[-2] == str(os.getpid()) and len(path.stem.split("_")[-1]) == 13
     assert capfd.readouterr().err == content(folder)[0]
