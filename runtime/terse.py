@@ -1,9 +1,10 @@
-"""One-line messages for faults of the environment in which a command runs: a full disk, a deleted working directory."""
+"""How a command ends that could not go on: one-line messages for faults of its environment, silence after an interrupt."""
 
 from __future__ import annotations
 
 import errno
 import os
+import signal
 import sys
 from collections.abc import Callable
 from typing import Any
@@ -11,6 +12,8 @@ from typing import Any
 DELETED = "the folder you are in was deleted; go to another one (cd) and try again"
 RECOGNIZED = 60
 """Characters of a name that are shown where it is too long."""
+ENDED = "ExternalShutdownException"
+"""What a wait raises when SIGTERM has ended the context; named, as not every command imports rclpy."""
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG)
 
 
@@ -57,8 +60,18 @@ def help_tells_faults() -> None:
     argparse.ArgumentParser._print_message = write  # pyright: ignore[reportPrivateUsage] -- where all help passes
 
 
+def ended_code(error: BaseException) -> int:
+    """The exit code that shells give to what this ended: Ctrl-C, or SIGTERM; 0 for any other error."""
+    if isinstance(error, KeyboardInterrupt):
+        return 128 + signal.SIGINT
+    return 128 + signal.SIGTERM if type(error).__name__ == ENDED else 0
+
+
 def told(run: Callable[[], int]) -> int:
-    """Run a command and flush what it has printed; a fault of its place is told on one line, with exit code 1."""
+    """Run a command and flush what it has printed; a fault of its place is told on one line, with exit code 1.
+
+    What Ctrl-C or SIGTERM has ended has the exit code that shells give it.
+    """
     code = 0
     try:
         try:
@@ -76,6 +89,10 @@ def told(run: Callable[[], int]) -> int:
         text = place_fault(error)
         if not text:
             raise
+    except BaseException as error:
+        if not (code := ended_code(error)):
+            raise
+        return code
     if not code:  # else the command has told why
         print(f"{os.path.basename(sys.argv[0])}: {text}", file=sys.stderr)
     _give_up_output()

@@ -9,7 +9,7 @@ import signal
 import sys
 from collections.abc import Mapping, Sequence
 
-from bot_console.runtime.terse import place_fault
+from bot_console.runtime.terse import ended_code, place_fault
 from ros2cli.command import Command, Result, Verb
 
 COMMANDS: Mapping[str, tuple[str, str]] = {
@@ -61,8 +61,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     except RuntimeError as error:  # among them what the client library refuses
         return _finish(str(error))
     except Exception as error:  # a verb's border: upstream ends in this traceback, and a console goes on after it
-        if type(error).__name__ == "ExternalShutdownException":  # SIGTERM; not imported, as not every verb needs rclpy
-            return 128 + signal.SIGTERM
+        if code := ended_code(error):
+            return code
         if fault := place_fault(error):
             return _finish(fault)
         import traceback

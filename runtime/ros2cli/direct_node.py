@@ -12,7 +12,7 @@ import rclpy
 from bot_console.runtime.rmw.names import full_name
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError
 from rclpy.clock import Clock, ClockType
-from rclpy.executors import SingleThreadedExecutor
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
@@ -46,7 +46,8 @@ class DirectNode:
     """A hidden node for the length of a `with` block.
 
     Upstream asks a daemon for most answers, and the daemon's node counts in the graph; here the verb's own node stands
-    in for it, with the publishers that the daemon's node would have.
+    in for it, with the publishers that the daemon's node would have. A block that SIGTERM ends raises
+    `ExternalShutdownException`, whatever it was at.
     """
 
     def __init__(self, arguments: argparse.Namespace | None = None, *, name: str = "") -> None:
@@ -59,19 +60,30 @@ class DirectNode:
 
     def __enter__(self) -> Node:
         rclpy.init(args=[])
-        self._node = rclpy.create_node(
-            self._name,
-            enable_rosout=self._daemon,
-            start_parameter_services=False,
-            parameter_overrides=[Parameter("use_sim_time", value=True)] if self._sim_time else None,
-        )
+        self._context = rclpy.get_default_context()
+        try:
+            self._node = rclpy.create_node(
+                self._name,
+                enable_rosout=self._daemon,
+                start_parameter_services=False,
+                parameter_overrides=[Parameter("use_sim_time", value=True)] if self._sim_time else None,
+            )
+        except Exception as error:
+            self._end(error)
+            raise
         return self._node
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self._node.destroy_node()
+        self._end(error)
+
+    def _end(self, error: BaseException | None) -> None:
+        """End the context; whatever SIGTERM has made fail is raised as what it is."""
         rclpy.try_shutdown()
+        if isinstance(error, Exception) and self._context.ended_by_signal:
+            raise ExternalShutdownException from error
 
 
 def node_names(node: Node, *, include_hidden: bool = False) -> list[NodeName]:
@@ -107,11 +119,15 @@ class NoAnswer(RuntimeError):
     """A request will not be answered: the text names who does not, and why."""
 
 
-def call(node: Node, kind: Any, service: str, request: Any) -> Any:
-    """Call a service and wait for the answer, as `answer` does."""
+def call(node: Node, kind: Any, service: str, request: Any, timeout: float | None = None, missing: str = "") -> Any:
+    """Call a service and wait for the answer, as `answer` does.
+
+    Raises `RuntimeError` with the words given where the service is not ready in time (s); else it is waited for.
+    """
     client = node.create_client(kind, service)
     try:
-        spin_until(node, client.service_is_ready)
+        if not spin_until(node, client.service_is_ready, timeout):
+            raise RuntimeError(missing)
         return answer(node, client, client.call_async(request))
     finally:
         node.destroy_client(client)

@@ -11,7 +11,7 @@ from rcl_interfaces.msg import Parameter
 from rclpy.node import Node
 from rclpy.parameter import get_parameter_value
 from ros2cli.command import Command, Result, Verb
-from ros2cli.direct_node import DirectNode, add_strategy_arguments, answer, call, node_names, spin_until
+from ros2cli.direct_node import DirectNode, add_strategy_arguments, call, node_names
 
 RESOURCE = "rclcpp_components"
 """The kind of resource in which packages name their components."""
@@ -130,13 +130,8 @@ def _unload(arguments: argparse.Namespace) -> Result:
 
 def _asked(node: Node, kind: Any, container: str, service: str, request: Any) -> Any:
     """The answer of a container's service; raises `RuntimeError` where it is not ready in time."""
-    client = node.create_client(kind, f"{container}/_container/{service}")
-    try:
-        if not spin_until(node, client.service_is_ready, ANSWER_LIMIT):
-            raise RuntimeError(f"No '{service}' service found for '{container}' container")
-        return answer(node, client, client.call_async(request))
-    finally:
-        node.destroy_client(client)
+    missing = f"No '{service}' service found for '{container}' container"
+    return call(node, kind, f"{container}/_container/{service}", request, ANSWER_LIMIT, missing)
 
 
 def _types_arguments(parser: argparse.ArgumentParser) -> None:

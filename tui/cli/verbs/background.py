@@ -18,6 +18,7 @@ from pathlib import Path
 from bot_console.tui.cli.system.background_system import SWITCH
 from bot_console.tui.cli.system.domain import domain, frozen, robot_there, take_part
 from bot_console.tui.cli.system.named_launch import with_launch_file
+from bot_console.tui.cli.system.one_start import one_start
 from bot_console.tui.cli.system.system_log import new_log
 from bot_console.tui.console.launch_host.door import DOOR
 from bot_console.tui.files.folders import OVERRIDE, state_folder
@@ -68,39 +69,49 @@ def up(words: Sequence[str]) -> int:
     if problem := problem or alone:
         print(problem, file=sys.stderr)
         return 1
-    there = _known()
-    robot = [] if there or options.launch else robot_there()
-    if there or robot:
-        who = there.told() if there else ", ".join(robot)
-        print(f"a robot runs already in ROS domain {domain()}: {who}; bot-console attach shows it", file=sys.stderr)
-        return 1
-    try:
-        log = new_log(os.getpid())
-    except OSError as error:
-        why = f"the log cannot be kept in {state_folder()}: {error.strerror}"
-        print(f"not started: {why}; {OVERRIDE} names another folder", file=sys.stderr)
-        return 1
-    line = [*own_program(SWITCH), str(log), *words]
-    with log.open("ab") as output:
-        process = subprocess.Popen(
-            line, stdin=subprocess.DEVNULL, stdout=output, stderr=output, start_new_session=True, close_fds=True
-        )
-    # A file of its own, which goes with the log: the system's takes turns, and would leave the router in an old one.
-    router_log = log.with_name(f"{log.name}.router")
-    started = Background(process.pid, tuple(words), str(log), _open_way_in(serving, router_log) if serving else 0)
-    save_file(_file(), json.dumps(asdict(started)))
+    robot = [] if options.launch or _known() else robot_there()
+    with one_start(_file().with_name("background.lock"), STARTING) as got:
+        there = _known()
+        if not got or there or robot:
+            who = there.told() if there else ", ".join(robot) or "another one that is being started"
+            print(f"a robot runs already in ROS domain {domain()}: {who}; bot-console attach shows it", file=sys.stderr)
+            return 1
+        try:
+            log = new_log(os.getpid())
+        except OSError as error:
+            why = f"the log cannot be kept in {state_folder()}: {error.strerror}"
+            print(f"not started: {why}; {OVERRIDE} names another folder", file=sys.stderr)
+            return 1
+        line = [*own_program(SWITCH), str(log), *words]
+        with log.open("ab") as output:
+            process = subprocess.Popen(
+                line, stdin=subprocess.DEVNULL, stdout=output, stderr=output, start_new_session=True, close_fds=True
+            )
+        # Its own file, which goes with the log: the system's takes turns, and would leave the router in an old one.
+        router_log = log.with_name(f"{log.name}.router")
+        started = Background(process.pid, tuple(words), str(log), _open_way_in(serving, router_log) if serving else 0)
+        save_file(_file(), json.dumps(asdict(started)))
+    return _await(process, started, launched=bool(options.launch), router_log=router_log if serving else None)
+
+
+def _await(process: subprocess.Popen[bytes], started: Background, *, launched: bool, router_log: Path | None) -> int:
+    """Wait until the robot of a started system is seen, or what is launched is, and tell how to go on."""
     deadline = time.monotonic() + STARTING
-    is_up = partial(_runs, process.pid) if options.launch else robot_there
-    while process.poll() is None and not is_up() and time.monotonic() < deadline:
-        time.sleep(0.1)
+    is_up = partial(_runs, process.pid) if launched else robot_there
+    try:
+        while process.poll() is None and not is_up() and time.monotonic() < deadline:
+            time.sleep(0.1)
+    except KeyboardInterrupt:
+        print(f"it goes on starting: {started.told()}; bot-console down ends it", file=sys.stderr)
+        raise
     if process.poll() is not None:
         _file().unlink(missing_ok=True)
         started.close_way_in()
-        print(f"it has ended with exit code {process.returncode}; its log is {log}", file=sys.stderr)
+        print(f"it has ended with exit code {process.returncode}; its log is {started.log}", file=sys.stderr)
         return 1
     print(f"running in ROS domain {domain()}: {started.told()}")
     print("bot-console attach shows it, bot-console down ends it")
-    if serving and not _is_program(started.way_in, b"router"):
+    if router_log and not _is_program(started.way_in, b"router"):
         print(f"other machines are not let in; why is at the end of {router_log}", file=sys.stderr)
         return 1
     return 0
@@ -175,10 +186,8 @@ def down(words: Sequence[str]) -> int:
 
 def _bring_to_rest() -> None:
     """Hold the robot until its system has ended; one without an emergency stop ends with its nodes."""
-    from bot_console.runtime.importer import install
     from bot_console.tui.cli.verbs import stop
 
-    install()
     stop.ask("stop", "its system is being ended", answers_s=stop.PATIENCE)
 
 

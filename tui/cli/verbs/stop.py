@@ -8,13 +8,14 @@ import time
 from typing import TYPE_CHECKING
 
 from bot_console.runtime.importer import install
+from bot_console.runtime.terse import ended_code
+from bot_console.tui.cli.system.reached_stop import ReachedStop
 from bot_console.tui.cli.system.reaching import reach_system
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.format import harmless
 
 if TYPE_CHECKING:
-    from bot_console.tui.console.robot.stop_link import StopInfo, StopLink
-    from rclpy.node import Node
+    from bot_console.tui.console.robot.stop_link import StopInfo
 
 PATIENCE = 3.0
 """Seconds to hear who holds a robot, and to stop one that is ended in any case."""
@@ -47,8 +48,12 @@ def run(verb: str, words: list[str]) -> int:
     if alone:
         print(alone, file=sys.stderr)
         return 1
-    install()
-    done, info = ask(verb, getattr(given, "reason", ""), everybody=getattr(given, "all", False))
+    try:
+        done, info = ask(verb, getattr(given, "reason", ""), everybody=getattr(given, "all", False))
+    except BaseException as error:
+        if ended_code(error):
+            print(f"bot-console {verb} was ended before a robot has answered", file=sys.stderr)
+        raise
     return _tell(verb, done, info)
 
 
@@ -56,30 +61,27 @@ def ask(verb: str, reason: str, *, everybody: bool = False, answers_s: float = A
     """Ask every robot that is found to lock or release; with `everybody`, a release covers the stops of others too.
 
     Returns whether all of them did, and what is known of them. A robot that was found is given `answers_s` from the
-    start
-    to answer.
+    start to answer.
     """
-    import rclpy
-    from bot_console.tui.console.robot.stop_link import StopLink, user
+    install()
+    from bot_console.tui.console.robot.stop_link import user
 
-    rclpy.init(args=[])
-    node = rclpy.create_node("_bot_console_stop", enable_rosout=False, start_parameter_services=False)
     # One key for all that this person types, so that one line takes back what another has stopped.
-    link = StopLink(node, f"bot-console {verb} of {user()}", f"bot-console stop of {user()}")
-    if verb == "stop":
-        link.stop(reason)
-    looks, until, done = 0, time.monotonic() + answers_s, False
-    while not done and (looks < LOOKS or (link.info.locks and time.monotonic() < until)):
-        looks += 1
-        _follow(link, node)
-        if verb == "release" and not link.releasing and (wanted := _to_release(link.info, everybody)):
-            link.release([each.key for each in wanted])
-        link.repeat()
-        _hear(node)
-        left = not link.info.confirmed if verb == "stop" else _to_release(link.info, everybody)
-        done = link.info.locks > 0 and link.heard and not left
-    node.destroy_node()
-    rclpy.try_shutdown()
+    who, key = f"bot-console {verb} of {user()}", f"bot-console stop of {user()}"
+    with ReachedStop("_bot_console_stop", who, key) as reached:
+        link = reached.link
+        if verb == "stop":
+            link.stop(reason)
+        looks, until, done = 0, time.monotonic() + answers_s, False
+        while not done and (looks < LOOKS or (link.info.locks and time.monotonic() < until)):
+            looks += 1
+            reached.follow()
+            if verb == "release" and not link.releasing and (wanted := _to_release(link.info, everybody)):
+                link.release([each.key for each in wanted])
+            link.repeat()
+            reached.hear()
+            left = not link.info.confirmed if verb == "stop" else _to_release(link.info, everybody)
+            done = link.info.locks > 0 and link.heard and not left
     return done, link.info
 
 
@@ -89,36 +91,14 @@ def holders(to_find: float = 1.0, to_hear: float = PATIENCE) -> list[str] | None
     `to_find` and `to_hear` are the seconds to find a robot, and to hear from one that was found.
     """
     install()
-    import rclpy
-    from bot_console.tui.console.robot.stop_link import StopLink
-
-    rclpy.init(args=[])
-    node = rclpy.create_node("_bot_console_status", enable_rosout=False, start_parameter_services=False)
-    link, begun = StopLink(node), time.monotonic()
-    while not (link.info.locks and link.heard):
-        if time.monotonic() - begun > (to_hear if link.info.locks else to_find):
-            break
-        _follow(link, node)
-        _hear(node)
-    node.destroy_node()
-    rclpy.try_shutdown()
+    with ReachedStop("_bot_console_status") as reached:
+        link, begun = reached.link, time.monotonic()
+        while not (link.info.locks and link.heard):
+            if time.monotonic() - begun > (to_hear if link.info.locks else to_find):
+                break
+            reached.follow()
+            reached.hear()
     return _said(link.info) if link.heard else None
-
-
-def _follow(link: StopLink, node: Node) -> None:
-    """Listen to the locks that exist now."""
-    from bot_console.tui.console.robot.stop_link import STATUS
-
-    names = node.get_topic_names_and_types()
-    link.follow(name for name, types in names if STATUS in types and node.count_publishers(name))
-
-
-def _hear(node: Node) -> None:
-    """Take in what they publish within a tenth of a second."""
-    import rclpy
-
-    for _ in range(10):
-        rclpy.spin_once(node, timeout_sec=0.01)
 
 
 def _said(info: StopInfo) -> list[str]:

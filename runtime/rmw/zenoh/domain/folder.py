@@ -8,13 +8,21 @@ from __future__ import annotations
 
 import os
 import stat
+import sys
+
+from bot_console.runtime.rmw.zenoh.domain import loopback
 
 BASE_VARIABLE = "BOT_CONSOLE_SOCKET_DIR"
 """Names another base folder: for tests, and for several systems side by side."""
 
+LONGEST_PATH = 107 if sys.platform == "linux" else 103
+"""The bytes that the path of a Unix socket may have; a longer one fails silently on connecting."""
+LONGEST_NAME = len("4194304.01234567")
+"""The bytes of a socket's name: a process id of the most digits, and the begin of a session's id."""
+
 
 class FolderRefusedError(RuntimeError):
-    """A folder is not safe to meet in; the text says why and how to mend it."""
+    """A folder is not safe to meet in, or no socket can be made in it; the text says why and how to mend it."""
 
 
 def base_folder() -> str:
@@ -28,11 +36,17 @@ def base_folder() -> str:
 def domain_folder(domain: int) -> str:
     """The folder of a domain, made with mode 0700 where it is missing.
 
-    Raises `FolderRefusedError` where it, or the base folder, belongs to somebody else or is open to others.
+    Raises `FolderRefusedError` where it, or the base folder, belongs to somebody else or is open to others, and where
+    the path of a socket in it could be too long.
     """
     base = base_folder()
-    _private_folder(base)
     folder = os.path.join(base, str(domain))
+    room = LONGEST_PATH - LONGEST_NAME - 1
+    length = len(os.fsencode(folder))
+    if length > room and not loopback.is_chosen():
+        told = f"the path {folder} has {length} bytes, and with more than {room} no socket can be made in it"
+        raise FolderRefusedError(f"{told}: set {BASE_VARIABLE} to a shorter folder")
+    _private_folder(base)
     _private_folder(folder)
     return folder
 

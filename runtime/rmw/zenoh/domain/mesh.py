@@ -167,6 +167,6 @@ class MeshSession(Session):
 def open_session(domain: int) -> MeshSession:
     """Join the mesh of a domain.
 
-    Raises `FolderRefusedError`, `PathTooLongError` and `SessionError`, whose texts say how to mend it.
+    Raises `FolderRefusedError` and `SessionError`, whose texts say how to mend it.
     """
     return MeshSession(domain)

@@ -10,23 +10,14 @@ from __future__ import annotations
 import contextlib
 import os
 import re
-import sys
 from typing import NamedTuple
 
 from bot_console.runtime.process.real import getpid
 from bot_console.runtime.rmw.zenoh.domain import loopback
 from bot_console.runtime.rmw.zenoh.domain.file_lock import NO_LINK, try_lock
-from bot_console.runtime.rmw.zenoh.domain.folder import BASE_VARIABLE
 from bot_console.runtime.rmw.zenoh.settings import SCHEME
 
-LONGEST_PATH = 107 if sys.platform == "linux" else 103
-"""The bytes that the path of a Unix socket may have; a longer one fails silently on connecting."""
-
 _NAME = re.compile(r"(\d+)\.([0-9a-f]{8})")
-
-
-class PathTooLongError(RuntimeError):
-    """A socket's path is longer than the system allows."""
 
 
 class Socket(NamedTuple):
@@ -70,14 +61,8 @@ class Socket(NamedTuple):
 
 
 def own_socket(folder: str, zid: str) -> Socket:
-    """The socket that a session of this process is to listen on; raises `PathTooLongError`."""
+    """The socket that a session of this process is to listen on."""
     path = os.path.join(folder, f"{getpid()}.{zid[:8]}{_ending()}")
-    length = len(os.fsencode(path))
-    if length > LONGEST_PATH and not _ending():
-        raise PathTooLongError(
-            f"the path {path} has {length} bytes, and that of a socket may have {LONGEST_PATH}: "
-            f"set {BASE_VARIABLE} to a shorter folder"
-        )
     return Socket(path, getpid(), zid[:8])
 
 

@@ -8,9 +8,14 @@ import subprocess
 import sys
 
 import pytest
-from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, base_folder, domain_folder
+from bot_console.runtime.rmw.zenoh.domain.folder import (
+    LONGEST_PATH,
+    FolderRefusedError,
+    base_folder,
+    domain_folder,
+)
 from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
-from bot_console.runtime.rmw.zenoh.domain.sockets import LONGEST_PATH, PathTooLongError
+from bot_console.runtime.rmw.zenoh.domain.sockets import own_socket
 
 NOBODY = 65534
 
@@ -60,12 +65,23 @@ def test_a_folder_that_cannot_be_made_is_told(monkeypatch):
         domain_folder(0)
 
 
-def test_a_socket_whose_path_would_be_too_long_is_told_before_anything_is_made(monkeypatch, socket_folder):
-    monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"{socket_folder}{'x' * LONGEST_PATH}")
-    with pytest.raises(PathTooLongError, match="set BOT_CONSOLE_SOCKET_DIR to a shorter folder"):
+def test_a_folder_in_which_paths_would_be_too_long_is_refused_before_it_is_made(monkeypatch, socket_folder):
+    monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", socket_folder.ljust(LONGEST_PATH, "x"))
+    with pytest.raises(FolderRefusedError, match="set BOT_CONSOLE_SOCKET_DIR to a shorter folder"):
         open_session(0)
-    os.rmdir(f"{socket_folder}{'x' * LONGEST_PATH}/0")
-    os.rmdir(f"{socket_folder}{'x' * LONGEST_PATH}")
+    assert not os.path.exists(socket_folder.ljust(LONGEST_PATH, "x"))
+
+
+def test_the_longest_folder_that_is_taken_holds_every_socket(monkeypatch, tmp_path):
+    monkeypatch.setattr("bot_console.runtime.rmw.zenoh.domain.sockets.getpid", lambda: 4194304)
+    monkeypatch.setattr("bot_console.runtime.rmw.zenoh.domain.folder._private_folder", lambda path: None)
+    length = len(os.fsencode(own_socket("", "0" * 32).path))
+    base = "/".ljust(LONGEST_PATH - length - len("/0/"), "x")
+    monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", base)
+    assert len(os.fsencode(own_socket(domain_folder(0), "0" * 32).path)) == LONGEST_PATH
+    monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"{base}x")
+    with pytest.raises(FolderRefusedError):
+        domain_folder(0)
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can become another user")

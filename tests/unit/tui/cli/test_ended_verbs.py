@@ -1,0 +1,64 @@
+"""Commands that Ctrl-C or SIGTERM ends: no traceback, the exit code that a shell gives, and a word where it matters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+import rclpy
+from bot_console.runtime.terse import told
+from bot_console.tui.cli.main import main
+from bot_console.tui.cli.system import reached_stop
+from bot_console.tui.cli.verbs import background
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from ros2cli.direct_node import DirectNode
+
+UNHEARD = "bot-console {} was ended before a robot has answered\n"
+
+
+def terminated(*_: object) -> None:
+    """What the handler of SIGTERM does while a verb looks for a robot."""
+    rclpy.get_default_context().shut_down_by_signal()
+
+
+def interrupted(*_: object) -> None:
+    raise KeyboardInterrupt
+
+
+@pytest.fixture(autouse=True)
+def domain(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "47")
+
+
+@pytest.mark.parametrize(("end", "code"), [(terminated, 143), (interrupted, 130)])
+@pytest.mark.parametrize("verb", ["stop", "release"])
+def test_one_that_looks_for_a_robot_says_that_none_has_answered(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], verb: str, end: Callable[[], None], code: int
+) -> None:
+    monkeypatch.setattr(reached_stop.ReachedStop, "follow", end)
+    assert told(lambda: main([verb])) == code
+    assert capsys.readouterr().err == UNHEARD.format(verb)
+
+
+@pytest.mark.parametrize("step", ["get_topic_names_and_types", "create_subscription", "create_publisher"])
+def test_what_sigterm_ends_ends_as_such_wherever_it_was(monkeypatch: pytest.MonkeyPatch, step: str) -> None:
+    def ended(node: Node, *words: object) -> None:
+        terminated()
+        raise RuntimeError("the context is invalid")
+
+    monkeypatch.setattr(Node, step, ended)
+    with pytest.raises(ExternalShutdownException), DirectNode() as node:
+        getattr(node, step)()
+
+
+@pytest.mark.parametrize(("end", "code"), [(terminated, 143), (interrupted, 130)])
+def test_status_ends_without_a_word(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], end: Callable[[], None], code: int
+) -> None:
+    monkeypatch.setattr(background, "take_part", lambda: "")
+    monkeypatch.setattr(background, "_known", lambda: None)
+    monkeypatch.setattr(background, "robot_there", lambda: ["/simulator"])
+    monkeypatch.setattr(reached_stop.ReachedStop, "follow", end)
+    assert told(lambda: main(["status"])) == code
+    assert capsys.readouterr().err == ""

@@ -1,0 +1,108 @@
+"""`bot-console up` twice at one moment, and ended amid its start: one system at most, and none that nobody can end."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import threading
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from bot_console.tui.cli.system import one_start as module
+from bot_console.tui.cli.system import system_log
+from bot_console.tui.cli.system.one_start import one_start
+from bot_console.tui.cli.verbs import background
+
+if os.name == "nt":
+    pytest.skip("a process has other signals there", allow_module_level=True)
+
+PATIENCE = 20.0
+
+
+def test_the_second_start_waits_for_the_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    waits, lock, seen = threading.Event(), tmp_path / "lock", list[str]()
+    monkeypatch.setattr(module.time, "sleep", lambda seconds: waits.set())
+    monkeypatch.setattr(module, "SIGNALS", [])  # which only a main thread may hold back
+
+    def second() -> None:
+        with one_start(lock, PATIENCE) as got:
+            seen.append(f"second {got}")
+
+    with one_start(lock, PATIENCE) as got:
+        other = threading.Thread(target=second)
+        other.start()
+        assert waits.wait(PATIENCE)
+        seen.append(f"first {got}")
+    other.join(PATIENCE)
+    assert seen == ["first True", "second True"]
+
+
+def test_one_that_never_ends_is_waited_for_no_longer_than_said(tmp_path: Path) -> None:
+    with one_start(tmp_path / "lock", 0.0), one_start(tmp_path / "lock", 0.0) as got:
+        assert not got
+
+
+@pytest.fixture
+def started(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[object]:
+    """What `up` starts: nothing real, by the number of this process."""
+    calls: list[object] = []
+
+    def start(words: object, **_: object) -> SimpleNamespace:
+        calls.append(words)
+        return SimpleNamespace(pid=os.getpid(), poll=lambda: None)
+
+    monkeypatch.setattr(background.subprocess, "Popen", start)
+    monkeypatch.setattr(background, "take_part", lambda: "")
+    monkeypatch.setattr(background, "_file", lambda: tmp_path / "background.json")
+    monkeypatch.setattr(background, "_is_program", lambda pid, word: True)
+    monkeypatch.setattr(background, "_runs", lambda pid: True)
+    monkeypatch.setattr(background, "robot_there", lambda: ["/simulator"] if calls else [])
+    monkeypatch.setattr(system_log, "state_folder", lambda: tmp_path)
+    return calls
+
+
+def test_one_that_began_while_we_looked_is_not_doubled(
+    started: list[object], monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def begins_meanwhile() -> list[str]:
+        text = json.dumps({"pid": 7, "words": ["outdoor"], "log": "its.log"})
+        (tmp_path / "background.json").write_text(text)
+        return []
+
+    monkeypatch.setattr(background, "robot_there", begins_meanwhile)
+    assert background.up([]) == 1
+    assert "process 7 (outdoor)" in capsys.readouterr().err and not started
+
+
+def test_a_signal_amid_the_start_waits_until_the_system_is_written_down(
+    started: list[object], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    save = background.save_file
+    monkeypatch.setattr(module, "SIGNALS", [signal.SIGUSR1])  # as Ctrl-C may be ignored where tests run
+    before = signal.signal(signal.SIGUSR1, signal.default_int_handler)
+
+    def interrupted(*what: object) -> None:
+        os.kill(os.getpid(), signal.SIGUSR1)
+        save(*what)
+
+    monkeypatch.setattr(background, "save_file", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        background.up([])
+    assert started and (tmp_path / "background.json").exists()
+    assert signal.signal(signal.SIGUSR1, before) is signal.default_int_handler
+
+
+def test_an_interrupt_while_it_starts_says_how_to_end_it(
+    started: list[object], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def looks() -> list[str]:
+        if started:
+            raise KeyboardInterrupt
+        return []
+
+    monkeypatch.setattr(background, "robot_there", looks)
+    with pytest.raises(KeyboardInterrupt):
+        background.up([])
+    assert "it goes on starting: process" in capsys.readouterr().err

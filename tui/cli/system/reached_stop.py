@@ -1,0 +1,50 @@
+"""How a verb hears and asks the emergency stops of its domain: a node for the length of a `with` block."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from types import TracebackType
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.robot.stop_link import StopInfo, StopLink
+
+
+class ReachedStop:
+    """The locks of the robots that are found, followed as they come and go."""
+
+    def __init__(self, node_name: str, holder: str = "", key: str = "") -> None:
+        self._name, self._holder, self._key = node_name, holder, key
+
+    def __enter__(self) -> ReachedStop:
+        from bot_console.tui.console.robot.stop_link import StopLink
+        from ros2cli.direct_node import DirectNode
+
+        self._direct = DirectNode(Namespace(no_daemon=True), name=self._name)
+        self._node = self._direct.__enter__()
+        self.link: StopLink = StopLink(self._node, self._holder, self._key)
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._direct.__exit__(kind, error, trace)
+
+    @property
+    def info(self) -> StopInfo:
+        """What the locks have said."""
+        return self.link.info
+
+    def follow(self) -> None:
+        """Listen to the locks that are there now."""
+        from bot_console.tui.console.robot.stop_link import STATUS
+
+        names = self._node.get_topic_names_and_types()
+        self.link.follow(name for name, types in names if STATUS in types and self._node.count_publishers(name))
+
+    def hear(self) -> None:
+        """Take in what they say within a tenth of a second."""
+        import rclpy
+
+        for _ in range(10):
+            rclpy.spin_once(self._node, timeout_sec=0.01)
