@@ -1,4 +1,4 @@
-"""How a command ends that could not go on: one-line messages for faults of its environment, silence after an interrupt."""
+"""How a command ends that cannot go on: one-line messages for faults of its environment, silence after an interrupt."""
 
 from __future__ import annotations
 

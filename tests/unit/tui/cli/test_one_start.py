@@ -83,9 +83,9 @@ def test_a_signal_amid_the_start_waits_until_the_system_is_written_down(
     monkeypatch.setattr(module, "SIGNALS", [signal.SIGUSR1])  # as Ctrl-C may be ignored where tests run
     before = signal.signal(signal.SIGUSR1, signal.default_int_handler)
 
-    def interrupted(*what: object) -> None:
+    def interrupted(path: Path, text: str) -> None:
         os.kill(os.getpid(), signal.SIGUSR1)
-        save(*what)
+        save(path, text)
 
     monkeypatch.setattr(background, "save_file", interrupted)
     with pytest.raises(KeyboardInterrupt):
