@@ -17,11 +17,13 @@ class Finding:
     """0 where there is no line."""
     fault: str
     subject: str
+    known: str = ""
+    """How to fix this one, if more is known than of its kind."""
 
     @property
     def mend(self) -> str:
         """How to fix it."""
-        return MENDS[self.fault]
+        return self.known or MENDS[self.fault]
 
     def text(self) -> str:
         """On one line."""

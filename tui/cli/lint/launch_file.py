@@ -29,11 +29,16 @@ def dead_parameters(path: Path, declared: frozenset[str]) -> Iterator[Finding]:
                     yield Finding(str(path), line, "dead parameter", name)
 
 
+def folder_of_package(path: Path) -> Path | None:
+    """The folder of the package that contains a file, with its `package.xml`; None if none does."""
+    return next((each for each in path.resolve().parents if (each / MANIFEST).is_file()), None)
+
+
 def _package_of(path: Path) -> str:
     """The name of the package that contains a file; empty if none does."""
-    manifest = next((each / MANIFEST for each in path.resolve().parents if (each / MANIFEST).is_file()), None)
+    folder = folder_of_package(path)
     try:
-        name = ElementTree.parse(manifest).getroot().findtext("name") if manifest else ""
+        name = ElementTree.parse(folder / MANIFEST).getroot().findtext("name") if folder else ""
     except (ElementTree.ParseError, OSError):
         return ""
     return (name or "").strip()

@@ -11,7 +11,7 @@ from pathlib import Path
 from bot_console.tui.cli.lint.finding import Finding
 
 _CONTINUOUS = re.compile(r"speed|velocity|distance|radius|gain|rate|angle|tolerance|timeout|period|^k[pid](_|$)|scale")
-_UNIT = re.compile(r"\([^()]*[A-Za-z°%][^()]*\)\s*$")
+_UNIT = re.compile(r"(\([^()]*[A-Za-z°%][^()]*\)|\[[^\[\]]*[A-Za-z°%][^\[\]]*\])\s*$")
 
 
 @dataclass

@@ -9,7 +9,8 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from bot_console.tui.cli.lint.finding import Finding
-from bot_console.tui.cli.lint.launch_file import dead_parameters
+from bot_console.tui.cli.lint.launch_file import dead_parameters, folder_of_package
+from bot_console.tui.cli.lint.parameter_file import dead_values, is_meant, refused
 from bot_console.tui.cli.lint.python_file import Declared
 from bot_console.tui.cli.lint.python_file import lint as lint_python
 
@@ -45,7 +46,13 @@ def _of_files(what: str) -> tuple[str, list[Finding]]:
     files = files_of(what)
     if not files:
         return f"there is no file, folder or package '{what}' with Python or YAML files in it", []
-    return "", lint_files(files)
+    if files != [Path(what)]:
+        return "", lint_files(files)
+    # What one file gives to nodes is compared with what its package declares.
+    package = folder_of_package(files[0])
+    beside = [each for each in files_of(str(package)) if each.resolve() != files[0].resolve()] if package else []
+    found = lint_files([*(each for each in beside if each.suffix == ".py"), *files], files[0])
+    return "", [each for each in found if each.place == str(files[0])]
 
 
 def files_of(what: str) -> list[Path]:
@@ -68,15 +75,18 @@ def files_of(what: str) -> list[Path]:
     )
 
 
-def lint_files(files: Iterable[Path]) -> list[Finding]:
-    """The faults of files; parameter and launch files are compared with what the Python files declare."""
+def lint_files(files: Iterable[Path], named: Path | None = None) -> list[Finding]:
+    """The faults of files; parameter and launch files are compared with what the Python files declare.
+
+    `named` is a file that the user has named: it is read as a parameter file, whatever is in it.
+    """
     found: list[Finding] = []
     declared = Declared()
     parameters: list[Path] = []
     launches: list[Path] = []
     for path in files:
         if path.suffix != ".py":
-            parameters.append(path)
+            parameters += [path] if is_meant(path) or path == named else []
             continue
         try:
             own, names = lint_python(path)
@@ -89,32 +99,14 @@ def lint_files(files: Iterable[Path]) -> list[Finding]:
         declared.nodes |= names.nodes
         declared.parameters |= names.parameters
         declared.whole = declared.whole and names.whole
-    for path in parameters if declared.nodes else ():
-        found += _of_parameter_file(path, declared)
+    for path in parameters:
+        problems = [*refused(path)]
+        found += problems
+        if declared.nodes and not problems:
+            found += dead_values(path, declared)
     for path in launches if declared.parameters and declared.whole else ():
         found += dead_parameters(path, frozenset(declared.parameters))
     return sorted(found)
-
-
-def _of_parameter_file(path: Path, declared: Declared) -> Iterable[Finding]:
-    """Keys that match no node, and parameters that nobody declares."""
-    from bot_console.tui.console.parameters.file.node_keys import is_wildcard
-    from bot_console.tui.console.parameters.file.text import KEYWORD, sections
-
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-        found = sections(text) if KEYWORD in text else []
-    except (ValueError, OSError) as error:
-        print(f"{path}: {error}", file=sys.stderr)
-        return
-    for section in found:
-        line = section.mapping.line
-        if not is_wildcard(section.key) and section.key.rpartition("/")[2] not in declared.nodes:
-            yield Finding(str(path), line, "dead key", section.key)
-            continue
-        for name, place in section.places.items() if declared.whole else ():
-            if name not in declared.parameters and name != "use_sim_time" and not name.startswith("qos_overrides."):
-                yield Finding(str(path), place.line, "dead parameter", f"{section.key} {name}")
 
 
 def _running() -> tuple[str, list[Finding]]:

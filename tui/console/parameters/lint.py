@@ -29,6 +29,7 @@ MENDS = {
     "accepts anything": "let the callback return successful=False with a reason for what it cannot work with",
     "float as int": "write the default with a point: 1 makes an integer parameter, and 0.5 is refused then",
     "dead key": "use the node's name, or /** for all; a key that means no node sets nothing",
+    "refused": "a node that is given this file does not start",
     "dead parameter": "declare it in the node or take the line out: it sets nothing",
 }
 """How each fault is mended."""

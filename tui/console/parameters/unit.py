@@ -7,8 +7,8 @@ from functools import lru_cache
 
 @lru_cache(maxsize=20_000)
 def unit_of(description: str) -> str:
-    """The unit that ends a description in parentheses, such as `m/s`; else empty."""
+    """The unit that ends a description in brackets, `(m/s)` or `[m/s]`; else empty."""
     text = description.rstrip()
-    start = text.rfind("(")
-    inside = text[start + 1 : -1].split()[-1:] if text.endswith(")") and start >= 0 else []
+    start = text.rfind({")": "(", "]": "["}.get(text[-1:], "\0"))
+    inside = text[start + 1 : -1].split()[-1:] if start >= 0 else []
     return inside[0] if inside and any(letter.isalpha() for letter in inside[0]) and len(inside[0]) <= 6 else ""

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.cli.lint.run import files_of, lint_files, run
+from bot_console.tui.console.parameters.unit import unit_of
 
 NODE = """\
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
@@ -107,8 +108,50 @@ def test_words_json_and_exit_codes(package: Path, capsys: pytest.CaptureFixture[
     assert run([str(package), "--json"]) == 1
     rows = json.loads(capsys.readouterr().out)
     assert {"place", "line", "fault", "subject", "mend"} == set(rows[0]) and len(rows) == 9
-    assert run([str(package / "other.yaml")]) == 0
+    (package / "good.yaml").write_text("/**:\n  ros__parameters:\n    gain: 1.0\n")
+    assert run([str(package / "good.yaml")]) == 0
     assert run(["no_such_package_anywhere"]) == 2
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "subject", "mend"),
+    [
+        ("robot:\n  ros_parameters:\n    speed: 2.0\n", 2, "Cannot have a value", "has one underscore"),
+        ("robot:\n  speed: 2.0\n", 2, "Cannot have a value", "below it ros__parameters"),
+        ("robot:\n  ros__parameters:\n\tspeed: 2.0\n", 3, "Error parsing", "indented by a tab"),
+        ("robot:\n  ros__parameters:\n    list: [1, two]\n", 3, "Sequence should be of same type", "does not start"),
+    ],
+)
+def test_a_file_that_ros_refuses_is_found_with_the_reason(
+    tmp_path: Path, text: str, line: int, subject: str, mend: str
+) -> None:
+    path = tmp_path / "params.yaml"
+    path.write_text(text)
+    (found,) = lint_files([path], path)
+    assert (found.line, found.fault) == (line, "refused")
+    assert subject in found.subject and mend in found.mend
+
+
+def test_a_file_of_something_else_is_no_parameter_file_unless_a_person_names_it(tmp_path: Path) -> None:
+    path = tmp_path / "map.yaml"
+    path.write_text("image: map.pgm\n")
+    assert lint_files([path]) == []
+    assert [each.fault for each in lint_files([path], path)] == ["refused"]
+
+
+def test_one_file_is_held_to_what_its_package_declares(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (package / "package.xml").write_text("<package><name>mine</name></package>")
+    assert run([str(package / "params.yaml")]) == 1
+    text = capsys.readouterr().out
+    assert "robt: dead key" in text and "robot.py" not in text, "what is wrong elsewhere is left out"
+
+
+@pytest.mark.parametrize("unit", ["(m)", "[m]", "(at most 3, m)"])
+def test_a_unit_stands_in_either_brackets(tmp_path: Path, unit: str) -> None:
+    path = tmp_path / "node.py"
+    path.write_text(NODE.replace("How far it sees", f"How far it sees {unit}"))
+    assert [each.subject for each in lint_files([path]) if each.fault == "no unit"] == []
+    assert unit_of(f"How far it sees {unit}") == "m"
 
 
 def test_our_own_robot_has_no_fault() -> None:

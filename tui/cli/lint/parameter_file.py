@@ -1,0 +1,61 @@
+"""Parameter files: what ROS would refuse in them, and values that reach nobody."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from bot_console.tui.cli.lint.finding import Finding
+from bot_console.tui.cli.lint.python_file import Declared
+
+_MEANT = re.compile(r"^\s*ros_+parameters\s*:", re.MULTILINE)
+_NO_KEYWORD = "Cannot have a value before"
+_LINE = re.compile(r",?(?: Error)?(?: at| near)? line(?:_num)? (\d+)")
+
+
+def is_meant(path: Path) -> bool:
+    """Whether a YAML file is meant for parameters, well written or not."""
+    try:
+        return _MEANT.search(path.read_text(encoding="utf-8-sig", errors="replace")) is not None
+    except OSError:
+        return True  # and why it cannot be read is told by those who try
+
+
+def refused(path: Path) -> Iterator[Finding]:
+    """Why a node does not start with this file, where that is so."""
+    from bot_console.runtime.rmw.parameter_file import read_parameter_file
+    from bot_console.runtime.rmw.parameter_overrides import ParameterOverrides, ParameterYamlError
+
+    try:
+        read_parameter_file(str(path), ParameterOverrides())
+    except ParameterYamlError as error:
+        said = str(error).strip()
+        named = _LINE.search(said)
+        place, _, mend = error.mend.removeprefix(str(path)).removeprefix(":").partition(": ")
+        line = int(place) if place.isdigit() else int(named[1]) if named else 0
+        if said.startswith(_NO_KEYWORD) and not mend:
+            mend = "a node's name stands there, below it ros__parameters, and below that name: value"
+        yield Finding(str(path), line, "refused", _LINE.sub("", said).rstrip("."), mend)
+
+
+def dead_values(path: Path, declared: Declared) -> Iterator[Finding]:
+    """Keys that match no node, and parameters that nobody declares."""
+    from bot_console.tui.console.parameters.file.node_keys import is_wildcard
+    from bot_console.tui.console.parameters.file.text import KEYWORD, sections
+
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+        found = sections(text) if KEYWORD in text else []
+    except (ValueError, OSError) as error:
+        print(f"{path}: {error}", file=sys.stderr)
+        return
+    for section in found:
+        line = section.mapping.line
+        if not is_wildcard(section.key) and section.key.rpartition("/")[2] not in declared.nodes:
+            yield Finding(str(path), line, "dead key", section.key)
+            continue
+        for name, place in section.places.items() if declared.whole else ():
+            if name not in declared.parameters and name != "use_sim_time" and not name.startswith("qos_overrides."):
+                yield Finding(str(path), place.line, "dead parameter", f"{section.key} {name}")
