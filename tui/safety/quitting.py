@@ -32,7 +32,7 @@ class Quitting:
             self._app.exit()
             return
         self.asking = True
-        if not snapshot.drive.stopped_here:
+        if not snapshot.drive.stopped_here and not snapshot.drive.nothing_to_stop:
             self._holding = True
             self._console.all_stop(True, REASON)
         held = "" if snapshot.drive.nothing_to_stop else "The robot is held meanwhile. "

@@ -40,6 +40,17 @@ def test_all_changes_are_listed_the_newest_first_with_who_and_why() -> None:
     run(live(), play, (100, 30))
 
 
+def test_in_80_columns_who_and_why_have_room_beside_long_names_and_values() -> None:
+    async def play(session: Session) -> None:
+        long = {"recovery.emergency_stop_distance": "a value that is long", "speed": 1.0}
+        session.console.take("/warehouse/robot_navigator_of_the_dock", long, ChangeSource.OTHER)
+        await session.press("H")
+        line = next(each for each in session.text().splitlines() if "recovery" in each)
+        assert "no service" in line and "_dock" in line and "→" in line
+
+    run(live(), play, (80, 24))
+
+
 def test_going_back_to_a_row_asks_and_sets_everything_together() -> None:
     async def play(session: Session) -> None:
         session.console.set_parameters(NAVIGATOR, {"max_speed": 2.0})

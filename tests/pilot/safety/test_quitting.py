@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.robot.robot_model import RobotStop
+from dataclasses import replace
+
+from bot_console.tui.console.robot.robot_model import DriveInfo, RobotStop
 from bot_console.tui.screens.confirm import ConfirmScreen
 from piloting import Session, run
 from samples import live
@@ -42,6 +44,19 @@ def test_what_would_be_lost_is_named_and_the_robot_stands_until_no_is_said() -> 
         await session.press("n")
         assert stops(session) == [True, False]
         assert not ended(session) and not session.console.current.drive.stopped
+
+    run(live(), play)
+
+
+def test_where_no_robot_listens_nothing_is_stopped_for_the_question() -> None:
+    async def play(session: Session) -> None:
+        await edited(session)
+        session.console.current = replace(session.console.current, drive=DriveInfo())
+        await session.settle()
+        await session.press("q")
+        assert "saved nowhere" in session.text() and "held meanwhile" not in session.text()
+        await session.press("n")
+        assert stops(session) == [] and not ended(session)
 
     run(live(), play)
 

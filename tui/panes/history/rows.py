@@ -26,6 +26,13 @@ WHO = {
 GAP = "  "
 NODE, NAME, VALUES = 18, 24, 22
 """Cells that node, name and values take at most."""
+SPARED = 8
+"""Cells that each of them gives at most where the line is short of them."""
+TAIL = 16
+"""Cells that are kept for who, or why not."""
+MOMENT, MARK = 12, 2
+NARROW = 70
+"""Below so many cells no node is named in a row; what is known of the row at the cursor names it."""
 
 
 def who(change: Change) -> str:
@@ -99,19 +106,32 @@ class ChangeRows(ItemList[Change]):
     def _style(self, name: str) -> Style:
         return self.part_style(f"row-list--{name}")
 
+    def _widths(self, width: int) -> tuple[int, int, int]:
+        """The cells of node, name and values; no node in a narrow pane."""
+        node = self._node if width >= NARROW else 0
+        taken = MOMENT + MARK + sum(each + len(GAP) for each in (node, self._name, self._values) if each)
+        missing = max(0, taken + TAIL - width)
+        found: list[int] = []
+        for each in (node, self._values, self._name):
+            given = min(missing, SPARED, max(0, each - SPARED))
+            missing -= given
+            found.append(each - given)
+        return found[0], found[2], found[1]
+
     def row(self, index: int, width: int) -> list[Segment]:
         """One change."""
         change = self.rows[index]
         dim = self._style("dim")
+        of_node, of_name, of_values = self._widths(width)
         moment = day_text(change.stamp) if change.seq < 0 else clock_text(change.stamp)[:8]
         node = harmless(change.node)
-        node = cut("…" + node[1 - self._node :] if len(node) > self._node else node, self._node, pad=True)
-        head = [Segment(f"{moment:<11} ", dim)]
-        if width >= 70:
+        node = cut("…" + node[1 - of_node :] if len(node) > of_node else node, of_node, pad=True)
+        head = [Segment(f"{moment:<{MOMENT}}", dim)]
+        if of_node:
             head.append(Segment(node + GAP, dim))
-        name = cut(harmless(change.name), self._name, pad=True)
+        name = cut(harmless(change.name), of_name, pad=True)
         mark = " " if change.accepted else "✗"
-        values = cut(changed_text(change), self._values, pad=True)
+        values = cut(changed_text(change), of_values, pad=True)
         refused = self._style("error")
         tail = f"{harmless(change.reason)} ({harmless(who(change))})" if not change.accepted else harmless(who(change))
         return [
