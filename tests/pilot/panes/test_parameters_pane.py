@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from concurrent.futures import Future
 from dataclasses import replace
 from types import MappingProxyType
 
 import pytest
-from bot_console.tui.console.model import BEGUN_ANEW, Change, ChangeSource
+from bot_console.tui.console.model import BEGUN_ANEW, Change, ChangeSource, SetOutcome
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
-from piloting import Session, run
+from piloting import Clock, Session, run
 from samples import empty, faulty, live
 
 
@@ -37,6 +38,32 @@ def test_a_number_is_edited_and_moved_by_steps() -> None:
         values = [each[1]["max_speed"] for each in asked(session)]
         assert values == [2.0, 2.05, 2.55, 2.5]
         assert "2.5 m/s" in session.text()
+
+    run(live(), play)
+
+
+def test_a_value_that_is_not_answered_says_that_it_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def play(session: Session) -> None:
+        pane = session.pane(ParametersPane)
+        pane.clock = Clock()
+        answer: Future[tuple[SetOutcome, ...]] = Future()
+        monkeypatch.setattr(session.console, "set_parameters", lambda *_: answer)
+        await session.press("1")
+        await go_to(session, "max_speed")
+        await session.press("plus")
+        pane.tick()
+        await session.settle()
+        assert "answered" not in session.text(), "most answer at once"
+        pane.clock.now += 0.6
+        pane.tick()
+        await session.settle()
+        assert "1.05: not answered yet" in session.text()
+        assert "1.05 was sent, and /robot_navigator has not answered yet" in session.text()
+        answer.set_result((SetOutcome("/robot_navigator", "max_speed", 1.05, False, "no answer within 3 s", "node"),))
+        await session.settle()
+        pane.tick()
+        await session.settle()
+        assert "answered yet" not in session.text() and "no answer within 3 s" in session.text()
 
     run(live(), play)
 

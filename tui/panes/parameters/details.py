@@ -13,13 +13,21 @@ from rich.text import Text
 
 
 def details(
-    parameter: ParameterInfo, refused: SetOutcome | None, staged: Value = None, marks: Sequence[str] = ()
+    parameter: ParameterInfo,
+    refused: SetOutcome | None,
+    staged: Value = None,
+    marks: Sequence[str] = (),
+    late: Value = None,
 ) -> Text:
-    """A refusal first, what is marked, description, what would take from safety, facts, and the command.
+    """What is waited for first, a refusal, a mark, description, what would take from safety, facts, and the command.
 
-    `marks` are what the marks of the row mean, in words.
+    `marks` are what the marks of the row mean, in words; `late` is a value that the node has not answered yet.
     """
     text = Text(no_wrap=False, overflow="fold")
+    if late is not None:
+        text.append(
+            f"{harmless(value_text(late))} was sent, and {harmless(parameter.node)} has not answered yet\n", "bold"
+        )
     if refused is not None:
         text.append(f"{in_detail(refused)}\n", "bold")
     if staged is not None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import time
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from functools import partial
 
@@ -14,6 +15,7 @@ from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.parameters import editing, tuning
 from bot_console.tui.panes.parameters.staging import SETS, Key, Staging, by_node
 from bot_console.tui.panes.parameters.table import ParameterRows
+from bot_console.tui.panes.parameters.unanswered import Unanswered
 from bot_console.tui.text.refusals import of_many
 from bot_console.tui.tuning.dial import Dial, Setting, find_dials
 from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Elements, Line
@@ -25,6 +27,8 @@ class EditPane(ListPane):
     def __init__(self, *args: object, **kwargs: object) -> None:
         super().__init__(*args, **kwargs)  # type: ignore[arg-type] -- handed on as they are
         self.staging = Staging()
+        self.unanswered = Unanswered()
+        self.clock: Callable[[], float] = time.monotonic
 
     @property
     def _list(self) -> ParameterRows:
@@ -104,7 +108,13 @@ class EditPane(ListPane):
             self.redraw_marks()
             return
         answer = self.console.set_parameters(parameter.node, {parameter.name: value}, ChangeSource.EDIT)
+        self._wait_for(answer, {(parameter.node, parameter.name): value})
         answer.add_done_callback(lambda done: self.host.call_later(self._outcome, done))
+
+    def _wait_for(self, answer: Future[tuple[SetOutcome, ...]], values: Mapping[Key, Value]) -> None:
+        """Know that values are on their way, until the answer is there."""
+        number = self.unanswered.sent(values, self.clock())
+        answer.add_done_callback(lambda _: self.host.call_later(self.unanswered.answered, number))
 
     def _outcome(self, done: Future[tuple[SetOutcome, ...]]) -> bool:
         """Mark what was refused; whether everything was taken."""
@@ -183,6 +193,7 @@ class EditPane(ListPane):
         # Not when the answer comes: who presses m meanwhile means to mark again.
         self.staging.marking = bool(self.staging.marked.keys() - values.keys())
         answer = self.console.set_all(by_node(values), ChangeSource.EDIT)
+        self._wait_for(answer, values)
         answer.add_done_callback(lambda done: self.host.call_later(self._applied, values, done))
 
     def _applied(self, values: Mapping[Key, Value], done: Future[tuple[SetOutcome, ...]]) -> None:
@@ -212,6 +223,7 @@ class EditPane(ListPane):
 
     def _swap(self, values: dict[Key, Value]) -> None:
         answer = self.console.set_all(by_node(values), ChangeSource.EDIT, SETS[1 - self.staging.live])
+        self._wait_for(answer, values)
         answer.add_done_callback(lambda done: self.host.call_later(self._swapped, done))
 
     def _swapped(self, done: Future[tuple[SetOutcome, ...]]) -> None:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import os
-import time
-from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -61,7 +59,6 @@ class ParametersPane(EditPane):
         """What values had before their first change in this run."""
         self._read = 0
         """Changes below this number are known."""
-        self.clock: Callable[[], float] = time.monotonic
         self._expected = ""
         self._at_cursor: At | None = None
         self._chosen = False
@@ -123,9 +120,15 @@ class ParametersPane(EditPane):
             shown.refresh()
 
     def tick(self) -> None:
-        """Let values that have changed stop flashing."""
+        """Let values that have changed stop flashing, and say which are waited for."""
         shown = self._table
-        if not shown.flashing or not shown.is_attached:  # the latter at the end, when the screen is taken apart
+        if not shown.is_attached:  # at the end, when the screen is taken apart
+            return
+        late = self.unanswered.late(self.clock())
+        if late != shown.late:
+            shown.late = late
+            self.redraw_marks()
+        if not shown.flashing:
             return
         over = {key for key, until in shown.flashing.items() if self.clock() >= until}
         for key in over:
@@ -225,7 +228,8 @@ class ParametersPane(EditPane):
         key = (row.node, row.parameter.name)
         marks = ["not saved"] if key in self._list.unsaved else []
         marks += ["changed since the start"] if key in self._list.moved else []
-        return details(row.parameter, self._list.refused.get(key), self.staging.marked.get(key), marks)
+        late = self._list.late.get(key)
+        return details(row.parameter, self._list.refused.get(key), self.staging.marked.get(key), marks, late)
 
     def action_clear_filter(self) -> None:
         """Take the mark at the cursor away, or else the filter."""

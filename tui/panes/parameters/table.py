@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from bot_console.tui.console.model import ChangeSource, ParameterInfo, SetOutcome, Value
 from bot_console.tui.console.parameters.origin import SET_BY
@@ -47,6 +47,8 @@ class ParameterRows(ItemList[Row]):
         """The values that are in no file."""
         self.moved: frozenset[tuple[str, str]] = frozenset()
         """The values that are not those of the start."""
+        self.late: Mapping[tuple[str, str], Value] = {}
+        """The values that were sent a while ago and are not answered yet."""
         self.flashing: dict[tuple[str, str], float] = {}
         """The values that have just changed, and until when (s) that is shown."""
 
@@ -102,11 +104,14 @@ class ParameterRows(ItemList[Row]):
         left = max(0, width - MARKS - own.name - GAP)
         value, dim = shown_value(row), self._style("dim")
         refused = self.refused.get(key)
-        if refused:
+        if refused or key in self.late:
             value = cut(value, min(own.value, left), pad=True)
             room = max(0, left - own.value - GAP)
-            why = cut(beside_row(refused), room)
-            return [*segments, Segment(value + " " * GAP), Segment(why, self._style("error"))]
+            late = f"… {harmless(value_text(self.late[key]))}: not answered yet" if key in self.late else ""
+            said = Segment(cut(late, room), self._style("warn"))
+            if refused and not late:
+                said = Segment(cut(beside_row(refused), room), self._style("error"))
+            return [*segments, Segment(value + " " * GAP), said]
         if key in self.staged:
             unit = f" {parameter.unit}" if parameter.unit else ""
             text = f"{harmless(value_text(parameter.value))} → {harmless(value_text(self.staged[key]))}{unit}"
