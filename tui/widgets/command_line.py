@@ -6,7 +6,7 @@ from typing import ClassVar, Protocol
 
 from bot_console.tui.commanding.completing import Completion, extended, split
 from bot_console.tui.commanding.history import LineHistory
-from bot_console.tui.format import cut, harmless
+from bot_console.tui.format import harmless
 from bot_console.tui.keymap import bindings
 from rich.cells import cell_len
 from rich.text import Text
@@ -16,6 +16,9 @@ from textual.widget import Widget
 from textual.widgets import Input, Label, Static
 
 HINT = "tab completes · ↑ ↓ lines that begin so · ^r lines that have it · esc closes"
+
+AROUND = 4
+"""Columns of the colon, and at the end of the line."""
 
 
 class Lines(Protocol):
@@ -38,14 +41,14 @@ class CommandField(Vertical):
     """A line, with candidates above it and its error beside it; built when first opened."""
 
     DEFAULT_CSS = """
-    CommandField { display: none; height: 2; background: $panel; }
+    CommandField { display: none; height: auto; max-height: 4; background: $panel; }
     CommandField.open { display: block; }
     CommandField Static { height: 1; background: $panel; color: $text-muted; padding: 0 1; text-wrap: nowrap; }
-    CommandField Horizontal { height: 1; background: $panel; }
+    CommandField Horizontal { height: auto; max-height: 3; background: $panel; }
     CommandField Label { width: auto; color: $text-muted; padding: 0 0 0 1; }
     CommandField Input { border: none; height: 1; padding: 0; background: $panel; width: 1fr; }
     CommandField Input:focus { border: none; }
-    CommandField .wrong { color: $warning; padding: 0 1; }
+    CommandField .wrong { color: $warning; padding: 0 1; width: auto; height: auto; text-wrap: wrap; }
     """
     BINDINGS: ClassVar[list[BindingType]] = [*bindings("command")]
 
@@ -141,7 +144,10 @@ class CommandField(Vertical):
 
     def _complain(self, wrong: str) -> None:
         said = wrong or self._lines.outlook(self._field.value)
-        self._wrong.update(harmless(cut(said, max(10, self.size.width * 2 // 3))))
+        self._wrong.update(harmless(said))
+        # What the line leaves, and a third at least: what is wrong is read whole, in two or three lines.
+        width = self.size.width
+        self._wrong.styles.max_width = max(width - cell_len(self._field.value) - AROUND, width // 3, 10)
 
     def _show(self) -> None:
         found = self._completion.found(self._typed)

@@ -34,6 +34,16 @@ def test_a_value_is_set_or_refused_with_its_reason() -> None:
     run(live(), play, (120, 40))
 
 
+def test_what_is_wrong_is_read_whole_in_80_columns() -> None:
+    async def play(session: Session) -> None:
+        await line(session, "lint running")
+        said = " ".join(" ".join(each[16:] for each in session.lines()[-5:]).split())
+        assert "there is no command lint; help lists the commands, ^p finds an action by its words" in said
+        assert field(session) == "lint running" and ":lint running" in session.text()
+
+    run(live(), play, (80, 24))
+
+
 def test_what_is_wrong_is_said_and_the_line_stays() -> None:
     async def play(session: Session) -> None:
         await line(session, "topc list")
