@@ -40,6 +40,15 @@ class Words(Static):
             finally:
                 self._other = ()
 
+    def say_whole(self, what: str, most: int) -> None:
+        """Show a text in as many lines as it needs, `most` at most; the style of such words wraps."""
+        width = self.content_size.width
+        need = len(Text(harmless(what)).wrap(self.app.console, width)) if width else 1
+        height = min(max(need, 1), most)
+        if self.styles.height is None or self.styles.height.value != height:
+            self.styles.height = height
+        self.say(what)
+
     def _differing(self, said: str | Text) -> Sequence[Region]:
         """The lines that are not those of the last time; none where that is not known."""
         width, height = self.size

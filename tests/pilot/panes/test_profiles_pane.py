@@ -38,6 +38,23 @@ def test_the_differences_stand_there_before_anything_is_applied() -> None:
     run(live(), play, (120, 40))
 
 
+def test_what_a_profile_is_for_is_read_whole_in_80_columns_and_after_a_change_of_size() -> None:
+    title = "Outdoor: higher speed, larger distances, and then so many words that no list has room for all of them"
+    system = live()
+    profile = replace(system[0].current.profiles[0], title=title)
+    system[0].current = replace(system[0].current, profiles=(profile,))
+
+    async def play(session: Session) -> None:
+        await session.press("7")
+        for width in (80, 62):
+            await session.pilot.resize_terminal(width, 24)
+            await session.settle()
+            said = " ".join(" ".join(each.strip("│ ") for each in session.lines()).split())
+            assert title in said
+
+    run(system, play)
+
+
 def test_a_refusal_or_safety_is_asked_about_and_no_means_no() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "down", "a")

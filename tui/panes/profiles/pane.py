@@ -33,6 +33,8 @@ from textual.app import ComposeResult
 ADDRESSES = ("https://", "http://")
 MOST = 6
 """Profiles that are seen at once."""
+HEAD, STATUS = 4, 3
+"""Lines that what a profile is for, and what comes of it, take at most."""
 
 
 class ProfilesPane(ListPane):
@@ -107,15 +109,21 @@ class ProfilesPane(ListPane):
         if profile is not None and not self._held:
             self._differences = () if profile.problem else self.console.profile_differences(profile.name)
             self._asking.ask(self._differences, self._snapshot)
-        self.query_one(DifferenceRows).exchange(entries(self._differences, self._outcomes, self._asking))
-        self.query_one("#profile-head", Words).say(self._head(profile))
-        self.query_one("#profile-status", Words).say(self._told or self._summary(profile))
+        shown = self.query_one(DifferenceRows)
+        shown.exchange(entries(self._differences, self._outcomes, self._asking, shown.size.width or self.size.width))
+        self.query_one("#profile-head", Words).say_whole(self._head(profile), HEAD)
+        self.query_one("#profile-status", Words).say_whole(self._told or self._summary(profile), STATUS)
+
+    def on_resize(self) -> None:
+        """Fold what is said anew."""
+        self._compare()
 
     def _head(self, profile: Profile | None) -> str:
         if profile is None:
             return ""
         world = f"  world {profile.world}" if profile.world else ""
-        return f"{profile.name}{world}  {profile.path}"
+        title = f"{profile.title}  " if profile.title else ""
+        return f"{title}{profile.name}{world}  {profile.path}"
 
     def _summary(self, profile: Profile | None) -> str:
         if profile is None and self._snapshot.profiles:

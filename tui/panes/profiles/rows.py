@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from textwrap import wrap
 
 from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome, Value
 from bot_console.tui.format import counted, cut, harmless, value_text
@@ -21,6 +22,8 @@ VALUES = 12
 """Cells of a value, where there is no room for more."""
 NOTE = 12
 """Cells that are left for what is said about a change."""
+REASON = 4
+"""Cells that a reason is indented by."""
 
 
 class ProfileRows(ItemList[Profile]):
@@ -96,7 +99,7 @@ class DifferenceRows(ItemList[Entry]):
         entry = self.rows[index]
         change = entry.difference
         if entry.reason:
-            return [Segment(f"    {harmless(entry.reason)}", self._style("error"))]
+            return [Segment(" " * REASON + entry.reason, self._style("error"))]
         if change is None:
             said, style = entry.said
             return [Segment(f"{harmless(entry.node)}  ", self._style("head")), Segment(said, self._style(style))]
@@ -141,8 +144,12 @@ def entries(
     differences: Sequence[ProfileDifference],
     outcomes: Mapping[tuple[str, str], SetOutcome],
     asking: Asking,
+    width: int = 80,
 ) -> tuple[Entry, ...]:
-    """The lines, each node once and its values below it; what the nodes say stands there until it is applied."""
+    """The lines, each node once and its values below it; what the nodes say stands there until it is applied.
+
+    A reason is folded to a width (cells): nothing else tells it before the profile is applied.
+    """
     refusals: Mapping[str, str] = {} if outcomes else asking.refusals()
     found: list[Entry] = []
     node: Value = None
@@ -150,11 +157,14 @@ def entries(
         if each.node != node:
             node = each.node
             found.append(Entry(each.node, said=("", "dim") if outcomes else asking.words(each.node)))
-            if each.node in refusals:
-                found.append(Entry(each.node, reason=refusals[each.node]))
+            found += _folded(each.node, refusals.get(each.node, ""), width)
         outcome = outcomes.get((each.node, each.name))
         found.append(Entry(each.node, each, outcome))
         reason = each.refusal if outcome is None else outcome.reason
         if reason and not each.unknown and not (outcome and outcome.accepted):
-            found.append(Entry(each.node, reason=reason))
+            found += _folded(each.node, reason, width)
     return tuple(found)
+
+
+def _folded(node: str, reason: str, width: int) -> list[Entry]:
+    return [Entry(node, reason=line) for line in wrap(harmless(reason), max(20, width - REASON))]

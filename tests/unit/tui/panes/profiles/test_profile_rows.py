@@ -51,6 +51,15 @@ def test_a_difference_says_where_it_is_cut() -> None:
     assert name not in narrow and narrow.count("…") == 3, narrow
 
 
+def test_a_reason_is_folded_to_the_width_and_nothing_of_it_is_lost() -> None:
+    why = "Parameter max_speed out of range Min: 0.1, Max: 5.0, value: 10.0, which is more than the robot can take"
+    found = entries([ProfileDifference("/node", "a", 1, 2, refusal=why)], {}, Asking(FakeConsole(), print, print), 60)
+    rows = DifferenceRows()
+    rows.rows = found
+    lines = [text(rows, index, 60) for index, each in enumerate(found) if each.reason]
+    assert " ".join(" ".join(lines).split()) == why and max(map(len, lines)) <= 60 and len(lines) == 2
+
+
 def test_wide_letters_take_two_cells() -> None:
     rows = ProfileRows()
     rows.rows = [Profile("世界" * 4, "/p", title="T"), Profile("indoor", "/p", title="T")]
