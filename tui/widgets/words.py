@@ -43,7 +43,8 @@ class Words(Static):
     def say_whole(self, what: str, most: int) -> None:
         """Show a text in as many lines as it needs, `most` at most; the style of such words wraps."""
         width = self.content_size.width
-        need = len(Text(harmless(what)).wrap(self.app.console, width)) if width else 1
+        console = self.app.console  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
+        need = len(Text(harmless(what)).wrap(console, width)) if width else 1
         height = min(max(need, 1), most)
         if self.styles.height is None or self.styles.height.value != height:
             self.styles.height = height
