@@ -40,7 +40,7 @@ class Climber:
         return self.value
 
     def danger(self) -> float:
-        """The present value was dangerous: the value to go back to, one step nearer to the safe side."""
+        """Take note that the current value was dangerous; returns the value to go back to, a step nearer safety."""
         if self.value > self.low and (self._direction > 0 or self.value >= self.best):
             self.high = max(self.low, self.value - self._step)
             self._direction = -1.0

@@ -16,7 +16,7 @@ Health = tuple[bytes, str, Mapping[str, object]]
 
 
 class HealthReport:
-    """Tells `<node>: <part>` with what `look` gives, to whoever wants it; `look` is called once a second anyway."""
+    """Publishes `<node>: <part>` with what `look` returns, to subscribers; `look` is called every second anyway."""
 
     def __init__(self, node: Node, part: str, look: Callable[[], Health]) -> None:
         self._node = node
