@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import io
 import os
 import signal
 import sys
@@ -73,6 +74,7 @@ def told(run: Callable[[], int]) -> int:
     What Ctrl-C or SIGTERM has ended has the exit code that shells give it.
     """
     code = 0
+    _make_streams_usable()
     try:
         try:
             code = run()
@@ -97,6 +99,19 @@ def told(run: Callable[[], int]) -> int:
         print(f"{os.path.basename(sys.argv[0])}: {text}", file=sys.stderr)
     _give_up_output()
     return code or 1
+
+
+def _make_streams_usable() -> None:
+    """Open standard streams that were closed on nothing, and let no character fail that a terminal does not have.
+
+    A descriptor of 0 to 2 that stays free is given to the next file or socket, which would then get what is printed.
+    """
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        stream = getattr(sys, name)
+        if stream is None:
+            setattr(sys, name, open(os.devnull, mode))  # noqa: SIM115 -- for as long as the process lives
+        elif isinstance(stream, io.TextIOWrapper) and mode == "w" and stream.errors == "strict":
+            stream.reconfigure(errors="replace")
 
 
 def _give_up_output() -> None:

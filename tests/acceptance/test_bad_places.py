@@ -57,6 +57,23 @@ def test_nobody_who_reads_on_is_no_fault(tmp_path: Path) -> None:
     assert (done.returncode, done.stderr) == (1, "")
 
 
+@pytest.mark.skipif(os.name == "nt", reason="a POSIX shell closes the streams")
+@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
+def test_streams_that_were_closed_are_no_fault(closed: str, tmp_path: Path) -> None:
+    program = [sys.executable, "-c", "from bot_console.tui.cli.main import program; program()", "node", "list"]
+    line = ["sh", "-c", f'exec "$0" "$@" {closed}', *program]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    done = subprocess.run(
+        line, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=PATIENCE, check=False
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+def test_a_sign_that_the_terminal_does_not_have_is_no_fault(tmp_path: Path) -> None:
+    done = command(["doctor"], tmp_path, env={"PYTHONIOENCODING": "ascii"}, stdout=subprocess.PIPE)
+    assert "? domain" in done.stdout and done.stderr == ""
+
+
 @pytest.mark.parametrize("words", [["run", "x.py"], ["ros2", "pkg", "list"], ["launch", "x.launch.py"]], ids=" ".join)
 def test_a_folder_that_was_deleted_is_told(words: list[str], tmp_path: Path) -> None:
     there = tmp_path / "gone"

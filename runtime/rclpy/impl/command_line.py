@@ -82,7 +82,7 @@ def _parse(words: Sequence[str]) -> Arguments:
 
 def _is_read() -> bool:
     """Whether a person reads along: a program whose words go elsewhere says those of rcl, and no more."""
-    return sys.stderr.isatty()
+    return sys.stderr is not None and sys.stderr.isatty()
 
 
 def _refuse_unknown(parsed: Arguments) -> None:

@@ -107,9 +107,10 @@ def _zenoh(way: Way | None, seconds: float, capture: Path | None, tell: Callable
     from bot_console.tui.cli.doctor.system import examine
 
     try:
-        tell(examine(way, seconds, capture, f"bot-console {__version__}"))
+        found = examine(way, seconds, capture, f"bot-console {__version__}")
     except (SessionError, RuntimeError) as error:
-        tell([Finding(Level.FAIL, "link", str(error))])
+        found = [Finding(Level.FAIL, "link", str(error))]
     except OSError as error:
         print(f"cannot write {capture}: {error.strerror}", file=sys.stderr)
-        tell([Finding(Level.FAIL, "capture", f"cannot write {capture}: {error.strerror}")])
+        found = [Finding(Level.FAIL, "capture", f"cannot write {capture}: {error.strerror}")]
+    tell(found)  # not above: a pipe that nobody reads is no fault of the capture

@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 import pytest
+from bot_console.tui.cli import doctor
 from bot_console.tui.cli.doctor.finding import Finding, Level, exit_code
 from bot_console.tui.cli.doctor.machine import domain_finding, python_finding, sockets_findings
 from bot_console.tui.cli.doctor.nodes import base_finding, pair_findings, type_findings
@@ -163,3 +164,15 @@ def test_a_robot_that_is_not_reached_fails_with_the_reason() -> None:
 def test_wrong_usage_is_2() -> None:
     assert run("--connect", "robot").returncode == 2
     assert run("--connect", "tcp/a:1", "--ros").returncode == 2
+
+
+def test_a_pipe_that_nobody_reads_is_no_fault_of_the_capture(monkeypatch, capsys):
+    monkeypatch.setattr("bot_console.tui.cli.system.domain.others_take_part", lambda: True)
+    monkeypatch.setattr("bot_console.tui.cli.doctor.system.examine", lambda *words: [Finding(Level.OK, "link", "is")])
+
+    def tell(found):
+        raise BrokenPipeError
+
+    with pytest.raises(BrokenPipeError):
+        doctor._zenoh(None, 0.0, None, tell)
+    assert capsys.readouterr().err == ""
