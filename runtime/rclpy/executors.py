@@ -364,6 +364,8 @@ class MultiThreadedExecutor(Executor):
         try:
             item = self._take(timeout_sec, lambda: bool(self._failed()) or (condition is not None and condition()))
         except (ExternalShutdownException, ShutdownException, TimeoutException, ConditionReachedException):
+            item = None
+        if item is None:  # not above: what a callback has raised would be told as if that had come of this
             self._raise_failed()
             return
         done: Task[Any] = Task(self._run, (item,))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from types import TracebackType
+from types import FunctionType, TracebackType
 from typing import Any
 
 from bot_console.runtime.process import current
@@ -247,6 +247,12 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.destroy_node()
+
+
+for _part in (NodeEntities, NodeParameters, NodeGraph):
+    for _name, _method in vars(_part).items():
+        if isinstance(_method, FunctionType):
+            _method.__qualname__ = f"Node.{_name}"  # as an error of a call with wrong arguments names it
 
 
 def _logger_name(namespace: str, name: str) -> str:

@@ -129,13 +129,18 @@ class Publisher:
         return self._endpoint.is_heard()
 
     def assert_liveliness(self) -> None:
-        """Assert that this publisher is alive, for MANUAL_BY_TOPIC liveliness."""
-        self._use()
+        """Assert that this publisher is alive, for MANUAL_BY_TOPIC liveliness; raises `RCLError` after a shutdown."""
+        if self.destroyed or self._context.ended:
+            self._refuse("Failed to assert liveliness on the Publisher")
         self._endpoint.assert_liveliness()
 
     def wait_for_all_acked(self, timeout: Duration | None = None) -> bool:
-        """Whether all reliable subscriptions have what was published; within a process they have at once."""
-        self._use()
+        """Whether all reliable subscriptions have what was published; within a process they have at once.
+
+        Raises `RCLError` after a shutdown of the context.
+        """
+        if self.destroyed or self._context.ended:
+            self._refuse("Failed to wait for all acknowledgements")
         return True
 
     def destroy(self) -> None:

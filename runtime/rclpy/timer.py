@@ -107,8 +107,8 @@ class Timer(Entity):
 
     def attach(self, sink: Any, node_order: int) -> None:
         """Let an executor serve this timer."""
-        super().attach(sink, node_order)
-        self.arm()
+        self._belong(sink, node_order)
+        self.arm()  # and no `notify`: it would be served twice in one wake
 
     def arm(self) -> None:
         """Tell the executor when the timer is due; under simulated time the clock tells it."""

@@ -13,6 +13,7 @@ from enum import Enum
 from typing import Any
 
 from action_msgs.msg import GoalInfo, GoalStatus
+from bot_console.runtime.process import current
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.action.endpoints import ServerEndpoints, action_names
 from rclpy.action.entity import ActionEntity, call, take
@@ -256,12 +257,18 @@ class ActionServer(ActionEntity):
         self.arm()
 
     def _publish_status(self) -> None:
-        self.use()
+        self._may_publish("Failed get goal status array")
         self._endpoints.status.publish(self._goals.status_array())
 
     def _publish_feedback(self, message: Any) -> None:
-        self.use()
+        self._may_publish("Failed to publish feedback with an action server")
         self._endpoints.feedback.publish(message)
+
+    def _may_publish(self, refused: str) -> None:
+        self.use()
+        if self._node.context.ended:
+            current().deliver_signals()  # as in a publisher: of two reasons the caller is to see the interrupt
+            raise RCLError(f"{refused}: feedback publisher is invalid")
 
     def _debug(self, text: str, *values: Any) -> None:
         if self._logger.is_enabled_for(LoggingSeverity.DEBUG):

@@ -63,11 +63,14 @@ class Entity:
 
     def attach(self, sink: Any, node_order: int) -> None:
         """Take note of the executor that serves this from now on."""
+        self._belong(sink, node_order)
+        if self.pending():
+            self.notify()
+
+    def _belong(self, sink: Any, node_order: int) -> None:
         # Upstream's executor asks waitables before everything else, whichever node they are of.
         self.key = (-1 if self.KIND == WAITABLE else node_order, self.KIND, self.order)
         self.sink = sink
-        if self.pending():
-            self.notify()
 
     def detach(self) -> None:
         """Take note that no executor serves this any more."""

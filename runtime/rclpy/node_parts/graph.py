@@ -42,7 +42,7 @@ class NodeGraph:
 
     def _ros_use_graph(self, what: str) -> None:
         self._ros_use()
-        require_valid(self.context, f"Failed to get {what} names and types")
+        require_valid(self.context, f"failed to get {what} names and types")
 
     def get_node_names(self) -> list[str]:
         """The names of all nodes, without namespaces."""

@@ -6,11 +6,13 @@ import threading
 from typing import Any
 
 import pytest
+from action_pair import Pair
 from example_interfaces.action import Fibonacci
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.action import ActionClient
 from rclpy.context import Context
 from rclpy.exceptions import ROSInterruptException
+from rclpy.executors import ExternalShutdownException
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
@@ -96,6 +98,39 @@ def test_a_loop_that_asks_who_is_there_ends_with_the_context(
     ros.context.shutdown()
     with pytest.raises(RCLError, match=f"^{problem}: {INVALID}$"):
         getattr(node, question)(*words)
+
+
+def test_what_a_publisher_is_asked_after_a_shutdown(ros: Any) -> None:
+    publisher = ros.node().create_publisher(String, "t", 1)
+    ros.context.shutdown()
+    with pytest.raises(
+        RCLError, match=r"^Failed to assert liveliness on the Publisher: publisher's context is invalid$"
+    ):
+        publisher.assert_liveliness()
+    with pytest.raises(RCLError, match=r"^Failed to wait for all acknowledgements: publisher's context is invalid$"):
+        publisher.wait_for_all_acked()
+
+
+def test_a_goal_that_is_executed_over_a_shutdown_ends_with_its_next_word(ros: Any) -> None:
+    told: list[str] = []
+
+    def execute(handle: Any) -> Any:
+        handle.publish_feedback(Fibonacci.Feedback())
+        ros.context.shutdown()
+        for say in (lambda: handle.publish_feedback(Fibonacci.Feedback()), handle.succeed):
+            with pytest.raises(RCLError) as refused:
+                say()
+            told.append(str(refused.value))
+        return Fibonacci.Result()
+
+    pair = Pair(ros, execute)
+    pair.client.send_goal_async(Fibonacci.Goal())
+    with pytest.raises(ExternalShutdownException):
+        ros.spin(lambda: False)
+    assert told == [
+        "Failed to publish feedback with an action server: feedback publisher is invalid",
+        "Failed get goal status array: feedback publisher is invalid",
+    ]
 
 
 def test_a_loop_that_waits_for_a_first_subscription_ends_with_the_context(ros: Any) -> None:

@@ -275,6 +275,21 @@ def test_time_outs_are_no_error_of_user_code() -> None:
     assert not issubclass(TimeoutException, TimeoutError)
 
 
+def test_what_a_callback_of_a_pool_raises_comes_out_as_it_was_raised(ros: Any) -> None:
+    node = ros.node()
+
+    def fail() -> None:
+        raise RuntimeError("broken")
+
+    node.create_timer(0.001, fail)
+    executor = MultiThreadedExecutor(2, context=ros.context)
+    executor.add_node(node)
+    with pytest.raises(RuntimeError, match="broken") as told:
+        executor.spin()
+    executor.shutdown()
+    assert told.value.__context__ is None
+
+
 @pytest.mark.filterwarnings("ignore:MultiThreadedExecutor is used")
 def test_an_exit_in_a_callback_of_a_pool_ends_that_callback_alone(ros: Any) -> None:
     node = ros.node()

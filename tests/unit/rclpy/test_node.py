@@ -265,12 +265,18 @@ def test_a_node_of_the_root_is_waited_for_without_its_slash(ros: Any) -> None:
     assert not ros.node("b").wait_for_node("c", 0.0)
 
 
+@pytest.mark.parametrize("name", ["create_publisher", "declare_parameter", "count_publishers"])
+def test_arguments_that_are_missing_are_those_of_the_node(ros: Any, name: str) -> None:
+    with pytest.raises(TypeError, match=rf"^Node\.{name}\(\) missing "):
+        getattr(ros.node(), name)()
+
+
 def test_no_graph_after_a_shutdown(ros: Any) -> None:
     node = ros.node()
     ros.context.shutdown()
-    with pytest.raises(RCLError, match="Failed to get topic names and types: rcl node's context is invalid"):
+    with pytest.raises(RCLError, match="failed to get topic names and types: rcl node's context is invalid"):
         node.get_topic_names_and_types()
-    with pytest.raises(RCLError, match="Failed to get service names and types: rcl node's context is invalid"):
+    with pytest.raises(RCLError, match="failed to get service names and types: rcl node's context is invalid"):
         node.get_service_names_and_types()
 
 

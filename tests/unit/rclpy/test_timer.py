@@ -176,6 +176,19 @@ def test_a_period_of_zero_is_always_due(ros: Any) -> None:
     assert len(got) == 3
 
 
+def test_a_timer_that_is_due_when_its_node_comes_is_called_once_in_a_wake(ros: Any) -> None:
+    node, got = ros.node(), []
+    node.create_timer(0.0, lambda: got.append(1))
+    executor = node.executor
+    calls: list[int] = []
+    for _ in range(4):
+        executor.remove_node(node)  # as `rclpy.spin_once` does each time
+        executor.add_node(node)
+        executor.spin_once(timeout_sec=0)
+        calls.append(len(got))
+    assert calls == [1, 1, 2, 2]
+
+
 def test_a_coroutine(stepped_ros: Any) -> None:
     node, got = stepped_ros.node(), []
 
