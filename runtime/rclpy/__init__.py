@@ -138,11 +138,13 @@ def create_node(
 def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None) -> None:
     """Run one callback of a node; None or a negative time-out (s) waits for ever."""
     executor = get_global_executor() if executor is None else executor
+    was_added = False
     try:
-        executor.add_node(node)
+        was_added = executor.add_node(node)
         executor.spin_once(timeout_sec=timeout_sec)
     finally:
-        executor.remove_node(node)
+        if was_added:  # else who spins it already goes on to do so, such as the caller's caller
+            executor.remove_node(node)
 
 
 def spin(node: Node, executor: Executor | None = None) -> None:
@@ -161,11 +163,13 @@ def spin_until_future_complete(
 ) -> None:
     """Run a node's callbacks until a future is done or the time-out (s) expires."""
     executor = get_global_executor() if executor is None else executor
+    was_added = False
     try:
-        executor.add_node(node)
+        was_added = executor.add_node(node)
         executor.spin_until_future_complete(future, timeout_sec)
     finally:
-        executor.remove_node(node)
+        if was_added:
+            executor.remove_node(node)
 
 
 def __getattr__(name: str) -> Any:

@@ -365,13 +365,11 @@ class MultiThreadedExecutor(Executor):
             item = self._take(timeout_sec, lambda: bool(self._failed()) or (condition is not None and condition()))
         except (ExternalShutdownException, ShutdownException, TimeoutException, ConditionReachedException):
             item = None
-        if item is None:  # not above: what a callback has raised would be told as if that had come of this
-            self._raise_failed()
-            return
-        done: Task[Any] = Task(self._run, (item,))
-        done._when_settled(self.wake)
-        self._futures.append(done)
-        self._pool.submit(done)
+        if item is not None:
+            done: Task[Any] = Task(self._run, (item,))
+            done._when_settled(self.wake)
+            self._futures.append(done)
+            self._pool.submit(done)
         self._raise_failed()
 
     def _failed(self) -> list[Task[Any]]:

@@ -16,6 +16,7 @@ from rclpy.context import Context
 from rclpy.exceptions import NotInitializedException
 from rclpy.executors import ExternalShutdownException
 from rclpy.signals import SignalHandlerOptions, get_current_signal_handlers_options
+from rclpy.task import Future
 from std_msgs.msg import Int32
 
 
@@ -221,6 +222,27 @@ def test_what_still_works_after_shutdown(ros: Any) -> None:
         with pytest.raises(RCLError, match="the given context is not valid, either rcl_init"):
             make()
     node.destroy_node()
+
+
+@pytest.mark.parametrize("way", ["spin_once", "spin_until_future_complete"])
+def test_a_callback_that_spins_its_own_node_leaves_it_to_who_spins_it(default: None, way: str) -> None:
+    rclpy.init(args=[])
+    node, calls = rclpy.create_node("n"), []
+    answered: Future[None] = Future()
+    answered.set_result(None)
+
+    def callback() -> None:
+        calls.append(node in rclpy.get_global_executor().get_nodes())
+        if way == "spin_once":
+            rclpy.spin_once(node, timeout_sec=0)
+        else:
+            rclpy.spin_until_future_complete(node, answered)
+        calls.append(node in rclpy.get_global_executor().get_nodes())
+        rclpy.shutdown()
+
+    node.create_timer(0.0, callback)
+    rclpy.spin(node)
+    assert calls == [True, True]
 
 
 def test_the_global_executor_ends_with_its_context(default: None) -> None:
