@@ -19,6 +19,8 @@ from bot_console.runtime.workspace.share import share_folder
 IGNORED = frozenset({"build", "install", "log", "node_modules", "__pycache__", "venv", "site-packages"})
 MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 DEPTH = 6
+SOURCED_VARIABLE = "BOT_CONSOLE_WORKSPACE"
+"""The workspaces whose `install/setup.bash` a shell has sourced, joined by colons; the last one sourced is first."""
 FOLDERS = 20_000
 """Folders that are looked into at most, so that a start in a home directory does not take minutes."""
 
@@ -122,9 +124,11 @@ _current: list[Workspace] = []
 
 
 def workspace() -> Workspace:
-    """The workspace of this run; the working directory's until `use` names another."""
+    """The workspace of this run; the working directory's, then those that were sourced, until `use` names another."""
     if not _current:
-        _current.append(Workspace(default_folders(Path.cwd())))
+        here = default_folders(Path.cwd())
+        sourced = (Path(each) for each in os.environ.get(SOURCED_VARIABLE, "").split(os.pathsep) if each)
+        _current.append(Workspace([*here, *(each for each in sourced if each not in here and each.is_dir())]))
     return _current[0]
 
 

@@ -1,23 +1,23 @@
 """Reads the call of `setup()` in a `setup.py` without running the file.
 
-Understood are the expressions that ROS packages write there: texts, names assigned above, `+`, `%`, f-strings,
-`os.path.join`, `glob`, `find_packages`, lists, tuples, dicts and list comprehensions over them.
+Understood are the expressions that ROS packages write there: texts and their methods, names assigned above, `+`, `%`,
+f-strings, `os.path`, `glob`, `find_packages`, lists, tuples, dicts, and comprehensions over them.
 """
 
 from __future__ import annotations
 
 import ast
-import glob
-import os
 import re
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from bot_console.runtime.workspace.setup_values import Unreadable, Values, called
+
 PANES = "bot_console.panes"
 """The group of entry points by which a package brings panes for the console."""
 
+WRITTEN_OUT = "Write them out: 'name = package.module:main'"
 TARGET = re.compile(r"[\w.]+\s*(:\s*[\w.]+)?\s*(\[.*\])?")
 """What stands behind the `=` of an entry point: a module, its function, extras."""
 
@@ -45,10 +45,6 @@ class SetupFile:
             {**other.panes, **self.panes},
             self.problem or other.problem,
         )
-
-
-class Unreadable(ValueError):
-    """An expression that only running the file could tell; the text says which and where."""
 
 
 def read_setup_py(folder: Path) -> SetupFile:
@@ -84,7 +80,7 @@ class _Reader:
     def __init__(self, folder: Path, names: dict[str, Any]) -> None:
         self._folder = folder
         self._path = folder / "setup.py"
-        self._values = _Values(folder, names)
+        self._values = Values(folder, names)
         self._keywords: dict[str, ast.expr] = {}
 
     def take(self, statement: ast.stmt) -> None:
@@ -94,9 +90,9 @@ class _Reader:
                 self._assign(target.id, statement.value)
         elif isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call):
             call = statement.value
-            if _called(call) == "setup":
+            if called(call) == "setup":
                 self._keywords.update({each.arg: each.value for each in call.keywords if each.arg})
-            elif _called(call) in ("append", "extend"):
+            elif called(call) in ("append", "extend"):
                 self._grow(call)
 
     def _assign(self, name: str, value: ast.expr) -> None:
@@ -112,7 +108,7 @@ class _Reader:
                 new = self._values.of(call.args[0])
             except (Unreadable, IndexError):
                 return
-            self._values.names[holder.id] += new if _called(call) == "extend" else [new]
+            self._values.names[holder.id] += new if called(call) == "extend" else [new]
 
     def _keyword(self, name: str, default: Any) -> Any:
         if name not in self._keywords:
@@ -140,7 +136,7 @@ class _Reader:
         try:
             return self._values.of(self._keywords["entry_points"]), ""
         except Unreadable as error:
-            return {}, f"{self._path}: entry_points cannot be made out, {error}"
+            return {}, f"{self._path}: entry_points cannot be made out, {error}. {WRITTEN_OUT}"
 
     def _modules(self) -> dict[str, Path]:
         places = {str(key): str(value) for key, value in self._keyword("package_dir", {}).items()}
@@ -176,91 +172,3 @@ def entry_lines(lines: Any) -> dict[str, str]:
     rows = lines.splitlines() if isinstance(lines, str) else lines
     pairs = (str(row).partition("=") for row in rows)
     return {name.strip(): target.strip() for name, sign, target in pairs if sign}
-
-
-def _called(call: ast.Call) -> str:
-    return call.func.attr if isinstance(call.func, ast.Attribute) else getattr(call.func, "id", "")
-
-
-class _Values:
-    """Works out the value of an expression as far as that is possible without running code."""
-
-    def __init__(self, folder: Path, names: dict[str, Any]) -> None:
-        self.names = names
-        self._folder = folder
-
-    def of(self, node: ast.expr) -> Any:
-        """The value; raises `Unreadable`."""
-        method: Callable[[Any], Any] | None = getattr(self, f"_{type(node).__name__.lower()}", None)
-        if method is None:
-            raise Unreadable(f"line {node.lineno}: {ast.unparse(node)}")
-        return method(node)
-
-    def _constant(self, node: ast.Constant) -> Any:
-        return node.value
-
-    def _name(self, node: ast.Name) -> Any:
-        if node.id not in self.names:
-            raise Unreadable(f"line {node.lineno}: {node.id}")
-        return self.names[node.id]
-
-    def _list(self, node: ast.List) -> list[Any]:
-        found: list[Any] = []
-        for each in node.elts:
-            if isinstance(each, ast.Starred):
-                found += self.of(each.value)
-            else:
-                found.append(self.of(each))
-        return found
-
-    def _tuple(self, node: ast.Tuple) -> tuple[Any, ...]:
-        return tuple(self.of(each) for each in node.elts)
-
-    def _dict(self, node: ast.Dict) -> dict[Any, Any]:
-        return {self.of(key): self.of(value) for key, value in zip(node.keys, node.values, strict=True) if key}
-
-    def _joinedstr(self, node: ast.JoinedStr) -> str:
-        return "".join(str(self.of(each)) for each in node.values)
-
-    def _formattedvalue(self, node: ast.FormattedValue) -> Any:
-        return self.of(node.value)
-
-    def _binop(self, node: ast.BinOp) -> Any:
-        left, right = self.of(node.left), self.of(node.right)
-        if isinstance(node.op, ast.Add):
-            return left + right
-        if isinstance(node.op, ast.Mod) and isinstance(left, str):
-            return left % right
-        if isinstance(node.op, ast.Div):
-            return Path(left) / right
-        raise Unreadable(f"line {node.lineno}: {ast.unparse(node)}")
-
-    def _listcomp(self, node: ast.ListComp) -> list[Any]:
-        if len(node.generators) != 1 or not isinstance(node.generators[0].target, ast.Name):
-            raise Unreadable(f"line {node.lineno}: {ast.unparse(node)}")
-        name, found = node.generators[0].target.id, list[Any]()
-        for value in self.of(node.generators[0].iter):
-            found.append(_Values(self._folder, {**self.names, name: value}).of(node.elt))
-        return found
-
-    def _call(self, node: ast.Call) -> Any:
-        name = _called(node)
-        if name == "join" and isinstance(node.func, ast.Attribute) and ast.unparse(node.func).endswith("path.join"):
-            return os.path.join(*(str(self.of(each)) for each in node.args))
-        if name in ("glob", "iglob"):
-            pattern = str(self.of(node.args[0]))
-            recursive = any(each.arg == "recursive" for each in node.keywords)
-            return sorted(glob.glob(pattern, root_dir=self._folder, recursive=recursive))
-        if name in ("find_packages", "find_namespace_packages"):
-            return self._packages(node)
-        if name in ("str", "list", "sorted") and len(node.args) == 1:
-            return {"str": str, "list": list, "sorted": sorted}[name](self.of(node.args[0]))
-        raise Unreadable(f"line {node.lineno}: {ast.unparse(node)}")
-
-    def _packages(self, node: ast.Call) -> list[str]:
-        where = next((self.of(each.value) for each in node.keywords if each.arg == "where"), "")
-        where = self.of(node.args[0]) if node.args else where
-        base = self._folder / where
-        return sorted(
-            each.parent.name for each in base.glob("*/__init__.py") if each.parent.name not in ("test", "tests")
-        )

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 from bot_console.runtime.importer import install
 from bot_console.runtime.workspace.choices import package_names
 from bot_console.runtime.workspace.discover import workspace
+from bot_console.tui.cli.verbs.sourced import write_setup_files
 from bot_console.tui.format import counted
 
 NOTHING_TO_DO = "Nothing has to be built or sourced: packages of the workspace are read from their sources."
+GOOD_FOR = "makes ros2 a command of a shell that sources it, and these packages known in every folder."
 SELECTING = ("--packages-select", "--packages-up-to")
 
 
@@ -21,7 +24,21 @@ def run(words: Sequence[str]) -> int:
     for each in warnings:
         print(each, file=sys.stderr)
     print(answer)
+    if answer == NOTHING_TO_DO and words[:1] == ["build"]:
+        _tell_setup_files()
     return 0 if answer == NOTHING_TO_DO else 1
+
+
+def _tell_setup_files() -> None:
+    """Write what is sourced after a build, and say what it is good for."""
+    here = Path.cwd()
+    try:
+        files = write_setup_files(here, workspace())
+    except OSError as error:
+        print(f"install/setup.bash was not written: {error}", file=sys.stderr)
+        return
+    if files:
+        print(f"{files[0].relative_to(here)} {GOOD_FOR}")
 
 
 def answers(words: Sequence[str]) -> list[str]:
