@@ -11,23 +11,11 @@ import sys
 from xml.sax.saxutils import escape
 
 from ros2cli.command import Result
+from ros2cli.verbs import pkg_licenses as licenses
 from ros2cli.verbs import pkg_templates as texts
 
 NAME = re.compile(r"^(?!.*__)(?!.*_$)[a-z][a-z0-9_]*$")
 BUILD_TYPES = ("cmake", "ament_cmake", "ament_python")
-LICENSES = (
-    "Apache-2.0",
-    "BSL-1.0",
-    "BSD-2.0",
-    "BSD-2-Clause",
-    "BSD-3-Clause",
-    "GPL-3.0-only",
-    "LGPL-3.0-only",
-    "MIT",
-    "MIT-0",
-)
-"""Names that ament knows."""
-
 
 NOT_COMPILED = (
     "programs in C++ are not compiled here; interfaces in its msg/, srv/ and action/ and Python programs that its "
@@ -48,7 +36,12 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     add("package_name", help="The package name")
     add("--package-format", "--package_format", type=int, default=3, choices=[2, 3], help="The package.xml format.")
     add("--description", default="TODO: Package description", help="The description given in the package.xml")
-    add("--license", default="TODO: License declaration", help="The license attached to this package")
+    add(
+        "--license",
+        default="TODO: License declaration",
+        help="The license attached to this package; this can be an arbitrary string, but a LICENSE file will only be "
+        "generated if it is one of the supported licenses (pass '?' to get a list)",
+    )
     add("--destination-directory", default=".", help="Directory where to create the package directory")
     add("--build-type", default="ament_cmake", choices=BUILD_TYPES, help="The build type to process the package with")
     add("--dependencies", nargs="+", metavar="DEPENDENCIES", default=[], help="list of dependencies")
@@ -60,6 +53,9 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def create(arguments: argparse.Namespace) -> Result:
     """`ros2 pkg create`."""
+    if arguments.license == "?":
+        print("Supported licenses:", *licenses.KNOWN, sep="\n")
+        return None
     name = arguments.package_name
     if not NAME.match(name):
         return (
@@ -73,13 +69,18 @@ def create(arguments: argparse.Namespace) -> Result:
             f"\nAborted!\nThe directory already exists: {folder}\nEither remove the directory or choose a different "
             "destination directory or package name"
         )
+    given = vars(arguments)
+    if given["node_name"] and given["node_name"] == given["library_name"]:
+        arguments.node_name += "_node"
+        print("[WARNING] node name can not be equal to the library name", file=sys.stderr)
+        print(f"[WARNING] renaming node to {arguments.node_name}", file=sys.stderr)
     email = arguments.maintainer_email or _git_email() or f"{arguments.maintainer_name}@todo.todo"
     _tell(arguments, email)
     if arguments.build_type == "ament_python":
         _write(folder, arguments, email)
     else:
         _write_cmake(folder, arguments, email)
-    _tell_license(arguments.license)
+    _license(folder, arguments.license)
     if arguments.build_type != "ament_python":
         print(f"[INFO] [bot-console]: {NOT_COMPILED}", file=sys.stderr)
     return None
@@ -180,11 +181,17 @@ def _words(arguments: argparse.Namespace, email: str) -> dict[str, str]:
     }
 
 
-def _tell_license(license_name: str) -> None:
-    if license_name in LICENSES:
-        print(f"\n[WARNING]: No LICENSE file has been created: put the text of '{license_name}' there.")
-        return
-    print(
-        f"\n[WARNING]: Unknown license '{license_name}'.  This has been set in the package.xml, but no LICENSE file "
-        "has been created.\nIt is recommended to use one of the ament license identifiers:\n" + "\n".join(LICENSES)
-    )
+def _license(folder: str, identifier: str) -> None:
+    """Put the text of a license into the package, or say why there is none."""
+    text = licenses.text(identifier)
+    if text:
+        with open(os.path.join(folder, "LICENSE"), "w", encoding="utf-8") as file:
+            file.write(text)
+    elif identifier in licenses.KNOWN:
+        print(f"\n[WARNING]: No LICENSE file has been created: put the text of '{identifier}' there.")
+    else:
+        print(
+            f"\n[WARNING]: Unknown license '{identifier}'.  This has been set in the package.xml, but no LICENSE file "
+            "has been created.\nIt is recommended to use one of the ament license identifiers:\n"
+            + "\n".join(licenses.KNOWN)
+        )

@@ -20,7 +20,7 @@ from ros2cli.yaml_values import read_values
 from rosidl_runtime_py import set_message_fields
 
 
-def _hidden_argument(parser: argparse.ArgumentParser, **more: str) -> None:
+def _hidden_argument(parser: argparse.ArgumentParser, **more: Any) -> None:
     text = "Consider hidden services as well"
     parser.add_argument("--include-hidden-services", action="store_true", help=text, **more)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
 from rclpy.node import Node
 from ros2cli.command import Command, Result, Verb
@@ -11,7 +12,7 @@ from ros2cli.endpoints import hidden
 from ros2cli.verbs import topic_echo, topic_pub, topic_rate
 
 
-def _hidden_argument(parser: argparse.ArgumentParser, **more: str) -> None:
+def _hidden_argument(parser: argparse.ArgumentParser, **more: Any) -> None:
     text = "Consider hidden topics as well"
     parser.add_argument("--include-hidden-topics", action="store_true", help=text, **more)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -178,13 +180,15 @@ def test_a_package_of_interfaces_for_cmake(ros, src: Path) -> None:
     folder = Path("cmake_made_msgs")
     listed = (folder / "CMakeLists.txt").read_text("utf-8")
     for needed in (
-        "project(cmake_made_msgs)",
+        "project(cmake_made_msgs",
         "find_package(std_msgs REQUIRED)",
         "add_executable(hello src/hello.cpp)",
     ):
         assert needed in listed
     assert listed.endswith("ament_package()\n")
-    assert "class MyLib" in (folder / "include" / "cmake_made_msgs" / "my_lib.hpp").read_text("utf-8")
+    assert "class CMAKE_MADE_MSGS_PUBLIC MyLib" in (folder / "include" / "cmake_made_msgs" / "my_lib.hpp").read_text(
+        "utf-8"
+    )
     (folder / "msg").mkdir()
     (folder / "msg" / "Num.msg").write_text("std_msgs/Header header\nint64 num\n")
     use(src)
@@ -196,3 +200,87 @@ def test_a_plain_cmake_package(ros, src: Path) -> None:
     assert ros.ask("pkg", "create", "--build-type", "cmake", "plain_cmake").exit == 0
     assert "ament" not in Path("plain_cmake/CMakeLists.txt").read_text("utf-8")
     assert "<build_type>cmake</build_type>" in Path("plain_cmake/package.xml").read_text("utf-8")
+
+
+EVERYTHING = ("--license", "MIT", "--dependencies", "std_msgs", "--node-name", "hello", "--library-name", "my_lib")
+
+
+def test_what_a_package_with_everything_is_made_of(ros, src: Path) -> None:
+    """The folders and files of ROS 2, in its order; the license's text comes without a line."""
+    lines = ros.ask("pkg", "create", *EVERYTHING, "made").stdout.splitlines()
+    assert lines[lines.index("creating folder ./made") :] == [
+        "creating folder ./made",
+        "creating ./made/package.xml",
+        "creating source and include folder",
+        "creating folder ./made/src",
+        "creating folder ./made/include/made",
+        "creating ./made/CMakeLists.txt",
+        "creating ./made/src/hello.cpp",
+        "creating ./made/include/made/my_lib.hpp",
+        "creating ./made/src/my_lib.cpp",
+        "creating ./made/include/made/visibility_control.h",
+    ]
+    assert Path("made/LICENSE").read_text("utf-8").startswith("Permission is hereby granted, free of charge")
+    listed = Path("made/CMakeLists.txt").read_text("utf-8")
+    for needed in (
+        "find_package(ament_cmake_ros REQUIRED)",
+        "MADE_BUILDING_LIBRARY",
+        "target_link_libraries(hello my_lib)",
+        "ament_export_targets(\n  export_${PROJECT_NAME}\n)",
+    ):
+        assert needed in listed
+    assert "<buildtool_depend>ament_cmake_ros</buildtool_depend>" in Path("made/package.xml").read_text("utf-8")
+
+
+def test_licenses_are_listed(ros, src: Path) -> None:
+    told = ros.ask("pkg", "create", "--license", "?", "nothing")
+    assert told.stdout.splitlines()[:3] == ["Supported licenses:", "Apache-2.0", "BSL-1.0"]
+    assert (told.exit, Path("nothing").exists()) == (0, False)
+
+
+@pytest.mark.parametrize(
+    ("license_name", "begin"),
+    [
+        ("Apache-2.0", "Apache License"),
+        ("BSD-2-Clause", "Redistribution and use"),
+        ("BSD-3-Clause", "Redistribution and use"),
+        ("BSL-1.0", "Boost Software License - Version 1.0"),
+        ("MIT-0", "Permission is hereby granted"),
+    ],
+)
+def test_a_license_comes_with_its_text(ros, src: Path, license_name: str, begin: str) -> None:
+    made = ros.ask("pkg", "create", "--build-type", "ament_python", "--license", license_name, "p")
+    assert "WARNING" not in made.stdout
+    assert Path("p/LICENSE").read_text("utf-8").lstrip().startswith(begin)
+
+
+@pytest.mark.parametrize("license_name", ["GPL-3.0-only", "my own", "../MIT"])
+def test_a_license_without_its_text_is_told(ros, src: Path, license_name: str) -> None:
+    made = ros.ask("pkg", "create", "--build-type", "ament_python", "--license", license_name, "p")
+    assert f"'{license_name}'" in made.stdout.partition("[WARNING]: ")[2]
+    assert not Path("p/LICENSE").exists()
+
+
+@pytest.mark.parametrize("build_type", ["ament_python", "ament_cmake"])
+def test_a_node_named_as_its_library_is_renamed(ros, src: Path, build_type: str) -> None:
+    made = ros.ask("pkg", "create", "--build-type", build_type, "--node-name", "x", "--library-name", "x", "p")
+    assert "[WARNING] renaming node to x_node\n" in made.stderr
+    assert "node_name: x_node\n" in made.stdout
+    assert Path("p", *(["p", "x_node.py"] if build_type == "ament_python" else ["src", "x_node.cpp"])).exists()
+
+
+@pytest.mark.skipif(
+    not all(map(shutil.which, ("cmake", "c++"))) or sys.platform == "win32", reason="needs cmake and a C++ compiler"
+)
+def test_a_plain_cmake_package_is_built_and_found(ros, src: Path) -> None:
+    ros.ask("pkg", "create", "--build-type", "cmake", "--node-name", "hello", "--library-name", "lib", "first")
+    ros.ask("pkg", "create", "--build-type", "cmake", "--node-name", "hello", "second", "--dependencies", "first")
+    prefix = src / "installed"
+    for package in ("first", "second"):
+        prefixes = (f"-DCMAKE_INSTALL_PREFIX={prefix}", f"-DCMAKE_PREFIX_PATH={prefix}")
+        for words in (("-S", package, "-B", f"build/{package}", *prefixes), ("--build", f"build/{package}"),
+                      ("--install", f"build/{package}")):  # fmt: skip
+            done = subprocess.run(["cmake", *words], capture_output=True, text=True, check=False)
+            assert done.returncode == 0, done.stderr
+    said = subprocess.run([prefix / "lib" / "second" / "hello"], capture_output=True, text=True, check=True)
+    assert said.stdout == "hello world second package\n"
