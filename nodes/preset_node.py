@@ -163,8 +163,9 @@ class Presets(Node):
         """Set values of one node together; returns why it refused, and an empty text when it did not."""
         parameters = [Parameter(name, value=value) for name, value in values.items()]
         answer = await (await self._client(node)).set_parameters_atomically(parameters)
-        result = answer.result if answer else None
-        return "" if result and result.successful else (result.reason if result else "") or "no reason was given"
+        if answer and answer.result.successful:
+            return ""
+        return (answer.result.reason if answer else "") or "no reason was given"
 
 
 def _is_array(value: Any) -> bool:

@@ -19,5 +19,10 @@ def command() -> str:
     """The path of the `bot-console` that belongs to this program."""
     called = sys.argv[0] if os.path.basename(sys.argv[0]) == "bot-console" else ""
     beside = os.path.join(os.path.dirname(sys.executable), "bot-console")
-    found = shutil.which(called) if called else beside if os.access(beside, os.X_OK) else shutil.which("bot-console")
+    if called:
+        found = shutil.which(called)
+    elif os.access(beside, os.X_OK):
+        found = beside
+    else:
+        found = shutil.which("bot-console")
     return os.path.abspath(found or beside)

@@ -27,9 +27,25 @@ PERSPECTIVE = ("--perspective-file", "-p", "--perspective")
 WITH_VALUE = ("--default_topic", "-d", "--display-config", "-f", "--fixed-frame")
 """Options with a value that nothing here answers to."""
 WITHOUT_VALUE = (
-    *("-P", "--plot-start-paused", "-L", "--plot-start-loaded", "-e", "--plot-start-empty"),
-    *("-l", "--lock-perspective", "-m", "--multi-thread", "-c", "--clear-config", "-v", "--verbose"),
-    *("--force-discover", "--hide-title", "--no-qt-debug-output", "-t", "--on-top"),
+    "-P",
+    "--plot-start-paused",
+    "-L",
+    "--plot-start-loaded",
+    "-e",
+    "--plot-start-empty",
+    "-l",
+    "--lock-perspective",
+    "-m",
+    "--multi-thread",
+    "-c",
+    "--clear-config",
+    "-v",
+    "--verbose",
+    "--force-discover",
+    "--hide-title",
+    "--no-qt-debug-output",
+    "-t",
+    "--on-top",
 )
 
 

@@ -50,7 +50,10 @@ class Signals:
         self._frames = frames
         model, half = self._model, 0.5 * simulation.drive.limits.wheel_separation
         wheel = Quaternion(x=-math.sin(math.pi / 4), w=math.cos(math.pi / 4))
-        self._angles, self._speed, self._stamp, self._count = [0.0, 0.0], 0.0, simulation.time_ns, 0
+        self._angles = [0.0, 0.0]
+        self._speed = 0.0
+        self._stamp = simulation.time_ns
+        self._count = 0
         fixed = [
             _frame(model.footprint, model.base, stamp, z=model.base_height),
             _frame(model.base, model.scan, stamp, z=model.scan_height),

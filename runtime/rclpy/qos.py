@@ -180,8 +180,15 @@ class QoSProfile:
 
     def __str__(self) -> str:
         order = (
-            *("history", "depth", "reliability", "durability", "lifespan", "deadline", "liveliness"),
-            *("liveliness_lease_duration", "avoid_ros_namespace_conventions"),
+            "history",
+            "depth",
+            "reliability",
+            "durability",
+            "lifespan",
+            "deadline",
+            "liveliness",
+            "liveliness_lease_duration",
+            "avoid_ros_namespace_conventions",
         )
         parts = (f"{name}={_shown(getattr(self, name))}" for name in order)
         return f"QoSProfile({', '.join(parts)})"

@@ -44,12 +44,19 @@ MOST_DIGITS = 19
 """Decimal digits of the largest integer; Python refuses to convert more than 4,300."""
 
 
+def _base(digits: str) -> int:
+    """The base that `strtol` finds by the first digits."""
+    if digits[:2] in ("0x", "0X"):
+        return 16
+    return 8 if digits[0] == "0" else 10
+
+
 def _integer(text: str) -> int | None:
     found = _INTEGER.match(text)
     if found is None:
         return None
     digits = found[2]
-    base = 16 if digits[:2] in ("0x", "0X") else 8 if digits[0] == "0" else 10
+    base = _base(digits)
     if base == 10 and len(digits) > MOST_DIGITS:
         return None
     value = int(digits, base)

@@ -97,7 +97,8 @@ class _Reading:
 
     def _end_row(self) -> None:
         """Read the numbers that are noted."""
-        codes, targets, self._codes, self._targets = self._codes, self._targets, [], []
+        codes, targets = self._codes, self._targets
+        self._codes, self._targets = [], []
         if codes:
             there = self.source.there
             self.source.row(codes, lambda structure: f"{', '.join(targets)}, = {structure}.unpack_from(data, {there})")

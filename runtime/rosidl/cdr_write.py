@@ -116,7 +116,8 @@ class _Writing:
         """Write the numbers that are noted."""
         if self._floats:
             self._want(" and ".join(self._floats))
-        codes, values, self._codes, self._values, self._floats = self._codes, self._values, [], [], []
+        codes, values = self._codes, self._values
+        self._codes, self._values, self._floats = [], [], []
         if codes == ["x"]:
             self._chunk("ZEROS[1]")
             self.source.step(1)

@@ -12,7 +12,10 @@ class FieldTypeError(TypeError):
     """A field holds a value that cannot be sent; `field` is its path, as `linear.x`."""
 
     def __init__(self, owner: str, field: str, wanted: str, value: object) -> None:
-        self.owner, self.field, self.wanted, self.value = owner, field, wanted, value
+        self.owner = owner
+        self.field = field
+        self.wanted = wanted
+        self.value = value
         super().__init__(owner, field, wanted, value)
 
     def __str__(self) -> str:

@@ -175,8 +175,9 @@ def _taken(kind: Type, known: dict[str, str]) -> str:
     if kind.size and kind.item in DTYPES:
         return "Any"
     item = _item(kind, known)
-    return f"Sequence[{item}] | _array[{item}]" if kind.item in TYPECODES and kind.sequence else (
-        f"Sequence[{item}]" if kind.sequence or kind.size else item)  # fmt: skip
+    if kind.item in TYPECODES and kind.sequence:
+        return f"Sequence[{item}] | _array[{item}]"
+    return f"Sequence[{item}]" if kind.sequence or kind.size else item
 
 
 def _item(kind: Type, known: dict[str, str]) -> str:

@@ -31,7 +31,20 @@ def _tuple(axes: str) -> tuple[int, int, int, int]:
     return inner[0], int((inner[1] - inner[0]) % 3 != 1), int(order[0] == order[2]), int(turning)
 
 
-_ORDERS = (*("xyz", "xyx", "xzy", "xzx", "yzx", "yzy", "yxz", "yxy", "zxy", "zxz", "zyx", "zyz"),)
+_ORDERS = (
+    "xyz",
+    "xyx",
+    "xzy",
+    "xzx",
+    "yzx",
+    "yzy",
+    "yxz",
+    "yxy",
+    "zxy",
+    "zxz",
+    "zyx",
+    "zyz",
+)
 _NAMES = {_tuple(frame + order): frame + order for frame in "sr" for order in _ORDERS}
 
 

@@ -10,9 +10,23 @@ from bot_console.runtime.workspace.package import read_package
 from bot_console.tui.cli.main import main
 
 ROS = {
-    *("rclpy", "launch", "launch_ros", "ament_index_python", "builtin_interfaces", "diagnostic_msgs", "geometry_msgs"),
-    *("lifecycle_msgs", "nav_msgs", "nav2_msgs", "rcl_interfaces", "rosgraph_msgs", "sensor_msgs", "std_msgs"),
-    *("std_srvs", "tf2_msgs", "visualization_msgs"),
+    "rclpy",
+    "launch",
+    "launch_ros",
+    "ament_index_python",
+    "builtin_interfaces",
+    "diagnostic_msgs",
+    "geometry_msgs",
+    "lifecycle_msgs",
+    "nav_msgs",
+    "nav2_msgs",
+    "rcl_interfaces",
+    "rosgraph_msgs",
+    "sensor_msgs",
+    "std_msgs",
+    "std_srvs",
+    "tf2_msgs",
+    "visualization_msgs",
 }
 LIBRARIES = {"numpy", "pymunk", "yaml", "setuptools"}
 

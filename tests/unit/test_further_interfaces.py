@@ -31,8 +31,16 @@ def test_every_definition_makes_classes_that_travel(package: str) -> None:
 
 def test_the_packages_are_those_that_programs_ask_for() -> None:
     assert set(PACKAGES) == {
-        *("ackermann_msgs", "can_msgs", "control_msgs", "geographic_msgs", "irobot_create_msgs", "map_msgs"),
-        *("nav2_msgs", "pcl_msgs", "turtlebot3_msgs", "vision_msgs"),
+        "ackermann_msgs",
+        "can_msgs",
+        "control_msgs",
+        "geographic_msgs",
+        "irobot_create_msgs",
+        "map_msgs",
+        "nav2_msgs",
+        "pcl_msgs",
+        "turtlebot3_msgs",
+        "vision_msgs",
     }
 
 

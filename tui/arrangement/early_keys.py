@@ -12,9 +12,15 @@ if TYPE_CHECKING:
     from textual.app import App
 
 AT_ONCE = {
-    *("app.help", "app.stop", "app.quit", "app.quit_now", "app.acknowledge", "app.theme", "app.glyphs", "app.redraw"),
-    *(each.id for scope in ("list", "overlay", "box", "help") for each in TABLE[scope]),
-}
+    "app.help",
+    "app.stop",
+    "app.quit",
+    "app.quit_now",
+    "app.acknowledge",
+    "app.theme",
+    "app.glyphs",
+    "app.redraw",
+} | {each.id for scope in ("list", "overlay", "box", "help") for each in TABLE[scope]}
 """What acts on one pane that has the keyboard, on what lies over the panes, or on the app as a whole; by their ids.
 
 All else may name a pane that is not there yet: a curve goes to the plot, a line to whatever it says.

@@ -183,7 +183,10 @@ class CommandField(Vertical):
             self._put(" ".join([*before, found[0]]) + " ")
             self._begin()
             return
-        self._tried = (self._tried + step) % len(found) if self._tried >= 0 else (0 if step > 0 else len(found) - 1)
+        if self._tried >= 0:
+            self._tried = (self._tried + step) % len(found)
+        else:
+            self._tried = 0 if step > 0 else len(found) - 1
         self._put(" ".join([*before, found[self._tried]]))
         self._show()
 

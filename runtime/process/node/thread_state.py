@@ -82,7 +82,10 @@ class ThreadState:
     def enter(self) -> None:
         """Make the calling thread this one; in a stepped run that waits for its turn."""
         self.ident = threading.get_ident()
-        local.process, local.state, local.waits_on, local.seat = self.process, self, self.clock, self.seat
+        local.process = self.process
+        local.state = self
+        local.waits_on = self.clock
+        local.seat = self.seat
         if self.seat is not None:
             self.seat.take()
 

@@ -32,7 +32,11 @@ class Rosout:
         stamp = message._stamp
         stamp._sec, stamp._nanosec = divmod(stamp_ns, NANO)
         message._level = severity
-        message._name, message._msg, message._file, message._function, message._line = name, text, file, function, line
+        message._name = name
+        message._msg = text
+        message._file = file
+        message._function = function
+        message._line = line
         return self._endpoint.publish_own(message)
 
     def close(self) -> None:

@@ -32,10 +32,8 @@ def make_certificates(folder: Path, name: str = "robot") -> Certificates:
         place, "req", "-x509", *KEY, "-keyout", "ca.key", "-out", "ca.pem", "-days", "2", "-subj", f"/CN={name}-ca"
     )
     _openssl(place, "req", *KEY, "-keyout", "own.key", "-out", "own.csr", "-subj", f"/CN={name}")
-    _openssl(
-        *(place, "x509", "-req", "-in", "own.csr", "-CA", "ca.pem", "-CAkey", "ca.key", "-CAcreateserial"),
-        *("-out", "own.pem", "-days", "2", "-extfile", "names"),
-    )
+    sign = ("x509", "-req", "-in", "own.csr", "-CA", "ca.pem", "-CAkey", "ca.key", "-CAcreateserial")
+    _openssl(place, *sign, "-out", "own.pem", "-days", "2", "-extfile", "names")
     return Certificates(*(str(place / each) for each in ("ca.pem", "own.pem", "own.key")))
 
 

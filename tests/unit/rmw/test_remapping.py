@@ -7,9 +7,23 @@ from bot_console.runtime.rmw import remapping
 from bot_console.runtime.rmw.lexer import GrammarError
 
 ACCEPTED = (
-    *("foo:=bar", "~/foo:=~/bar", "/foo/bar:=bar", "node:/foo:=/bar", "_:=kq", "a/b:=/c/d", "n:~/a:=b"),
-    *("__node:=new", "__name:=new", "old:__node:=new", "__ns:=/a", "__ns:=/", "__ns:=/a/b/", "n:__ns:=/a"),
-    *("rostopic://foo:=bar", "rosservice:///foo:=bar", "n:rostopic://~/a:=b"),
+    "foo:=bar",
+    "~/foo:=~/bar",
+    "/foo/bar:=bar",
+    "node:/foo:=/bar",
+    "_:=kq",
+    "a/b:=/c/d",
+    "n:~/a:=b",
+    "__node:=new",
+    "__name:=new",
+    "old:__node:=new",
+    "__ns:=/a",
+    "__ns:=/",
+    "__ns:=/a/b/",
+    "n:__ns:=/a",
+    "rostopic://foo:=bar",
+    "rosservice:///foo:=bar",
+    "n:rostopic://~/a:=b",
 )
 
 

@@ -18,8 +18,25 @@ from bot_console.tui.console.lines import RunningLine, goes_on
 from bot_console.tui.console.model import ConsoleSnapshot
 
 COMMANDS = (
-    *("action", "bag", "component", "control", "daemon", "doctor", "interface", "launch", "lifecycle", "multicast"),
-    *("node", "param", "pkg", "run", "security", "service", "topic", "wtf", "colcon"),
+    "action",
+    "bag",
+    "component",
+    "control",
+    "daemon",
+    "doctor",
+    "interface",
+    "launch",
+    "lifecycle",
+    "multicast",
+    "node",
+    "param",
+    "pkg",
+    "run",
+    "security",
+    "service",
+    "topic",
+    "wtf",
+    "colcon",
 )
 LINE_LIMIT = 15.0
 """Seconds after which a line that does not end by itself is interrupted, as by Ctrl-C."""

@@ -40,10 +40,13 @@ def lint(path: Path) -> tuple[list[Finding], Declared]:
 
 
 def _called(call: ast.Call) -> str:
-    function = call.func
-    return (
-        function.attr if isinstance(function, ast.Attribute) else function.id if isinstance(function, ast.Name) else ""
-    )
+    return _last_name(call.func)
+
+
+def _last_name(of: ast.expr) -> str:
+    if isinstance(of, ast.Attribute):
+        return of.attr
+    return of.id if isinstance(of, ast.Name) else ""
 
 
 def _learn(call: ast.Call, declared: Declared) -> None:
@@ -135,9 +138,7 @@ def _of_class(node: ast.ClassDef, path: str) -> Iterator[Finding]:
 
 
 def _called_name(of: ast.expr) -> str:
-    if isinstance(of, ast.Call):
-        return _called(of)
-    return of.attr if isinstance(of, ast.Attribute) else of.id if isinstance(of, ast.Name) else ""
+    return _called(of) if isinstance(of, ast.Call) else _last_name(of)
 
 
 def _can_refuse(callback: ast.FunctionDef) -> bool:

@@ -19,8 +19,12 @@ from bot_console.tui.tuning.study import Progress, Study
 SIMULATED = frozenset(
     f"/{each}"
     for each in (
-        *("robot_navigator", "sensor_handler", "safety_monitor", "motion_controller"),
-        *("telemetry_publisher", "simulator"),
+        "robot_navigator",
+        "sensor_handler",
+        "safety_monitor",
+        "motion_controller",
+        "telemetry_publisher",
+        "simulator",
     )
 )
 """The nodes that a run has."""

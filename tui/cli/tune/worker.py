@@ -13,11 +13,22 @@ from typing import Any
 
 LAUNCHED = ("robot_node", "sensor_node", "safety_node", "controller_node", "telemetry_node", "simulator_node")
 MODULES = (
-    *("bot_console.tui.cli.headless.launches", "bot_console.tui.cli.headless.probe", "launch.actions"),
-    *("bot_console.tui.console.plot.watch", "bot_console.tui.tuning.score"),
-    *("launch.event_handlers", "launch.launch_description_sources", "launch_ros.actions"),
-    *("diagnostic_msgs.msg", "visualization_msgs.msg", "rosgraph_msgs.msg", "geometry_msgs.msg", "pymunk"),
-    *("bot_console.runtime.rmw.parameter_file", "rclpy.logging_service", "numpy.random"),
+    "bot_console.tui.cli.headless.launches",
+    "bot_console.tui.cli.headless.probe",
+    "launch.actions",
+    "bot_console.tui.console.plot.watch",
+    "bot_console.tui.tuning.score",
+    "launch.event_handlers",
+    "launch.launch_description_sources",
+    "launch_ros.actions",
+    "diagnostic_msgs.msg",
+    "visualization_msgs.msg",
+    "rosgraph_msgs.msg",
+    "geometry_msgs.msg",
+    "pymunk",
+    "bot_console.runtime.rmw.parameter_file",
+    "rclpy.logging_service",
+    "numpy.random",
     *(f"bot_console_robot.{each}" for each in LAUNCHED),
 )
 """What a run imports."""

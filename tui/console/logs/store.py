@@ -41,7 +41,10 @@ class LogSegment:
     def append(self, stamp: int, severity: int, node: int, site: int, raw: bytes) -> None:
         """Add a record; only one writer at a time."""
         index = self.count
-        self.stamp[index], self.severity[index], self.node[index], self.site[index] = stamp, severity, node, site
+        self.stamp[index] = stamp
+        self.severity[index] = severity
+        self.node[index] = node
+        self.site[index] = site
         self.key[index] = hash((node, severity, raw))
         self._blob += raw
         self._blob += b"\n"

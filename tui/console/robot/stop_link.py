@@ -116,11 +116,14 @@ class StopLink:
             self._wanted = ""
         known = tuple({each.key: each for of_lock in stops for each in of_lock}.values())
         ours = self._wanted == STOP
+        reason = self._reason if ours else ""
+        if known:
+            reason = known[0].reason
         self.info = StopInfo(
             stopped=bool(held) or ours,
             confirmed=confirmed and not ours,
             holder=known[0].holder if known else "",
-            reason=known[0].reason if known else self._reason if ours else "",
+            reason=reason,
             steered_by=next((each["steered_by"] for each in states if each.get("steered_by")), ""),
             locks=len(states),
             here=ours or any(each.here for each in known),

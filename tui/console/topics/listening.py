@@ -53,6 +53,8 @@ class Listening(FollowedTopic):
         if (old.topic, old.count, old.problem, old.age) == (self._topic, count, self._problem, age):
             return old
         same = old.topic == self._topic and old.count == count
-        fields = old.fields if same else tree(message, self._type) if message is not None else ()
+        fields = old.fields if same else ()
+        if not same and message is not None:
+            fields = tree(message, self._type)
         self._live = LiveMessage(self._topic, self._type, fields, count, age, self._problem)
         return self._live

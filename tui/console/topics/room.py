@@ -105,13 +105,13 @@ class NodeTraffic:
 
     def line(self, payload: Payload, name: str, type_name: str, values: Values, rate: float = 0.0) -> str:
         """The `ros2` command line that sends the same."""
-        verb = {Payload.MESSAGE: "topic pub", Payload.REQUEST: "service call", Payload.GOAL: "action send_goal"}[
-            payload
-        ]
-        how = [] if payload is not Payload.MESSAGE else ["--rate", f"{rate:g}"] if rate else ["--once"]
+        verbs = {Payload.MESSAGE: "topic pub", Payload.REQUEST: "service call", Payload.GOAL: "action send_goal"}
+        how: list[str] = []
+        if payload is Payload.MESSAGE:
+            how = ["--rate", f"{rate:g}"] if rate else ["--once"]
         fields = forms.typed_fields(payload, type_name, values)
         text = yaml.safe_dump(_plain(fields), default_flow_style=True, width=10**9, sort_keys=False).strip()
-        return shlex.join(["ros2", *verb.split(), *how, name, type_name, text])
+        return shlex.join(["ros2", *verbs[payload].split(), *how, name, type_name, text])
 
     def earlier(self, name: str) -> Sequence[Values]:
         """What was sent from here."""

@@ -56,7 +56,8 @@ def _integer(kind: str, words: str, names: Mapping[int, str]) -> int | bytes:
     known = {name.lower(): value for value, name in names.items()}
     first, _, rest = words.partition(" ")
     try:
-        value = known[words.lower()] if words.lower() in known else int(first if rest.lower() in known else words, 0)
+        named = known.get(words.lower())
+        value = int(first if rest.lower() in known else words, 0) if named is None else named
     except ValueError:
         choices = f" or one of {', '.join(name for _, name in sorted(names.items()))}" if names else ""
         raise ValueError(f"'{words}' is no integer{choices}") from None

@@ -76,7 +76,8 @@ class Lines:
         key = (a, b)
         found = self._unions.get(key)
         if found is None:
-            found = self._unions[key] = a if b <= a else b if a <= b else a | b
+            united = a | b  # one of the two where it holds all: equal sets are to be one object
+            found = self._unions[key] = next((each for each in key if len(each) == len(united)), united)
         return found
 
     def across(self, y: int, start: int, end: int, edges: frozenset[Edge]) -> None:

@@ -109,9 +109,7 @@ def plain_value(text: str) -> bool | int | float | str:
     if text in _TRUE or text in _FALSE:
         return text in _TRUE
     if _INTEGER.fullmatch(text):
-        digits = text.lstrip("+-")
-        base = 16 if digits[:2] in ("0x", "0X") else 8 if digits[0] == "0" else 10
-        value = int(text, base)
+        value = int(text, _base(text.lstrip("+-")))
         if -(2**63) <= value < 2**63:
             return value
     if _DOUBLE.fullmatch(text):
@@ -119,6 +117,13 @@ def plain_value(text: str) -> bool | int | float | str:
         # What a double can only hold with fewer digits is out of range for C's strtod, and so text for ROS.
         return text if math.isinf(number) or 0 < abs(number) < SMALLEST else number
     return float(text.lstrip(".").replace("-.", "-").replace("+.", "")) if _NOT_FINITE.fullmatch(text) else text
+
+
+def _base(digits: str) -> int:
+    """The base that C's `strtol` finds by the first digits."""
+    if digits[:2] in ("0x", "0X"):
+        return 16
+    return 8 if digits[0] == "0" else 10
 
 
 class _Dumper(_SafeDumper):

@@ -30,8 +30,17 @@ GROUPED = trees(
 
 def test_dotted_and_slashed_names_are_groups_where_at_least_two_share_them() -> None:
     assert drawn(GROUPED) == [
-        *("/n", "  gain", "  lidar/front/", "    max", "    min", "  one.alone"),
-        *("  pid.", "    x.", "      ki", "      kp", "    y.kp"),
+        "/n",
+        "  gain",
+        "  lidar/front/",
+        "    max",
+        "    min",
+        "  one.alone",
+        "  pid.",
+        "    x.",
+        "      ki",
+        "      kp",
+        "    y.kp",
     ]
 
 
@@ -62,8 +71,18 @@ FLEET = trees(
 
 def test_namespaces_of_several_nodes_have_a_row_and_fold() -> None:
     assert drawn(FLEET) == [
-        *("/a/", "  b/", "    one", "      p", "    two", "      p", "  three", "    p"),
-        *("/alone/four", "  p", "/five", "  p"),
+        "/a/",
+        "  b/",
+        "    one",
+        "      p",
+        "    two",
+        "      p",
+        "  three",
+        "    p",
+        "/alone/four",
+        "  p",
+        "/five",
+        "  p",
     ]
     folded = rows(FLEET, View(folded=frozenset({"/a/b/"})))
     assert [(each.title or each.node, each.count) for each in folded if not each.parameter][:3] == [
