@@ -17,36 +17,30 @@ from bot_console.runtime.missing_packages import explain_missing_package
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "what-runs.md"
 HEAD = """# What runs
 
-The ROS 2 packages that Python programs import, the usual ones first. Made by `python tools/what_runs.py` from what the
-runtime serves. "yes" means that no missing part is known, not that all of it was compared with ROS 2.
+This page shows which ROS 2 packages your Python programs can import. It lists the packages that such programs import,
+the most common ones first. "yes" means that no part is known to be missing, not that every part was compared with
+ROS 2. `python tools/what_runs.py` generates the page from what the runtime provides.
 
-| package | here | what is missing, or what brings it |
+| package | here | what is missing, or how to get it |
 | --- | --- | --- |
 """
 PARTS = {
     "cv_bridge": "compressed images and Bayer patterns need OpenCV: `pip install 'bot-console[opencv]'`",
-    "control_msgs": "interfaces of rarely used controllers",
+    "control_msgs": "the interfaces of rarely used controllers",
     "irobot_create_msgs": "`Mouse`, `IrOpcode`, `WallFollow`, `DockServo`",
-    "launch_ros": "components in C++",
-    "nav2_msgs": "services that came after the first Jazzy",
+    "launch_ros": "C++ components",
+    "nav2_msgs": "services added after the first Jazzy release",
     "launch_pytest": "`launch_service`, `launch_context` and `event_loop` for fixtures wider than a function",
     "launch_testing": "`loader` and `test_runner`; `bot-console test` and `launch_test` run test files",
     "message_filters": "`LatestTimeSynchronizer`, input aligner",
     "tf2_geometry_msgs": "`PyKDL` types",
-    "turtlebot3_msgs": "`Patrol` as examples since 2025 use it; `bot-console interface add FOLDER` takes a checkout",
+    "turtlebot3_msgs": "`Patrol` as used by examples since 2025; `bot-console interface add FOLDER` adds a checkout",
     "tf_transformations": "`Arcball`, `clip_matrix`, `orthogonalization_matrix`",
 }
 """What is missing of packages that are here."""
 UNVERIFIED = "fields are known, the type hash was not compared with ROS 2"
 BY_FREQUENCY = (
-    "rclpy",
-    "std_msgs",
-    "geometry_msgs",
-    "sensor_msgs",
-    "launch",
-    "launch_ros",
-    "ament_index_python",
-    "nav_msgs",
+    *("rclpy", "std_msgs", "geometry_msgs", "sensor_msgs", "launch", "launch_ros", "ament_index_python", "nav_msgs"),
     *(
         "std_srvs",
         "cv_bridge",
@@ -56,25 +50,9 @@ BY_FREQUENCY = (
         "rcl_interfaces",
         "builtin_interfaces",
     ),
-    "visualization_msgs",
-    "turtlesim",
-    "action_msgs",
-    "tf2_msgs",
-    "tf2_geometry_msgs",
-    "sensor_msgs_py",
-    "nav2_msgs",
-    "message_filters",
-    "lifecycle_msgs",
-    "trajectory_msgs",
-    "diagnostic_msgs",
-    "launch_xml",
-    "launch_yaml",
-    "tf2_py",
-    "rosidl_runtime_py",
-    "action_tutorials_interfaces",
-    "shape_msgs",
-    "rosgraph_msgs",
-    "unique_identifier_msgs",
+    *("visualization_msgs", "turtlesim", "action_msgs", "tf2_msgs", "tf2_geometry_msgs", "sensor_msgs_py", "nav2_msgs"),
+    *("message_filters", "lifecycle_msgs", "trajectory_msgs", "diagnostic_msgs", "launch_xml", "launch_yaml", "tf2_py"),
+    *("rosidl_runtime_py", "action_tutorials_interfaces", "shape_msgs", "rosgraph_msgs", "unique_identifier_msgs"),
     *(
         "nav2_simple_commander",
         "launch_testing",
@@ -84,20 +62,9 @@ BY_FREQUENCY = (
         "control_msgs",
         "vision_msgs",
     ),
-    "geographic_msgs",
-    "ackermann_msgs",
-    "irobot_create_msgs",
-    "tf2_sensor_msgs",
-    "laser_geometry",
-    "image_geometry",
-    "map_msgs",
-    "pcl_msgs",
-    "can_msgs",
-    "turtlebot3_msgs",
-    "diagnostic_updater",
-    "nav2_common",
-    "xacro",
-    "rqt_gui_py",
+    *("geographic_msgs", "ackermann_msgs", "irobot_create_msgs", "tf2_sensor_msgs", "laser_geometry", "image_geometry"),
+    *("map_msgs", "pcl_msgs", "can_msgs", "turtlebot3_msgs"),
+    *("diagnostic_updater", "nav2_common", "xacro", "rqt_gui_py"),
 )
 
 
