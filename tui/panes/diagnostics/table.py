@@ -6,7 +6,7 @@ from bot_console.tui.console.query import Query
 from bot_console.tui.console.sights.model import Level
 from bot_console.tui.format import cut, harmless
 from bot_console.tui.panes.diagnostics.tree import Row, matches
-from bot_console.tui.panes.topics.figures import age_text
+from bot_console.tui.text.figures import age_text
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment

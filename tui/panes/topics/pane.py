@@ -13,10 +13,10 @@ from bot_console.tui.console.query import Query, parse
 from bot_console.tui.console.traffic import LiveMessage
 from bot_console.tui.format import counted
 from bot_console.tui.panes.list_pane import ListPane
-from bot_console.tui.panes.topics.figures import age_text, rate_text
 from bot_console.tui.panes.topics.message import MessageRows
 from bot_console.tui.panes.topics.rows import Kind, Row, matches, rows
 from bot_console.tui.panes.topics.table import TopicRows, heading
+from bot_console.tui.text.figures import age_text, rate_text
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Fill, Option
 from bot_console.tui.widgets.row_list import RowList
