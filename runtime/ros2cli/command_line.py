@@ -8,8 +8,10 @@ import os
 import signal
 import sys
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 from bot_console.runtime.terse import ended_code, place_fault
+from ros2cli.advice import advise, usage
 from ros2cli.command import Command, Result, Verb
 
 COMMANDS: Mapping[str, tuple[str, str]] = {
@@ -26,6 +28,9 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "topic": ("ros2cli.verbs.topic", "Various topic related sub-commands"),
 }
 """Where each command is, and what it is for; a module is imported when its command is asked for."""
+
+WRONG_USAGE = 2
+"""The exit code of argparse."""
 
 
 class HelpFormatter(argparse.RawDescriptionHelpFormatter):
@@ -53,6 +58,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         return _finish(_run(words))
     except SystemExit as stop:
+        if stop.code == WRONG_USAGE:
+            advise(partial(usage, words))
         return stop.code if isinstance(stop.code, int) else 1 if stop.code else 0
     except KeyboardInterrupt:
         return int(signal.SIGINT)

@@ -8,8 +8,10 @@ import os
 import signal
 import sys
 import threading
+from functools import partial
 from types import FrameType
 
+from ros2cli.advice import advise, launch_files
 from ros2cli.command import Command, Result
 from ros2cli.launch_file import LaunchFileError, named_launch_file, of_package, parse_launch_arguments
 
@@ -82,13 +84,21 @@ def _launch(arguments: argparse.Namespace) -> Result:
                 return _list_launch_files(arguments.package_name)
         path, words = named_launch_file(arguments.package_name, words)
     except LaunchFileError as error:
-        return str(error)
+        print(error, file=sys.stderr)
+        advise(partial(_launch_files_of, arguments.package_name))
+        return 1
     if arguments.show_all_subprocesses_output:
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
     try:
         return _act(arguments, path, words)
     except LaunchFileError as error:
         return str(error)
+
+
+def _launch_files_of(package: str) -> str:
+    from bot_console.runtime.workspace.choices import launch_file_names, package_names
+
+    return launch_files(package, launch_file_names(package)) if package in package_names() else ""
 
 
 def _list_launch_files(package: str) -> Result:

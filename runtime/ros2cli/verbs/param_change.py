@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import argparse
+from functools import partial
 
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file
+from ros2cli.advice import advise, wrong_type
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, absolute, call
-from ros2cli.verbs.param_show import NOT_FOUND, found, warn
+from ros2cli.verbs.param_show import NOT_FOUND, found, tell_missing, warn
 from ros2cli.yaml_values import told_faults
+
+UNDECLARED = "Invalid access to undeclared parameter"
+"""How a node begins that refuses a parameter which it has not declared; it names none."""
 
 
 def set_(arguments: argparse.Namespace) -> Result:
@@ -29,10 +34,13 @@ def set_(arguments: argparse.Namespace) -> Result:
                 return f"{arguments.parameter_name}: {error}"
             # A YAML map: the words of ROS 2's conversion of strings.
             raise TypeError("bad argument type for built-in operation") from None
-    if result.successful:
-        print(f"Set parameter successful{': ' + result.reason if result.reason else ''}")
-    else:
+        if result.successful:
+            print(f"Set parameter successful{': ' + result.reason if result.reason else ''}")
+            return None
         warn(f"Setting parameter failed{': ' + result.reason if result.reason else ''}")
+        advise(partial(wrong_type, arguments.parameter_name, arguments.value, result.reason))
+        if result.reason.startswith(UNDECLARED):
+            tell_missing(node, absolute(arguments.node_name), [arguments.parameter_name])
     return None
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 import sys
+from collections.abc import Sequence
 from typing import Any
 
 from bot_console.runtime.rmw.parameter_types import BY_CODE, NOT_SET, ParameterType
@@ -12,6 +13,7 @@ from rcl_interfaces.msg import ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
 from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
+from ros2cli.advice import advise, no_parameter
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, NoAnswer, NodeName, absolute, call, node_names, wait_for_node
 
@@ -39,8 +41,10 @@ def get(arguments: argparse.Namespace) -> Result:
         if not found(node, arguments):
             return NOT_FOUND
         values = values_of(node, name, [arguments.parameter_name])
-    if not values:
-        return "Parameter not set"
+        if not values:
+            warn("Parameter not set")
+            tell_missing(node, name, [arguments.parameter_name])
+            return 1
     value = values[0]
     if value.type == NOT_SET:
         print("Parameter not set.")
@@ -71,9 +75,22 @@ def describe(arguments: argparse.Namespace) -> Result:
         if not found(node, arguments):
             return NOT_FOUND
         request = DescribeParameters.Request(names=arguments.parameter_names)
-        for each in call(node, DescribeParameters, f"{name}/describe_parameters", request).descriptors:
+        described = call(node, DescribeParameters, f"{name}/describe_parameters", request).descriptors
+        for each in described:
             _print_descriptor(each)
+        if not described:
+            tell_missing(node, name, arguments.parameter_names)
     return None
+
+
+def tell_missing(node: Node, name: str, parameters: Sequence[str]) -> None:
+    """Tell a person which of some parameters a node, by its full name, does not have; upstream says nothing of it."""
+
+    def text() -> str:
+        known = call(node, ListParameters, f"{name}/list_parameters", ListParameters.Request()).result.names
+        return "\n".join(no_parameter(name, each, known) for each in parameters if each not in known)
+
+    advise(text)
 
 
 def _print_descriptor(descriptor: Any) -> None:

@@ -1,0 +1,70 @@
+"""What a person at a terminal is told beyond the words of `ros2`; programs that read the output get those alone."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Callable, Iterable, Sequence
+
+_WRONG_TYPE = re.compile(r"Wrong parameter type, expected 'Type\.(\w+)' got 'Type\.(\w+)'")
+
+
+def advise(text: Callable[[], str]) -> None:
+    """Print a text on stderr, if that is a terminal; it is composed only then, and may be empty."""
+    if is_read() and (said := text()):
+        print(said, file=sys.stderr)
+
+
+def is_read() -> bool:
+    """Whether a person reads stderr."""
+    return sys.stderr.isatty()
+
+
+def no_parameter(node: str, name: str, names: Iterable[str]) -> str:
+    """That a node does not declare a parameter, and which similar one it has."""
+    return f"{node} has no parameter {name}{_meant(name, names) or f'; ros2 param list {node} shows those it has'}"
+
+
+def wrong_type(name: str, value: str, reason: str) -> str:
+    """What to type instead of a value whose type a node has refused; empty for another reason."""
+    found = _WRONG_TYPE.match(reason)
+    if found is None:
+        return ""
+    expected, given = found.groups()
+    return written(name, value, expected, given)
+
+
+def written(name: str, value: str, expected: str, given: str) -> str:
+    """How a value is written for a type, both types by their names in `rclpy.Parameter.Type`."""
+    if (expected, given) == ("DOUBLE", "INTEGER"):
+        point = f"{value}.0" if value.lstrip("+-").isdecimal() else "it with a point"
+        return f"{name} is a double, which takes no integer: write {point}"
+    if expected == "STRING":
+        return f"{name} is a string: write '\"{value}\"', as {value} alone is read as {given.lower().replace('_', ' ')}"
+    if expected == "BOOL":
+        return f"{name} is a bool: write true or false"
+    return f"{name} takes values of the type {expected.lower().replace('_', ' ')}"
+
+
+def usage(words: Sequence[str]) -> str:
+    """What to type instead of options that other releases of ROS 2 have; empty where nothing is known."""
+    if list(words[:2]) == ["param", "dump"] and "--output-dir" in words[:-1]:
+        folder = words[words.index("--output-dir") + 1].rstrip("/")
+        node = next((each for each in words[2:] if each.startswith("/")), "/node")
+        file = f"{folder}/{node.strip('/').replace('/', '__')}.yaml"
+        return f"Jazzy has no --output-dir, and prints the parameters: ros2 param dump {node} > {file}"
+    return ""
+
+
+def launch_files(package: str, names: Sequence[str]) -> str:
+    """Which launch files a package has, when it was asked for another one or for none."""
+    if not names:
+        return f"package '{package}' has no launch files; they are in its folder launch/, and setup.py installs them"
+    return f"package '{package}' has: {', '.join(names)}"
+
+
+def _meant(word: str, known: Iterable[str]) -> str:
+    from difflib import get_close_matches  # where something was mistyped, which most commands never are
+
+    near = get_close_matches(word, list(known), 1)
+    return f"; did you mean {near[0]}?" if near else ""

@@ -1,0 +1,47 @@
+"""What a person at a terminal is told beyond `ros2`'s words, and nobody else."""
+
+from __future__ import annotations
+
+import io
+import sys
+
+import pytest
+from ros2cli import advice
+
+NODE = "node = Node('tuned'); node.declare_parameter('gain', 1.0); node.declare_parameter('name', 'x')"
+SAID = [
+    (("describe", "/tuned", "gian"), "/tuned has no parameter gian; did you mean gain?"),
+    (("describe", "/tuned", "zzz"), "/tuned has no parameter zzz; ros2 param list /tuned shows those it has"),
+    (("get", "tuned", "gian"), "did you mean gain?"),
+    (("set", "tuned", "gian", "2.0"), "did you mean gain?"),
+    (("set", "tuned", "gain", "2"), "gain is a double, which takes no integer: write 2.0"),
+    (("set", "tuned", "gain", "0x2"), "write it with a point"),
+    (("set", "tuned", "name", "5"), "name is a string: write '\"5\"', as 5 alone is read as integer"),
+    (("dump", "/ns/tuned", "--output-dir", "./config"), "ros2 param dump /ns/tuned > ./config/ns__tuned.yaml"),
+]
+
+
+@pytest.mark.parametrize(("words", "told"), SAID)
+def test_a_mistake_is_told_with_its_mend_where_a_person_reads(
+    ros, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], told: str
+) -> None:
+    ros.node(NODE)
+    assert told not in ros.ask("param", *words).stderr
+    monkeypatch.setattr(advice, "is_read", lambda: True)
+    asked = ros.ask("param", *words)
+    assert asked.stderr.rstrip().endswith(told)
+
+
+def test_the_launch_files_of_a_package_are_named(ros, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ((), ("no.launch.py",)):
+        monkeypatch.setattr(advice, "is_read", lambda: False)
+        assert "has:" not in ros.ask("launch", "bot_console_robot", *name).stderr
+        monkeypatch.setattr(advice, "is_read", lambda: True)
+        asked = ros.ask("launch", "bot_console_robot", *name)
+        assert "package 'bot_console_robot' has: " in asked.stderr and "robot_system.launch.py" in asked.stderr
+        assert asked.exit == 1
+
+
+def test_nothing_is_composed_where_nobody_reads(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stderr", io.StringIO())
+    advice.advise(lambda: pytest.fail("composed"))
