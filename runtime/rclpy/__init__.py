@@ -152,10 +152,24 @@ def spin(node: Node, executor: Executor | None = None) -> None:
     executor = get_global_executor() if executor is None else executor
     try:
         executor.add_node(node)
+        _tell_unused(node)
         while executor.context.ok():
             executor.spin_once()
     finally:
         executor.remove_node(node)
+
+
+def _tell_unused(node: Node) -> None:
+    """Warn a person of values of the command line that nobody has declared by now, when most nodes have."""
+    from rclpy.impl.command_line import is_read
+
+    if is_read():
+        from bot_console.runtime.process import current
+        from bot_console.runtime.process.notices import notify
+        from rclpy.node_parts.unused_overrides import unused_overrides
+
+        for line in unused_overrides(node.context.tracked_nodes()):
+            notify(current(), line)
 
 
 def spin_until_future_complete(

@@ -81,6 +81,14 @@ def _parse_outside(word: str, parsed: Arguments) -> None:
     parsed.deprecated_rules.append(word)
 
 
+def meant(word: str) -> str:
+    """Which ROS argument a mistyped one may stand for, as a sentence; empty where none is like it."""
+    from difflib import get_close_matches  # where something was mistyped, which most programs never are
+
+    near = get_close_matches(word, [*_VALUED, *_SWITCHES], 1)
+    return f"{word} is no argument of ROS; did you mean {near[0]}?" if near else ""
+
+
 def _parse_flag(word: str, rest: Iterable[str], parsed: Arguments) -> None:
     if word in _VALUED:
         handler, missing = _VALUED[word]
@@ -102,7 +110,10 @@ def _parameter(word: str, value: str, parsed: Arguments) -> None:
         lexer.expect(Lexeme.SEPARATOR)
         parsed.parameters.add_value(node, name, value[lexer.index :])
     except (GrammarError, ParameterYamlError) as error:
-        raise ArgumentsError(f"Couldn't parse parameter override rule: '{word} {value}'. Error: {error}") from None
+        mend = "" if ":=" in value or "=" not in value else f"write {word} {value.replace('=', ':=', 1)}, with a colon"
+        raise ArgumentsError(
+            f"Couldn't parse parameter override rule: '{word} {value}'. Error: {error}", mend
+        ) from None
 
 
 def _parameter_name(lexer: Lexer) -> str:

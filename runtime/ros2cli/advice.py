@@ -30,20 +30,9 @@ def wrong_type(name: str, value: str, reason: str) -> str:
     found = _WRONG_TYPE.match(reason)
     if found is None:
         return ""
-    expected, given = found.groups()
-    return written(name, value, expected, given)
+    from rclpy.impl.written_values import written
 
-
-def written(name: str, value: str, expected: str, given: str) -> str:
-    """How a value is written for a type, both types by their names in `rclpy.Parameter.Type`."""
-    if (expected, given) == ("DOUBLE", "INTEGER"):
-        point = f"{value}.0" if value.lstrip("+-").isdecimal() else "it with a point"
-        return f"{name} is a double, which takes no integer: write {point}"
-    if expected == "STRING":
-        return f"{name} is a string: write '\"{value}\"', as {value} alone is read as {given.lower().replace('_', ' ')}"
-    if expected == "BOOL":
-        return f"{name} is a bool: write true or false"
-    return f"{name} takes values of the type {expected.lower().replace('_', ' ')}"
+    return written(name, value, *found.groups())
 
 
 def usage(words: Sequence[str]) -> str:

@@ -29,14 +29,14 @@ def parse_global(words: Sequence[str]) -> Arguments:
     except ArgumentsError as error:
         RcutilsLogger("rcl").error("Failed to parse global arguments")
         refused = RCLError(f"failed to initialize rcl: {error}")
-        if _is_read():
+        if is_read():
             setattr(refused, MEND, error.mend)
         raise refused from None
     _refuse_unknown(parsed)
     if parsed.log_config_file:
         raise RCLError(f"failed to initialize logging: {NO_LOG_CONFIG}")
     state().obey(parsed)
-    if _is_read():
+    if is_read():
         for word in filter(ASSIGNED.match, parsed.unparsed):
             RcutilsLogger("rcl").warning(NOT_OBEYED.format(word))
     return parsed
@@ -80,11 +80,14 @@ def _parse(words: Sequence[str]) -> Arguments:
     return parsed
 
 
-def _is_read() -> bool:
+def is_read() -> bool:
     """Whether a person reads along: a program whose words go elsewhere says those of rcl, and no more."""
     return sys.stderr is not None and sys.stderr.isatty()
 
 
 def _refuse_unknown(parsed: Arguments) -> None:
     if parsed.unknown_ros_args:
-        raise UnknownROSArgsError(repr(parsed.unknown_ros_args))
+        refused = UnknownROSArgsError(repr(parsed.unknown_ros_args))
+        if is_read():
+            setattr(refused, MEND, arguments.meant(parsed.unknown_ros_args[0]))
+        raise refused

@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import linecache
+import re
 from collections.abc import Callable
+
+from rclpy.exceptions import InvalidParameterTypeException
+from rclpy.impl.command_line import is_read
+from rclpy.impl.written_values import value_text, written
 
 WRONG_PARAMETER = (
     "Parameter is imported from rcl_interfaces.msg here, where it is the message class: it has no Parameter.Type and "
@@ -14,12 +19,16 @@ NO_RESULT = (
     "path: end it with  return SetParametersResult(successful=True)"
 )
 
+_EXPECTED = re.compile(r"expecting type '(\w+)'")
+
 
 def explain(exception: BaseException) -> str | None:
     """Cause and mend with file and line, for the mistakes known here; None for all others."""
     for is_it, text in _KNOWN:
         if is_it(exception):
             return f"{_users_line(exception)}{text}"
+    if text := _wrong_type(exception):
+        return f"{_users_line(exception)}{text}"
     return None
 
 
@@ -36,6 +45,15 @@ def _is_message(owner: type) -> bool:
 
 def _no_result(exception: BaseException) -> bool:
     return isinstance(exception, AttributeError) and exception.obj is None and exception.name == "successful"
+
+
+def _wrong_type(exception: BaseException) -> str:
+    """How the value is written for the type that was declared; only for a person, as rclpy has words of its own."""
+    found = _EXPECTED.search(str(exception.args[0])) if isinstance(exception, InvalidParameterTypeException) else None
+    if found is None or not is_read():
+        return ""
+    given = exception.param  # type: ignore[union-attr] -- one of those has it
+    return written(given.name, value_text(given.value), found[1], given.type_.name)
 
 
 _KNOWN: tuple[tuple[Callable[[BaseException], bool], str], ...] = (
