@@ -5,6 +5,7 @@ from __future__ import annotations
 import linecache
 import re
 from collections.abc import Callable
+from typing import Any
 
 from rclpy.exceptions import InvalidParameterTypeException
 from rclpy.impl.command_line import is_read
@@ -49,11 +50,11 @@ def _no_result(exception: BaseException) -> bool:
 
 def _wrong_type(exception: BaseException) -> str:
     """How the value is written for the type that was declared; only for a person, as rclpy has words of its own."""
-    found = _EXPECTED.search(str(exception.args[0])) if isinstance(exception, InvalidParameterTypeException) else None
-    if found is None or not is_read():
+    if not isinstance(exception, InvalidParameterTypeException) or not is_read():
         return ""
-    given = exception.param  # type: ignore[union-attr] -- one of those has it
-    return written(given.name, value_text(given.value), found[1], given.type_.name)
+    found = _EXPECTED.search(str(exception.args[0]))
+    given: Any = exception.param
+    return written(given.name, value_text(given.value), found[1], given.type_.name) if found else ""
 
 
 _KNOWN: tuple[tuple[Callable[[BaseException], bool], str], ...] = (

@@ -61,7 +61,7 @@ def test_the_commands_of_the_page_are_there_and_the_distribution_is_told(name: s
 
 @pytest.mark.parametrize("name", SHELLS)
 def test_colcon_says_that_nothing_has_to_be_built(name: str, home: Path):
-    assert shell(name, home, "colcon build").startswith("Nothing has to be built or sourced: ")
+    assert shell(name, home, f"cd {home}; colcon build").startswith("Nothing has to be built or sourced: ")
 
 
 @pytest.mark.parametrize("name", SHELLS)
