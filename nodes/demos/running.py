@@ -10,7 +10,11 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
 
-def run(make_node: Callable[[], Node], args: list[str] | None) -> None:
-    """Spin a node until it is interrupted or its context is shut down."""
+def run(make_node: Callable[[], Node], args: list[str] | None, cycles: int | None = None) -> None:
+    """Spin a node until it is interrupted, its context is shut down, or so many callbacks were called."""
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
-        rclpy.spin(make_node())
+        node = make_node()
+        if cycles is None:
+            rclpy.spin(node)
+        for _ in range(cycles or 0):
+            rclpy.spin_once(node)

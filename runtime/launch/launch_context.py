@@ -157,6 +157,9 @@ class _Locals:
             raise AttributeError(f"context.locals does not contain attribute '{name}', it contains: [{known}]")
         return values[name]
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"context.locals.{name} cannot be set: context.extend_locals() adds to them")
+
 
 def _replace_environment(values: dict[str, str]) -> None:
     for name in [name for name in os.environ if name not in values]:

@@ -56,4 +56,9 @@ class LaunchDescriptionSource:
         return self.__launch_description
 
     def _get_launch_description(self, location: str) -> Any:
+        """Read the description; this class has only one that it was given, and raises `RuntimeError` without it."""
+        if self.__launch_description is None:
+            raise RuntimeError(
+                "LaunchDescriptionSource.get_launch_description(): called without launch description being set"
+            )
         return self.__launch_description

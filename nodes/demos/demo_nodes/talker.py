@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 
+from bot_console_demos.demo_nodes.qos_options import qos_options
 from bot_console_demos.running import run
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, qos_profile_sensor_data
-from rclpy.utilities import remove_ros_args
 from std_msgs.msg import String
 
 
@@ -63,8 +63,9 @@ def main_py(args: list[str] | None = None) -> None:
 
 
 def main_qos(args: list[str] | None = None) -> None:
-    """The one of `demo_nodes_py` that takes `--reliable`."""
-    run(partial(QosTalker, "--reliable" in remove_ros_args(args)), args)
+    """The one of `demo_nodes_py` that takes `--reliable`, and `-n` for how long it goes on."""
+    reliable, cycles = qos_options(args, "number of sending attempts")
+    run(partial(QosTalker, reliable), args, cycles)
 
 
 def main_minimal(args: list[str] | None = None) -> None:

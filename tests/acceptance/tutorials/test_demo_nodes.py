@@ -42,6 +42,25 @@ def test_qualities_of_service_and_bytes() -> None:
     assert said(listener) == [r'''I heard: "b'\x00\x01\x00\x00\x0f\x00\x00\x00Hello World: 0\x00'"''']
 
 
+@pytest.mark.parametrize(
+    ("words", "count"), [(("-n", "3"), 3), (("--number_of_cycles", "1", "--ros-args"), 1), ((), 20)]
+)
+def test_a_talker_ends_after_so_many_messages(words: tuple[str, ...], count: int) -> None:
+    with system() as running:
+        talker = running.finish(running.executable("demo_nodes_py", "talker_qos", *words))
+    assert (talker.exit, len(said(talker))) == (0, count + 1)
+
+
+def test_a_listener_ends_after_so_many_messages() -> None:
+    with system() as running:
+        listener = running.executable("demo_nodes_py", "listener_qos", "-n", "2")
+        running.executable("demo_nodes_py", "talker")
+        running.finish(listener)
+        unknown = running.finish(running.executable("demo_nodes_py", "listener_qos", "--nope"))
+    assert said(listener)[1:] == ["I heard: [Hello World: 0]", "I heard: [Hello World: 1]"]
+    assert (unknown.exit, "unrecognized arguments: --nope" in unknown.stderr) == (2, True)
+
+
 @pytest.mark.parametrize("package", ["demo_nodes_cpp", "demo_nodes_py"])
 def test_a_client_waits_for_its_server(package: str) -> None:
     with system() as running:

@@ -315,6 +315,9 @@ def test_a_missing_local_names_those_that_are_there() -> None:
     with pytest.raises(AttributeError) as caught:
         context.locals.b  # noqa: B018
     assert str(caught.value) == "context.locals does not contain attribute 'b', it contains: [a]"
+    with pytest.raises(AttributeError, match=r"extend_locals"):
+        context.locals.a = 2
+    assert context.locals.a == 1
 
 
 def test_a_deprecated_description(run: Launch) -> None:
@@ -335,3 +338,9 @@ def test_a_missing_argument_is_told_with_its_description(run: Launch) -> None:
     said = 'Required launch argument "must" (description: "needed") was not provided'
     assert f"[ERROR] [launch.actions.declare_launch_argument]: {said}" in outcome.lines
     assert outcome.caught == 'Required launch argument "must" was not provided.'
+
+
+def test_a_source_without_a_description() -> None:
+    with pytest.raises(RuntimeError, match=r"called without launch description being set"):
+        LaunchDescriptionSource().get_launch_description(LaunchContext())
+    assert IncludeLaunchDescription(LaunchDescriptionSource()).get_sub_entities() == []
