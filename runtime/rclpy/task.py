@@ -32,7 +32,12 @@ class Future(Generic[T]):
         self._set_executor(executor)
 
     def __del__(self) -> None:
+        self.tell_unfetched()
+
+    def tell_unfetched(self) -> None:
+        """Print the exception, if there is one that nobody has fetched; once."""
         if getattr(self, "_exception", None) is not None and not self._exception_fetched:
+            self._exception_fetched = True
             print(f"The following exception was never retrieved: {self._exception}", file=sys.stderr)
 
     def __await__(self) -> Generator[Any, None, T | None]:

@@ -37,6 +37,24 @@ timer = node.create_timer(0.5, lambda: later.set_result(None))
 threading.Thread(target=spin).start()
 print('main is over')
 """
+FAILS_LATE = """
+import time
+import rclpy
+from rclpy.executors import MultiThreadedExecutor
+
+def work():
+    begun.set_result(None)
+    time.sleep(0.5)
+    raise RuntimeError('too late')
+
+rclpy.init()
+begun = rclpy.task.Future()
+node = rclpy.create_node('n')
+timer = node.create_timer(0.1, work)
+executor = MultiThreadedExecutor(2)
+executor.add_node(node)
+executor.spin_until_future_complete(begun)
+"""
 CALL = "\nif __name__ == '__main__':\n    main()\n"
 
 
@@ -100,13 +118,22 @@ def test_several_mains(run: Runs) -> None:
     assert "defines main() 2 times (lines 1, 4); the last one counts" in program.stderr
 
 
+def real_end(text: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    """Run a program in a real process."""
+    (folder / "node.py").write_text(text)
+    command = [sys.executable, "-m", "bot_console.tui", "run", str(folder / "node.py")]
+    own = {"BOT_CONSOLE_USER_DIR": str(folder), "ROS_DOMAIN_ID": "97"}
+    return subprocess.run(command, env={**os.environ, **own}, capture_output=True, text=True, timeout=60, check=False)
+
+
 def test_its_threads_go_on_after_the_main_program(tmp_path: Path) -> None:
-    program = tmp_path / "node.py"
-    program.write_text(SPINS_IN_A_THREAD)
-    command = [sys.executable, "-m", "bot_console.tui", "run", str(program)]
-    own = {"BOT_CONSOLE_USER_DIR": str(tmp_path), "ROS_DOMAIN_ID": "97"}
-    end = subprocess.run(command, env={**os.environ, **own}, capture_output=True, text=True, timeout=60, check=False)
+    end = real_end(SPINS_IN_A_THREAD, tmp_path)
     assert (end.stdout, end.stderr, end.returncode) == ("main is over\nspun\n", "", 0)
+
+
+def test_what_a_last_callback_of_a_pool_raises_is_told(tmp_path: Path) -> None:
+    end = real_end(FAILS_LATE, tmp_path)
+    assert (end.stderr, end.returncode) == ("The following exception was never retrieved: too late\n", 0)
 
 
 def test_no_main(run: Runs) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import weakref
 from collections import deque
 from collections.abc import Callable
 from typing import Any
@@ -65,6 +66,16 @@ class WorkerPool:
             self._closed = True
             while self._idle:
                 self._idle.popleft().set()
+
+
+def tell_unfetched_at_exit(owner: object, futures: deque[Any]) -> None:
+    """At the end of the program print exceptions that nobody has fetched, as upstream's interpreter does then."""
+    weakref.finalize(owner, _tell_unfetched, futures)
+
+
+def _tell_unfetched(futures: deque[Any]) -> None:
+    while futures:
+        futures.popleft().tell_unfetched()
 
 
 def cpu_count() -> int:
