@@ -25,7 +25,9 @@ class UserInterrupt:
         return self
 
     def __exit__(self, *_details: object) -> None:
-        if self._active:
+        # Where the launch was killed this comes whenever its coroutine is collected, in any thread: another node
+        # process, with a handler of its own, may be what runs there.
+        if self._active and signal.getsignal(signal.SIGINT) == self._caught:
             signal.signal(signal.SIGINT, self._before)
 
     def _caught(self, _signum: int, _frame: Any) -> None:
