@@ -59,7 +59,7 @@ def refusal(told: Any) -> str:
 
 
 def _has_hash(type_name: str, type_hash: str, texts: Mapping[str, str]) -> bool:
-    from bot_console.runtime.rosidl.told_description import describe_texts
+    from bot_console.runtime.rosidl.received_descriptions import describe_texts
     from bot_console.runtime.rosidl.type_hash import text_of_description
 
     return text_of_description(describe_texts(type_name, texts)) == type_hash

@@ -8,7 +8,7 @@ from typing import Any
 from bot_console.runtime.learned_interfaces import FALSE, UNREADABLE, learn, refusal
 from bot_console.runtime.rmw.middleware import bus_of
 from bot_console.runtime.rosidl.parse import DefinitionError
-from bot_console.runtime.rosidl.told_description import ACTION_TYPES, describe_action, plain_description
+from bot_console.runtime.rosidl.received_descriptions import ACTION_TYPES, describe_action, plain_description
 from bot_console.runtime.rosidl.type_hash import text_of_description
 
 Question = tuple[str, str]

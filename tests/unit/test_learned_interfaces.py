@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from bot_console.runtime import learned_interfaces
 from bot_console.runtime.learned_interfaces import learn
-from bot_console.runtime.rosidl.told_description import describe_texts
+from bot_console.runtime.rosidl.received_descriptions import describe_texts
 from bot_console.runtime.rosidl.type_hash import text_of_description
 
 SPOT = "float64 x\nfloat64 y\nint32 A=1\n"

@@ -14,7 +14,7 @@ import rclpy
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.graph.findings import mend, namesakes
-from bot_console.tui.console.graph.told_types import TypeSource
+from bot_console.tui.console.graph.type_discovery import TypeSource
 from bot_console.tui.console.graph.watch import FrozenNodes, GraphEvents, GraphWatch
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.logs.levels import LoggerLevels
@@ -42,8 +42,8 @@ from bot_console.tui.console.parameters.setter import ParameterSetter
 from bot_console.tui.console.plot.watch import PlotWatch
 from bot_console.tui.console.robot.drive_node import DriveNode
 from bot_console.tui.console.robot.world_watch import WorldWatch
-from bot_console.tui.console.sights.room import NodeSights
-from bot_console.tui.console.topics.room import NodeTraffic
+from bot_console.tui.console.sights.node_sights import NodeSights
+from bot_console.tui.console.topics.node_traffic import NodeTraffic
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.context import Context

@@ -15,8 +15,8 @@ from typing import Any, cast
 from bot_console.tui.keys.taking import ends_at_once
 from bot_console.tui.terminal.clipboard import osc52, within
 from bot_console.tui.terminal.closing import let_go
+from bot_console.tui.terminal.composing.cache_limits import limit_cut_cache, limit_query_cache
 from bot_console.tui.terminal.composing.compositor import PartwiseCompositor
-from bot_console.tui.terminal.composing.kept import keep_few_answers, keep_few_cuts
 from bot_console.tui.terminal.difference import ShownScreen
 from bot_console.tui.terminal.gate import AnswerGate
 from bot_console.tui.terminal.gone import LastingFile
@@ -45,7 +45,7 @@ class SparingApp(App[None]):
 
     def __init__(self) -> None:
         super().__init__()
-        keep_few_cuts()
+        limit_cut_cache()
         self.gate = AnswerGate()
         self.plain = False
         """Whether letters take the place of lines and braille; `redraw` shows it."""
@@ -219,7 +219,7 @@ class HoldingScreen(Screen[None]):
 
     def __init__(self) -> None:
         super().__init__()
-        keep_few_answers(self)
+        limit_query_cache(self)
         self._compositor = PartwiseCompositor()
 
     def _compositor_refresh(self) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, cast
 
-from bot_console.tui.terminal.composing.kept import keep_few_answers
+from bot_console.tui.terminal.composing.cache_limits import limit_query_cache
 from bot_console.tui.terminal.output import SUPPORTED
 from textual.compose import compose  # pyright: ignore[reportUnknownVariableType] -- Textual's App is generic
 from textual.containers import Container
@@ -24,7 +24,7 @@ class LateParts(Container):
 
     def __init__(self, *children: Widget, **how: Any) -> None:
         super().__init__(*children, **how)
-        keep_few_answers(self)
+        limit_query_cache(self)
 
     @property
     def has_parts(self) -> bool:

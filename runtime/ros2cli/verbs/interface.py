@@ -13,7 +13,7 @@ from bot_console.runtime.further_interfaces import NotAdded, add, unverified_fol
 from bot_console.runtime.interface_finder import interface_folders
 from ros2cli.command import Command, Result, Verb
 from ros2cli.interface_text import show_text
-from ros2cli.told_types import learned, not_installed
+from ros2cli.type_discovery import learned, not_installed
 from rosidl_runtime_py import (
     get_action_interfaces,
     get_message_interfaces,

@@ -13,7 +13,7 @@ from rclpy.node import Node
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, answer, node_names, spin_until
 from ros2cli.endpoints import hidden
-from ros2cli.told_types import full_type_name, typed_class
+from ros2cli.type_discovery import full_type_name, typed_class
 from ros2cli.verbs import service_echo
 from ros2cli.verbs.topic_pub import POSITIVE_FLOAT
 from ros2cli.yaml_values import read_values

@@ -9,7 +9,7 @@ from rclpy.node import Node
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
 from ros2cli.qos_arguments import add_qos_arguments, profile
-from ros2cli.told_types import typed_class
+from ros2cli.type_discovery import typed_class
 from ros2cli.verbs.topic_echo import add_form_arguments
 from rosidl_runtime_py import message_to_csv, message_to_ordereddict
 from rosidl_runtime_py.convert import ordereddict_to_yaml

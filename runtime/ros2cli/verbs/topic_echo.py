@@ -12,7 +12,7 @@ from rclpy.node import Node
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
 from ros2cli.qos_arguments import add_qos_arguments, compatible
-from ros2cli.told_types import message_class, typed_class
+from ros2cli.type_discovery import message_class, typed_class
 from ros2cli.verbs.topic_pub import POSITIVE_FLOAT
 from rosidl_runtime_py import message_to_csv, message_to_yaml
 from rosidl_runtime_py.utilities import get_message

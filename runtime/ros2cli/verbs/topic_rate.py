@@ -13,7 +13,7 @@ from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
-from ros2cli.told_types import message_class
+from ros2cli.type_discovery import message_class
 from ros2cli.verbs.topic_echo import _filter as message_filter
 
 WINDOW = 10_000

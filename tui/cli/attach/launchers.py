@@ -15,9 +15,9 @@ from bot_console.tui.cli.attach.launch_host import start_host
 from bot_console.tui.cli.live.launch_lines import teller
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import done
-from bot_console.tui.console.launch.asked import AskedForProcesses
 from bot_console.tui.console.launch.launcher import CLOSED
 from bot_console.tui.console.launch.process_output import Add
+from bot_console.tui.console.launch.process_verbs import ProcessVerbs
 from bot_console.tui.console.launch.timeline import KEPT
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import LaunchArgument, LaunchEvent, LaunchInfo, ProcessInfo
@@ -50,7 +50,7 @@ class _Host:
         return replace(process, key=f"{self.number}:{process.key}")
 
 
-class HostLaunchers(AskedForProcesses):
+class HostLaunchers(ProcessVerbs):
     """The `Launcher` that combines them; methods may be called from any thread."""
 
     def __init__(self, record: Add, printed: Callable[[int, str, str], None], start: Start = start_host) -> None:

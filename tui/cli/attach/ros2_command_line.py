@@ -11,7 +11,7 @@ import threading
 from collections.abc import Sequence
 from concurrent.futures import Future
 
-from bot_console.tui.cli.beside import beside
+from bot_console.tui.cli.in_background import in_background
 from bot_console.tui.console.command_line import Stream
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.lines import RunningLine, goes_on
@@ -93,7 +93,7 @@ class MachineCommandLine:
 
     def run(self, line: str) -> Future[str]:
         """Run a line beside the caller; what it printed, or the `ValueError` of a quotation mark without its twin."""
-        return beside(lambda: printed_by(line), "ros2")
+        return in_background(lambda: printed_by(line), "ros2")
 
 
 def printed_by(line: str, limit: float = LINE_LIMIT) -> str:

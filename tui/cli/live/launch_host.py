@@ -29,7 +29,7 @@ def main(words: Sequence[str] | None = None) -> int:
     from bot_console.tui.cli.live.past import overhear
     from bot_console.tui.cli.system.domain import take_part
     from bot_console.tui.cli.system.own_processes import isolate, watch_threads
-    from bot_console.tui.cli.system.turning_file import bound_launch_files
+    from bot_console.tui.cli.system.rotating_file import rotate_launch_files
     from bot_console.tui.cli.system.workspaces import choose
     from bot_console.tui.console.launch_host.host import LaunchHost
     from bot_console.tui.console.recording import RingSize
@@ -41,7 +41,7 @@ def main(words: Sequence[str] | None = None) -> int:
         return 1
     isolate()
     watch_threads()
-    bound_launch_files()
+    rotate_launch_files()
     past = overhear(RingSize(given.keep_seconds, given.keep_bytes)) if given.keep_bytes else None
     host = LaunchHost(launcher_here, past=past)
     host.connect(socket.socket(fileno=given.owner), owner=True)

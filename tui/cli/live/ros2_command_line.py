@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from concurrent.futures import Future
 
 from bot_console.runtime.process import NodeProcess
-from bot_console.tui.cli.beside import beside
 from bot_console.tui.cli.completion import candidates
+from bot_console.tui.cli.in_background import in_background
 from bot_console.tui.cli.started_lines import launched_by
 from bot_console.tui.cli.verbs.colcon import answers
 from bot_console.tui.commanding.completing import live_names
@@ -36,7 +36,7 @@ class Ros2CommandLine:
 
     def run(self, line: str) -> Future[str]:
         """Run a line beside the caller; what it printed, or the `ValueError` of what cannot be run or started."""
-        return beside(lambda: self._done(line), "ros2")
+        return in_background(lambda: self._done(line), "ros2")
 
     def stream(self, line: str) -> Stream | None:
         """Start a line that keeps printing; None for any other."""
@@ -55,7 +55,7 @@ class Ros2CommandLine:
     def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
         """Completions of the last word, found in the background."""
         names = _Names(snapshot, self._known)
-        return beside(lambda: candidates(words, names), "ros2")
+        return in_background(lambda: candidates(words, names), "ros2")
 
     def _done(self, line: str) -> str:
         words = _words(line)

@@ -42,8 +42,8 @@ def _run(options: Options, file: Path) -> int:
     from bot_console.tui.cli.live.launch_host import serve
     from bot_console.tui.cli.live.launchers import launcher_here
     from bot_console.tui.cli.live.process_news import tell_news
+    from bot_console.tui.cli.system.rotating_file import rotate_launch_files
     from bot_console.tui.cli.system.system_log import SystemLog
-    from bot_console.tui.cli.system.turning_file import bound_launch_files
     from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH
     from bot_console.tui.console.launch.launcher import RosLauncher
     from bot_console.tui.console.launch.process_output import Add
@@ -51,7 +51,7 @@ def _run(options: Options, file: Path) -> int:
     from bot_console.tui.console.model import Severity
 
     log = SystemLog(file)
-    bound_launch_files()
+    rotate_launch_files()
     made: list[RosLauncher] = []
 
     def make(record: Add, printed: Callable[[int, str, str], None]) -> RosLauncher:

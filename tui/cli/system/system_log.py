@@ -7,7 +7,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from bot_console.tui.cli.system.turning_file import STANDARD_STREAMS, TurningFile
+from bot_console.tui.cli.system.rotating_file import STANDARD_STREAMS, RotatingFile
 from bot_console.tui.files.folders import state_folder
 
 MOST_BYTES = 5_000_000
@@ -23,7 +23,7 @@ class SystemLog:
     """Writes lines as `[INFO] [1700000000.123456] [talker]: text`; may be called from any thread."""
 
     def __init__(self, path: Path, most_bytes: int = MOST_BYTES) -> None:
-        self._handler = TurningFile(path, most_bytes, KEPT_PARTS, STANDARD_STREAMS)
+        self._handler = RotatingFile(path, most_bytes, KEPT_PARTS, STANDARD_STREAMS)
 
     def logged(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
         """Write a logger's line; `stamp` in ns since the epoch."""

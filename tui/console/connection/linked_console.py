@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.bags.room import Recordings
+from bot_console.tui.console.bags.recordings import Recordings
 from bot_console.tui.console.connection.no_console import CLOSED, refused_profile
 from bot_console.tui.console.log_protocol import LogSource, LogView
 from bot_console.tui.console.logs.file import open_log

@@ -29,7 +29,7 @@ from bot_console.tui.console.recording import Keeper
 
 if TYPE_CHECKING:
     from bot_console.tui.console.connection.linked_console import LinkedConsole
-    from bot_console.tui.console.graph.told_types import TypeSource
+    from bot_console.tui.console.graph.type_discovery import TypeSource
     from bot_console.tui.console.graph.watch import FrozenNodes, GraphEvents
     from bot_console.tui.console.launch.process_output import Add
     from bot_console.tui.console.logs.view import LogViews

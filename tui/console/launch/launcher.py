@@ -12,9 +12,9 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.graph.full_name import full_name
 from bot_console.tui.console.launch.arguments import read_arguments
-from bot_console.tui.console.launch.asked import AskedForProcesses
 from bot_console.tui.console.launch.process import ENDED, KILLED, LaunchedProcess, Order
 from bot_console.tui.console.launch.process_output import Add, ProcessOutput
+from bot_console.tui.console.launch.process_verbs import ProcessVerbs
 from bot_console.tui.console.launch.restart import Recipe, recipe
 from bot_console.tui.console.launch.run import LaunchRun, Listener
 from bot_console.tui.console.launch.timeline import LaunchTimeline
@@ -53,7 +53,7 @@ class _Held:
         self.usage: Usage | None = None
 
 
-class RosLauncher(AskedForProcesses):
+class RosLauncher(ProcessVerbs):
     """Runs launch files, each in a LaunchService and a thread of its own. Methods may be called from any thread."""
 
     def __init__(

@@ -13,10 +13,10 @@ from dataclasses import replace
 from typing import Any
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.launch.asked import AskedForProcesses
 from bot_console.tui.console.launch.launcher import CLOSED
 from bot_console.tui.console.launch.process import ENDED
 from bot_console.tui.console.launch.process_output import Add
+from bot_console.tui.console.launch.process_verbs import ProcessVerbs
 from bot_console.tui.console.launch.timeline import KEPT
 from bot_console.tui.console.launch_host.channel import Channel, Message
 from bot_console.tui.console.launch_host.plain import to_arguments, to_info
@@ -32,7 +32,7 @@ ARGUMENTS_S = 30.0
 """Seconds that a launch file may take to say its arguments: it is a program."""
 
 
-class HostedLauncher(AskedForProcesses):
+class HostedLauncher(ProcessVerbs):
     """The proxy of a launch host. Methods may be called from any thread."""
 
     def __init__(

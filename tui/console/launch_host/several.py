@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import done
-from bot_console.tui.console.launch.asked import AskedForProcesses
+from bot_console.tui.console.launch.process_verbs import ProcessVerbs
 from bot_console.tui.console.launch.timeline import KEPT
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import LaunchArgument, LaunchEvent, LaunchInfo, ProcessInfo
@@ -21,7 +21,7 @@ Open = Callable[[str], "HostedLauncher | None"]
 """Connects to a host by its door; None where nobody is behind it."""
 
 
-class SeveralLaunchers(AskedForProcesses):
+class SeveralLaunchers(ProcessVerbs):
     """One launcher over several hosts. Methods may be called from any thread."""
 
     def __init__(

@@ -21,7 +21,6 @@ from bot_console.tui.panes.graph.details import ITEM, PANE, TYPE, details, findi
 from bot_console.tui.panes.graph.export import exported
 from bot_console.tui.panes.graph.frames import FramesView
 from bot_console.tui.panes.graph.journey import Journey
-from bot_console.tui.panes.graph.left import KEPT, Left, left_of
 from bot_console.tui.panes.graph.namespaces import SPACE, namespace_of, outermost
 from bot_console.tui.panes.graph.view import (
     ACTION,
@@ -35,6 +34,7 @@ from bot_console.tui.panes.graph.view import (
     shown,
     summary,
 )
+from bot_console.tui.panes.graph.view_state import KEPT, ViewState, view_state_of
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.diagram_view import LARGE, DiagramView
 from bot_console.tui.widgets.prompt.filtered import Narrowed
@@ -91,13 +91,13 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     def on_mount(self) -> None:
         """Draw as at the end of the last run."""
-        left = left_of(self.kept.get(KEPT))
+        left = view_state_of(self.kept.get(KEPT))
         self._mode, self._view, self._folds = left.mode, left.view, left.folds
         self._rates = {} if left.rates else None
 
     def on_unmount(self) -> None:
         """Keep how it is drawn."""
-        self.kept.put(KEPT, Left(self._mode, self._view, self._folds, self._rates is not None).data)
+        self.kept.put(KEPT, ViewState(self._mode, self._view, self._folds, self._rates is not None).data)
 
     def compose(self) -> ComposeResult:
         """The picture, a line on what is selected, a prompt."""

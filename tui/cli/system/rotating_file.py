@@ -15,7 +15,7 @@ LAUNCH_PARTS = 1
 """Older parts of it that are kept."""
 
 
-class TurningFile(RotatingFileHandler):
+class RotatingFile(RotatingFileHandler):
     """Writes to a file until it has `most_bytes`; rotated files are named `.1` (the newest) and up.
 
     Descriptors in `followed` that refer to the file are redirected to the new one on rotation: otherwise what this
@@ -49,11 +49,11 @@ class TurningFile(RotatingFileHandler):
         return False
 
 
-def bound_launch_files() -> None:
+def rotate_launch_files() -> None:
     """Rotate the files that launch keeps for each process of this run, too; upstream's grow without limit."""
     from launch.logging import launch_config
 
     def make(path: str, encoding: str | None = None) -> logging.Handler:
-        return TurningFile(path, LAUNCH_BYTES, LAUNCH_PARTS)
+        return RotatingFile(path, LAUNCH_BYTES, LAUNCH_PARTS)
 
     launch_config.log_handler_factory = make

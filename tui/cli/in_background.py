@@ -1,4 +1,4 @@
-"""Work in a thread of its own, with a future for the result."""
+"""Runs work in a thread of its own, with a future for the result."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TypeVar
 T = TypeVar("T")
 
 
-def beside(work: Callable[[], T], name: str) -> Future[T]:
+def in_background(work: Callable[[], T], name: str) -> Future[T]:
     """Run a function in a new thread of that name; the future gives its result or its exception."""
     outcome: Future[T] = Future()
 

@@ -20,7 +20,7 @@ ANSWERS = 32
 """More than a pane or a screen looks for between two changes."""
 
 
-def keep_few_cuts() -> None:
+def limit_cut_cache() -> None:
     """Let Rich keep no more than `CUTS`; nothing is done where it keeps them in another way."""
     kept = cast(Any, vars(Segment).get("_split_cells"))
     cut = getattr(getattr(kept, "__func__", None), "__wrapped__", None)
@@ -28,7 +28,7 @@ def keep_few_cuts() -> None:
         cast(Any, Segment)._split_cells = classmethod(lru_cache(CUTS)(cut))
 
 
-def keep_few_answers(node: DOMNode) -> None:
+def limit_query_cache(node: DOMNode) -> None:
     """Let a widget keep no more than `ANSWERS`, to be called before it is asked; likewise."""
     answers = getattr(node, "_query_one_cache", None)
     if answers is not None:

@@ -26,7 +26,7 @@ class TypeSource(Protocol):
         ...
 
 
-class ToldTypes:
+class TypeDiscovery:
     """Asks for each type once, one at a time, and calls `learned` after each new one.
 
     All methods but `explain` are called by the executor's thread.

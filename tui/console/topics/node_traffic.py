@@ -12,7 +12,7 @@ from typing import Any, cast
 import yaml
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.calls import Calls, NoAnswer
-from bot_console.tui.console.graph.told_types import ToldTypes, TypeSource
+from bot_console.tui.console.graph.type_discovery import TypeDiscovery, TypeSource
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.topics import forms
 from bot_console.tui.console.topics.goals import Goals
@@ -39,7 +39,7 @@ class NodeTraffic:
         """`types` makes those that this program does not have; without it they stay unknown."""
         self._calls = calls
         self._graph = graph
-        self._told = ToldTypes(node, calls, types, self._follow_known)
+        self._told = TypeDiscovery(node, calls, types, self._follow_known)
         self._clock = node.get_clock()
         self._meters = Meters(node)
         self._listening = Listening(node, self._told.explain)

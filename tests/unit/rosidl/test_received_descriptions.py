@@ -6,8 +6,8 @@ import importlib
 
 import pytest
 from bot_console.runtime.rosidl.parse import DefinitionError
+from bot_console.runtime.rosidl.received_descriptions import describe_texts
 from bot_console.runtime.rosidl.texts import definition_text, interface_names
-from bot_console.runtime.rosidl.told_description import describe_texts
 from bot_console.runtime.rosidl.type_description import describe
 from bot_console.runtime.rosidl.type_hash import text, text_of_description
 

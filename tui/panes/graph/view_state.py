@@ -13,7 +13,7 @@ SWITCHES = ("debug", "dead_sinks", "leaves", "services")
 
 
 @dataclass(frozen=True)
-class Left:
+class ViewState:
     """What a person has chosen; what the pane chooses by itself is not among it."""
 
     mode: Mode | None = None
@@ -32,11 +32,11 @@ class Left:
         }
 
 
-def left_of(data: object) -> Left:
+def view_state_of(data: object) -> ViewState:
     """How it was left; the default for each part that cannot be read."""
     given = cast("Mapping[str, Any]", data) if isinstance(data, Mapping) else dict[str, Any]()
     switches = {each: given[each] for each in SWITCHES if isinstance(given.get(each), bool)}
     mode = next((each for each in Mode if each.name == given.get("mode")), None)
     folds = given.get("folds")
     known = frozenset(map(str, cast("list[object]", folds))) if isinstance(folds, list) else None
-    return Left(mode, replace(GraphView(), **switches), known, given.get("rates") is True)
+    return ViewState(mode, replace(GraphView(), **switches), known, given.get("rates") is True)

@@ -10,7 +10,7 @@ from typing import Any, cast
 
 import pytest
 from bot_console.tui.console.calls import NoAnswer
-from bot_console.tui.console.graph.told_types import Inquiry, ToldTypes
+from bot_console.tui.console.graph.type_discovery import Inquiry, TypeDiscovery
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 
 SPOT = "told_nowhere/msg/Spot"
@@ -24,7 +24,7 @@ class Graph:
         self.asked: list[str] = []
         self.types: list[str] = []
         self.learned = 0
-        self.told = ToldTypes(cast("Any", self), cast("Any", self), cast("Any", self), self._one_more)
+        self.told = TypeDiscovery(cast("Any", self), cast("Any", self), cast("Any", self), self._one_more)
 
     def _one_more(self) -> None:
         self.learned += 1

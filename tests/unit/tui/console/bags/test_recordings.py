@@ -11,7 +11,7 @@ import rclpy
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.recorder import Ring
-from bot_console.tui.console.bags.room import Recordings
+from bot_console.tui.console.bags.recordings import Recordings
 from bot_console.tui.console.bags.tape import BagTape, RingTape
 from bot_console.tui.console.bags.writer import BagWriter
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -109,7 +109,7 @@ def test_a_fault_ends_one_bag_and_not_recording(
         raise KeyError("a fault")
 
     with monkeypatch.context() as patch:
-        patch.setattr("bot_console.tui.console.bags.room.Recorder", broken)
+        patch.setattr("bot_console.tui.console.bags.recordings.Recorder", broken)
         assert told(room.start(str(tmp_path / "first"))).ok
         thread = room._thread
         if thread is not None:

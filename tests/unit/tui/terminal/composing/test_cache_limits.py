@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from bot_console.tui.terminal.composing.kept import CUTS, keep_few_cuts
+from bot_console.tui.terminal.composing.cache_limits import CUTS, limit_cut_cache
 from rich.segment import Segment
 from rich.style import Style
 
 
 def test_few_cut_texts_are_kept_and_they_are_cut_as_before() -> None:
     before = Segment("日本語").split_cells(3)
-    keep_few_cuts()
+    limit_cut_cache()
     cut = Segment._split_cells
     cut.cache_clear()
     for number in range(2 * CUTS):
@@ -21,8 +21,8 @@ def test_few_cut_texts_are_kept_and_they_are_cut_as_before() -> None:
 
 
 def test_cuts_that_are_kept_stay_when_another_app_begins() -> None:
-    keep_few_cuts()
+    limit_cut_cache()
     Segment("🤖").split_cells(1)
     cut = vars(Segment)["_split_cells"]
-    keep_few_cuts()
+    limit_cut_cache()
     assert vars(Segment)["_split_cells"] is cut

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from bot_console.tui.cli.system.turning_file import LAUNCH_BYTES, TurningFile, bound_launch_files
+from bot_console.tui.cli.system.rotating_file import LAUNCH_BYTES, RotatingFile, rotate_launch_files
 from launch.logging import launch_config
 
 
@@ -20,7 +20,7 @@ def test_what_a_program_writes_past_its_log_goes_where_the_log_is(tmp_path: Path
     path = tmp_path / "a.log"
     past_it = os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT)
     elsewhere = os.open(tmp_path / "other", os.O_WRONLY | os.O_APPEND | os.O_CREAT)
-    handler = TurningFile(path, 100, 1, (past_it, elsewhere))
+    handler = RotatingFile(path, 100, 1, (past_it, elsewhere))
     for number in range(10):
         write(handler, f"{number} {'x' * 40}")
     os.write(past_it, b"a crash\n")
@@ -41,7 +41,7 @@ def launch_folder(tmp_path: Path) -> Iterator[Path]:
 
 
 def test_the_files_that_launch_keeps_of_a_process_are_bounded(launch_folder: Path) -> None:
-    bound_launch_files()
+    rotate_launch_files()
     handler = launch_config.get_log_file_handler("flood-1-stdout.log")
     assert not list(launch_folder.iterdir())
     for number in range(60):

@@ -8,8 +8,8 @@ from concurrent.futures import Future
 from bot_console.tui.console.answer import Answer
 
 
-class AskedForProcesses(ABC):
-    """Implements the four methods of `Launcher` that steer one process by a single method."""
+class ProcessVerbs(ABC):
+    """The four methods of `Launcher` that steer one process, implemented by a single one."""
 
     def start(self, key: str) -> Future[Answer]:
         """Start a process again that has ended; answered when it runs."""

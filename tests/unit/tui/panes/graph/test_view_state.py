@@ -1,0 +1,19 @@
+"""How the graph's picture is left: kept as plain data, and what cannot be read is the default."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.panes.graph.view import GraphView, Mode
+from bot_console.tui.panes.graph.view_state import ViewState, view_state_of
+
+
+def test_it_is_read_as_it_was_kept() -> None:
+    left = ViewState(Mode.NODES, GraphView(debug=True, leaves=False), frozenset({"/arm"}), rates=True)
+    assert view_state_of(left.data) == left
+
+
+@pytest.mark.parametrize(
+    "data", [None, "x", {"mode": "nope", "debug": "yes", "folds": 3, "rates": 1}, ViewState().data]
+)
+def test_what_cannot_be_read_is_as_at_first(data: object) -> None:
+    assert view_state_of(data) == ViewState()
