@@ -11,7 +11,7 @@ from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.plot.pane import PlotPane
 from piloting import Session, run
-from samples import NEAREST, SPEED, live
+from samples import NEAREST, SPEED, empty, live
 
 PAIR = ([59.0, 60.0], [1.0, 2.0])
 
@@ -28,6 +28,30 @@ def test_a_line_of_rqt_plot_replaces_the_curves_and_waits_for_what_is_not_there(
         assert not any(each[0] == "run" for each in session.console.asked)
 
     run(live(), play, (120, 40))
+
+
+@pytest.mark.parametrize(
+    ("wanted", "said"),
+    [
+        (
+            ("/robot/speed", "/robot/distance"),
+            "Waits for /robot/speed, /robot/distance: the curve begins with the first",
+        ),
+        ((), "No curves. Press a and name one: /topic/field, or /node:parameter."),
+    ],
+)
+def test_an_empty_plot_says_what_it_waits_for_or_what_to_press(wanted: tuple[str, ...], said: str) -> None:
+    async def play(session: Session) -> None:
+        session.app.open(Opening("plot", wanted))
+        await session.settle()
+        plot = session.pane(PlotPane)
+        while plot.paths:
+            await session.press("x")
+        area = plot.region
+        lines = [each[area.x + 1 : area.right - 1] for each in session.lines()[area.y + 1 : area.bottom - 1]]
+        assert said in " ".join(" ".join(lines).split())
+
+    run(empty(), play, (60, 20))
 
 
 @pytest.mark.parametrize("wanted", ["/scan/ranges[2]", "/tf/transforms[0].rotation.z - 1", "max(/scan/ranges[4:8])"])

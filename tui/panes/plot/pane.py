@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from textwrap import wrap
 from typing import Any, ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, JournalState
-from bot_console.tui.format import clock_text, cut
+from bot_console.tui.format import clock_text, harmless
 from bot_console.tui.opening import matching
 from bot_console.tui.panes.plot.parts import DEFAULTS, WINDOWS, Timeline
 from bot_console.tui.panes.plot.questions import PlotQuestions
@@ -158,7 +159,8 @@ class PlotPane(PlotQuestions):
         if width < 16 or height < 2:
             return
         if not curves:
-            picture.set_lines([()] * ((height - 1) // 2) + [((cut(EMPTY, width).center(width), "dim"),)])
+            said = [((each.center(width), "dim"),) for each in wrap(self._nothing(), width)][:height]
+            picture.set_lines([()] * ((height - len(said)) // 2) + said)
             return
         if self._responses.shown:
             picture.set_lines(self._responses.draw(curves, self._chosen, self._timeline.window, (width, height)))
@@ -253,9 +255,17 @@ class PlotPane(PlotQuestions):
         if timeline.limits:
             parts.append(f"y {timeline.limits[0]:g} .. {timeline.limits[1]:g}")
         if self._expected:
-            waiting = (f"{each}: {why}" if why else each for each, why in self._expected.items())
-            parts.append(f"waits for {', '.join(waiting)}")
+            parts.append(f"waits for {self._waiting()}")
         return " · ".join(parts)
+
+    def _waiting(self) -> str:
+        return ", ".join(f"{each}: {why}" if why else each for each, why in self._expected.items())
+
+    def _nothing(self) -> str:
+        """Why there is no curve."""
+        if self._expected:
+            return harmless(f"Waits for {self._waiting()}: the curve begins with the first message. a names another.")
+        return EMPTY
 
     def on_picture_resized(self, event: Picture.Resized) -> None:
         """Draw for the new size."""

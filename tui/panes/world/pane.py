@@ -167,7 +167,7 @@ class WorldPane(Pane):
         if drawn.field:
             text = _of_turtles(drawn.field) + more
         elif world.pose is None and world.map is None:
-            text = snapshot.capabilities.world or "No map and no pose yet: no node publishes OccupancyGrid or Odometry."
+            text = snapshot.capabilities.world or "No map and no pose yet: no OccupancyGrid, no Odometry."
             text = snapshot.problem or text
         else:
             pose = self._then or world.pose
