@@ -13,7 +13,7 @@ from launch.handler_registry import HandlerRegistry
 
 
 class LaunchContext:
-    """What entities see while they are visited."""
+    """The state that entities see while they are visited."""
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False) -> None:
         self.__argv = list(argv) if argv is not None else []

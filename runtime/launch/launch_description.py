@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class LaunchDescription(LaunchDescriptionEntity):
-    """A list of entities, visited in order, each wholly before the next."""
+    """A list of entities, visited in order, each completely before the next."""
 
     def __init__(
         self, initial_entities: Iterable[LaunchDescriptionEntity] | None = None, *, deprecated_reason: str | None = None

@@ -27,7 +27,7 @@ class LateStop:
     def __init__(
         self, stopping: Stopping, typing: Callable[[], bool], later: Callable[[Callable[[], None]], None] = in_a_while
     ) -> None:
-        """`typing` says whether a text field has the keyboard; `later` has something done when a key waits too long."""
+        """`typing` says whether a text field has the focus; `later` runs something if a key waits too long."""
         self._stopping = stopping
         self._typing = typing
         self.later = later

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @expose_action("append_env")
 class AppendEnvironmentVariable(NamedValue):
-    """Adds to a variable, behind what it has or before it."""
+    """Appends to an environment variable, or prepends to it."""
 
     def __init__(self, name: Any, value: Any, prepend: Any = False, separator: Any = os.pathsep, **kwargs: Any) -> None:
         super().__init__(name, value, **kwargs)

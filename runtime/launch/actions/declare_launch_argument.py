@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @expose_action("arg")
 class DeclareLaunchArgument(Action, DeclaresArgument):
-    """Declares an argument: sets the configuration of its name to a default where nobody has set it."""
+    """Declares a launch argument: sets the configuration of its name to a default, unless it is already set."""
 
     def __init__(
         self,

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class EmitEvent(Action):
-    """Puts an event into the queue."""
+    """Emits an event."""
 
     def __init__(self, *, event: Event, **kwargs: Any) -> None:
         super().__init__(**kwargs)

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 
 class ExecuteLocal(Action):
-    """Runs an executable, shows what it prints, ends it with the launch, and starts it again where that is wanted."""
+    """Runs an executable, logs its output, ends it with the launch, and respawns it if asked to."""
 
     def __init__(
         self,

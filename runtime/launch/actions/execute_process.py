@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @expose_action("executable")
 class ExecuteProcess(ExecuteLocal):
-    """Runs a command: a list of words, each of which may be pieced together from substitutions."""
+    """Runs a command: a list of arguments, each of which may be composed of substitutions."""
 
     def __init__(
         self,

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @expose_action("for_each")
 class ForEach(Action):
-    """Visits what a function gives for each iteration; the values are YAML maps with `;` between them."""
+    """Visits what a function returns for each iteration; the values are YAML maps separated by `;`."""
 
     SEPARATOR = ";"
 
@@ -72,7 +72,7 @@ class ForEach(Action):
 
 @expose_action("for")
 class ForLoop(Action):
-    """Visits what a function of `i` gives for each number below a length."""
+    """Visits what a function of `i` returns for each number below a length."""
 
     def __init__(self, length: Any, *, function: Callable[..., Any], name: str | None = None, **kwargs: Any) -> None:
         super().__init__(**kwargs)

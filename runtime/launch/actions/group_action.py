@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @expose_action("group")
 class GroupAction(Action):
-    """Actions that share a condition, and by default a scope for configurations and environment."""
+    """Groups actions under a condition and, by default, a scope for configurations and environment."""
 
     def __init__(
         self,

@@ -24,7 +24,7 @@ Pair = tuple[Any, Any]
 
 @expose_action("include")
 class IncludeLaunchDescription(Action, IncludesDescription):
-    """Visits another launch file, in the same scope: its configurations are seen afterwards."""
+    """Includes another launch file, in the same scope: its configurations remain visible afterwards."""
 
     def __init__(
         self, launch_description_source: Any, *, launch_arguments: Iterable[Pair] | None = None, **kwargs: Any

@@ -20,7 +20,7 @@ __all__ = ["Log", "LogDebug", "LogError", "LogInfo", "LogWarning"]
 
 
 class Log(Message):
-    """Logs a text at a level, as `debug` or `WARNING`."""
+    """Logs a message at a level, such as `debug` or `WARNING`."""
 
     def __init__(self, *, msg: Any, level: Any, **kwargs: Any) -> None:
         super().__init__(msg=msg, **kwargs)
@@ -42,7 +42,7 @@ class Log(Message):
 
 @expose_action("log_debug")
 class LogDebug(Log):
-    """Logs a text that only `--debug` shows."""
+    """Logs a message that only `--debug` shows."""
 
     def __init__(self, *, msg: Any, **kwargs: Any) -> None:
         super().__init__(msg=msg, level="DEBUG", **kwargs)

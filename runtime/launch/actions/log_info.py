@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Message(Action):
-    """What all actions that log a text have: the text, and how it is written in XML and YAML."""
+    """The base of actions that log a message."""
 
     def __init__(self, *, msg: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -39,7 +39,7 @@ class Message(Action):
 @expose_action("log")
 @expose_action("log_info")
 class LogInfo(Message):
-    """Logs a text."""
+    """Logs a message."""
 
     def __init__(self, *, msg: Any, **kwargs: Any) -> None:
         super().__init__(msg=msg, **kwargs)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class OpaqueCoroutine(Action):
-    """Runs a coroutine beside the launch, which waits for it; the end of the launch cancels it."""
+    """Runs a coroutine alongside the launch, which waits for it; the launch's shutdown cancels it."""
 
     def __init__(
         self,

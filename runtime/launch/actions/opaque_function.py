@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class OpaqueFunction(Action):
-    """Calls a function with the context; what it gives is visited."""
+    """Calls a function with the context, and visits the entities it returns."""
 
     def __init__(
         self,

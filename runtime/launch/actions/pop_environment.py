@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class PopEnvironment(Action):
-    """Takes the environment back that was saved last."""
+    """Restores the environment that was saved last."""
 
     def execute(self, context: LaunchContext) -> None:
         """Take it back."""

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class PopLaunchConfigurations(Action):
-    """Takes the launch configurations back that were saved last."""
+    """Restores the launch configurations that were saved last."""
 
     def execute(self, context: LaunchContext) -> None:
         """Take them back."""

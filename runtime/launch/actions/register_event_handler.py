@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class RegisterEventHandler(Action):
-    """Lets a handler be asked from here on."""
+    """Registers an event handler."""
 
     def __init__(self, event_handler: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @expose_action("reset_env")
 class ResetEnvironment(Action):
-    """Makes the environment what it was when the launch began."""
+    """Resets the environment to that of the launch's start."""
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[ResetEnvironment], dict[str, Any]]:

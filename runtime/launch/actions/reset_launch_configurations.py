@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @expose_action("reset")
 class ResetLaunchConfigurations(Action, ResetsConfigurations):
-    """Clears all launch configurations but those given, whose values are evaluated before."""
+    """Clears all launch configurations except those given, whose values are evaluated first."""
 
     def __init__(self, launch_configurations: Mapping[Any, Any] | None = None, **kwargs: Any) -> None:
         super().__init__(**kwargs)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @expose_action("set_env")
 class SetEnvironmentVariable(NamedValue):
-    """Sets a variable for processes that are visited later."""
+    """Sets an environment variable for processes that are visited later."""
 
     def execute(self, context: LaunchContext) -> None:
         """Set it."""

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @expose_action("let")
 class SetLaunchConfiguration(NamedValue):
-    """Sets a launch configuration from here on."""
+    """Sets a launch configuration."""
 
     def execute(self, context: LaunchContext) -> None:
         """Set it."""

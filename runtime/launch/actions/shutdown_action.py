@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @expose_action("shutdown")
 class Shutdown(EmitEvent):
-    """Ends the launch; as an answer to the end of a process it says that the process was required."""
+    """Shuts the launch down; as the handler of a process exit, it reports that the process was required."""
 
     def __init__(self, *, reason: Any = "reason not given", **kwargs: Any) -> None:
         super().__init__(event=ShutdownEvent(reason=reason if isinstance(reason, str) else ""), **kwargs)

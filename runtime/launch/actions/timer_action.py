@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @expose_action("timer")
 class TimerAction(Action):
-    """Visits actions after a period (s); with the locals of now and the configurations of then."""
+    """Visits actions after a period (s), with the locals of its start and the configurations of its end."""
 
     def __init__(
         self, *, period: Any, actions: Iterable[Action], cancel_on_shutdown: Any = True, **kwargs: Any

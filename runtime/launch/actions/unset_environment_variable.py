@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @expose_action("unset_env")
 class UnsetEnvironmentVariable(Action):
-    """Unsets a variable for processes that are visited later."""
+    """Unsets an environment variable for processes that are visited later."""
 
     def __init__(self, name: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class IfCondition(Condition):
-    """Holds when a text says true."""
+    """True when an expression evaluates to true."""
 
     def __init__(self, predicate_expression: Any) -> None:
         self.__expression = normalize_to_list_of_substitutions(predicate_expression)

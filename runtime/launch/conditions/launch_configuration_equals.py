@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class LaunchConfigurationEquals(Condition):
-    """Holds when a launch configuration has a value; one that is not set equals None."""
+    """True when a launch configuration has a value; an unset one equals None."""
 
     def __init__(self, launch_configuration_name: str, expected_value: Any) -> None:
         name = type(self).__name__

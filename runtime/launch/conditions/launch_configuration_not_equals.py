@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
-    """Holds when a launch configuration does not have a value."""
+    """True when a launch configuration does not have a value."""
 
     def _predicate_func(self, context: LaunchContext) -> bool:
         return not super()._predicate_func(context)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class UnlessCondition(Condition):
-    """Holds when a text says false."""
+    """True when an expression evaluates to false."""
 
     def __init__(self, predicate_expression: Any) -> None:
         self.__expression = normalize_to_list_of_substitutions(predicate_expression)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @expose_substitution("anon")
 class AnonName(Substitution):
-    """A name that nobody else has; the same each time for the same beginning."""
+    """A unique name; always the same one for the same prefix."""
 
     def __init__(self, name: Any) -> None:
         super().__init__()

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @expose_substitution("not")
 class NotSubstitution(Substitution):
-    """The opposite."""
+    """The negation of a truth value."""
 
     def __init__(self, value: Any) -> None:
         super().__init__()
@@ -80,7 +80,7 @@ class _TwoSided(Substitution):
 
 @expose_substitution("and")
 class AndSubstitution(_TwoSided):
-    """Whether both sides are true."""
+    """Whether both operands are true."""
 
     _name = "and"
 
@@ -91,7 +91,7 @@ class AndSubstitution(_TwoSided):
 
 @expose_substitution("or")
 class OrSubstitution(_TwoSided):
-    """Whether one side is true."""
+    """Whether at least one operand is true."""
 
     _name = "or"
 
@@ -130,7 +130,7 @@ class _ManySided(Substitution):
 
 @expose_substitution("any")
 class AnySubstitution(_ManySided):
-    """Whether any side is true."""
+    """Whether at least one of several operands is true."""
 
     def perform(self, context: LaunchContext) -> str:
         """`true` or `false`."""
@@ -139,7 +139,7 @@ class AnySubstitution(_ManySided):
 
 @expose_substitution("all")
 class AllSubstitution(_ManySided):
-    """Whether all sides are true."""
+    """Whether all of several operands are true."""
 
     def perform(self, context: LaunchContext) -> str:
         """`true` or `false`."""

@@ -22,7 +22,7 @@ WORDS = ("fail", "ignore", "warn", "capture")
 
 @expose_substitution("command")
 class Command(Substitution):
-    """The standard output of a command, which runs without a shell."""
+    """The standard output of a command, run without a shell."""
 
     def __init__(self, command: Any, *, on_stderr: Any = "fail") -> None:
         super().__init__()

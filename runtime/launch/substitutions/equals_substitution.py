@@ -44,7 +44,7 @@ def _equal(left: str, right: str) -> bool:
 
 @expose_substitution("equals")
 class EqualsSubstitution(Substitution):
-    """Whether two values are equal: as truth values, else as numbers, else as texts."""
+    """Whether two values are equal: as booleans, else as numbers, else as texts."""
 
     _name = "equals"
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @expose_substitution("for-var")
 class ForEachVar(Substitution):
-    """A value of the iteration of a `ForEach`, by its name."""
+    """A named value of the current iteration of a `ForEach`."""
 
     def __init__(self, name: Any, *, default_value: Any = None) -> None:
         super().__init__()
@@ -52,7 +52,7 @@ class ForEachVar(Substitution):
 
 @expose_substitution("index")
 class ForLoopIndex(ForEachVar):
-    """The number of the iteration of a `ForLoop`."""
+    """The index of the current iteration of a `ForLoop`."""
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[ForLoopIndex], dict[str, Any]]:

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class LocalSubstitution(Substitution):
-    """An attribute of the locals, as `event.reason`."""
+    """An attribute of the launch's locals, such as `event.reason`."""
 
     def __init__(self, expression: str, description: str | None = None) -> None:
         super().__init__()

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @expose_substitution("path-join")
 class PathJoinSubstitution(Substitution):
-    """Pieces of a path, joined; `/` adds a piece."""
+    """A path joined from its parts; `/` appends another part."""
 
     def __init__(self, substitutions: Any) -> None:
         pieces = [substitutions] if isinstance(substitutions, (str, Substitution)) else substitutions
@@ -51,7 +51,7 @@ class PathJoinSubstitution(Substitution):
 
 
 class PathSubstitution(PathJoinSubstitution):
-    """A path that grows with `/`."""
+    """A path that can be extended with `/`."""
 
     def __init__(self, path: Any) -> None:
         super().__init__([path])

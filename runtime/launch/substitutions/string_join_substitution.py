@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @expose_substitution("string-join")
 class StringJoinSubstitution(Substitution):
-    """Texts with a delimiter between them."""
+    """Texts joined with a delimiter."""
 
     def __init__(self, substitutions: Iterable[Any], delimiter: Any = "") -> None:
         self.__parts = [normalize_to_list_of_substitutions(each) for each in substitutions]

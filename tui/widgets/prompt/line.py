@@ -88,7 +88,7 @@ class Prompt(Asker[str], Horizontal):
             self.answer(event.value)
 
     def on_descendant_blur(self) -> None:
-        """Keep the keyboard when the mouse goes elsewhere in the pane; give up when it goes to another pane."""
+        """Keep the focus when the mouse goes elsewhere in the pane; give up when it goes to another pane."""
         focused, field = self.screen.focused, self._field
         if not self.is_open or focused is None or focused is field:  # nobody has it when the terminal loses it
             return
@@ -102,7 +102,7 @@ class Prompt(Asker[str], Horizontal):
         self.give_up()
 
     def close(self) -> None:
-        """Vanish, and give the keyboard back to whom it was taken from."""
+        """Hide, and give the focus back."""
         self.remove_class("open")
         if self.screen.focused is self._field:
             self.screen.set_focus(self._before)
