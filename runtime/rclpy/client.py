@@ -11,6 +11,7 @@ from typing import Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import ClientEndpoint
+from rclpy.impl.answer_wait import wait_until_settled
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import CLIENT, Entity
 from rclpy.impl.graph_wait import require_valid, wait_until_there
@@ -56,18 +57,22 @@ class Client(Entity):
         return self._node.get_logger().name
 
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
-        """Send a request and wait for the response, received by another thread; None after the time-out (s)."""
+        """Send a request and wait for the response, received by another thread; None after the time-out (s).
+
+        Without a time-out it raises `ROSInterruptException` when the context is shut down.
+        """
         if not isinstance(request, self.srv_type.Request):
             raise TypeError
-        wakeup = current().clock.wakeup()
         future = self.call_async(request)
-        future._when_settled(wakeup.set)
         if not future.done():
             clock = current().clock
             deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * NANO)
-            wakeup.wait(deadline)
+            try:
+                wait_until_settled(future, self._node.context, deadline)
+            finally:
+                if not future.done():
+                    self.remove_pending_request(future)
             if not future.done():
-                self.remove_pending_request(future)
                 return None
         if future.exception() is not None:
             raise future.exception()  # type: ignore[misc] -- there is one here

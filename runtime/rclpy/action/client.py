@@ -13,13 +13,13 @@ from typing import Any
 
 from action_msgs.msg import GoalStatus as GoalStatus  # programs import it from here
 from action_msgs.srv import CancelGoal
-from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import own
 from rclpy.action.client_goal_handle import ClientGoalHandle
 from rclpy.action.endpoints import ClientEndpoints, action_names
 from rclpy.action.entity import ActionEntity, call, take
 from rclpy.action.goal_state import TERMINAL
 from rclpy.action.pending_requests import PendingRequests
+from rclpy.impl.answer_wait import wait_until_settled
 from rclpy.impl.graph_wait import require_valid, wait_until_there
 from rclpy.impl.reexports import reexporting
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
@@ -132,8 +132,11 @@ class ActionClient(ActionEntity):
                 del self._goal_handles[key]
 
     def send_goal(self, goal: Any, **kwargs: Any) -> Any:
-        """Send a goal and wait for its result; another thread has to spin."""
-        return self._get_result(_wait(self.send_goal_async(goal, **kwargs)))
+        """Send a goal and wait for its result; another thread has to spin.
+
+        Raises `ROSInterruptException` when the context is shut down meanwhile.
+        """
+        return self._get_result(self._wait(self.send_goal_async(goal, **kwargs)))
 
     def send_goal_async(
         self, goal: Any, feedback_callback: Callable[..., Any] | None = None, goal_uuid: Any = None
@@ -153,7 +156,7 @@ class ActionClient(ActionEntity):
         return self._goals.send(self._endpoints.goal, request, request.goal_id)
 
     def _cancel_goal(self, goal_handle: Any) -> Any:
-        return _wait(self._cancel_goal_async(goal_handle))
+        return self._wait(self._cancel_goal_async(goal_handle))
 
     def _cancel_goal_async(self, goal_handle: Any) -> Future[Any]:
         self._check_handle(goal_handle)
@@ -162,7 +165,7 @@ class ActionClient(ActionEntity):
         return self._cancels.send(self._endpoints.cancel, request, goal_handle.goal_id)
 
     def _get_result(self, goal_handle: Any) -> Any:
-        return _wait(self._get_result_async(goal_handle))
+        return self._wait(self._get_result_async(goal_handle))
 
     def _get_result_async(self, goal_handle: Any) -> Future[Any]:
         self._check_handle(goal_handle)
@@ -188,14 +191,9 @@ class ActionClient(ActionEntity):
         """Block until a server is available; False after the time-out (s). Raises `RCLError` once the context ends."""
         return wait_until_there(self._node, self.server_is_ready, timeout_sec)
 
-
-def _wait(future: Future[Any]) -> Any:
-    """Block until another thread has settled a future; returns its result."""
-    wakeup = current().clock.wakeup()
-    future._when_settled(wakeup.set)
-    if not future.done():
-        wakeup.wait()
-    return future.result()
+    def _wait(self, future: Future[Any]) -> Any:
+        wait_until_settled(future, self._node.context)
+        return future.result()
 
 
 __getattr__ = reexporting(__name__, "Waitable check_for_type_support")

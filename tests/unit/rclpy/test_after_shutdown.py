@@ -100,6 +100,31 @@ def test_a_loop_that_asks_who_is_there_ends_with_the_context(
         getattr(node, question)(*words)
 
 
+@pytest.mark.parametrize("way", ["service", "action"])
+def test_who_waits_for_an_answer_without_a_limit_is_told_of_the_shutdown(
+    ros: Any, way: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    node = ros.node()
+    if way == "service":
+        client, ask, send = node.create_client(Trigger, "nobody"), "call", "call_async"
+        request: Any = Trigger.Request()
+    else:
+        client, ask, send = ActionClient(node, Fibonacci, "nobody"), "send_goal", "send_goal_async"
+        request = Fibonacci.Goal()
+    ender = threading.Timer(0, ros.context.shutdown)
+    sending = getattr(client, send)
+
+    def sent(*words: Any) -> Any:
+        future = sending(*words)
+        ender.start()
+        return future
+
+    monkeypatch.setattr(client, send, sent)
+    with pytest.raises(ROSInterruptException):
+        getattr(client, ask)(request)
+    ender.join()
+
+
 def test_what_a_publisher_is_asked_after_a_shutdown(ros: Any) -> None:
     publisher = ros.node().create_publisher(String, "t", 1)
     ros.context.shutdown()
