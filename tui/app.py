@@ -90,7 +90,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
         self._on_first_frame = on_first_frame
         self.stage = Stage(self, look.arrangement, self._opening.pane, lambda: self._snapshot)
         self._plugins = plugins
-        self._keyboard = Keyboard(self, self._deal)
+        self._keyboard = Keyboard(self, self._deal, self.stage.typing)
         self._reach, self._reached = reach, False
         if console is not None:
             self.take_up(System(console, launcher, command_line))

@@ -9,8 +9,10 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Awaitable, Callable, Sequence
 from functools import partial
+from itertools import islice
 from typing import TypeAlias
 
+from bot_console.tui.keymap import stops
 from bot_console.tui.keys.escaping import told_apart
 from textual import events
 from textual.app import App
@@ -26,6 +28,14 @@ Each change of a line is checked and completed as a whole: a million letters wou
 stop the robot, waiting for a minute.
 """
 
+REPEATS = 8
+"""How many presses of one key in a row may wait. A key that is held down repeats 25 times a second and more: a console
+that is slower than that would go on with it for seconds after its release.
+"""
+
+MOST_WAITING = 2_000
+"""How many keys of any kind may wait; nobody types that many before seeing what the first ones do."""
+
 PASSES = 2
 """A key goes from what has the keyboard up to the app, where its binding acts; then once more what the action sent."""
 
@@ -33,11 +43,17 @@ Typed: TypeAlias = "events.Key | events.Paste"
 
 
 class Keyboard:
-    """Passes keys on one at a time."""
+    """Passes keys on one at a time.
 
-    def __init__(self, app: App[None], deliver: Callable[[Typed], Awaitable[None]]) -> None:
+    Of those that are typed faster than they are handled, repeats of one key are dropped, but not in a text field, and
+    never a stop.
+    """
+
+    def __init__(self, app: App[None], deliver: Callable[[Typed], Awaitable[None]], typing: Callable[[], bool]) -> None:
+        """`typing` says whether a text field has the keyboard."""
         self._app = app
         self._deliver = deliver
+        self._typing = typing
         self._waiting: deque[Typed] = deque()
         self._under_way = 0
         """Which key is being dealt with; 0 when none is."""
@@ -69,6 +85,8 @@ class Keyboard:
 
     async def typed(self, event: Typed) -> None:
         """Handle a key now, or after those before it."""
+        if self._is_one_too_many(event):
+            return
         self._waiting.append(event)
         if not self._under_way:
             await self._next()
@@ -76,6 +94,14 @@ class Keyboard:
             self._be_patient()
         if event in self._waiting:
             self.waits(event)
+
+    def _is_one_too_many(self, event: Typed) -> bool:
+        if len(self._waiting) < REPEATS or (isinstance(event, events.Key) and stops(event.key)):
+            return False
+        if len(self._waiting) >= MOST_WAITING:
+            return True
+        last = islice(reversed(self._waiting), REPEATS)
+        return not self._typing() and all(_is_same_key(each, event) for each in last)
 
     async def _next(self) -> None:
         while self._waiting and not self._under_way and self.passes(self._first()):
@@ -127,3 +153,7 @@ class Keyboard:
         if number == self._under_way:
             self._under_way = 0
             await self._next()
+
+
+def _is_same_key(one: Typed, other: Typed) -> bool:
+    return isinstance(one, events.Key) and isinstance(other, events.Key) and one.key == other.key

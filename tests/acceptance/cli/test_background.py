@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import signal
 import subprocess
 import sys
 import threading
@@ -66,6 +67,21 @@ def test_a_robot_in_the_background(state: Path) -> None:
     assert re.search(r"\[simulator\]: Emergency stop: locked by .*: its system is being ended", text)
     assert "simulator_node-1]: process has finished cleanly" in text
     assert "Traceback" not in text
+
+
+def test_one_that_is_frozen_or_was_killed_is_ended_and_leaves_nothing(state: Path) -> None:
+    started = typed("up")
+    pid = int(re.search(r"process (\d+)", started.stdout)[1])  # pyright: ignore[reportOptionalSubscript] -- told
+    os.kill(pid, signal.SIGKILL)
+    until(lambda: typed("status").returncode, "its end")
+    started = typed("up")
+    assert [Path(each).stem for each in doors(domain_folder(0))] == re.findall(r"process (\d+)", started.stdout)
+    pid = int(re.search(r"process (\d+)", started.stdout)[1])  # pyright: ignore[reportOptionalSubscript] -- told
+    os.kill(pid, signal.SIGSTOP)
+    assert typed("down").returncode == 0
+    log = next(each for each in (state / "state" / "systems").glob("*.log") if str(each) in started.stdout)
+    assert "process has finished cleanly" in log.read_text(encoding="utf-8")
+    assert not doors(domain_folder(0))
 
 
 LAUNCH = """

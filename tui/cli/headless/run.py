@@ -10,13 +10,15 @@ import gc
 import json
 import signal
 import sys
+import threading
 import time
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.importer import install
 from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
 from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.system.awake import wait_awake
 from bot_console.tui.cli.system.domain import domain, robot_there, run_apart, take_part
 from bot_console.tui.cli.system.named_launch import with_launch_file
 from bot_console.tui.cli.system.workspaces import choose
@@ -24,6 +26,9 @@ from bot_console.tui.cli.system.workspaces import choose
 if TYPE_CHECKING:
     from bot_console.tui.cli.headless.launches import Launches
     from bot_console.tui.cli.headless.observer import Observer
+
+Wait = Callable[[threading.Event, float], bool]
+"""How an event is waited for, so many seconds at most; a stepped run waits by its own clock."""
 
 DURATION = 60.0
 """Seconds of a run for which no duration is given."""
@@ -68,7 +73,7 @@ def simulated(options: Options, observer: Observer | None = None) -> tuple[dict[
         launches = Launches(options, clock, observer.ask)
         launches.begin()
         with contextlib.suppress(KeyboardInterrupt):
-            _wait_for(observer, launches, duration)
+            _wait_for(observer, launches, duration, threading.Event.wait if options.fast else wait_awake)
         report = observer.report()
         launches.stop(GRACE)
         watching.stop(GRACE)
@@ -132,16 +137,16 @@ def _notices() -> Generator[None]:
         forget()
 
 
-def _wait_for(observer: Observer, launches: Launches, duration: float) -> None:
+def _wait_for(observer: Observer, launches: Launches, duration: float, wait: Wait) -> None:
     """Wait for the report, the end of all launches, or the time limit; an interrupt requests the report at once."""
     launches.on_end(observer.done.set)
     try:
-        observer.done.wait(SETTLED)
+        wait(observer.done, SETTLED)
         if not gc.isenabled():
             gc.freeze()
             gc.enable()
-        if not observer.done.wait(duration + GRACE - SETTLED) and launches.has_robot:
-            observer.done.wait(SLOW_START)
+        if not wait(observer.done, duration + GRACE - SETTLED) and launches.has_robot:
+            wait(observer.done, SLOW_START)
     except KeyboardInterrupt:
         observer.ask()
 

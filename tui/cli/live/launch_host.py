@@ -58,6 +58,7 @@ def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], N
     """
     from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
     from bot_console.tui.cli.live.process_news import tell_news
+    from bot_console.tui.cli.system.awake import wait_awake
     from bot_console.tui.cli.system.domain import domain
     from bot_console.tui.console.launch_host.door import Door
     from launch.child import close_fork_server
@@ -65,7 +66,7 @@ def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], N
     forget = forget or tell_news(host.noticed, host.learn)
     close_on_signals(host.close)
     door = Door(domain_folder(domain()), host.connect)
-    host.over.wait(seconds)
+    wait_awake(host.over, seconds)
     door.close()
     forget()
     host.close()

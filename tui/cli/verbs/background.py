@@ -172,6 +172,8 @@ def down(words: Sequence[str]) -> int:
         _bring_to_rest()
     for number in (signal.SIGTERM, getattr(signal, "SIGKILL", signal.SIGTERM)):
         with contextlib.suppress(ProcessLookupError):
+            # First, as a frozen one takes no notice of SIGTERM, and hands one that came before to any of its threads.
+            os.kill(there.pid, getattr(signal, "SIGCONT", number))
             os.kill(there.pid, number)
         deadline = time.monotonic() + ENDING
         while there.runs() and time.monotonic() < deadline:

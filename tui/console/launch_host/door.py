@@ -10,6 +10,8 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 
+from bot_console.runtime.rmw.zenoh.domain.sockets import lives
+
 DOOR = ".host"
 _NAME = re.compile(r"\d+\.host")
 BACKLOG = 8
@@ -19,10 +21,17 @@ class Door:
     """Accepts consoles until it is closed."""
 
     def __init__(self, folder: str, enter: Callable[[socket.socket], None]) -> None:
-        """`enter` receives each connection; raises `OSError` if the folder cannot hold a socket."""
+        """`enter` receives each connection; raises `OSError` if the folder cannot hold a socket.
+
+        The doors of processes that were killed are removed.
+        """
         self.path = os.path.join(folder, f"{os.getpid()}{DOOR}")
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self._enter = enter
+        for left in doors(folder):
+            if not lives(pid_behind(left)):
+                with contextlib.suppress(FileNotFoundError):
+                    os.unlink(left)
         early = f"{self.path}.new"
         with contextlib.suppress(FileNotFoundError):  # of a process that had the same id
             os.unlink(early)

@@ -94,15 +94,14 @@ def _ending() -> str:
 
 def is_stopped(pid: int) -> bool:
     """Whether a process is frozen; False where the system does not tell."""
-    try:
-        with open(f"/proc/{pid}/stat", "rb") as file:
-            return file.read().rpartition(b")")[2].split()[0] in (b"T", b"t")
-    except (OSError, IndexError):
-        return False
+    return _state(pid) in (b"T", b"t")
 
 
 def lives(pid: int) -> bool:
-    """Whether there is such a process; True where it cannot be asked without ending it (Windows)."""
+    """Whether there is such a process; True where it cannot be asked without ending it (Windows).
+
+    One that has ended lives no more, even if its parent has not taken note of it yet (a zombie).
+    """
     if os.name == "nt":
         return True
     try:
@@ -111,4 +110,13 @@ def lives(pid: int) -> bool:
         return False
     except PermissionError:
         pass
-    return True
+    return _state(pid) not in (b"Z", b"X")
+
+
+def _state(pid: int) -> bytes:
+    """The letter by which the system tells how a process is; empty where it does not."""
+    try:
+        with open(f"/proc/{pid}/stat", "rb") as file:
+            return file.read().rpartition(b")")[2].split()[0]
+    except (OSError, IndexError):
+        return b""

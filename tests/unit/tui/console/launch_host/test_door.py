@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import queue
 import socket
+import subprocess
+import sys
 from pathlib import Path
 
 from bot_console.tui.console.launch_host.door import Door, doors, knock
@@ -38,3 +41,15 @@ def test_the_door_of_a_dead_host_is_removed_and_a_new_one_takes_its_place(tmp_pa
     connection.close()
     second.close()
     first.close()
+
+
+def test_the_doors_of_processes_that_have_ended_go_with_the_next_one(tmp_path: Path) -> None:
+    ended = subprocess.Popen([sys.executable, "-c", "pass"], stdout=subprocess.PIPE)
+    assert ended.stdout is not None and ended.stdout.read() == b""
+    os.waitid(os.P_PID, ended.pid, os.WEXITED | os.WNOWAIT)  # it stays a zombie: nobody has taken note of its end
+    for pid in (ended.pid, os.getppid()):
+        (tmp_path / f"{pid}.host").touch()
+    door = Door(str(tmp_path), lambda connection: None)
+    assert doors(str(tmp_path)) == sorted([door.path, str(tmp_path / f"{os.getppid()}.host")])
+    door.close()
+    ended.communicate()

@@ -1,0 +1,62 @@
+"""Keys typed faster than the console handles them: what is held down does not go on after its release; a stop stays."""
+
+from __future__ import annotations
+
+from bot_console.tui.keys import keyboard
+from bot_console.tui.keys.keyboard import MOST_WAITING, REPEATS
+from bot_console.tui.widgets.command_line import CommandField
+from piloting import Session, run
+from pytest import MonkeyPatch
+from samples import live
+from textual import events
+from textual.widgets import Input
+
+STOP = "exclamation_mark"
+
+
+async def behind(session: Session, *keys: str) -> list[str]:
+    """Type keys of which none has its turn yet; those that wait."""
+    session.app.crew.late_stop.later = lambda look: None
+    await session.app._keyboard.hold(lambda _: False)
+    for each in keys:
+        session.app.post_message(events.Key(each, "!" if each == STOP else each))
+    await session.settle()
+    return [each.key for each in session.app._keyboard._waiting if isinstance(each, events.Key)]
+
+
+def test_a_key_that_is_held_down_is_done_a_few_times_more() -> None:
+    async def play(session: Session) -> None:
+        waiting = await behind(session, *"x" * 3 * REPEATS, *"yx" * REPEATS)
+        assert waiting == [*"x" * REPEATS, *"yx" * REPEATS]
+
+    run(live(), play)
+
+
+def test_stops_are_never_dropped() -> None:
+    async def play(session: Session) -> None:
+        stops = [STOP] * (3 * REPEATS)
+        assert await behind(session, *stops) == stops
+
+    run(live(), play)
+
+
+def test_letters_of_a_text_are_not_dropped() -> None:
+    async def play(session: Session) -> None:
+        await session.press("colon")
+        assert len(await behind(session, *"a" * 3 * REPEATS)) == 3 * REPEATS
+        await session.app._keyboard.let_go()
+        await session.settle()
+        assert session.pane(CommandField).query_one(Input).value == "a" * 3 * REPEATS
+
+    run(live(), play)
+
+
+def test_what_waits_is_bounded_but_for_stops(monkeypatch: MonkeyPatch) -> None:
+    assert MOST_WAITING > 100 * REPEATS
+    monkeypatch.setattr(keyboard, "MOST_WAITING", 2 * REPEATS)
+
+    async def play(session: Session) -> None:
+        waiting = await behind(session, *"xy" * 3 * REPEATS, STOP)
+        assert waiting == [*"xy" * REPEATS, STOP]
+
+    run(live(), play)

@@ -1,0 +1,55 @@
+"""A main thread that waits runs the handlers of signals, also of those that another thread was given."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+from collections.abc import Iterator
+
+import pytest
+from bot_console.tui.cli.system.awake import wait_awake
+
+if os.name == "nt":
+    pytest.skip("signals are handed to no threads there", allow_module_level=True)
+
+PATIENCE = 20.0
+
+
+@pytest.fixture
+def elsewhere() -> Iterator[None]:
+    """The main thread is given no SIGUSR1, as one that was frozen when it came may not be."""
+    signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGUSR1])
+    yield
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGUSR1])
+
+
+class Waited(threading.Event):
+    """An event during whose waiting another thread gets a signal."""
+
+    def wait(self, timeout: float | None = None) -> bool:
+        if not hasattr(self, "_sending"):
+            self._sending = threading.Thread(target=self._send)
+            self._sending.start()
+        return super().wait(timeout)
+
+    def _send(self) -> None:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGUSR1])
+        while not self._cond._waiters:  # pyright: ignore -- whether the main thread waits already
+            threading.Event().wait(0.001)
+        threading.Event().wait(0.001)  # which gives it the interpreter, for its last steps before it sleeps
+        os.kill(os.getpid(), signal.SIGUSR1)
+
+
+def test_a_signal_that_another_thread_got_ends_the_waiting(elsewhere: None) -> None:
+    over = Waited()
+    before = signal.signal(signal.SIGUSR1, lambda number, frame: over.set())
+    try:
+        assert wait_awake(over, PATIENCE)
+    finally:
+        signal.signal(signal.SIGUSR1, before)
+
+
+def test_it_waits_no_longer_than_said() -> None:
+    assert not wait_awake(threading.Event(), 0.0)
+    assert not wait_awake(threading.Event(), 0.01)
