@@ -57,15 +57,18 @@ def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], N
     `forget` ends the telling of news where that has begun already.
     """
     from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
+    from bot_console.runtime.rmw.zenoh.domain.sockets import lives
     from bot_console.tui.cli.live.process_news import tell_news
     from bot_console.tui.cli.system.awake import wait_awake
     from bot_console.tui.cli.system.domain import domain
-    from bot_console.tui.console.launch_host.door import Door
+    from bot_console.tui.console.launch_host.door import Door, remove_doors_of_the_dead
     from launch.child import close_fork_server
 
     forget = forget or tell_news(host.noticed, host.learn)
     close_on_signals(host.close)
-    door = Door(domain_folder(domain()), host.connect)
+    folder = domain_folder(domain())
+    remove_doors_of_the_dead(folder, lives)
+    door = Door(folder, host.connect)
     wait_awake(host.over, seconds)
     door.close()
     forget()

@@ -10,8 +10,6 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 
-from bot_console.runtime.rmw.zenoh.domain.sockets import lives
-
 DOOR = ".host"
 _NAME = re.compile(r"\d+\.host")
 BACKLOG = 8
@@ -21,17 +19,10 @@ class Door:
     """Accepts consoles until it is closed."""
 
     def __init__(self, folder: str, enter: Callable[[socket.socket], None]) -> None:
-        """`enter` receives each connection; raises `OSError` if the folder cannot hold a socket.
-
-        The doors of processes that were killed are removed.
-        """
+        """`enter` receives each connection; raises `OSError` if the folder cannot hold a socket."""
         self.path = os.path.join(folder, f"{os.getpid()}{DOOR}")
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self._enter = enter
-        for left in doors(folder):
-            if not lives(pid_behind(left)):
-                with contextlib.suppress(FileNotFoundError):
-                    os.unlink(left)
         early = f"{self.path}.new"
         with contextlib.suppress(FileNotFoundError):  # of a process that had the same id
             os.unlink(early)
@@ -60,6 +51,14 @@ class Door:
 def doors(folder: str) -> list[str]:
     """The paths of all doors in a folder, including those of dead hosts."""
     return sorted(str(each) for each in Path(folder).iterdir() if _NAME.fullmatch(each.name))
+
+
+def remove_doors_of_the_dead(folder: str, lives: Callable[[int], bool]) -> None:
+    """Remove the doors that killed processes have left in a folder; `lives` says whether a process does."""
+    for left in doors(folder):
+        if not lives(pid_behind(left)):
+            with contextlib.suppress(FileNotFoundError):
+                os.unlink(left)
 
 
 def pid_behind(path: str) -> int:

@@ -9,7 +9,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-from bot_console.tui.console.launch_host.door import Door, doors, knock
+from bot_console.runtime.rmw.zenoh.domain.sockets import lives
+from bot_console.tui.console.launch_host.door import Door, doors, knock, remove_doors_of_the_dead
 
 
 def test_who_knocks_is_let_in_until_it_is_closed(tmp_path: Path) -> None:
@@ -43,13 +44,12 @@ def test_the_door_of_a_dead_host_is_removed_and_a_new_one_takes_its_place(tmp_pa
     first.close()
 
 
-def test_the_doors_of_processes_that_have_ended_go_with_the_next_one(tmp_path: Path) -> None:
+def test_the_doors_of_processes_that_have_ended_are_removed(tmp_path: Path) -> None:
     ended = subprocess.Popen([sys.executable, "-c", "pass"], stdout=subprocess.PIPE)
     assert ended.stdout is not None and ended.stdout.read() == b""
     os.waitid(os.P_PID, ended.pid, os.WEXITED | os.WNOWAIT)  # it stays a zombie: nobody has taken note of its end
     for pid in (ended.pid, os.getppid()):
         (tmp_path / f"{pid}.host").touch()
-    door = Door(str(tmp_path), lambda connection: None)
-    assert doors(str(tmp_path)) == sorted([door.path, str(tmp_path / f"{os.getppid()}.host")])
-    door.close()
+    remove_doors_of_the_dead(str(tmp_path), lives)
+    assert doors(str(tmp_path)) == [str(tmp_path / f"{os.getppid()}.host")]
     ended.communicate()
