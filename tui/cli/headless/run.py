@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.runtime.importer import install
 from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.system.awake import wait_awake
+from bot_console.tui.cli.awake import wait_awake
 from bot_console.tui.cli.system.domain import domain, robot_there, run_apart, take_part
 from bot_console.tui.cli.system.named_launch import with_launch_file
 from bot_console.tui.cli.system.workspaces import choose

@@ -58,8 +58,8 @@ def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], N
     """
     from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
     from bot_console.runtime.rmw.zenoh.domain.sockets import lives
+    from bot_console.tui.cli.awake import wait_awake
     from bot_console.tui.cli.live.process_news import tell_news
-    from bot_console.tui.cli.system.awake import wait_awake
     from bot_console.tui.cli.system.domain import domain
     from bot_console.tui.console.launch_host.door import Door, remove_doors_of_the_dead
     from launch.child import close_fork_server

@@ -12,7 +12,7 @@ from types import FrameType
 from bot_console.runtime.rmw.zenoh.network.reach import PORT, Tls, place_of
 from bot_console.runtime.rmw.zenoh.session import Session, SessionError
 from bot_console.runtime.rmw.zenoh.settings import Serving
-from bot_console.tui.cli.system.awake import wait_awake
+from bot_console.tui.cli.awake import wait_awake
 
 HERE = f"tcp/127.0.0.1:{PORT}"
 LOOPBACK = ("127.", "localhost", "::1")

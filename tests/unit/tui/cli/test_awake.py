@@ -8,7 +8,7 @@ import threading
 from collections.abc import Iterator
 
 import pytest
-from bot_console.tui.cli.system.awake import wait_awake
+from bot_console.tui.cli.awake import wait_awake
 
 if os.name == "nt":
     pytest.skip("signals are handed to no threads there", allow_module_level=True)
