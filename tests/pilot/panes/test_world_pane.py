@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from bot_console.tui.console.robot.robot_model import Pose, Turtle, TurtleField, WorldInfo
@@ -32,6 +33,15 @@ def test_zooming_changes_the_scale_and_fit_shows_all_again() -> None:
         assert session.lines() == whole
 
     run(live(), play)
+
+
+def test_the_scale_has_its_length_in_a_narrow_pane_too() -> None:
+    async def play(session: Session) -> None:
+        await session.press("5")
+        [line] = [each for each in session.lines() if "nearest" in each]
+        assert re.search(r"├─*┤ [\d.]+ m", line) and "…" not in line
+
+    run(live(), play, (60, 20))
 
 
 def test_what_is_missing_is_said() -> None:

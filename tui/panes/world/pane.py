@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from bot_console.tui import keymap
@@ -13,6 +15,7 @@ from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.live_words import LiveWords
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.prompt.line import Prompt
+from rich.cells import cell_len
 from textual.app import ComposeResult
 
 if TYPE_CHECKING:
@@ -40,6 +43,8 @@ class WorldMap(Picture):
         self._place = 0
         self.zoom = 1.0
         self.scale = ""
+        self.scale_within: Callable[[int], str] = lambda room: ""
+        """The scale in so many cells at most."""
 
     def show(self, world: WorldInfo) -> None:
         """Draw a world."""
@@ -93,6 +98,7 @@ class WorldMap(Picture):
             self._told = told
             self.set_lines(self._drawing.rows(self._world, window, width, height))
             self.scale = scale_text(window, width)
+            self.scale_within = partial(scale_text, window, width)
 
 
 class WorldPane(Pane):
@@ -174,7 +180,10 @@ class WorldPane(Pane):
             near = "free" if world.nearest is None else f"{figure(world.nearest)} m"
             where = f"x {pose.x:6.1f}  y {pose.y:6.1f}" if pose else "pose unknown"
             speed = f"SILENT for {world.silent_s} s" if world.silent_s else f"{figure(world.speed, '+')} m/s"
-            text = f"{where}  {speed}  nearest {near}  {drawn.scale}{more}"
+            text = f"{where}  {speed}  nearest {near}  "
+            width = self.query_one(LiveWords).content_size.width
+            room = width - cell_len(text + more)
+            text += (drawn.scale if len(drawn.scale) <= room or not width else drawn.scale_within(room)) + more
             stamp = self.time_cursor.stamp
             if stamp is not None:
                 known = f"{where}  " if self._then else "where the robot was then is not known  "

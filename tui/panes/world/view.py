@@ -142,10 +142,15 @@ def arrow(heading: float) -> str:
     return ARROWS[round(heading / (math.pi / 4)) % 8] if math.isfinite(heading) else "?"
 
 
-def scale_text(window: Window, width: int) -> str:
-    """A bar and its length in metres, about a fifth of the width."""
+def scale_text(window: Window, width: int, room: int | None = None) -> str:
+    """A bar and its length in metres, about a fifth of the width; a shorter one where so many cells are no room."""
     metres = width * 2 / 5 / window.scale
     power = 10.0 ** math.floor(math.log10(metres)) if metres > 0 else 1.0
-    length = max((each * power for each in (1, 2, 5) if each * power <= metres), default=power)
+    lengths = [each * power for each in (5, 2, 1, 0.5, 0.2, 0.1) if each * power <= metres] or [power]
+    bars = [_bar(length, window) for length in lengths]
+    return next((each for each in bars if room is None or len(each) <= room), "")
+
+
+def _bar(length: float, window: Window) -> str:
     cells = max(1, round(length * window.scale / 2))
     return f"├{'─' * max(0, cells - 2)}┤ {length:g} m"

@@ -7,7 +7,7 @@ from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.robot.drive_link import DriveLink
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 from bot_console.tui.console.robot.world_watch import WorldWatch, grid_of
-from bot_console.tui.panes.world.view import WorldDrawing, fitting, following, scale_text
+from bot_console.tui.panes.world.view import Window, WorldDrawing, fitting, following, scale_text
 from bot_console.tui.widgets.status_bar import drive_text
 from geometry_msgs.msg import Point, Pose
 from nav_msgs.msg import MapMetaData, OccupancyGrid, Odometry
@@ -84,6 +84,7 @@ def test_whatever_numbers_come_they_are_drawn_or_left_out(number):
     for window in (fitting(info, 40, 12), following(info, 40, 12, 8.0)):
         assert len(WorldDrawing().rows(info, window, 40, 12)) == 12
         assert scale_text(window, 40)
+        assert len(scale_text(window, 40, 9)) <= 9
     assert len(drive_text(DriveInfo(asked=(number, 0.0), final=(number, number), actual=(number, 0.0)))) < 80
 
 
@@ -94,3 +95,11 @@ def test_whatever_numbers_come_they_are_drawn_or_left_out(number):
 def test_a_map_that_cannot_be_is_none(width, height, resolution, x):
     info = MapMetaData(width=width, height=height, resolution=resolution, origin=Pose(position=Point(x=x)))
     assert grid_of(OccupancyGrid(info=info, data=[0, 100][: width * height])) is None
+
+
+def test_a_scale_that_has_no_room_is_a_shorter_one_with_its_length() -> None:
+    window = Window(0.0, 0.0, 10.0)  # 0.2 m a cell
+    assert scale_text(window, 60) == "├────────┤ 2 m"
+    assert scale_text(window, 60, 11) == "├───┤ 1 m"
+    assert scale_text(window, 60, 9) == "├───┤ 1 m"
+    assert scale_text(window, 60, 3) == ""
