@@ -1,6 +1,6 @@
-"""The ROS part of a command line: `--ros-args ... [--]`. Grammar and messages are rcl's.
+"""Parse the ROS part of a command line: `--ros-args ... [--]`. Grammar and messages are rcl's.
 
-Arguments outside it belong to the program; a remap rule there is obeyed, and noted as deprecated.
+Arguments outside that part belong to the program; a remap rule among them is obeyed, and recorded as deprecated.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ SEVERITIES = {"UNSET": 0, "DEBUG": 10, "INFO": 20, "WARN": 30, "ERROR": 40, "FAT
 
 
 class ArgumentsError(ValueError):
-    """A command line cannot be parsed; the message has the words of rcl. `mend` says more than they do.
+    """A command line cannot be parsed; the message has rcl's wording. `mend` adds how to fix it.
 
-    `warning` is what rcl logs before, if anything.
+    `warning` is what rcl logs before the error, if anything.
     """
 
     def __init__(self, text: str, mend: str = "", warning: str = "") -> None:
@@ -32,13 +32,13 @@ class ArgumentsError(ValueError):
 
 @dataclass
 class Arguments:
-    """What a command line says to ROS."""
+    """The parsed ROS arguments of a command line."""
 
     remap_rules: list[RemapRule] = field(default_factory=list[RemapRule])
     parameters: ParameterTable = field(default_factory=ParameterTable)
-    """Values of `-p` and `--params-file`, in their order."""
+    """Values of `-p` and `--params-file`, in command line order."""
     unparsed: list[str] = field(default_factory=list[str])
-    """The words for the program itself."""
+    """The arguments for the program itself."""
     unknown_ros_args: list[str] = field(default_factory=list[str])
     deprecated_rules: list[str] = field(default_factory=list[str])
     """Remap rules outside the ROS part."""
@@ -53,7 +53,7 @@ class Arguments:
 
 
 def parse(words: Sequence[str]) -> Arguments:
-    """Read a command line; raises `ArgumentsError`, and `TypeError` where it is no sequence of strings."""
+    """Parse a command line; raises `ArgumentsError`, or `TypeError` if it is not a sequence of strings."""
     parsed = Arguments()
     inside = False
     rest = iter(list(words))
@@ -82,8 +82,8 @@ def _parse_outside(word: str, parsed: Arguments) -> None:
 
 
 def meant(word: str) -> str:
-    """Which ROS argument a mistyped one may stand for, as a sentence; empty where none is like it."""
-    from difflib import get_close_matches  # where something was mistyped, which most programs never are
+    """Suggest the ROS argument that a mistyped one may mean, as a sentence; empty if none is similar."""
+    from difflib import get_close_matches  # imported only for a mistyped argument, which is rare
 
     near = get_close_matches(word, [*_VALUED, *_SWITCHES], 1)
     return f"{word} is no argument of ROS; did you mean {near[0]}?" if near else ""
@@ -117,7 +117,7 @@ def _parameter(word: str, value: str, parsed: Arguments) -> None:
 
 
 def _parameter_name(lexer: Lexer) -> str:
-    """Parts divided by dots; a part is made of tokens and slashes in any order."""
+    """Consume dot-separated parts, each made of tokens and slashes in any order, and return the name."""
     start = lexer.index
     _parameter_name_part(lexer)
     while lexer.peek() != Lexeme.SEPARATOR:

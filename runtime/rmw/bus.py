@@ -1,4 +1,4 @@
-"""What rclpy needs from a middleware: endpoints that take and deliver messages, and the graph."""
+"""What rclpy needs from a middleware: endpoints that send and receive messages, and the graph."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from bot_console.runtime.rmw.graph_tables import GraphTables
 
 
 class Publisher(Protocol):
-    """A publisher, of this process or another, as a subscription's events name it."""
+    """A publisher of this process or another, as passed to a subscription's event handlers."""
 
     @property
     def lease(self) -> int | None:
-        """How long (ns) it counts as alive without a sign of life; None for as long as it is there."""
+        """How long (ns) it counts as alive without asserting its liveliness; None for as long as it exists."""
         ...
 
 
@@ -33,115 +33,115 @@ class PublisherEndpoint(Publisher, Protocol):
     """Sends messages."""
 
     on_publish: Notify | None
-    """Called with each message, where somebody watches that."""
+    """Called for each message, if somebody is watching."""
 
     @property
     def endpoint(self) -> Endpoint:
-        """How the graph knows it."""
+        """The publisher's entry in the graph."""
         ...
 
     def publish(self, message: Message) -> None:
-        """Give each matched subscription a copy of its own; raises `FieldTypeError` for what cannot be sent."""
+        """Send each matched subscription its own copy; raises `FieldTypeError` for a message that cannot be sent."""
         ...
 
     def publish_own(self, message: Message) -> bool:
-        """Publish a message that is well formed and that nobody else holds; it need not be copied.
+        """Publish a well-formed message that nobody else holds; it need not be copied.
 
-        False when the publisher is closed: then nobody gets it.
+        Returns False if the publisher is closed: then nobody receives the message.
         """
         ...
 
     def skip(self) -> None:
-        """Count a message that was not made, since it is not wanted."""
+        """Count a message that was not created because nobody wants it."""
         ...
 
     def publish_raw(self, data: bytes) -> None:
-        """The same for a serialized message."""
+        """Publish a serialized message."""
         ...
 
     def assert_liveliness(self) -> None:
-        """Give a sign of life."""
+        """Assert the publisher's liveliness."""
         ...
 
     def matched_count(self) -> int:
-        """How many subscriptions receive."""
+        """Number of matched subscriptions."""
         ...
 
     def is_heard(self) -> bool:
-        """Whether anybody gets what is published: a subscription, here or elsewhere, or who overhears all."""
+        """Whether anybody receives what is published: a subscription, here or elsewhere, or an observer."""
         ...
 
 
 Thing = PublisherEndpoint | SubscriptionEndpoint | ServiceEndpoint | ClientEndpoint
-"""What a node has on a bus."""
+"""An endpoint of a node."""
 
 
 class Bus(Protocol):
-    """A middleware in one ROS domain. All methods may be called from any thread, and none waits for another process."""
+    """A middleware in one ROS domain. All methods are thread-safe, and none waits for another process."""
 
     def add_node(self, name: str, namespace: str, enclave: str) -> NodeId:
-        """Let a node appear in the graph."""
+        """Add a node to the graph."""
         ...
 
     def remove_node(self, node: NodeId) -> None:
-        """Let a node and all its endpoints leave the graph."""
+        """Remove a node and all its endpoints from the graph."""
         ...
 
     def create_publisher(self, endpoint: Endpoint, on_event: OnEvent) -> PublisherEndpoint:
-        """Make a publisher of a topic. One whose node has left the graph publishes nowhere."""
+        """Create a publisher. If its node has left the graph, it publishes nowhere."""
         ...
 
     def create_subscription(self, subscription: SubscriptionEndpoint) -> None:
-        """Let a subscription receive, what latching publishers kept for it included."""
+        """Add a subscription, which also receives what latching publishers have kept."""
         ...
 
     def create_service(self, service: ServiceEndpoint) -> None:
-        """Let a service server receive requests."""
+        """Add a service server, which then receives requests."""
         ...
 
     def create_client(self, client: ClientEndpoint) -> None:
-        """Let a client of a service appear in the graph."""
+        """Add a service client to the graph."""
         ...
 
     def disown(self, thing: ServiceEndpoint | ClientEndpoint) -> None:
-        """Let a service server or client stay when its node leaves."""
+        """Keep a service server or client when its node leaves."""
         ...
 
     def remove(self, thing: Thing) -> None:
-        """Take a publisher, subscription, server or client away; a second time does nothing."""
+        """Remove a publisher, subscription, server or client; does nothing if it was already removed."""
         ...
 
     def request(self, client: ClientEndpoint, number: int, request: Message) -> None:
-        """Send a request to the servers; lost when there is none."""
+        """Send a request to the servers; it is lost if there are none."""
         ...
 
     def respond(self, client: ClientEndpoint, number: int, response: Message) -> None:
-        """Send a response to the client that asked."""
+        """Send a response to the client that made the request."""
         ...
 
     def has_server(self, client: ClientEndpoint) -> bool:
-        """Whether a server of the client's service is there."""
+        """Whether a server of the client's service exists."""
         ...
 
     def tables(self) -> Sequence[GraphTables]:
-        """The graph: of this process, and of the others where there are any."""
+        """The graph tables of this process, and of the other processes if there are any."""
         ...
 
     def on_graph_change(self, callback: GraphChanged) -> Callable[[], None]:
-        """Call back at each change of the graph; returns what ends that."""
+        """Call back on each change of the graph; returns a function that ends this."""
         ...
 
     def stopped(self) -> Mapping[int, Sequence[str]]:
-        """The processes that are frozen, by pid, with their nodes; where that is known."""
+        """The frozen processes, by pid, with their nodes, as far as known."""
         ...
 
     def overhear(self, hear: Hear | None) -> None:
-        """Hand over each message that this process publishes or receives; None ends that.
+        """Pass on each message that this process publishes or receives; None ends that.
 
-        Who overhears is no subscription: publishers and the graph do not know, and nothing is sent for it.
+        The observer is no subscription: it is not visible to publishers or in the graph, and nothing is sent for it.
         """
         ...
 
     def published(self) -> int:
-        """How many messages the present publishers of this process have published in all."""
+        """Total number of messages published by the current publishers of this process."""
         ...

@@ -12,56 +12,58 @@ from bot_console.runtime.rmw.names import full_name
 from bot_console.runtime.rmw.qos import Profile
 
 Notify = Callable[[], None]
-"""Called, from any thread, when an endpoint has something new."""
+"""Called, from any thread, when an endpoint has received something."""
 
 Owner = tuple[str, str]
-"""Name and namespace of a node. Two nodes may have the same, and are then asked about as one."""
+"""Name and namespace of a node. Two nodes with the same pair count as one in graph queries."""
 
 GraphChanged = Callable[[Owner], None]
-"""Called, from any thread, with whose place in the graph has changed."""
+"""Called, from any thread, with the node whose graph entries have changed."""
 
 Event = Literal["matched", "incompatible", "alive", "gone", "asserted", "lost", "message"]
-"""What an endpoint's handlers are told. With "matched" comes 1 or -1, with "incompatible" the name of the policy, with
-"alive", "gone" and "asserted" the publisher (`Publisher` in `bus.py`) that came, went, or gave a sign of life, with
-"lost" how many messages did not arrive.
-"message" is no event of a middleware: it tells those who watch that one was published or has come."""
+"""Events passed to an endpoint's handlers. The argument is 1 or -1 for "matched", the name of the policy for
+"incompatible", the publisher (`Publisher` in `bus.py`) that appeared, disappeared or asserted its liveliness for
+"alive", "gone" and "asserted", and the number of lost messages for "lost". "message" is no middleware event: it informs
+observers that a message was published or received.
+"""
 
 OnEvent = Callable[[Event, Any], None]
 
 Message = Any
-"""A message, request or response. The generated classes have no base class; `_copy_()` copies and checks one."""
+"""A message, request or response. The generated classes have no base class; `_copy_()` copies and checks a message."""
 
 Hear = Callable[["Endpoint", bytes, int, int, Message], None]
-"""Called, in the thread that publishes or receives, with each message that a process carries: an endpoint that tells
-topic, class and QoS, the publisher's gid, the message's number there, when it was sent (ns), and the message, or its
-bytes where it was serialized. It must not be changed; what another process sent comes once for each subscription."""
+"""Called, in the thread that publishes or receives, with each message that a process carries: an endpoint that gives
+topic, class and QoS, the publisher's gid, its sequence number, the time of sending (ns), and the message, or its bytes
+if it was serialized. The message must not be changed; one from another process is passed once per subscription.
+"""
 
 
 class Tap:
-    """Where the endpoints of a bus find who overhears them."""
+    """Holds the observer of all messages, shared by the endpoints of a bus."""
 
     __slots__ = ("hear",)
 
     def __init__(self) -> None:
         self.hear: Hear | None = None
-        """None while nobody listens."""
+        """None while there is no observer."""
 
 
 class Held:
-    """A message in a queue that is not its taker's own yet."""
+    """A queued message that must be taken with `take`, as others may still hold it."""
 
     __slots__ = ()
 
     def take(self) -> Message | None:
-        """A message that nobody else holds; None where it turns out to be none, which has been told then."""
+        """Return a message that nobody else holds; None if it cannot be read, which has then been reported."""
         raise NotImplementedError
 
 
 class Shared(Held):
-    """A message in the queues of several: each that takes it gets a copy of its own, the last one the message itself.
+    """A message in several queues: each taker gets its own copy, the last one the message itself.
 
-    Copied when it is taken, a message costs its publisher and the queues the same for any number of subscriptions,
-    and what a full queue drops is never copied.
+    Copying on `take` makes the cost for the publisher and the queues independent of the number of subscriptions, and a
+    message dropped by a full queue is never copied.
     """
 
     __slots__ = ("_left", "_message")
@@ -71,17 +73,17 @@ class Shared(Held):
         self._left = takers
 
     def take(self) -> Message:
-        """A message that nobody else holds."""
+        """Return a message that nobody else holds."""
         if self._left == 1:
             return self._message
         copy = self._message._copy_()
-        # Two threads at once may count as one: then a copy too many is made, never one too few.
+        # Two threads may both decrement from the same count: then there is one copy too many, never one too few.
         self._left -= 1
         return copy
 
 
 def own(message: Message) -> Message | None:
-    """A message of a queue as its taker's own; None where it cannot be read, which has been told then."""
+    """Take a queued message; None if it cannot be read, which has then been reported."""
     return message.take() if isinstance(message, Held) else message
 
 
@@ -89,26 +91,26 @@ _gids = itertools.count(1)
 
 
 def new_gid() -> bytes:
-    """A number that no other endpoint of this process has, in 16 bytes."""
+    """Return an id unique among the endpoints of this process, 16 bytes long."""
     return next(_gids).to_bytes(16, "little")
 
 
 def depth(qos: Profile) -> int | None:
-    """The length of a queue; None where all is kept."""
+    """Return a queue's length; None for KEEP_ALL."""
     return None if qos.history.name == "KEEP_ALL" else max(1, qos.depth or 10)
 
 
 def queue_for(qos: Profile) -> deque[Any]:
-    """An empty queue of the length that a profile asks for."""
+    """Return an empty queue of the length that a profile requires."""
     return deque(maxlen=depth(qos))
 
 
 def no_event(kind: Event, what: Any) -> None:
-    """Nobody listens to the events of an endpoint."""
+    """Ignore an event: the default handler."""
 
 
 class NodeId(NamedTuple):
-    """A node of the graph; two nodes may have the same name, so identity counts."""
+    """A node of the graph; `number` distinguishes nodes of the same name."""
 
     name: str
     namespace: str
@@ -117,7 +119,7 @@ class NodeId(NamedTuple):
 
     @property
     def full_name(self) -> str:
-        """The name with its namespace before it."""
+        """The fully qualified name."""
         return full_name(self.namespace, self.name)
 
     @property
@@ -128,9 +130,9 @@ class NodeId(NamedTuple):
 
 @dataclass(eq=False)
 class Endpoint:
-    """A publisher or subscription as the graph knows it. `topic` is fully qualified, `gid` has 16 bytes.
+    """A publisher or subscription in the graph. `topic` is fully qualified, `gid` has 16 bytes.
 
-    One of another process may have no class here; what is known of its type is name and hash (`RIHS01_...`).
+    An endpoint of another process may have no class here; its type is then known only by name and hash (`RIHS01_...`).
     """
 
     node: NodeId
@@ -144,9 +146,9 @@ class Endpoint:
 
 @dataclass(eq=False)
 class SubscriptionEndpoint:
-    """Receives messages: `queue` holds what has come, as (message, source ns, sequence number, expiry ns).
+    """Receives messages: `queue` holds entries (message, source ns, sequence number, expiry ns).
 
-    The message may be `Held`, and `own` makes it the taker's.
+    The message may be `Held`; `own` takes it.
     """
 
     endpoint: Endpoint
@@ -159,7 +161,7 @@ class SubscriptionEndpoint:
 
 @dataclass(eq=False)
 class ServiceEndpoint:
-    """Answers requests: `queue` holds (client, sequence number, request); `type_hash` where it is another process's."""
+    """Answers requests: `queue` holds (client, sequence number, request). `type_hash` is set for another process's."""
 
     node: NodeId
     name: str
@@ -172,7 +174,7 @@ class ServiceEndpoint:
 
 @dataclass(eq=False)
 class ClientEndpoint:
-    """Asks requests: `queue` holds (sequence number, response)."""
+    """Sends requests: `queue` holds (sequence number, response)."""
 
     node: NodeId
     name: str

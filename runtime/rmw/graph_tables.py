@@ -1,6 +1,6 @@
-"""The graph indexed by node, topic and service, and updated as it changes: a query costs what its answer holds.
+"""The graph indexed by node, topic and service, updated incrementally: a query costs as much as its answer holds.
 
-Rebuilding it at each change would be quadratic: hundreds of starting nodes alternate between queries and changes.
+Rebuilding it at each change would be quadratic: while hundreds of nodes start, queries and changes alternate.
 """
 
 from __future__ import annotations
@@ -19,20 +19,20 @@ E = TypeVar("E")
 
 
 class Entities(Generic[T]):
-    """All publishers, subscriptions, servers or clients; from any thread."""
+    """All publishers, subscriptions, servers or clients. Thread-safe."""
 
     def __init__(self, what: str, lock: threading.RLock) -> None:
-        """`what` names the field that says of which topic or service one is."""
+        """`what` names the field that holds an entity's topic or service."""
         self._what = what
         self._lock = lock
-        # Of each name, and of each node, in the order in which they came.
+        # By name and by node, in order of arrival.
         self._named: dict[str, dict[T, None]] = {}
         self._owned: dict[Owner, dict[T, None]] = {}
         self._kinds: dict[tuple[str, str], dict[T, None]] = {}
-        """Of each name with each of its types."""
+        """By name and type."""
 
     def add(self, entity: T) -> None:
-        """One has come; a second time does nothing."""
+        """Add an entity; does nothing if it is already there."""
         name, kind = getattr(entity, self._what), entity.type_name
         with self._lock:
             _put(self._named, name, entity)
@@ -40,7 +40,7 @@ class Entities(Generic[T]):
             _put(self._kinds, (name, kind), entity)
 
     def remove(self, entity: T) -> None:
-        """One has gone; a second time does nothing."""
+        """Remove an entity; does nothing if it is not there."""
         name, kind = getattr(entity, self._what), entity.type_name
         with self._lock:
             _drop(self._named, name, entity)
@@ -48,36 +48,37 @@ class Entities(Generic[T]):
             _drop(self._kinds, (name, kind), entity)
 
     def on(self, name: str) -> Sequence[T]:
-        """Those of a topic or service."""
+        """Return the entities of a topic or service."""
         with self._lock:
             return [*self._named.get(name, {}).copy()]
 
     def of(self, owner: Owner) -> Iterable[tuple[str, str]]:
-        """Names and types of what a node has."""
+        """Return the names and types of a node's entities."""
         with self._lock:
             owned = self._owned.get(owner, {}).copy()
         return [(getattr(each, self._what), each.type_name) for each in owned]
 
     def pairs(self) -> Iterable[tuple[str, str]]:
-        """All names with each of their types once."""
+        """Return all distinct pairs of a name and a type."""
         with self._lock:
             return [*self._kinds.copy()]
 
     def all(self) -> Sequence[T]:
-        """All, those of one name together."""
+        """Return all entities, grouped by name."""
         with self._lock:
             named = self._named.copy()
         return [each for row in named.values() for each in row.copy()]
 
 
 class GraphTables:
-    """What a bus knows of the nodes of one or of all processes."""
+    """The graph entries of one process, or of all others."""
 
     def __init__(self, lock: threading.RLock) -> None:
-        """`lock` is the bus's own, and one that its holder may take again.
+        """`lock` is the bus's own reentrant lock.
 
-        The garbage collector ends nodes in the middle of anything, so also while a table is changed or read: with a
-        lock of its own each table would wait for itself, or for who holds the bus and waits for it.
+        The garbage collector may end a node at any point, including while a table is being changed or read: with
+        separate locks, a table would be in deadlock with itself, or with a thread that holds the bus's lock and waits
+        for the table's.
         """
         self._lock = lock
         self._nodes: dict[NodeId, None] = {}
@@ -88,29 +89,29 @@ class GraphTables:
         self.clients: Entities[ClientEndpoint] = Entities("name", lock)
 
     def add_node(self, node: NodeId) -> None:
-        """A node has come."""
+        """Add a node."""
         with self._lock:
             self._nodes[node] = None
             _put(self._owners, node.owner, node)
 
     def remove_node(self, node: NodeId) -> None:
-        """A node has gone; a second time does nothing."""
+        """Remove a node; does nothing if it is not there."""
         with self._lock:
             self._nodes.pop(node, None)
             _drop(self._owners, node.owner, node)
 
     def nodes(self) -> Sequence[NodeId]:
-        """All nodes, in the order in which they came."""
+        """Return all nodes, in order of arrival."""
         with self._lock:
             return [*self._nodes.copy()]
 
     def has(self, owner: Owner) -> bool:
-        """Whether there is a node of that name."""
+        """Whether a node with this name and namespace exists."""
         return owner in self._owners
 
 
 def collect(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:
-    """Pairs of a name and a type as sorted names with their sorted types."""
+    """Group pairs of a name and a type into sorted names with their sorted types."""
     found: dict[str, list[str]] = {}
     for name, kind in pairs:
         kinds = found.setdefault(name, [])
@@ -123,14 +124,14 @@ def collect(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:
 
 
 def _put(table: dict[K, dict[E, None]], key: K, entry: E) -> None:
-    """Put an entry into its row; whatever is removed meanwhile, by the same thread, the row is in the table then."""
+    """Add an entry to its row. The row is put back last, in case the same thread has meanwhile removed it."""
     row = table.get(key, {})
     row[entry] = None
     table[key] = row
 
 
 def _drop(table: dict[K, dict[E, None]], key: K, entry: E) -> None:
-    """Take an entry out of its row, and an empty row out of the table."""
+    """Remove an entry from its row, and an empty row from the table."""
     row = table.get(key, {})
     row.pop(entry, None)
     if not row:

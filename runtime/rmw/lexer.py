@@ -1,4 +1,4 @@
-"""Splits remap and parameter rules into lexemes, with the numbers that rcl's messages give them."""
+"""Split remap and parameter rules into lexemes, numbered as in rcl's messages."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Lexeme(IntEnum):
 
 
 class GrammarError(ValueError):
-    """A rule is not grammatical; the message has the words of rcl, `warning` those that rcl logs before, if any."""
+    """A rule is ungrammatical; the message has rcl's wording, `warning` what rcl logs before it, if anything."""
 
     def __init__(self, text: str, warning: str = "") -> None:
         super().__init__(text)
@@ -83,7 +83,7 @@ class Lexer:
         return self.text[start : self.index]
 
     def expect(self, kind: Lexeme) -> str:
-        """Take a lexeme of this kind and return its text; raises `GrammarError` where another stands."""
+        """Take a lexeme of this kind and return its text; raises `GrammarError` if the next one is of another kind."""
         got = self.peek()
         if got == kind:
             return self.accept()
@@ -101,7 +101,7 @@ class Lexer:
         raise GrammarError("Expecting token or wildcard")
 
     def node_prefix(self) -> str | None:
-        """Take `node:` where it stands; returns the node's name, else None."""
+        """Take a `node:` prefix, if there is one, and return the node's name, else None."""
         if self.peek_two() != (Lexeme.TOKEN, Lexeme.COLON):
             return None
         name = self.accept()

@@ -1,4 +1,4 @@
-"""The bus within one process: matches endpoints, and passes messages from object to object."""
+"""The bus within one process: matches endpoints, and passes messages as objects."""
 
 from __future__ import annotations
 
@@ -42,20 +42,20 @@ class LocalBus:
         self._clients: dict[str, list[ClientEndpoint]] = {}
         self._watchers: list[GraphChanged] = []
         self.tap = Tap()
-        """For those who receive for this process on other ways, too."""
+        """Also used by those who receive messages for this process from elsewhere."""
         self._tables = GraphTables(self._lock)
 
     def published(self) -> int:
-        """How many messages the present publishers have published in all."""
+        """Total number of messages published by the current publishers."""
         with self._lock:
             return sum(each.published for publishers in self._publishers.values() for each in publishers)
 
     def overhear(self, hear: Hear | None) -> None:
-        """Hand over each message that is published, without being a subscription."""
+        """Pass on each published message, without a subscription; None ends that."""
         self.tap.hear = hear
 
     def add_node(self, name: str, namespace: str, enclave: str) -> NodeId:
-        """Let a node appear in the graph."""
+        """Add a node to the graph."""
         node = NodeId(name, namespace, enclave, next(self._numbers))
         with self._lock:
             self._nodes[node] = []
@@ -64,7 +64,7 @@ class LocalBus:
         return node
 
     def remove_node(self, node: NodeId) -> None:
-        """Let a node and all that it has left leave the graph."""
+        """Remove a node and its remaining endpoints from the graph."""
         with self._lock:
             for thing in list(self._nodes.get(node, ())):
                 self._take_away(thing)
@@ -73,7 +73,7 @@ class LocalBus:
         self.changed(node.owner)
 
     def create_publisher(self, endpoint: Endpoint, on_event: OnEvent) -> LocalPublisher:
-        """Make a publisher and match it."""
+        """Create a publisher and match it with the subscriptions."""
         publisher = LocalPublisher(endpoint, on_event, self._lock, self.tap)
         with self._lock:
             if not self._own(endpoint.node, publisher):
@@ -83,14 +83,14 @@ class LocalBus:
             for each in self._subscriptions.get(endpoint.topic, ()):
                 if self._match(publisher, each):
                     matched.append(each)
-            # Replaced, never changed: `publish` goes through it without a lock.
+            # Replaced, never mutated: `publish` iterates over it without a lock.
             publisher.targets = tuple(matched)
             self._tables.publishers.add(endpoint)
         self.changed(endpoint.node.owner)
         return publisher
 
     def create_subscription(self, subscription: SubscriptionEndpoint) -> None:
-        """Let a subscription receive, late messages included."""
+        """Add a subscription, which also receives the messages kept for late subscriptions."""
         endpoint = subscription.endpoint
         with self._lock:
             if not self._own(endpoint.node, subscription):
@@ -107,7 +107,7 @@ class LocalBus:
         self.changed(endpoint.node.owner)
 
     def _match(self, publisher: LocalPublisher, subscription: SubscriptionEndpoint) -> bool:
-        """Whether the two go together, telling both sides."""
+        """Whether a publisher and a subscription match; notifies both."""
         if publisher.endpoint.type_name != subscription.endpoint.type_name:
             return False
         policy = incompatible_policy(publisher.endpoint.qos, subscription.endpoint.qos)
@@ -122,7 +122,7 @@ class LocalBus:
         return True
 
     def create_service(self, service: ServiceEndpoint) -> None:
-        """Let a service server receive requests."""
+        """Add a service server, which then receives requests."""
         with self._lock:
             if self._own(service.node, service):
                 self._services.setdefault(service.name, []).append(service)
@@ -130,7 +130,7 @@ class LocalBus:
         self.changed(service.node.owner)
 
     def create_client(self, client: ClientEndpoint) -> None:
-        """Let a client appear in the graph."""
+        """Add a service client to the graph."""
         with self._lock:
             if self._own(client.node, client):
                 self._clients.setdefault(client.name, []).append(client)
@@ -138,7 +138,7 @@ class LocalBus:
         self.changed(client.node.owner)
 
     def _own(self, node: NodeId, thing: Thing) -> bool:
-        """Note what a node has; False when it has left the graph, as one that was killed while it went on."""
+        """Record a node's endpoint; returns False if the node has left the graph, e.g. killed while still running."""
         things = self._nodes.get(node)
         if things is None:
             return False
@@ -146,14 +146,14 @@ class LocalBus:
         return True
 
     def disown(self, thing: ServiceEndpoint | ClientEndpoint) -> None:
-        """Let a service server or client stay when its node leaves."""
+        """Keep a service server or client when its node leaves."""
         with self._lock:
             things = self._nodes.get(thing.node, [])
             if thing in things:
                 things.remove(thing)
 
     def remove(self, thing: Thing) -> None:
-        """Take an endpoint away; a second time does nothing."""
+        """Remove an endpoint; does nothing if it was already removed."""
         with self._lock:
             self._take_away(thing)
         self.changed(_owner(thing).owner)
@@ -169,7 +169,7 @@ class LocalBus:
         elif isinstance(thing, ClientEndpoint):
             _drop(self._clients, thing.name, thing)
             self._tables.clients.remove(thing)
-        # Nothing there: its node has left before it.
+        # Empty if its node left first.
         things = self._nodes.get(_owner(thing))
         if things and thing in things:
             things.remove(thing)
@@ -206,15 +206,15 @@ class LocalBus:
         client.notify()
 
     def has_server(self, client: ClientEndpoint) -> bool:
-        """Whether a server of the client's service is there."""
+        """Whether a server of the client's service exists."""
         return any(each.type_name == client.type_name for each in tuple(self._services.get(client.name, ())))
 
     def tables(self) -> Sequence[GraphTables]:
-        """The graph of this process."""
+        """The graph tables of this process."""
         return (self._tables,)
 
     def on_graph_change(self, callback: GraphChanged) -> Callable[[], None]:
-        """Call back at each change of the graph; returns what ends that."""
+        """Call back on each change of the graph; returns a function that ends this."""
         with self._lock:
             self._watchers.append(callback)
 
@@ -226,12 +226,12 @@ class LocalBus:
         return end
 
     def stopped(self) -> Mapping[int, Sequence[str]]:
-        """None: who could ask in a frozen process is frozen as well."""
+        """Nothing: a frozen process cannot ask."""
         return {}
 
     def changed(self, owner: Owner) -> None:
-        """Tell those who watch the graph whose place in it has changed."""
-        # Outside of the lock: watchers ask the bus what has changed.
+        """Notify the graph's watchers of the node whose entries have changed."""
+        # Without the lock: watchers query the bus for what has changed.
         for watcher in tuple(self._watchers):
             watcher(owner)
 
@@ -253,6 +253,6 @@ _buses_lock = threading.Lock()
 
 
 def local_bus(domain: int) -> LocalBus:
-    """The bus of a ROS domain in this process, made at first use."""
+    """Return the bus of a ROS domain in this process, created on first use."""
     with _buses_lock:
         return _buses.setdefault(domain, LocalBus())

@@ -22,7 +22,7 @@ from bot_console.runtime.rmw.endpoints import (
 from bot_console.runtime.rmw.qos_matching import INFINITE, LATCHING
 
 Aim = tuple[tuple[SubscriptionEndpoint, ...], Callable[[Message], bytes] | None]
-"""Who receives; and how its bytes are made, where nobody wants the message itself. Replaced as a whole."""
+"""The receivers, and the serializer if none of them needs the message object. Replaced as a whole."""
 
 
 class LocalPublisher:
@@ -39,18 +39,18 @@ class LocalPublisher:
         self._lock = lock
         self.on_event = on_event
         self.on_publish: Notify | None = None
-        """Called with each message, where somebody watches that."""
+        """Called for each message, if somebody is watching."""
         manual = endpoint.qos.liveliness.name == "MANUAL_BY_TOPIC"
         lease = endpoint.qos.liveliness_lease_duration.nanoseconds
         self.lease: int | None = lease if manual and lease not in INFINITE else None
-        """How long (ns) it counts as alive without a sign of life; None for as long as it is there."""
+        """How long (ns) it counts as alive without asserting its liveliness; None for as long as it exists."""
         self._aim: Aim = (), None
         self._outlet: SubscriptionEndpoint | None = None
         self.elsewhere = 0
-        """How many subscriptions of other processes receive."""
+        """Number of matched subscriptions in other processes."""
         self.open = True
         self._number = 0
-        # Looked up once: a publisher stays in the process, and so in the time, in which it was made.
+        # Looked up once: a publisher keeps the process, and so the clock, that it was created in.
         self._now = current().clock.system_ns
         self._lifespan = endpoint.qos.lifespan.nanoseconds
         keeps = endpoint.qos.durability.name in LATCHING
@@ -58,7 +58,7 @@ class LocalPublisher:
 
     @property
     def targets(self) -> tuple[SubscriptionEndpoint, ...]:
-        """The subscriptions that receive, renewed when the graph changes."""
+        """The matched subscriptions, replaced when the graph changes."""
         return self._aim[0]
 
     @targets.setter
@@ -67,9 +67,9 @@ class LocalPublisher:
         self._aim = targets, _codec().serialize if in_bytes else None
 
     def publish(self, message: Message) -> None:
-        """Give all what the message is now, which refuses what cannot be sent although nobody listens.
+        """Send the message's present content; refuses one that cannot be sent even if nobody listens.
 
-        Where all want its bytes, as other processes do, these are all that is made; else it is copied.
+        If all receivers want bytes, as other processes do, it is only serialized; otherwise it is copied.
         """
         if self.open:
             targets, write = self._aim
@@ -79,23 +79,23 @@ class LocalPublisher:
                 self._give(targets, message, write(message))
 
     def publish_own(self, message: Message) -> bool:
-        """Publish a message that is well formed and that nobody else holds: it is not copied where that is needless.
+        """Publish a well-formed message that nobody else holds: it is not copied unless needed.
 
-        False when the publisher is closed.
+        Returns False if the publisher is closed.
         """
         if self.open:
             self._give(self._aim[0], message)
         return self.open
 
     def skip(self) -> None:
-        """Count a message that was not made, since it is not wanted; it is a sign of life all the same."""
+        """Count a message that was not created because nobody wants it; it still asserts liveliness."""
         if self.open:
             if self.lease is not None or self.on_publish is not None:
                 self.assert_liveliness()
             self._number += 1
 
     def _give(self, targets: tuple[SubscriptionEndpoint, ...], message: Message, data: bytes | None = None) -> None:
-        """Put a message into the queue of each target: its bytes, or itself, which is the middleware's own then."""
+        """Put a message, or its bytes, into each target's queue; the message then belongs to the middleware."""
         if self.lease is not None or self.on_publish is not None:
             self.assert_liveliness()
         history, hear = self.history, self._tap.hear
@@ -106,11 +106,11 @@ class LocalPublisher:
         takers = len(targets)
         if history is not None:
             history.append((message, stamp, number))
-            takers += 1  # what is kept is never taken
+            takers += 1  # the kept one is never taken
         if hear is not None:
             takers += 1
         expires = stamp + self._lifespan if self._lifespan else None
-        # The last who takes it gets the message itself, the others a copy when they take it, if they ever do.
+        # The last taker gets the message itself, the others a copy made on taking it, if they ever do.
         given = Shared(message, takers) if takers > 1 else message
         for target in targets:
             if target.raw and data is None:
@@ -121,11 +121,11 @@ class LocalPublisher:
             hear(self.endpoint, self.endpoint.gid, number, stamp, message if data is None else data)
 
     def publish_raw(self, data: bytes) -> None:
-        """Give serialized data as it is, or as a message to subscriptions that want one."""
+        """Publish serialized data, deserialized for subscriptions that want a message."""
         self.publish(_codec().deserialize(data, self.endpoint.message_class))
 
     def assert_liveliness(self) -> None:
-        """Give a sign of life."""
+        """Assert the publisher's liveliness."""
         if self.on_publish is not None:
             self.on_publish()
         if self.lease is not None:
@@ -133,15 +133,15 @@ class LocalPublisher:
                 target.on_event("asserted", self)
 
     def matched_count(self) -> int:
-        """How many subscriptions receive."""
+        """Number of matched subscriptions, including other processes'."""
         return len(self.targets) - (self._outlet is not None) + self.elsewhere
 
     def is_heard(self) -> bool:
-        """Whether anybody gets what is published: a subscription, here or elsewhere, or who overhears all."""
+        """Whether anybody receives what is published: a subscription, here or elsewhere, or an observer."""
         return bool(self.targets) or self._tap.hear is not None
 
     def send_elsewhere(self, outlet: SubscriptionEndpoint | None) -> None:
-        """Let a target take each message, serialized, for other processes; None where nobody wants it there."""
+        """Set the target that takes each message, serialized, for other processes; None if nobody wants it there."""
         with self._lock:
             if outlet is self._outlet or not self.open:
                 return
@@ -151,13 +151,13 @@ class LocalPublisher:
 
     @property
     def published(self) -> int:
-        """How many messages were published."""
+        """Number of messages published."""
         return self._number
 
     def late(self, target: SubscriptionEndpoint) -> None:
-        """Give a subscription that has come late what was kept for it."""
+        """Send the kept messages to a late subscription."""
         now = self._now()
-        for message, stamp, number in tuple(self.history or ()):  # another thread may publish meanwhile
+        for message, stamp, number in tuple(self.history or ()):  # copied, as another thread may publish meanwhile
             expires = stamp + self._lifespan if self._lifespan else None
             if expires is None or now <= expires:
                 given = _codec().serialize(message) if target.raw else message._copy_()
@@ -168,7 +168,7 @@ class LocalPublisher:
 
 @cache
 def _codec() -> Any:
-    """The codec, which a process does without as long as no bytes are wanted."""
+    """Return the codec, imported only once bytes are needed."""
     from bot_console.runtime.rosidl import cdr
 
     return cdr

@@ -1,4 +1,4 @@
-"""Which middleware the contexts of this process use: the bus within the process, unless the program chose another."""
+"""Which middleware the contexts of this process use: the in-process bus, unless the program chose another."""
 
 from __future__ import annotations
 
@@ -8,22 +8,22 @@ from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.local import local_bus
 
 BusOf = Callable[[int], Bus]
-"""Gives the bus of a ROS domain, each time the same one."""
+"""Returns the bus of a ROS domain; always the same one for a domain."""
 
 _bus_of: BusOf = local_bus
 
 
 def choose_middleware(bus_of: BusOf) -> None:
-    """Let contexts that are initialised from now on use another middleware; for the program's composition alone."""
+    """Make contexts initialised from now on use another middleware; only for the program's composition root."""
     global _bus_of
     _bus_of = bus_of
 
 
 def is_chosen(bus_of: BusOf) -> bool:
-    """Whether contexts get their bus from this one."""
+    """Whether this is the chosen middleware."""
     return _bus_of is bus_of
 
 
 def bus_of(domain: int) -> Bus:
-    """The bus of a ROS domain, of the middleware that was chosen."""
+    """Return the bus of a ROS domain from the chosen middleware."""
     return _bus_of(domain)

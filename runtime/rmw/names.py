@@ -1,6 +1,6 @@
 """Validation and expansion of node, namespace, topic and service names.
 
-Each check returns None for a valid name, else the message of rcl or rmw with the index of the offending character.
+Each check returns None for a valid name, else the message of rcl or rmw and the index of the offending character.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def validate_node_name(name: str) -> Problem | None:
 
 
 def validate_namespace(namespace: str) -> Problem | None:
-    """Check a namespace, which is absolute."""
+    """Check a namespace, which must be absolute."""
     if not namespace:
         return "namespace must not be empty", 0
     if namespace == "/":
@@ -50,7 +50,7 @@ def validate_namespace(namespace: str) -> Problem | None:
 
 
 def validate_full_topic_name(name: str) -> Problem | None:
-    """Check the name of a topic or service after expansion."""
+    """Check a topic or service name after expansion."""
     if not name:
         return "topic name must not be empty", 0
     problem = _validate_full(name, "topic name")
@@ -80,7 +80,7 @@ def _validate_full(name: str, what: str) -> Problem | None:
 
 
 def validate_topic_name(name: str) -> Problem | None:
-    """Check the name of a topic or service as it is typed: relative, private or absolute, with substitutions."""
+    """Check a topic or service name as typed: relative, private or absolute, with substitutions."""
     if _PLAIN.match(name):
         return None
     if not name:
@@ -92,7 +92,7 @@ def validate_topic_name(name: str) -> Problem | None:
     problem = _validate_characters(name)
     if problem:
         return problem
-    if name[0] == "~" and name[1:2] != "/" and len(name) > 2:  # rcl leaves out the last character: `~a` passes
+    if name[0] == "~" and name[1:2] != "/" and len(name) > 2:  # rcl does not check the last character: `~a` passes
         return "topic name must not have a tilde '~' that is not followed by a forward slash '/'", 1
     digit = _DIGIT_TOKEN.search(name)
     if digit:
@@ -132,12 +132,12 @@ def _validate_substitution(name: str, opened: int, index: int) -> Problem | None
 
 
 def full_name(namespace: str, name: str) -> str:
-    """The name of a node with its namespace before it."""
+    """Return a node's fully qualified name."""
     return f"{namespace.rstrip('/')}/{name}"
 
 
 def expand(name: str, node: str, namespace: str) -> str:
-    """The full name of a valid name as typed; raises `ValueError` in rcl's words for an unknown substitution."""
+    """Expand a valid name as typed; raises `ValueError` with rcl's wording for an unknown substitution."""
     if name[0] == "/" and "{" not in name:
         return name
     prefix = namespace.rstrip("/")
@@ -169,7 +169,7 @@ _NODE_NAME_PROBLEMS = (
 
 
 def in_words_for_node_names(namespace_problem: str) -> str:
-    """What rmw says of a namespace when it makes a node: it looks the problem's number up among those of node names."""
+    """Return rmw's message for an invalid namespace of a new node: it looks up the code among those for node names."""
     number = next(place for place, word in enumerate(_NAMESPACE_PROBLEMS) if word in namespace_problem)
     known = number < len(_NODE_NAME_PROBLEMS)
     return _NODE_NAME_PROBLEMS[number] if known else "unknown result code for rmw_validate_node_name"

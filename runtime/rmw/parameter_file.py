@@ -14,7 +14,7 @@ _WILDCARDS = ("*", "**")
 
 
 def read_parameter_file(path: str, overrides: ParameterOverrides) -> None:
-    """Add the values of a file to the overrides; raises `ParameterYamlError`. The file may be on a server (https://)."""
+    """Add the values of a file, local or at an https:// address, to the overrides; raises `ParameterYamlError`."""
     import yaml
 
     if is_remote(path):
@@ -27,7 +27,7 @@ def read_parameter_file(path: str, overrides: ParameterOverrides) -> None:
     try:
         with open(path, "rb") as file:
             content = file.read()
-    except (OSError, ValueError) as error:  # ValueError: a name that no file can have
+    except (OSError, ValueError) as error:  # ValueError: an impossible file name
         if isinstance(error, IsADirectoryError):
             raise ParameterYamlError("Error parsing a event near line 0") from None
         raise ParameterYamlError("Error opening YAML file") from None
@@ -55,7 +55,7 @@ def read_parameter_file(path: str, overrides: ParameterOverrides) -> None:
 
 
 def _not_yaml(path: str, content: bytes, error: Exception) -> str:
-    """Where and why a text is no YAML; a tab is named, which YAML does not."""
+    """Say where and why a text is not YAML; names a tab as the cause, which the YAML library does not."""
     mark = getattr(error, "problem_mark", None)
     if mark is None:
         return ""
@@ -76,7 +76,7 @@ def _underscore(path: str, content: bytes) -> str:
 
 
 class _Levels:
-    """The names of the levels that lead to where the reader is, joined by a separator."""
+    """The names of the nesting levels above the reader's position, joined by a separator."""
 
     def __init__(self, separator: str) -> None:
         self.separator = separator
@@ -106,7 +106,7 @@ class _Levels:
 
 
 class _Reader:
-    """Where the reading of a file is. rcl's rules are rules about events, with their corners, not about a tree."""
+    """The reader's state. rcl's rules, with their corner cases, are about events, not about a tree."""
 
     def __init__(self, overrides: ParameterOverrides) -> None:
         self.line = 0
@@ -156,7 +156,7 @@ class _Reader:
         if node is None or (self._new_map and self._index >= len(node.names)):
             raise ParameterYamlError(f"Internal error creating param namespace at line {self.line}")
         if self._new_map:
-            # A map under a parameter's name makes that name the first part of the names in the map.
+            # A map under a parameter's name makes that name a prefix of the names in the map.
             self._parameter_levels.replace(node.names[self._index])
             self._new_map = False
         above = self._parameter_levels.path
@@ -200,7 +200,7 @@ class _Reader:
 
 
 def _check_node_key(key: str) -> None:
-    """Raise `ParameterYamlError` for a key that cannot be the name of a node, wildcards aside."""
+    """Raise `ParameterYamlError` for a key that cannot be a node's name, wildcards aside."""
     namespace, slash, node = key.rpartition("/")
     if slash:
         namespace = f"{namespace}/"

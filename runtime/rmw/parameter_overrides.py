@@ -1,4 +1,4 @@
-"""Parameter overrides from outside, by node key and name, each kept per type until one is chosen."""
+"""Parameter overrides given to a node, by node key and name, with one value per type until one is chosen."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from typing import Any
 from bot_console.runtime.rmw.parameter_types import SCALARS
 
 COMMAND_LINE = "-p"
-"""The source of a value that the command line itself gives."""
+"""The source of a value given on the command line itself."""
 
 Slots = dict[tuple[str, bool], Any]
-"""What a parameter was given: (kind, whether a list) -> value. rcl keeps one value of each type beside the others."""
+"""The values given for a parameter: (kind, whether a list) -> value. Like rcl, it keeps one value per type."""
 
 
 def chosen(slots: Slots) -> Any:
-    """The value that counts among those of several types: scalars before lists; None where there is no value."""
+    """Return the effective value among those of several types: scalars before lists; None if there is none."""
     for is_list in (False, True):
         for kind in SCALARS:
             if (kind.word, is_list) in slots:
@@ -25,7 +25,7 @@ def chosen(slots: Slots) -> Any:
 
 
 class ParameterYamlError(ValueError):
-    """A parameter file or value is refused; the message has the words of rcl. `mend` says more than they do."""
+    """A parameter file or value is refused; the message has rcl's wording. `mend` adds how to fix it."""
 
     def __init__(self, text: str, mend: str = "") -> None:
         super().__init__(text)
@@ -33,19 +33,19 @@ class ParameterYamlError(ValueError):
 
 
 class NodeOverrides:
-    """The parameters under one node key. Names may repeat; the later one counts."""
+    """The parameters under one node key. Names may repeat; the later value counts."""
 
     def __init__(self) -> None:
         self.names: list[str] = []
         self.values: list[Slots] = []
         self.sources: list[str] = []
-        """What gave each one its value last: the path of a file, or `COMMAND_LINE`."""
+        """The source of each parameter's last value: the path of a file, or `COMMAND_LINE`."""
 
         self.source = ""
-        """What is being read."""
+        """The source being read."""
 
     def find(self, name: str) -> int:
-        """The place of a parameter, which is added where it is missing."""
+        """Return a parameter's index, adding it if missing."""
         if name not in self.names:
             self.names.append(name)
             self.values.append({})
@@ -60,15 +60,15 @@ class NodeOverrides:
 
 
 class ParameterOverrides:
-    """Overrides by node key; keys keep the place where they appeared first."""
+    """Overrides by node key; keys keep the order of their first appearance."""
 
     def __init__(self) -> None:
         self.nodes: dict[str, NodeOverrides] = {}
         self.source = COMMAND_LINE
-        """Where what is added comes from: the path of a file, or `COMMAND_LINE`."""
+        """The source of the values being added: the path of a file, or `COMMAND_LINE`."""
 
     def node(self, key: str) -> NodeOverrides:
-        """The parameters under a node key, which is added where it is missing."""
+        """Return the parameters under a node key, which is added if missing."""
         node = self.nodes.setdefault(key, NodeOverrides())
         node.source = self.source
         return node

@@ -10,21 +10,21 @@ from bot_console.runtime.rmw.parameter_overrides import ParameterOverrides
 from bot_console.runtime.rmw.parameter_overrides import ParameterYamlError as ParameterYamlError
 
 ALL_NODES = "/**"
-"""The key of values that every node takes, such as those of a plain `-p name:=value`."""
+"""The key of values for every node, such as those of a plain `-p name:=value`."""
 
 
 class ParameterTable(ParameterOverrides):
     """All overrides of one command line."""
 
     def add_file(self, path: str) -> None:
-        """Take the values of a parameter file; raises `ParameterYamlError`."""
+        """Add the values of a parameter file; raises `ParameterYamlError`."""
         from bot_console.runtime.rmw.parameter_file import read_parameter_file
 
         self.source = path
         read_parameter_file(path, self)
 
     def add_value(self, key: str, name: str, text: str) -> None:
-        """Take the value of one parameter as `-p` writes it; raises `ParameterYamlError`."""
+        """Add the value of one parameter in the syntax of `-p`; raises `ParameterYamlError`."""
         from bot_console.runtime.rmw.parameter_value import read_parameter_value
 
         if not text:
@@ -34,7 +34,7 @@ class ParameterTable(ParameterOverrides):
         read_parameter_value(text, node.values[node.find(name)])
 
     def for_node(self, fully_qualified_name: str) -> dict[str, Any]:
-        """The values that reach a node; later keys overwrite earlier ones. None stands for a value without type."""
+        """Return a node's values; later keys overwrite earlier ones. None means a value without a type."""
         found: dict[str, Any] = {}
         for key, node in self.nodes.items():
             if key_matches(key, fully_qualified_name):
@@ -42,7 +42,7 @@ class ParameterTable(ParameterOverrides):
         return found
 
     def sources_for_node(self, fully_qualified_name: str) -> dict[str, str]:
-        """Where each value of `for_node` comes from: the path of a file, or `COMMAND_LINE`."""
+        """Return the source of each value of `for_node`: the path of a file, or `COMMAND_LINE`."""
         found: dict[str, str] = {}
         for key, node in self.nodes.items():
             if key_matches(key, fully_qualified_name):
@@ -51,7 +51,7 @@ class ParameterTable(ParameterOverrides):
 
 
 def key_matches(key: str, fully_qualified_name: str) -> bool:
-    """Whether a node key, with `*` for one name and `**` for any number of them, means this node."""
+    """Whether a node key, with `*` for one name and `**` for any number of them, matches a node."""
     if key == ALL_NODES:
         return True
     key = key if key.startswith("/") else f"/{key}"

@@ -1,7 +1,7 @@
-"""The type of a scalar in a parameter file or in `-p name:=value`, as rcl decides it.
+"""The type of a scalar in a parameter file or in `-p name:=value`, as rcl determines it.
 
-The rules are those of C's `strtol` and `strtod` with a list of words for booleans, not those of YAML: `1e3` is a
-double, `010` is eight, `null` is text.
+The rules are those of C's `strtol` and `strtod` plus a list of words for booleans, not those of YAML: `1e3` is a
+double, `010` is eight, `null` is a string.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _WORD = re.compile(_BLANKS + r"([+-]?)(inf|infinity|nan(?:\([0-9A-Za-z_]*\))?)\Z
 
 
 def scalar_value(text: str) -> Scalar:
-    """The value of an unquoted scalar: bool, int (64 bits), float or, where nothing else fits, the text itself."""
+    """Return the value of an unquoted scalar: bool, int (64 bits), float or, if nothing else fits, the text itself."""
     if text in _TRUE:
         return True
     if text in _FALSE:
@@ -45,7 +45,7 @@ MOST_DIGITS = 19
 
 
 def _base(digits: str) -> int:
-    """The base that `strtol` finds by the first digits."""
+    """Return the base that `strtol` infers from the first digits."""
     if digits[:2] in ("0x", "0X"):
         return 16
     return 8 if digits[0] == "0" else 10
@@ -66,7 +66,7 @@ def _integer(text: str) -> int | None:
 
 
 def _double(text: str) -> float | None:
-    """The number, or None where the text is none or its value is out of the range of a double."""
+    """Parse a double; None if the text is not a number or is out of a double's range."""
     if text in _NAN:
         return math.nan
     if _INFINITE.match(text):
@@ -89,7 +89,7 @@ def _double(text: str) -> float | None:
 
 
 def _lost_digits(text: str, value: float) -> bool:
-    """Whether a number is so small that a double cannot hold it exactly, which `strtod` calls a range error."""
+    """Whether a number is so small that a double cannot hold it exactly, which is a range error for `strtod`."""
     if abs(value) >= 2.0**-1022:
         return False
     from fractions import Fraction
@@ -98,6 +98,6 @@ def _lost_digits(text: str, value: float) -> bool:
 
 
 def _shortened(text: str) -> str:
-    """The same number, or another one as small, with an exponent that `Fraction` computes at once."""
+    """Return the same number, or another just as small, with an exponent that `Fraction` can handle quickly."""
     mantissa, _, exponent = text.lower().partition("e")
     return f"{mantissa}e{max(int(exponent), -1100 - len(mantissa))}" if exponent else mantissa

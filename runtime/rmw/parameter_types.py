@@ -6,22 +6,22 @@ from typing import NamedTuple
 
 
 class ParameterType(NamedTuple):
-    """A type that a parameter's value can have."""
+    """The type of a parameter value."""
 
     code: int
     name: str
-    """As in `rclpy.Parameter.Type`."""
+    """Name in `rclpy.Parameter.Type`."""
     python: type
-    """Of a value, or of each element of an array."""
+    """Python type of a value, or of each element of an array."""
     is_array: bool
     word: str
-    """As rcl and launch files name it."""
+    """Name used by rcl and launch files."""
     shown: str
-    """As `ros2 param` prints it."""
+    """Name printed by `ros2 param`."""
 
     @property
     def field(self) -> str:
-        """The field of `rcl_interfaces/msg/ParameterValue` that holds a value."""
+        """The field of `rcl_interfaces/msg/ParameterValue` that holds such a value."""
         return f"{self.name.lower()}_value"
 
 
@@ -37,13 +37,13 @@ DOUBLE_ARRAY = ParameterType(8, "DOUBLE_ARRAY", float, True, "double_array", "do
 STRING_ARRAY = ParameterType(9, "STRING_ARRAY", str, True, "string_array", "string array")
 
 SCALARS = (BOOL, INTEGER, DOUBLE, STRING)
-"""Booleans come first: in Python they are integers, too."""
+"""Booleans come first: in Python they are also integers."""
 ARRAYS = (BYTE_ARRAY, BOOL_ARRAY, INTEGER_ARRAY, DOUBLE_ARRAY, STRING_ARRAY)
 BY_CODE = {each.code: each for each in (*SCALARS, *ARRAYS)}
 BY_CLASS = {each.python: each for each in SCALARS}
 
 
 def word_of(value: object) -> str:
-    """The word for the type of a scalar; of what is none the name of its class."""
+    """Return the word for a scalar's type; for any other value the name of its class."""
     found = BY_CLASS.get(type(value))
     return type(value).__name__ if found is None else found.word

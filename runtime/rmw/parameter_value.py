@@ -1,4 +1,4 @@
-"""The value of `-p name:=value`: a scalar or a flat list in YAML."""
+"""Parse the value of `-p name:=value`: a scalar or a flat list in YAML."""
 
 from __future__ import annotations
 
@@ -15,34 +15,34 @@ _STRING_TAG = "tag:yaml.org,2002:str"
 
 
 def yaml_events(source: str | bytes) -> Iterator[Any]:
-    """The events of a YAML text; raises `yaml.YAMLError`."""
+    """Yield the events of a YAML text; raises `yaml.YAMLError`."""
     import yaml
 
-    untyped: Any = yaml  # the stubs say nothing of what `parse` takes and gives
+    untyped: Any = yaml  # the stubs leave `parse` untyped
     try:
         yield from untyped.parse(source, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except ValueError as error:  # half a character, as a terminal's word may hold
+    except ValueError as error:  # an incomplete character, as an argument from a terminal may hold
         raise yaml.YAMLError(str(error)) from None
 
 
 class ValueWriter:
-    """Puts scalars into the slots of a parameter; in a list they must be of one type."""
+    """Writes scalars into a parameter's slots; the elements of a list must have the same type."""
 
     def __init__(self) -> None:
         self.in_list = False
         self._kind: str | None = None
 
     def start_list(self) -> None:
-        """Let a list begin: what follows is of a new type."""
+        """Begin a list: its first element determines its type."""
         self.in_list = True
         self._kind = None
 
     def end_list(self) -> None:
-        """Let the list end."""
+        """End the list."""
         self.in_list = False
 
     def scalar(self, event: Any, slots: Slots) -> None:
-        """Take a scalar of YAML; raises `ParameterYamlError` for none and for one that does not fit its list."""
+        """Write a YAML scalar; raises `ParameterYamlError` if it is empty or does not fit its list."""
         line = event.start_mark.line + 1
         quoted = event.style in ("'", '"')
         if not quoted and not event.value:
@@ -50,7 +50,7 @@ class ValueWriter:
         self.put(event.value if quoted or event.tag == _STRING_TAG else scalar_value(event.value), slots, line)
 
     def put(self, value: Scalar, slots: Slots, line: int) -> None:
-        """Take a value that stands in a line of the source."""
+        """Write a value from the given line of the source."""
         kind = word_of(value)
         if not self.in_list:
             slots[kind, False] = value
@@ -66,7 +66,7 @@ class ValueWriter:
 
 
 def read_parameter_value(text: str, slots: Slots) -> None:
-    """Put the value that a text means into the slots of its parameter; raises `ParameterYamlError`."""
+    """Parse a value into a parameter's slots; raises `ParameterYamlError`."""
     writer = ValueWriter()
     if _WORD.match(text):
         # A plain word needs no YAML parser, whose import takes longer than a node's start should.

@@ -1,4 +1,4 @@
-"""QoS as the middleware sees it: a protocol met by `rclpy.qos.QoSProfile` and by profiles received from elsewhere."""
+"""QoS as the middleware sees it: a protocol implemented by `rclpy.qos.QoSProfile` and by received profiles."""
 
 from __future__ import annotations
 
@@ -6,25 +6,25 @@ from typing import Protocol
 
 
 class Policy(Protocol):
-    """One policy of a profile; its names are rmw's."""
+    """One policy of a profile, named as in rmw."""
 
     @property
     def name(self) -> str:
-        """Such as `RELIABLE`."""
+        """For example `RELIABLE`."""
         ...
 
 
 class Period(Protocol):
-    """A duration; zero and the largest ones mean no limit."""
+    """A duration; zero and the largest values mean no limit (`qos_matching.INFINITE`)."""
 
     @property
     def nanoseconds(self) -> int:
-        """Its length."""
+        """Its length in ns."""
         ...
 
 
 class Profile(Protocol):
-    """A quality of service, as `rclpy.qos.QoSProfile` has it."""
+    """A QoS profile, with the attributes of `rclpy.qos.QoSProfile`."""
 
     @property
     def history(self) -> Policy:
@@ -38,22 +38,22 @@ class Profile(Protocol):
 
     @property
     def reliability(self) -> Policy:
-        """Whether lost messages are sent again."""
+        """Whether lost messages are resent."""
         ...
 
     @property
     def durability(self) -> Policy:
-        """Whether late subscriptions get what came before."""
+        """Whether late subscriptions get earlier messages."""
         ...
 
     @property
     def deadline(self) -> Period:
-        """The longest time that is expected between two messages."""
+        """The longest expected time between two messages."""
         ...
 
     @property
     def lifespan(self) -> Period:
-        """How long a message is worth delivering."""
+        """How long a message stays valid for delivery."""
         ...
 
     @property
@@ -63,5 +63,5 @@ class Profile(Protocol):
 
     @property
     def liveliness_lease_duration(self) -> Period:
-        """After what silence a publisher counts as dead."""
+        """After how long without an assertion a publisher counts as dead."""
         ...

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from bot_console.runtime.rmw.qos import Profile
 
 INFINITE = (0, 2**63 - 2, 2**63 - 1)
-"""Durations that stand for no limit: not given, "best available", infinite."""
+"""Durations in ns that mean no limit: unspecified, "best available", infinite."""
 LATCHING = ("TRANSIENT_LOCAL", "BEST_AVAILABLE")
-"""Durabilities with which a publisher keeps messages for subscriptions that come late."""
+"""Durabilities with which a publisher keeps messages for late subscriptions."""
 
 
 def incompatible_policy(offered: Profile, requested: Profile) -> str:
-    """The name of the policy in which two profiles do not fit, as rmw tells the last one; empty when they fit."""
+    """Return the name of the incompatible policy, of several the last in rmw's order; empty if the profiles match."""
     worst = ""
     if requested.reliability.name == "RELIABLE" and offered.reliability.name == "BEST_EFFORT":
         worst = "RELIABILITY"
@@ -30,14 +30,14 @@ def incompatible_policy(offered: Profile, requested: Profile) -> str:
 
 
 def _shorter(requested: int, offered: int) -> bool:
-    """Whether less is asked for than is offered."""
+    """Whether the requested duration is shorter than the offered one."""
     if requested in INFINITE:
         return False
     return offered in INFINITE or offered > requested
 
 
 def wants_history(requested: Profile, offers: Sequence[Profile]) -> bool:
-    """Whether a subscription gets what came before it; "best available" does where all publishers keep it."""
+    """Whether a subscription gets earlier messages; with "best available", only if all publishers keep them."""
     if requested.durability.name == "BEST_AVAILABLE":
         return all(offer.durability.name in LATCHING for offer in offers)
     return requested.durability.name == "TRANSIENT_LOCAL"

@@ -28,12 +28,12 @@ class RemapRule(NamedTuple):
     replacement: str
 
     def concerns(self, kind: Kind, node: str) -> bool:
-        """Whether the rule is of that kind and for that node."""
+        """Whether the rule is of this kind and applies to this node."""
         return bool(self.kind & kind) and self.node in (None, node)
 
 
 def parse_rule(text: str) -> RemapRule:
-    """Read a rule; raises `GrammarError` with the words of rcl."""
+    """Parse a rule; raises `GrammarError` with rcl's wording."""
     lexer = Lexer(text)
     node = lexer.node_prefix()
     kind = lexer.peek()
@@ -114,12 +114,12 @@ def _replacement_token(lexer: Lexer) -> None:
 
 
 def remap_node_name(rules: Iterable[RemapRule], name: str) -> str | None:
-    """The name that the first fitting rule gives to a node, or None."""
+    """Return a node's new name by the first matching rule, or None."""
     return _first(rules, Kind.NODE_NAME, name)
 
 
 def remap_namespace(rules: Iterable[RemapRule], name: str) -> str | None:
-    """The namespace that the first fitting rule gives to the node of that name, or None."""
+    """Return the new namespace of the node of that name by the first matching rule, or None."""
     return _first(rules, Kind.NAMESPACE, name)
 
 
@@ -128,12 +128,12 @@ def _first(rules: Iterable[RemapRule], kind: Kind, name: str) -> str | None:
 
 
 def remap_topic(rules: Iterable[RemapRule], node: str, namespace: str, full: str) -> str:
-    """The full name of a topic after the first rule that matches its full name."""
+    """Return a topic's full name after the first rule that matches its full name."""
     return _remap(rules, Kind.TOPIC, node, namespace, full)
 
 
 def remap_service(rules: Iterable[RemapRule], node: str, namespace: str, full: str) -> str:
-    """The full name of a service after the first rule that matches its full name."""
+    """Return a service's full name after the first rule that matches its full name."""
     return _remap(rules, Kind.SERVICE, node, namespace, full)
 
 

@@ -1,1 +1,1 @@
-"""The bus beyond one process: Zenoh, in the wire format of rmw_zenoh."""
+"""The inter-process bus: Zenoh, in the wire format of rmw_zenoh."""

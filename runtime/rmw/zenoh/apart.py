@@ -1,4 +1,4 @@
-"""Drains a Zenoh channel in a thread of its own, which yields the interpreter to others in between."""
+"""Drain a Zenoh channel in a separate thread that regularly yields the interpreter to the others."""
 
 from __future__ import annotations
 
@@ -11,28 +11,29 @@ from contextlib import suppress
 from typing import Any, Protocol
 
 WAITING = 100_000
-"""Samples that a channel may hold: 5,000 nodes that come at once. When it is full, Zenoh's thread waits."""
+"""Capacity of a channel in samples: enough for 5,000 nodes that appear at once. Zenoh's thread waits while it is full.
+"""
 TURN = 0.003
-"""Seconds for which samples are taken one after the other."""
+"""How long samples are taken without a break, in seconds."""
 PAUSE = 0.003
-"""Seconds between two such turns, for the threads that deal with keys and stops."""
+"""Break between two turns, in seconds, which leaves the interpreter to the threads that handle keys and stops."""
 QUIET = 0.05
-"""Longest wait (s) for the next sample, where none has come for some time."""
+"""Longest interval between two polls of an idle channel, in seconds."""
 
 
 class Channel(Protocol):
-    """What a session's channel offers."""
+    """The part of a Zenoh channel that is used here."""
 
     def try_recv(self) -> Any:
-        """The next sample; None when there is none now. Raises where none comes any more."""
+        """Return the next sample, or None if none is available now. Raises once the channel is closed."""
         ...
 
 
 class Taking(threading.Thread):
-    """Hands samples on in their order until the channel raises `ended`.
+    """Pass samples to a callback, in order, until the channel raises `ended`.
 
-    It looks for them now and then rather than wait in Zenoh: a thread that the interpreter's end finds in there ends
-    the program with an abort, for what is unwound then is not Python's alone.
+    The thread polls instead of blocking inside Zenoh: if the interpreter shut down while the thread was blocked there,
+    unwinding its stack through foreign frames would abort the program.
     """
 
     def __init__(self, channel: Channel, take: Callable[[Any], None], ended: type[Exception]) -> None:
@@ -44,25 +45,25 @@ class Taking(threading.Thread):
         self._lock = threading.RLock()
 
     def run(self) -> None:
-        """Take samples until there is an end."""
+        """Take samples until the channel is closed or `end` is called."""
         wait = 0.0
         with suppress(self._ended):
             while not self._over.wait(wait):
                 wait = PAUSE if self._turn() else min(wait * 1.5 + 0.001, QUIET)
 
     def take_waiting(self) -> None:
-        """Take at once all that is there, in the caller's thread."""
+        """Take all available samples now, in the caller's thread."""
         with self._lock, suppress(self._ended):
             while (sample := self._channel.try_recv()) is not None:
                 self._take(sample)
 
     def end(self) -> None:
-        """Take no more, and be gone."""
+        """Stop taking samples and join the thread, for at most 1 s."""
         self._over.set()
         self.join(1.0)
 
     def _turn(self) -> bool:
-        """Take what is there, for no longer than a turn; whether there was something."""
+        """Take available samples for at most `TURN`; return whether there were any."""
         until = time.monotonic() + TURN
         found = False
         with self._lock:
@@ -78,7 +79,7 @@ _all: weakref.WeakSet[Taking] = weakref.WeakSet()
 
 
 def take_apart(channel: Channel, take: Callable[[Any], None], ended: type[Exception]) -> Taking:
-    """Hand samples on in their order until the channel raises `ended`, in the thread that is given back."""
+    """Start and return a thread that passes samples to `take`, in order, until the channel raises `ended`."""
     taking = Taking(channel, take, ended)
     _all.add(taking)
     taking.start()

@@ -1,4 +1,4 @@
-"""The bus across processes: local traffic goes from object to object, the rest in the wire format of rmw_zenoh."""
+"""The inter-process bus: local messages are passed as objects, all others in the wire format of rmw_zenoh."""
 
 from __future__ import annotations
 
@@ -37,17 +37,17 @@ from bot_console.runtime.rmw.zenoh.wire.tokens import Kind, Token, TokenNode, en
 from bot_console.runtime.rosidl import type_hash
 
 SERVICE_QOS = "::,10:,:,:,,"
-"""Reliable, volatile, the last ten: rmw's default for services."""
+"""Reliable, volatile, keep last 10: rmw's default profile for services."""
 
 FLUSHED = 0.3
-"""How long one that leaves waits until what must not be dropped is sent, in s."""
+"""How long leaving or closing waits for the queue of messages that must not be dropped, in s."""
 
 Way = Outlet | Inlet | Served | Asking
 
 
 @dataclass
 class Bridge:
-    """What an endpoint of this process has in the session."""
+    """What the session holds for one endpoint of this process."""
 
     way: Way
     token: Declared
@@ -56,7 +56,7 @@ class Bridge:
 
 @dataclass
 class BridgedNode:
-    """A node of this process as others see it."""
+    """A node of this process as other processes see it."""
 
     node: TokenNode
     token: Declared
@@ -64,7 +64,7 @@ class BridgedNode:
 
 
 class ZenohBus:
-    """The middleware of one ROS domain, shared with the other processes of the session's mesh."""
+    """The middleware of one ROS domain, shared with the other processes in the session's mesh."""
 
     def __init__(self, session: Session, local: LocalBus) -> None:
         self._session = session
@@ -81,12 +81,12 @@ class ZenohBus:
         session.on_rejoin = self._send_again
 
     def leave(self) -> None:
-        """Take the session's socket away, for a process that ends at once."""
+        """Remove the session's socket, for a process that exits at once."""
         self._sender.end(FLUSHED)
         self._session.leave()
 
     def add_node(self, name: str, namespace: str, enclave: str) -> NodeId:
-        """Let a node appear in the graph."""
+        """Add a node to the graph."""
         node = self._local.add_node(name, namespace, enclave)
         shown = TokenNode(self._session.zid, next(self._numbers), enclave, namespace, name)
         token = self._session.declare_token(node_token(self._session.domain, shown))
@@ -95,7 +95,7 @@ class ZenohBus:
         return node
 
     def remove_node(self, node: NodeId) -> None:
-        """Let a node and all its endpoints leave the graph."""
+        """Remove a node and all its endpoints from the graph."""
         with self._lock:
             bridged = self._nodes.pop(node, None)
         self._local.remove_node(node)
@@ -106,7 +106,9 @@ class ZenohBus:
         bridged.token.undeclare()
 
     def create_publisher(self, endpoint: Endpoint, on_event: OnEvent) -> PublisherEndpoint:
-        """Make a publisher; it serializes only where another process subscribes, or for those who come later."""
+        """Create a publisher; it serializes only if another process subscribes, or if it keeps samples for late
+        subscribers.
+        """
         key, shown = self._names(endpoint.node, "MP", endpoint)
         publisher = self._local.create_publisher(endpoint, on_event)
         if shown:
@@ -117,19 +119,19 @@ class ZenohBus:
         return publisher
 
     def create_subscription(self, subscription: SubscriptionEndpoint) -> None:
-        """Let a subscription receive, from other processes too."""
+        """Add a subscription, which also receives from other processes."""
         endpoint = subscription.endpoint
         key, shown = self._names(endpoint.node, "MS", endpoint)
         self._local.create_subscription(subscription)
         if shown:
             inlet = Inlet(self._session, subscription, key, self._own, self._local.tap)
             watched: tuple[Kind, str, Listener] = ("MP", endpoint.topic, self._telling(inlet.saw))
-            self._watches.listen(*watched)  # who publishes is known before the first message comes
+            self._watches.listen(*watched)  # the publishers are known before the first message comes
             inlet.open()
             self._keep(endpoint.node, subscription, Bridge(inlet, self._session.declare_token(shown), watched))
 
     def create_service(self, service: ServiceEndpoint) -> None:
-        """Let a service server receive requests."""
+        """Add a service server, which also receives requests from other processes."""
         key, shown = self._names(service.node, "SS", service)
         self._local.create_service(service)
         if shown:
@@ -137,7 +139,7 @@ class ZenohBus:
             self._keep(service.node, service, Bridge(served, self._session.declare_token(shown)))
 
     def create_client(self, client: ClientEndpoint) -> None:
-        """Let a client of a service appear in the graph."""
+        """Add a service client to the graph."""
         key, shown = self._names(client.node, "SC", client)
         self._local.create_client(client)
         if shown:
@@ -146,7 +148,9 @@ class ZenohBus:
             self._keep(client.node, client, Bridge(asking, self._session.declare_token(shown), watched))
 
     def _names(self, node: NodeId, kind: Kind, thing: Endpoint | ServiceEndpoint | ClientEndpoint) -> tuple[str, str]:
-        """Key and token of a new entity, which gets its id; empty where its node has left the graph."""
+        """Return the key and the token of a new entity and assign its id; both are empty if its node has left the
+        graph.
+        """
         with self._lock:
             bridged = self._nodes.get(node)
         if bridged is None:
@@ -166,13 +170,13 @@ class ZenohBus:
             bridged = self._nodes.get(node)
             if bridged is not None:
                 bridged.bridges[thing] = bridge
-        if bridged is None:  # the node has left meanwhile
+        if bridged is None:  # the node has left in the meantime
             self._take_down(bridge)
         elif bridge.watched and not isinstance(bridge.way, Inlet):
             self._watches.listen(*bridge.watched)
 
     def _telling(self, saw: Listener) -> Listener:
-        """A listener whose changes the watchers of the graph hear of as well."""
+        """Wrap a listener so that the graph's watchers are notified of each change, too."""
 
         def tell(token: Token, came: bool) -> None:
             saw(token, came)
@@ -189,7 +193,7 @@ class ZenohBus:
             self._own.discard(bridge.way.gid)
 
     def disown(self, thing: ServiceEndpoint | ClientEndpoint) -> None:
-        """Let a service server or client stay when its node leaves."""
+        """Keep a service server or client when its node leaves."""
         self._local.disown(thing)
         with self._lock:
             bridged = self._nodes.get(thing.node)
@@ -198,7 +202,7 @@ class ZenohBus:
                 self._disowned[thing] = bridge
 
     def remove(self, thing: Thing) -> None:
-        """Take an endpoint away; a second time does nothing."""
+        """Remove an endpoint; does nothing if it was already removed."""
         self._local.remove(thing)
         node = thing.node if isinstance(thing, (ServiceEndpoint, ClientEndpoint)) else thing.endpoint.node
         with self._lock:
@@ -214,37 +218,37 @@ class ZenohBus:
         return bridge.way if bridge else None
 
     def request(self, client: ClientEndpoint, number: int, request: Message) -> None:
-        """Send a request to the servers here and elsewhere; lost when there is none."""
+        """Send a request to local and remote servers; it is lost if there are none."""
         self._local.request(client, number, request)
         asking = self._bridge(client)
         if isinstance(asking, Asking) and (asking.has_server or not self._local.has_server(client)):
             asking.request(number, request)
 
     def respond(self, client: ClientEndpoint, number: int, response: Message) -> None:
-        """Send a response to the client that asked."""
+        """Send a response to the client that made the request."""
         if isinstance(client, RemoteClient):
             client.served.respond(client, number, response)
         else:
             self._local.respond(client, number, response)
 
     def has_server(self, client: ClientEndpoint) -> bool:
-        """Whether a server of the client's service is there."""
+        """Whether a server of the client's service exists, in this process or another."""
         asking = self._bridge(client)
         return self._local.has_server(client) or (isinstance(asking, Asking) and asking.has_server)
 
     def _graph(self) -> WholeGraph:
-        """The graph of the other processes, looked at from the first question on."""
+        """The graph of the other processes, watched from the first query on."""
         with self._whole_lock:
             if self._whole is None:
                 self._whole = WholeGraph(self._session, self._local.changed, self._watches.known)
             return self._whole
 
     def tables(self) -> Sequence[GraphTables]:
-        """The graph of this process, and of the others."""
+        """The graph tables of this process and of the other processes."""
         return (*self._local.tables(), self._graph().tables)
 
     def stopped(self) -> Mapping[int, Sequence[str]]:
-        """The processes of the mesh that are frozen, by pid, with their nodes: Zenoh takes them for alive for long."""
+        """The frozen processes of the mesh, by pid, with their nodes; Zenoh itself considers them alive for long."""
         pids = self._session.stopped()
         if not pids:
             return {}
@@ -252,24 +256,24 @@ class ZenohBus:
         return {pid: nodes.get(session, ()) for session, pid in pids.items()}
 
     def on_graph_change(self, callback: GraphChanged) -> Callable[[], None]:
-        """Call back at each change of the graph that this process looks at; returns what ends that."""
+        """Call back on each graph change that this process observes; returns a function that ends this."""
         return self._local.on_graph_change(callback)
 
     def overhear(self, hear: Hear | None) -> None:
-        """Hand over what this process publishes, and what others send to its subscriptions."""
+        """Pass on what this process publishes and what its subscriptions receive; None ends that."""
         self._local.overhear(hear)
 
     def published(self) -> int:
-        """How many messages the present publishers of this process have published in all."""
+        """Total number of messages published by the current publishers of this process."""
         return self._local.published()
 
     def close(self) -> None:
-        """Leave the mesh; what is within this process goes on."""
+        """Leave the mesh; communication within this process goes on."""
         self._sender.end(FLUSHED)
         self._session.close()
 
     def _send_again(self) -> None:
-        """The session was opened anew: it has to have again what latching publishers keep, and what was not asked."""
+        """After a reopen, publish again what latching publishers keep, and send the requests that were held back."""
         with self._lock:
             ways = [bridge.way for each in self._nodes.values() for bridge in each.bridges.values()]
         for way in ways:

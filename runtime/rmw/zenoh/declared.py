@@ -1,8 +1,7 @@
-"""A session's declarations, which survive its being reopened, and are inert while no session is open.
+"""A session's declarations, which survive its reopening and do nothing while no session is open.
 
-A session is reopened beneath nodes that know nothing of it (`MeshSession.rejoin`), so nothing here raises because there
-is
-none at the moment.
+A session is reopened underneath nodes that are unaware of it (`MeshSession.rejoin`), so nothing here raises only
+because no session is open at the moment.
 """
 
 from __future__ import annotations
@@ -19,48 +18,48 @@ Received = Callable[[bytes, "bytes | None"], None]
 """Called with the payload and the attachment of a sample."""
 
 TokenSeen = Callable[[str, bool], None]
-"""Called with the key of a liveliness token, and whether it came (or went)."""
+"""Called with the key of a liveliness token and whether it appeared (True) or disappeared."""
 
 Declare = Callable[[Any], Any]
-"""Makes a thing in a session of Zenoh's and gives it."""
+"""Declares an entity in a Zenoh session and returns it."""
 
 
 class Keeper(Protocol):
-    """The session of what is declared."""
+    """What a declaration needs of its session."""
 
     settled: threading.Event
 
     def forget(self, thing: Declared) -> None:
-        """Take back what was declared."""
+        """Undeclare an entity."""
         ...
 
     def errors(self) -> type[Exception]:
-        """The class of Zenoh's errors; asked for when something was raised."""
+        """Zenoh's error class; only asked for once an error was raised."""
         ...
 
 
 LENT_FOR = 1.0
-"""Seconds for which something that is to be taken back may be in use; then it is left to the end of the session."""
+"""How long undeclaring waits for an entity that is in use, in seconds; then it is left to the end of the session."""
 
 TAKEN = "Already mutably borrowed"
-"""What Zenoh's binding says where another thread is just taking back what is used."""
+"""The error text of Zenoh's binding when another thread is undeclaring the entity being used."""
 
 
 class Declared:
-    """Something that a session has declared; `declare` makes it in a Zenoh session."""
+    """An entity declared by a session; `declare` creates it in a Zenoh session."""
 
     def __init__(self, session: Keeper, declare: Declare) -> None:
         self._session = session
         self.declare = declare
         self.inner: Any = None
-        """What Zenoh has made of it; None while no session is open."""
+        """The Zenoh entity; None while no session is open."""
 
     def undeclare(self) -> None:
-        """Take it back; a second time does nothing."""
+        """Undeclare the entity; does nothing if it was already undeclared."""
         self._session.forget(self)
 
     def take_back(self) -> None:
-        """Take back what Zenoh has made of it, once no other thread is just sending with it: until then it is lent."""
+        """Undeclare the Zenoh entity, retrying for up to `LENT_FOR` while another thread is sending with it."""
         until = time.monotonic() + LENT_FOR
         while time.monotonic() < until:
             try:
@@ -70,20 +69,20 @@ class Declared:
                 time.sleep(0.0005)
 
     def begin_again(self) -> None:
-        """The links that it had are cut, and made anew."""
+        """The links were cut and are being made again."""
 
     def settle(self) -> None:
-        """The new links are there."""
+        """The new links are up."""
 
 
 class Publisher(Declared):
     """Sends payloads to the subscribers of a key."""
 
     def put(self, payload: bytes, attachment: bytes) -> bool:
-        """Send one sample; waits at most `WAIT_BEFORE_DROP` for a link that is full.
+        """Send one sample; waits at most `WAIT_BEFORE_DROP` for a full link.
 
-        False where it could not be sent, because the session is closed or just rejoins, or as another thread is just
-        taking the publisher back.
+        Returns False if it could not be sent because the session is closed or rejoining, or because another thread is
+        undeclaring the publisher.
         """
         inner = self.inner
         if inner is None:
@@ -99,7 +98,9 @@ class Publisher(Declared):
         return True
 
     def put_surely(self, payload: bytes, attachment: bytes) -> bool:
-        """Send one sample once the session has its links, if it is just opened anew: for a thread of its own."""
+        """Send one sample, waiting for the links of a session that is being reopened; to be called in a separate
+        thread.
+        """
         settled = self._session.settled
         while True:
             if not settled.is_set():
@@ -111,16 +112,16 @@ class Publisher(Declared):
 
 
 class Querier(Declared):
-    """Asks the queryables of a key; `ask` is how, as Zenoh wants it: (inner, payload, attachment, replied, done)."""
+    """Queries the queryables of a key; `ask` makes the Zenoh call with (inner, payload, attachment, replied, done)."""
 
     def __init__(self, session: Keeper, declare: Declare, ask: Callable[..., None]) -> None:
         super().__init__(session, declare)
         self._ask = ask
 
     def get(self, payload: bytes, attachment: bytes, replied: Received, done: Callable[[], None]) -> bool:
-        """Ask; `replied` gets each reply, and `done` is called when all have replied or the time is over.
+        """Send a query; `replied` is called with each reply, and `done` after the last reply or the timeout.
 
-        False where it was not asked, because the session is closed or just rejoins; then `done` is not called.
+        Returns False if no query was sent because the session is closed or rejoining; then `done` is not called.
         """
         inner = self.inner
         if inner is None or not self._session.settled.is_set():
@@ -133,14 +134,14 @@ class Querier(Declared):
 
 
 class TokenWatch(Declared):
-    """Looks at tokens and hands on each that comes or goes, once.
+    """Watches tokens and reports once that each appears or disappears.
 
-    Zenoh does not say which of them go with the links of a session that is closed. Those that have not come again
-    when the new links are there have gone.
+    Zenoh does not report which tokens disappear with the links of a session that is closed. The tokens that have not
+    appeared again once the new links are up are reported as gone.
     """
 
     taking: Taking | None = None
-    """The thread that takes them, where one does that apart."""
+    """The thread that takes the samples, if they are taken apart from Zenoh's threads."""
 
     def __init__(self, session: Keeper, declare: Declare, seen: TokenSeen) -> None:
         super().__init__(session, declare)
@@ -152,7 +153,7 @@ class TokenWatch(Declared):
         self._not_again: set[str] = set()
 
     def saw(self, key: str, came: bool) -> None:
-        """A token came or went; with a lock held, so that its coming and going are told in their order."""
+        """A token appeared or disappeared. Reported with the lock held, to keep the order of the two."""
         with self._lock:
             self._not_again.discard(key)
             if came:
@@ -165,11 +166,13 @@ class TokenWatch(Declared):
             self._seen(key, came)
 
     def begin_question(self) -> None:
-        """It is asked for what is there: from now on it is noted what goes, so that no answer brings it back."""
+        """A query for the existing tokens starts: from now on, record the tokens that go, as no reply may bring them
+        back.
+        """
         self._is_asked = True
 
     def found(self, keys: Iterable[str]) -> None:
-        """An answer: those that were there, but for what has gone since."""
+        """Take in a reply: the tokens that existed, except those that have gone since."""
         for key in keys:
             with self._lock:
                 if key not in self._gone:
@@ -178,30 +181,30 @@ class TokenWatch(Declared):
                     self._seen(key, True)
 
     def end_question(self) -> None:
-        """All answers are in."""
+        """All replies have arrived."""
         with self._lock:
             self._is_asked = False
             self._gone.clear()
 
     def begin_again(self) -> None:
-        """The links are cut: each token is to come again."""
+        """The links were cut: each token has to appear again."""
         with self._lock:
             self._not_again = set(self._there)
 
     def settle(self) -> None:
-        """The new links are there: what has not come again has gone."""
+        """The new links are up: the tokens that have not appeared again are gone."""
         with self._lock:
             for key in tuple(self._not_again):
                 self.saw(key, False)
 
 
 class Query:
-    """A request that has come in: `answer` once, or `drop`."""
+    """A received request: call `answer` once, or `drop`."""
 
     __slots__ = ("_error", "_key", "_query", "attachment", "payload")
 
     def __init__(self, query: Any, key: str, payload: bytes, attachment: bytes | None, error: type[Exception]) -> None:
-        """`error` is the class of what Zenoh raises."""
+        """`error` is Zenoh's error class."""
         self._query = query
         self._key = key
         self._error = error
@@ -209,7 +212,7 @@ class Query:
         self.attachment = attachment
 
     def answer(self, payload: bytes, attachment: bytes) -> bool:
-        """Send the one reply; False where the session over which the request came is closed."""
+        """Send the only reply; returns False if the session that received the request is closed."""
         try:
             with self._query as query:
                 query.reply(self._key, payload, attachment=attachment)

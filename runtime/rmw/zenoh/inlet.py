@@ -1,4 +1,4 @@
-"""The way of messages from other processes into a subscription's queue."""
+"""Receives messages of other processes into a subscription's queue."""
 
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ from bot_console.runtime.rmw.zenoh.wire.tokens import Token
 from bot_console.runtime.rosidl.cdr import CdrError, deserialize
 
 ALL_KEPT = 1000
-"""How many messages of before a subscription asks for whose profile keeps all."""
+"""How many earlier messages a subscription with KEEP_ALL requests."""
 
 
 @dataclass(eq=False)
 class RemotePublisher:
-    """A publisher of another process, as far as the subscription knows it. `lifespan` is in ns, None without limit."""
+    """What a subscription knows of a publisher in another process. `lifespan` is in ns; None means no limit."""
 
     fits: bool = True
     lifespan: int | None = None
     number: int = 0
-    """The number of its last message."""
+    """Sequence number of its last message."""
 
     lease: int | None = None
 
 
 class Arrived(Held):
-    """Bytes that have come: read by the thread that takes the message, so that a link is emptied as fast as it can.
+    """A received payload, deserialized by the thread that takes the message so that the link is drained without delay.
 
-    What a full queue drops is never read.
+    A payload that a full queue drops is never deserialized.
     """
 
     __slots__ = ("_inlet", "_payload")
@@ -48,7 +48,7 @@ class Arrived(Held):
         self._payload = payload
 
     def take(self) -> Message | None:
-        """The message."""
+        """Deserialize and return the message; None if it is malformed."""
         try:
             return deserialize(self._payload, self._inlet.message_class)
         except CdrError as error:
@@ -57,17 +57,19 @@ class Arrived(Held):
 
 
 class Inlet:
-    """Receives for one subscription what others publish."""
+    """Receives for one subscription what other processes publish."""
 
     def __init__(
         self, session: Session, subscription: SubscriptionEndpoint, key: str, own: Container[bytes], tap: Tap
     ) -> None:
-        """`own` has the ids of this process's publishers, whose messages come from object to object."""
+        """`own` holds the ids of this process's publishers, whose messages are passed as objects."""
         self._subscription = subscription
         self._raw = subscription.raw
         self._counted = subscription.endpoint.topic in PATIENT_TOPICS
         self._opened = 0
-        """When messages began to be received (system time, ns); of those before, as many as there is room for come."""
+        """Start of reception (system time, ns); of the messages sent before it, only as many come as fit into the
+        queue.
+        """
         self._tap = tap
         self._own = own
         self.message_class = subscription.endpoint.message_class
@@ -80,7 +82,7 @@ class Inlet:
         self._latched = qos.durability.name in ("TRANSIENT_LOCAL", "BEST_AVAILABLE")
 
     def open(self) -> None:
-        """Begin to receive."""
+        """Start receiving."""
         self._opened = time.time_ns()
         qos = self._subscription.endpoint.qos
         history = (depth(qos) or ALL_KEPT) if self._latched else None
@@ -88,18 +90,18 @@ class Inlet:
         self._declared = self._session.declare_subscriber(self._key, self.received, reliable=reliable, history=history)
 
     def received(self, payload: bytes, attachment: bytes | None) -> None:
-        """A message has come, on one of Zenoh's threads."""
+        """Take in a message, on one of Zenoh's threads."""
         subscription = self._subscription
         try:
             number, stamp, gid = unpack(attachment, payload)
-            # The question for what was kept reaches the caches of this session too, whatever its origin may be.
+            # The history query also reaches the caches of this session, whatever `allowed_origin` is.
             if gid in self._own:
                 return
             publisher = self._publishers.get(gid)
             if publisher is None:
-                # Its first message can be here before its token.
+                # Its first message can arrive before its token.
                 publisher = self._publishers[gid] = RemotePublisher()
-            # A latched message can come twice: as it is published, and from the publisher's cache.
+            # A latched message can arrive twice: when it is published, and from the publisher's cache.
             if not publisher.fits or (self._latched and number <= publisher.number):
                 return
             if publisher.number and number > publisher.number + 1:
@@ -120,7 +122,7 @@ class Inlet:
             hear(subscription.endpoint, gid, number, stamp, payload)
 
     def dropped(self, error: Exception) -> None:
-        """Tell that a message cannot be read."""
+        """Report a message that cannot be read."""
         notify(self._process, f"a message on '{self._subscription.endpoint.topic}' was dropped: {error}")
 
     def _lost(self, count: int) -> None:
@@ -135,7 +137,7 @@ class Inlet:
             )
 
     def _overrun(self) -> None:
-        """Count a message that makes room, on a topic whose readers count on each one, and say so once."""
+        """Count an overwritten message on a topic whose readers need every message, and report it once."""
         queue, topic = self._subscription.queue, self._subscription.endpoint.topic
         self._session.lost += 1
         self._subscription.on_event("lost", 1)
@@ -145,7 +147,7 @@ class Inlet:
         )
 
     def saw(self, token: Token, came: bool) -> None:
-        """A publisher of another process came or went."""
+        """A publisher of another process appeared or disappeared."""
         subscription = self._subscription
         endpoint = subscription.endpoint
         if not has_same_type(self._process, endpoint, self._key, token, came):
@@ -168,6 +170,6 @@ class Inlet:
         subscription.on_event("alive" if came else "gone", publisher)
 
     def close(self) -> None:
-        """Receive nothing any more."""
+        """Stop receiving."""
         if self._declared is not None:
             self._declared.undeclare()

@@ -1,8 +1,7 @@
-"""One liveliness subscription per kind of token, shared by those interested in single topics or services.
+"""One liveliness subscription per kind of token, shared by all that watch single topics or services.
 
-Zenoh compares each token it receives with the key of each subscription of the session: with hundreds of subscriptions
-that
-is most of the cost of a large graph.
+Zenoh matches each received token against the key of each subscription of the session: with hundreds of subscriptions
+this is most of the cost of a large graph.
 """
 
 from __future__ import annotations
@@ -17,20 +16,20 @@ from bot_console.runtime.rmw.zenoh.wire.tokens import Kind, tokens_of_kind, topi
 
 
 class Row:
-    """The keys of the tokens of one topic, and who looks at them."""
+    """The token keys of one topic, and its watcher."""
 
     __slots__ = ("is_left", "keys", "lock", "seen")
 
     def __init__(self) -> None:
-        self.lock = threading.RLock()  # one each, and not to wait for: a node may be ended in the middle of anything
+        self.lock = threading.RLock()  # one per row, and reentrant: the garbage collector may end a node at any point
         self.keys: dict[str, None] = {}
         self.seen: TokenSeen | None = None
         self.is_left = False
-        """Whether another row is, or will be, the topic's."""
+        """Whether another row has replaced this one, or will."""
 
 
 class Look:
-    """Somebody's look at one topic."""
+    """A watch of one topic."""
 
     def __init__(self, watch: KindWatch, topic: str, seen: TokenSeen) -> None:
         self._watch = watch
@@ -38,21 +37,22 @@ class Look:
         self._seen = seen
 
     def undeclare(self) -> None:
-        """Look no more; a second time does nothing."""
+        """End the watch; does nothing if it already ended."""
         self._watch.look_away(self._topic, self._seen)
 
 
 class KindWatch:
-    """The tokens of one kind by topic or service; those of a topic are read by who looks at it."""
+    """The tokens of one kind by topic or service; the tokens of a topic are parsed by its watcher."""
 
     def __init__(self, session: Session, kind: Kind) -> None:
         self._rows: dict[str, Row] = {}
         self._watch = session.watch_tokens(tokens_of_kind(session.domain, kind), self._saw, apart=True)
 
     def look(self, topic: str, seen: TokenSeen) -> Look:
-        """Call back for each token of a topic that is there, comes or goes.
+        """Call back for each token of a topic that exists, appears or disappears.
 
-        Not with a lock held that the end of a node takes: it is waited for who is just told of others.
+        Must not be called with a lock held that the removal of a node takes: it may wait for a watcher that is being
+        notified of another token.
         """
         self._take_waiting()
 
@@ -65,7 +65,7 @@ class KindWatch:
         return Look(self, topic, seen)
 
     def look_away(self, topic: str, seen: TokenSeen) -> None:
-        """Tell one no more, if it is still the one that looks."""
+        """Stop notifying `seen`, if it is still the topic's watcher."""
 
         def end(row: Row) -> None:
             if row.seen is seen:
@@ -74,7 +74,7 @@ class KindWatch:
         self._change(mangled(topic), end)
 
     def known(self) -> list[str]:
-        """The keys of the tokens that were told and are there."""
+        """The keys of the existing tokens that were reported."""
         self._take_waiting()
         return [key for row in list(self._rows.values()) for key in tuple(row.keys)]
 
@@ -97,7 +97,7 @@ class KindWatch:
             self._change(part, change)
 
     def _change(self, part: str, change: Callable[[Row], None]) -> None:
-        """Change a topic's row, which is there only while it has tokens or somebody looks."""
+        """Change a topic's row, which exists only while it has tokens or a watcher."""
         while True:
             row = self._rows.get(part) or self._rows.setdefault(part, Row())
             with row.lock:

@@ -1,4 +1,4 @@
-"""The lifetime of a session: opened, reopened beneath its declarations, which survive that, and closed."""
+"""The lifetime of a session: it is opened, reopened underneath its declarations, which survive that, and closed."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from bot_console.runtime.rmw.zenoh.declared import Declared
 from bot_console.runtime.rmw.zenoh.pace import Pace
 
 CLOSING = 0.4
-"""How long closing is waited for, in s: it takes 2.5 s beside a frozen process to which the link is full."""
+"""How long `close` waits, in s: closing takes 2.5 s if the link to a frozen process is full."""
 
 
 class Lifetime:
-    """What a session has declared, from its opening to its end; a subclass opens and shuts. From any thread."""
+    """A session's declarations, from opening to closing; a subclass opens and closes it. Thread-safe."""
 
     _zenoh: Any
-    """Zenoh's session, which another one takes the place of when it is opened anew."""
+    """The Zenoh session, replaced when it is reopened."""
 
     def __init__(self) -> None:
         self._lock = threading.RLock()
@@ -27,24 +27,26 @@ class Lifetime:
         self._ended = False
         self._pace = Pace()
         self.settled = threading.Event()
-        """Not set while the session is opened anew, until its links are there: what is sent before may reach nobody."""
+        """Cleared while the session is being reopened, until its links are up: what is sent earlier may reach nobody.
+        """
         self.settled.set()
 
     @staticmethod
     def errors() -> type[Exception]:
-        """The class of Zenoh's errors; asked for when something was raised."""
+        """Zenoh's error class; only asked for once an error was raised."""
         raise NotImplementedError
 
     def _shut(self) -> None:
-        """Close Zenoh's session."""
-        with contextlib.suppress(self.errors()):  # on a busy machine it gives up after 10 s, and is closed all the same
+        """Close the Zenoh session."""
+        with contextlib.suppress(self.errors()):  # on a busy machine it times out after 10 s but is closed all the same
             self._zenoh.close()
 
     def _reopen(self, join: Callable[[], None]) -> bool:
-        """Close, open anew by `join`, and declare all again; False where it was closed for good meanwhile.
+        """Close, reopen with `join`, and declare everything again; returns False if it was closed for good meanwhile.
 
-        That takes seconds beside a frozen process, and more where opening fails and is tried again: nobody who
-        declares, sends, asks or takes back waits for it. What is declared meanwhile is made when all is.
+        This takes seconds next to a frozen process, and longer if opening fails and is retried. The lock is not held
+        for that time, so that declaring, sending, querying and undeclaring do not wait. What is declared meanwhile is
+        made with the rest.
         """
         with self._lock:
             if self._ended:
@@ -66,19 +68,19 @@ class Lifetime:
         return False
 
     def _settle(self) -> None:
-        """The links of a session that was opened anew are there, or will not come."""
+        """The links of a reopened session are up, or will not come up."""
         with self._lock:
             declared = tuple(self._declared)
         for each in declared:
             each.settle()
 
     def close(self) -> None:
-        """Leave; what was declared is gone. A second time does nothing."""
+        """Close the session and its declarations; does nothing if it is already closed."""
         self.settled.set()
         with self._lock:
             self._ended = True
             if not self._is_open:
-                return  # closed, or just being opened anew, which then ends in being closed
+                return  # closed, or being reopened, which then ends with closing
             self._is_open = False
         closing = threading.Thread(target=self._shut, name="zenoh-close", daemon=True)
         closing.start()
@@ -98,7 +100,7 @@ class Lifetime:
         return thing
 
     def forget(self, thing: Declared) -> None:
-        """Take back what was declared."""
+        """Undeclare an entity."""
         with self._lock:
             if thing in self._declared:
                 del self._declared[thing]

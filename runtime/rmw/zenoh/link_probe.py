@@ -1,6 +1,7 @@
-"""Whether a link is alive: pings its other end again and again.
+"""Probe whether a link is alive, by pinging its other end repeatedly.
 
-The link itself would notice a cut cable only after its lease, which is chosen by the other side and 10 s by default.
+The link itself would notice a cut cable only after its lease, which the other side chooses and which is 10 s by
+default.
 """
 
 from __future__ import annotations
@@ -12,52 +13,53 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 PERIOD = 0.4
-"""Seconds from one question to the next."""
+"""Interval between pings, in seconds."""
 SILENCE = 5.0
-"""Seconds without any answer after which the first is not believed: after ten Zenoh gives a link up, and ends all
-questions as if they were answered."""
+"""After so many seconds without an answer, the next answer is not trusted: after ten, Zenoh gives up a link and ends
+all queries as if they were answered.
+"""
 PATIENCE = 10.0
-"""Seconds for which an answer is waited for; on a link that is full it comes late, and is one all the same."""
+"""Timeout of a ping, in seconds; on a full link an answer comes late, but still counts."""
 SOON, LATER = 0.001, 0.02
-"""Seconds from one look for answers to the next: while one may come at once, and afterwards."""
+"""Polling intervals, in seconds: shortly after a ping, and later."""
 
 Answer = Callable[[], "bool | None"]
-"""Whether a question has been answered; None as long as that may still come."""
+"""Whether a ping was answered; None while the answer may still come."""
 Ask = Callable[[float], Answer]
-"""Asks once, for an answer within so many seconds."""
+"""Sends a ping with a timeout in seconds."""
 
 
 @dataclass(frozen=True)
 class LinkState:
-    """How a link is: when it last answered and how long that took (s, of the monotonic clock)."""
+    """The state of a link: when it last answered (s, monotonic clock) and how long that took (s)."""
 
     to: str = ""
     """The other end, such as `tcp/robot:7447`."""
     heard: float | None = None
     delay: float | None = None
     lost: int = 0
-    """Messages that did not arrive or had no room here, as far as their numbers tell."""
+    """Messages that were lost or found no room here, judging by their sequence numbers."""
 
 
 class LinkProbe:
-    """Asks in a thread of its own until `end`; the next question does not wait for the answer to the last."""
+    """Pings in a separate thread until `end`; a ping does not wait for the answer to the previous one."""
 
     def __init__(self, ask: Ask, to: str, clock: Callable[[], float] = time.monotonic) -> None:
         self._ask = ask
         self._clock = clock
         self._open: list[tuple[float, Answer]] = []
-        """Questions without an answer so far, and when they were asked; the oldest first."""
+        """Unanswered pings and when they were sent; the oldest first."""
         now = clock()
         self._asked = now - PERIOD
         self._came = self._believed = now
-        """When the last answer came, and from when on a question was asked whose answer is believed."""
+        """When the last answer came, and from which time of sending on a ping's answer is trusted."""
         self.state = LinkState(to, now)  # it has just been opened
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._run, name="link-probe", daemon=True)
         self._thread.start()
 
     def end(self) -> None:
-        """Ask no more."""
+        """Stop pinging."""
         self._ended.set()
 
     def _run(self) -> None:
@@ -66,7 +68,7 @@ class LinkProbe:
             pause = self.look()
 
     def look(self) -> float:
-        """Ask, if it is time to, and take the answers that have come; gives the seconds until the next look."""
+        """Send a ping if one is due and collect answers; return the seconds until the next call."""
         with contextlib.suppress(RuntimeError):  # the session is being closed
             self._ask_if_due()
             self._take_answers()
@@ -89,7 +91,7 @@ class LinkProbe:
                 self._take(asked)
 
     def _take(self, asked: float) -> None:
-        """Believe an answer, unless the question was open over a long silence."""
+        """Accept an answer, unless its ping was pending during a long silence."""
         now = self._clock()
         if now - self._came > SILENCE:
             self._believed = now

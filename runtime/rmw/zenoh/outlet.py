@@ -1,4 +1,4 @@
-"""The way of a publisher's messages to other processes: serialized where somebody there wants them."""
+"""Sends a publisher's messages to other processes, serialized only if one of them subscribes."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from bot_console.runtime.rmw.zenoh.wire.attachment import pack
 from bot_console.runtime.rmw.zenoh.wire.tokens import Token
 
 ALL_KEPT = 1000
-"""How many messages a latching publisher keeps for others where its profile says all."""
+"""How many messages a latching publisher with KEEP_ALL keeps for other processes."""
 
 
 PATIENT_TOPICS = frozenset({"/rosout"})
-"""Reliable topics of which nothing is dropped whatever their depth: who reads a log counts on each of its lines."""
+"""Reliable topics on which nothing is dropped whatever the depth: readers of a log need every line."""
 
 
 class Outlet(deque[Any]):
-    """Stands among the local subscriptions of a publisher as the one for all other processes.
+    """The queue, among a publisher's local subscriptions, that represents all other processes.
 
-    What the publisher puts into its queue goes out at once; what must not be dropped (reliable, and keep all or lines
-    of the log) does from another thread, so that the publisher does not wait. A latching publisher's messages always
-    do: those who come later get them from the session, not from the program.
+    A message that the publisher appends is sent at once; one that must not be dropped (reliable, and KEEP_ALL or a log
+    line) is sent by another thread, so that the publisher does not wait. A latching publisher's messages are always
+    sent: late subscribers get them from the session, not from the program.
     """
 
     def __init__(self, session: Session, sender: Sender, publisher: LocalPublisher, key: str) -> None:
@@ -52,7 +52,7 @@ class Outlet(deque[Any]):
             publisher.send_elsewhere(self._target)
 
     def append(self, entry: Any) -> None:
-        """Send one message that the publisher has serialized."""
+        """Send one message, which the publisher has serialized."""
         data, stamp, number, _ = entry
         out = self._out or self._open()
         attachment = pack(number, stamp, self.gid, data)
@@ -69,7 +69,7 @@ class Outlet(deque[Any]):
         return self._out
 
     def saw(self, token: Token, came: bool) -> None:
-        """A subscription of another process came or went."""
+        """A subscription of another process appeared or disappeared."""
         publisher = self._publisher
         endpoint = publisher.endpoint
         if not has_same_type(self._process, endpoint, self._key, token, came):
@@ -85,15 +85,15 @@ class Outlet(deque[Any]):
         publisher.on_event("matched", 1 if came else -1)
 
     def send_again(self) -> None:
-        """Give the session, which was opened anew, what a latching publisher has kept."""
+        """Publish what a latching publisher has kept to the reopened session."""
         self._publisher.late(self._target)
 
     def close(self) -> None:
-        """Send nothing any more."""
+        """Stop sending."""
         self._publisher.send_elsewhere(None)
         if self._out is not None:
             self._sender.undeclare(self._out)
 
 
 def _nothing() -> None:
-    """What is sent wakes nobody here."""
+    """Wake nobody: what is sent has no reader in this process."""

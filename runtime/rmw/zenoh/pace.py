@@ -1,4 +1,4 @@
-"""Pauses for a process that declares many things at once: every process of the domain has to take in each of them."""
+"""Throttles a process that declares many entities at once, as every process of the domain must take in each."""
 
 from __future__ import annotations
 
@@ -6,17 +6,17 @@ import time
 from collections.abc import Callable
 
 AT_ONCE = 1000
-"""Things that are shown without a rest: some fifty nodes."""
+"""Declarations made without a pause: about fifty nodes."""
 EACH = 20
-"""Things between two rests."""
+"""Declarations between two pauses."""
 REST = 0.005
-"""Seconds of a rest: as long as making so many things takes, so that others have half of a processor."""
+"""Length of a pause, in seconds: as long as `EACH` declarations take, which leaves half of a processor to others."""
 QUIET = 0.1
-"""Seconds without a new thing after which as many may come at once again."""
+"""Seconds without a declaration after which `AT_ONCE` may be made without a pause again."""
 
 
 class Pace:
-    """Counts what is shown, and rests now and then where that is very much."""
+    """Counts declarations and pauses now and then when there are very many."""
 
     def __init__(
         self, clock: Callable[[], float] = time.monotonic, sleep: Callable[[float], None] = time.sleep
@@ -27,7 +27,7 @@ class Pace:
         self._last = 0.0
 
     def shown(self) -> None:
-        """One more thing is shown."""
+        """Count a declaration, and pause if one is due."""
         now = self._clock()
         self._count = self._count + 1 if now - self._last < QUIET else 1
         if self._count > AT_ONCE and self._count % EACH == 0:

@@ -1,4 +1,4 @@
-"""What is in the graph at the moment when somebody starts watching it."""
+"""What is in the graph when a watch of it begins."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from bot_console.runtime.rmw.zenoh.declared import TokenSeen, TokenWatch
 from bot_console.runtime.rmw.zenoh.session import ATTENDANCE, Session
 
 Known = Callable[[], "Iterable[str] | None"]
-"""Gives the tokens that other watches of the session have seen and that are there; None where that is not known."""
+"""Returns the existing tokens that other watches of the session have seen; None if they are not known."""
 
 
 def watch_all(session: Session, key: str, seen: TokenSeen, known: Known) -> TokenWatch:
-    """Watch the tokens of a key apart from Zenoh's threads, and take in all that are there now.
+    """Watch the tokens of a key apart from Zenoh's threads, and take in all that exist now.
 
-    Among processes that are linked directly each has the tokens of all others, sent when a link was made: declaring the
-    watch brings them before it returns, but for those that other watches of the session were told already, which a
-    thread of Zenoh's tells some time later. So these are asked of the other watches. Else all is asked for once more.
+    Directly linked processes have each other's tokens, sent when the link was made: declaring the watch delivers them
+    before it returns, except those already reported to other watches of the session, which a Zenoh thread delivers some
+    time later. These are taken from the other watches. If that is not possible, all tokens are queried once more.
     """
     watch = session.watch_tokens(key, seen, apart=True)
     watch.begin_question()
@@ -29,9 +29,9 @@ def watch_all(session: Session, key: str, seen: TokenSeen, known: Known) -> Toke
 
 
 def _all_links_carry(session: Session) -> bool:
-    """Whether all that are linked have answered a small question, over a link that comes after their first tokens.
+    """Whether all linked processes have answered a small query, over links on which their first tokens precede it.
 
-    What comes over a link comes in its order, so nothing that was there when it was made is on its way any more.
+    A link delivers in order, so no token that existed when the link was made is still under way.
     """
     linked = session.linked()
     here, answered = session.collect_tokens(f"{ATTENDANCE}*", session.patience)

@@ -1,4 +1,4 @@
-"""Whether two processes mean the same by a type name; otherwise neither receives the other's messages."""
+"""Whether two processes agree on a type's definition; if not, neither receives the other's messages."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ if TYPE_CHECKING:
 
 
 def has_same_type(process: Warned, endpoint: Endpoint, key: str, token: Token, came: bool) -> bool:
-    """Whether messages can pass between an endpoint of ours and another's, which has come or gone.
+    """Whether messages can pass between our endpoint and a remote one that has appeared or disappeared.
 
-    `key` is that of our endpoint. A type of the same name with another definition is told when it comes.
+    `key` is our endpoint's data key. A type of the same name with another definition is reported when it appears.
     """
     if token.type_name != endpoint.type_name:
         return False

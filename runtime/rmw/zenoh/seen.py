@@ -1,4 +1,4 @@
-"""The part of the graph this process watches: other processes' tokens under a key, as they appear and vanish."""
+"""The part of the graph this process watches: other processes' tokens under a key, as they appear and disappear."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 from bot_console.runtime.rmw.zenoh.wire.tokens import Kind, Token, parse_token, tokens_of
 
 Listener = Callable[[Token, bool], None]
-"""Called with a token that came (True) or went; it may append and wake, and nothing else."""
+"""Called with a token that appeared (True) or disappeared; it may only append to a queue and wake a thread."""
 
 SINGLE = 48
-"""So many topics or services of each kind are watched singly, told at once from Zenoh's own threads: what a robot in
-one process has. From then on one watch for the kind serves the others, which hear of what comes up to 0.05 s later.
+"""How many topics or services of each kind are watched singly, notified at once by Zenoh's own threads: as many as a
+robot in one process has. All others share one watch per kind, which is notified up to 0.05 s later.
 """
 
 
 class SeenTokens:
-    """The tokens of other sessions under one key; a listener hears of those that are there and of every change."""
+    """The tokens of other sessions under one key; listeners are notified of existing tokens and of every change."""
 
     def __init__(
         self,
@@ -33,9 +33,9 @@ class SeenTokens:
         known: Known | None = None,
         refused: Callable[[str], None] = lambda key: None,
     ) -> None:
-        """With `known` all that is there is seen at once; `refused` is called with a key that came and is no token.
+        """With `known` all existing tokens are taken in at once; `refused` is called with a new key that is no token.
 
-        Without a key nothing is watched: `saw` is told by a watch that is there, whose look is given to `told_by`.
+        Without a key nothing is declared: an existing watch calls `saw`, and `told_by` takes the `Look` that does so.
         """
         self._refused = refused
         self._own = session.zid
@@ -47,12 +47,12 @@ class SeenTokens:
             self._declared = watch_all(session, key, self.saw, known) if known else session.watch_tokens(key, self.saw)
 
     def told_by(self, look: Look) -> None:
-        """It is this look that tells of its tokens."""
+        """Set the look that reports these tokens."""
         self._declared = look
 
     def saw(self, key: str, came: bool) -> None:
-        """A token came or went; one that is no token of the format is ignored, as are those of this session."""
-        if came and key in self._tokens:  # most come twice: by the question, and to who looks
+        """A token appeared or disappeared; ignores keys that are no valid token, and tokens of this session."""
+        if came and key in self._tokens:  # most arrive twice: as a reply to the query and through the watch
             return
         try:
             token = parse_token(key)
@@ -70,49 +70,49 @@ class SeenTokens:
             else:
                 del self._tokens[key]
             for listener in tuple(self._listeners):
-                # With the lock held, so that nobody hears of a change before the state that it changes.
+                # With the lock held, so that no listener sees a change before the state that it changes.
                 listener(token, came)
 
     def listen(self, listener: Listener) -> None:
-        """Tell a listener of what is there, and of all changes from now on."""
+        """Notify a listener of the existing tokens and of all changes from now on."""
         with self._lock:
             self._listeners.append(listener)
             for token in tuple(self._tokens.values()):
                 listener(token, True)
 
     def forget(self, listener: Listener) -> bool:
-        """Tell a listener no more; whether nobody listens now."""
+        """Remove a listener; return whether none is left."""
         with self._lock:
             if listener in self._listeners:
                 self._listeners.remove(listener)
             return not self._listeners
 
     def tokens(self) -> list[Token]:
-        """Those that are there."""
+        """Return the existing tokens."""
         with self._lock:
             return list(self._tokens.values())
 
     def close(self) -> None:
-        """Look no more."""
+        """End the watch."""
         if self._declared is not None:
             self._declared.undeclare()
 
 
 class Watches:
-    """What is looked at for the endpoints of this process: each topic or service of each kind once, shared."""
+    """The watches for this process's endpoints: one for each topic or service of each kind, shared."""
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        self._lock = threading.RLock()  # the garbage collector ends nodes in the middle of anything
+        self._lock = threading.RLock()  # the garbage collector may end a node at any point
         self._seen: dict[tuple[Kind, str], SeenTokens] = {}
         self._single: Counter[Kind] = Counter()
         self._kinds: dict[Kind, KindWatch] = {}
         self._served: set[tuple[Kind, str]] = set()
-        """Those that a watch of their kind serves."""
+        """The topics and services served by the watch of their kind."""
         self._has_forgotten = False
 
     def listen(self, kind: Kind, topic: str, listener: Listener) -> SeenTokens:
-        """Tell a listener of the tokens of one kind for one topic or service."""
+        """Notify a listener of the tokens of one kind for one topic or service."""
         serving: KindWatch | None = None
         with self._lock:
             seen = self._seen.get((kind, topic))
@@ -130,7 +130,7 @@ class Watches:
         return seen
 
     def _watch_of(self, kind: Kind) -> KindWatch | None:
-        """The watch that serves one more of a kind; None while there are few, which are watched singly."""
+        """Return the watch to serve one more topic of a kind; None while there are few, which are watched singly."""
         if self._single[kind] < SINGLE:
             return None
         if kind not in self._kinds:
@@ -138,7 +138,7 @@ class Watches:
         return self._kinds[kind]
 
     def forget(self, kind: Kind, topic: str, listener: Listener) -> None:
-        """Tell a listener no more."""
+        """Remove a listener."""
         with self._lock:
             seen = self._seen.get((kind, topic))
             if seen is None or not seen.forget(listener):
@@ -152,7 +152,7 @@ class Watches:
         seen.close()
 
     def known(self) -> list[str] | None:
-        """All tokens that were told and are there; None where that is not known, for some are looked at no more."""
+        """Return all existing tokens that were reported; None if incomplete because a watch has ended."""
         with self._lock:
             if self._has_forgotten:
                 return None

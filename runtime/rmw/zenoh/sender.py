@@ -1,4 +1,4 @@
-"""Sends what must not be dropped, from a thread of its own: no publisher waits long for a reader that does not read."""
+"""Send what must not be dropped, from a separate thread: no publisher waits long for a reader that does not read."""
 
 from __future__ import annotations
 
@@ -12,48 +12,49 @@ from bot_console.runtime.rmw.zenoh.declared import Publisher
 from bot_console.runtime.rmw.zenoh.settings import WAIT_BEFORE_DROP
 
 ROOM = 64_000_000
-"""How many bytes may wait to be sent: more than comes until a process that hangs is cut off (`WAIT_BEFORE_CUT`)."""
+"""Capacity of the queue in bytes: more than is published until a hung process is cut off (`WAIT_BEFORE_CUT`)."""
 
 MANY, MUCH = 128, 4_000_000
-"""Messages, or bytes, that wait when whoever publishes one more lets the thread send all of them before it goes on.
+"""Queued messages, or bytes, from which a publisher lets the thread send all of them before it goes on.
 
-The thread gives the interpreter back with each message that it sends, and gets it again after 5 ms where somebody
-publishes without a pause: next to nothing went out while a burst was published, and of images most found no room.
+The thread releases the GIL with each message that it sends, and gets it back only after 5 ms while somebody publishes
+without a pause: during a burst next to nothing was sent, and most images found no room.
 """
 LET_SEND = WAIT_BEFORE_DROP * 1e-6
-"""Seconds for which it does so at most: as long as other publishers wait for a link that is full. After a vain wait it
-goes on without until nothing waits any more, or more than half of the room is taken and the thread has sent something.
+"""The longest such wait, in seconds: as long as other publishers wait for a full link. After a wait in vain the
+publisher does not wait again until the queue is empty, or until more than half of it is full and the thread has sent
+something.
 """
 
 
 class Sender:
-    """The queue before the keep-all publishers of a session, and the thread that empties it, made at first use.
+    """The queue of a session's keep-all publishers, and the thread that drains it, started on first use.
 
-    What is just being sent stays in the queue until it is. That thread alone takes from it, and the lock is taken by
-    those who put into it, and by the thread where nothing is left: both meet there, and not at each message.
+    A message stays in the queue until it is sent. Only that thread removes messages. The lock is taken by those who
+    append, and by the thread only when the queue is empty, so the two do not contend for each message.
     """
 
     def __init__(self) -> None:
         self._lock = allocate_lock()
         self._wake = allocate_lock()
-        """Held but for the moment in which the thread that waits is woken."""
+        """Always held, except for the moment when the waiting thread is woken."""
         self._wake.acquire()
         self._queue: deque[tuple[Publisher, bytes, bytes]] = deque()
         self._taken = 0
         self._begun = 0
-        """Bytes that were taken, and those of them that do not wait any more: each is counted by one side alone."""
+        """Bytes accepted into the queue, and those of them no longer waiting; only one side writes each counter."""
         self._emptied = threading.Event()
         self._emptied.set()
-        """Set by the thread where nothing is left, cleared by who waits for that."""
+        """Set by the thread when the queue is empty, cleared by whoever waits for that."""
         self._late: int | None = None
-        """What `_begun` was when the thread was let send all that waited in vain."""
+        """Value of `_begun` when a publisher last waited in vain for the queue to be sent."""
         self._waits = False
         self._ended = False
         self._thread: threading.Thread | None = None
         self._process = current()
 
     def send(self, publisher: Publisher, topic: str, payload: bytes, attachment: bytes) -> bool:
-        """Have a message sent after all that came before; False where there is no room, which is told once a topic."""
+        """Queue a message; returns False if there is no room, which is reported once per topic."""
         queue = self._queue
         with self._lock:
             waiting = self._taken - self._begun
@@ -78,12 +79,12 @@ class Sender:
         return fits
 
     def _let_send(self, waiting: int) -> None:
-        """Give the thread time to send all that waits, `waiting` bytes, unless that was in vain."""
+        """Give the thread time to send the whole queue (`waiting` bytes), unless the last wait was in vain."""
         if self._late is None or (waiting > ROOM // 2 and self._begun != self._late):
             self._late = None if self._is_emptied(LET_SEND) else self._begun
 
     def _start(self) -> None:
-        """Have the thread look at the queue, which has something now; with the lock held."""
+        """Wake or start the thread, since the queue is no longer empty; call with the lock held."""
         if self._waits:
             self._waits = False
             self._wake.release()
@@ -92,7 +93,7 @@ class Sender:
             self._thread.start()
 
     def _is_emptied(self, patience: float) -> bool:
-        """Whether all is sent within `patience` (s)."""
+        """Wait until the queue is sent, at most `patience` (s); return whether it was."""
         with self._lock:
             if not self._queue:
                 return True
@@ -100,9 +101,9 @@ class Sender:
         return self._emptied.wait(patience)
 
     def undeclare(self, publisher: Publisher) -> None:
-        """Take a publisher back once all that it has published was sent."""
+        """Undeclare a publisher once all its messages have been sent."""
         with self._lock:
-            # Copied at once: the thread takes from it meanwhile.
+            # Copied atomically, as the thread removes messages meanwhile.
             if any(each[0] is publisher for each in tuple(self._queue)) and not self._ended:
                 self._queue.append((publisher, b"", b""))
                 self._start()
@@ -121,7 +122,7 @@ class Sender:
             queue.popleft()
 
     def _has_more(self) -> bool:
-        """Whether something more was put into the empty queue, which is waited for; False at the end."""
+        """Wait until something is put into the empty queue; return False at the end."""
         while True:
             with self._lock:
                 if self._queue:
@@ -134,7 +135,7 @@ class Sender:
             self._wake.acquire()
 
     def end(self, patience: float) -> bool:
-        """Take nothing more, and wait at most `patience` (s) until all is sent; whether it was."""
+        """Stop the thread once the queue is sent, waiting at most `patience` (s); return whether it was sent."""
         with self._lock:
             self._ended = True
             if self._waits:

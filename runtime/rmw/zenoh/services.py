@@ -17,25 +17,25 @@ from bot_console.runtime.rmw.zenoh.wire.tokens import Token
 from bot_console.runtime.rosidl.cdr import CdrError, deserialize, serialize
 
 TIMEOUT = 600.0
-"""After this time, in s, an answer is waited for no more; as rmw_zenoh does."""
+"""Timeout of a request, in s; the same as in rmw_zenoh."""
 RESULT_TIMEOUT = 30 * 86400.0
-"""The same for the result of an action, which comes when the goal has ended."""
+"""Timeout of an action's result request, in s; it is answered when the goal has ended."""
 RESULT = "/_action/get_result"
 MOST_PENDING = 1000
-"""So many unanswered requests a server remembers; the oldest are given up."""
+"""How many unanswered requests a server keeps; beyond that the oldest are given up."""
 
 Caller = tuple[bytes, int]
-"""A request: the client's id, and its number there."""
+"""Identifies a request: the client's id and the client's sequence number."""
 
 
 class RemoteClient(ClientEndpoint):
-    """A client of another process, as the queue of the server that it asked names it."""
+    """A client in another process, as it stands in the server's request queue."""
 
     served: Served
 
 
 class Served:
-    """Puts the requests of other processes into a server's queue, and sends the responses back."""
+    """Queues the requests of other processes for a server, and sends the responses back."""
 
     def __init__(self, session: Session, service: ServiceEndpoint, key: str) -> None:
         self._service = service
@@ -46,7 +46,7 @@ class Served:
         self._declared: Declared = session.declare_queryable(key, self.asked)
 
     def asked(self, query: Query) -> None:
-        """A request has come, on one of Zenoh's threads."""
+        """Take in a request, on one of Zenoh's threads."""
         service = self._service
         try:
             number, _, gid = unpack(query.attachment, query.payload)
@@ -71,7 +71,7 @@ class Served:
         service.notify()
 
     def respond(self, client: RemoteClient, number: int, response: Any) -> None:
-        """Send a response; without a request that waits for it nothing happens."""
+        """Send a response; does nothing if no request is waiting for it."""
         with self._lock:
             query = self._pending.pop((client.gid, number), None)
         if query is not None:
@@ -79,7 +79,7 @@ class Served:
             query.answer(payload, pack(number, self._clock.system_ns(), client.gid, payload))
 
     def close(self) -> None:
-        """Serve no more."""
+        """Stop serving and drop pending requests."""
         self._declared.undeclare()
         with self._lock:
             pending, self._pending = self._pending, {}
@@ -88,7 +88,7 @@ class Served:
 
 
 class Asking:
-    """Sends the requests of a client to servers of other processes, and puts their responses into its queue."""
+    """Sends a client's requests to servers in other processes, and queues their responses for it."""
 
     def __init__(self, session: Session, client: ClientEndpoint, key: str) -> None:
         self._session = session
@@ -106,19 +106,19 @@ class Asking:
         return self._servers > 0
 
     def saw(self, token: Token, came: bool) -> None:
-        """A server of another process came or went."""
+        """A server of another process appeared or disappeared."""
         if token.type_name == self._client.type_name and self._key.endswith("/" + token.type_hash):
             self._servers += 1 if came else -1
 
     def request(self, number: int, request: Any) -> None:
-        """Ask the servers of other processes; without any nothing happens."""
+        """Send a request to the servers in other processes, if any; held back while the session is being reopened."""
         if not self._ask(number, request):
             self._unasked.append((number, request))
-            if self._session.settled.is_set():  # it was opened anew just now
+            if self._session.settled.is_set():  # the session has just been reopened
                 self.send_again()
 
     def _ask(self, number: int, request: Any) -> bool:
-        """Ask, unless the session is closed or just opened anew."""
+        """Send a request; return False if the session is closed or being reopened."""
         if self._querier is None:
             timeout = RESULT_TIMEOUT if self._client.name.endswith(RESULT) else TIMEOUT
             self._querier = self._session.declare_querier(self._key, timeout)
@@ -127,18 +127,18 @@ class Asking:
         return self._querier.get(payload, attachment, self._replied, _nothing)
 
     def send_again(self) -> None:
-        """Ask what was not asked while the session was opened anew."""
+        """Send the requests held back while the session was being reopened."""
         for _ in range(len(self._unasked)):
             try:
                 waiting = self._unasked.popleft()
-            except IndexError:  # another thread does it, too
+            except IndexError:  # another thread is doing the same
                 return
             if not self._ask(*waiting):
                 self._unasked.appendleft(waiting)
                 return
 
     def _replied(self, payload: bytes, attachment: bytes | None) -> None:
-        """A response has come, on one of Zenoh's threads."""
+        """Take in a response, on one of Zenoh's threads."""
         client = self._client
         try:
             number, _, gid = unpack(attachment, payload)
@@ -152,14 +152,14 @@ class Asking:
         client.notify()
 
     def close(self) -> None:
-        """Ask no more."""
+        """Undeclare the querier."""
         if self._querier is not None:
             self._querier.undeclare()
 
 
 NOWHERE = NodeId("", "/")
-"""The node of a client that is not looked up."""
+"""The node of a remote client, which is never looked up."""
 
 
 def _nothing() -> None:
-    """Nobody is there to be told."""
+    """Notify nobody."""

@@ -1,7 +1,7 @@
-"""A session: this process's part in a domain. The only file that imports Zenoh, and only when one opens.
+"""A session: this process's participation in a domain. The only file that imports Zenoh, and only to open a session.
 
-Callbacks come on Zenoh's own threads, at once and one after the other: they may append and wake, and nothing else.
-Nothing may fork once a session was opened.
+Callbacks run on Zenoh's own threads, at once and one after the other: they may only append to a queue and wake a
+thread. The process must not fork once a session has been opened.
 """
 
 # The stubs of zenoh leave the types of callbacks and of much that they get open:
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     import zenoh
 
 ATTENDANCE = "@bot_console/"
-"""Begin of the token that each session shows; the begin of its id follows."""
+"""Prefix of the token that each session declares; the first 8 digits of its id follow."""
 
 
 class SessionError(RuntimeError):
@@ -37,29 +37,31 @@ class SessionError(RuntimeError):
 
 
 class SettingsError(SessionError):
-    """Zenoh does not take the settings of a session."""
+    """Zenoh rejects the settings of a session."""
 
 
 class Session(Lifetime):
-    """A session of one domain; a subclass says where it is. To be called from any thread but Zenoh's own."""
+    """A session of one domain; a subclass defines how it connects. To be called from any thread but Zenoh's own."""
 
     joined: tuple[Socket, ...] = ()
-    """The sockets of processes of this machine that were there, and that this session connects to."""
+    """The sockets of this machine's processes that existed when the session joined, and that it connects to."""
     patience = 0.2
-    """How long the first question about the graph waits for its answer, in s; running processes take 5 ms."""
+    """Timeout of the first graph query, in s; running processes answer within 5 ms."""
 
     def __init__(self, domain: int) -> None:
         super().__init__()
         self.domain = domain
         self.zid = f"{int.from_bytes(os.urandom(16), 'big') | 1 << 127:032x}"
-        """The session's id: 32 hexadecimal digits, the first not 0. In the graph it stays when the session rejoins."""
+        """The session's id: 32 hexadecimal digits, the first not 0. In the graph it stays the same when the session
+        rejoins.
+        """
         self.on_rejoin: Callable[[], None] = lambda: None
-        """Called when the session was opened anew: what was kept for late subscribers is to be published again."""
+        """Called when the session was reopened: what is kept for late subscribers must be published again."""
         self.lost = 0
-        """Messages to subscriptions of this session that did not arrive, as far as their numbers tell."""
+        """Messages to this session's subscriptions that were lost, judging by their sequence numbers."""
 
     def _open(self, settings: Mapping[str, Any], file: str = "", last: Iterable[tuple[str, str]] = ()) -> None:
-        """Open with these settings, over those of a file where one is named; `last` (path, JSON5) is over both.
+        """Open with these settings, which override those of `file` if given; `last` (path, JSON5) overrides both.
 
         Raises `SettingsError` and `SessionError`.
         """
@@ -78,30 +80,30 @@ class Session(Lifetime):
 
     @staticmethod
     def errors() -> type[Exception]:
-        """The class of Zenoh's errors; asked for when something was raised."""
+        """Zenoh's error class; only asked for once an error was raised."""
         import zenoh
 
         return zenoh.ZError
 
     def watch(self) -> None:
-        """Look after the session's place for as long as it is open; not for short-lived programs."""
+        """Watch the session's connection while it is open; not for short-lived programs."""
 
     def stopped(self) -> Mapping[str, int]:
-        """The processes of the mesh that are frozen: the first eight digits of their sessions' ids, and their pids."""
+        """The frozen processes of the mesh: the first 8 digits of their session ids, mapped to their pids."""
         return {}
 
     def stopped_afar(self) -> Sequence[int]:
-        """The ids of frozen processes behind a router, as far as it shows them; none where there is no router."""
+        """The pids of frozen processes behind a router, as far as it reports them; empty without a router."""
         return ()
 
     def leave(self) -> None:
-        """Take away what would be left of it, for a process that ends at once and does not wait for `close`."""
+        """Remove what would be left behind, for a process that exits at once without waiting for `close`."""
 
     def declare_publisher(self, key: str, *, reliable: bool = True, cache: int = 0, patient: bool = False) -> Publisher:
-        """Make a publisher for other sessions; with a `cache` late subscribers get as many of its last samples.
+        """Declare a publisher for other sessions; late subscribers get up to `cache` of its last samples.
 
-        A `patient` one drops nothing and waits for a full link instead, up to `WAIT_BEFORE_CUT`: for a thread of its
-        own. It has another priority, as those who drop would wait behind it.
+        A `patient` publisher drops nothing and waits for a full link instead, up to `WAIT_BEFORE_CUT`: use it from a
+        separate thread. It has its own priority, as publishers that drop would otherwise wait behind it.
         """
         import zenoh
 
@@ -116,8 +118,8 @@ class Session(Lifetime):
         def declare(session: zenoh.Session) -> Any:
             if not cache:
                 return session.declare_publisher(key, **quality)
-            # The heartbeat overtakes what a patient one has still to send: it would be taken for lost, and the last
-            # samples fetched from the cache before those in between have come.
+            # The heartbeat overtakes what a patient publisher has still to send: that would be taken for lost, and the
+            # last samples would be fetched from the cache before those in between have arrived.
             return KeepingPublisher(zenoh.ext, session, key, quality, cache, misses=reliable and not patient)
 
         return self._declare(Publisher(self, declare))
@@ -125,7 +127,7 @@ class Session(Lifetime):
     def declare_subscriber(
         self, key: str, received: Received, *, reliable: bool = True, history: int | None = None
     ) -> Declared:
-        """Make a subscriber to other sessions; with a `history` it asks for as many of the last samples."""
+        """Declare a subscriber to other sessions; it requests up to `history` of the last samples."""
         import zenoh
 
         def take(sample: zenoh.Sample) -> None:
@@ -151,7 +153,7 @@ class Session(Lifetime):
         return self._declare(Declared(self, declare))
 
     def declare_queryable(self, key: str, asked: Callable[[Query], None]) -> Declared:
-        """Answer the requests of a key."""
+        """Declare a queryable that answers the requests of a key."""
         import zenoh
 
         def take(query: zenoh.Query) -> None:
@@ -169,9 +171,9 @@ class Session(Lifetime):
         )
 
     def declare_querier(self, key: str, timeout: float) -> Querier:
-        """Ask all queryables of a key in other sessions, and end each request after `timeout` (s).
+        """Declare a querier of a key's queryables in other sessions; each request ends after `timeout` (s).
 
-        Requests, and with them their answers, overtake messages: over a narrow link these leave no room.
+        Requests, and with them their answers, overtake messages, which would leave them no room on a narrow link.
         """
         import zenoh
 
@@ -204,14 +206,14 @@ class Session(Lifetime):
         )
 
     def declare_token(self, key: str) -> Declared:
-        """Show something in the graph for as long as this process lives."""
+        """Declare a liveliness token, which exists until it is undeclared or this process ends."""
         return self._declare(Declared(self, lambda session: session.liveliness().declare_token(key)))
 
     def watch_tokens(self, key: str, seen: TokenSeen, *, apart: bool = False) -> TokenWatch:
-        """Call back for each token that is there, comes or goes; `key` may have wildcards.
+        """Call back for each token that exists, appears or disappears; `key` may have wildcards.
 
-        With `apart` that is done by a thread of its own, a few tokens at a time: thousands of them would keep Zenoh's
-        threads, and with them whatever comes over the links, waiting for the interpreter.
+        With `apart`, a separate thread does so, a few tokens at a time: thousands of them would keep Zenoh's threads,
+        and with them all traffic on the links, waiting for the GIL.
         """
         import zenoh
 
@@ -235,17 +237,17 @@ class Session(Lifetime):
         return self._declare(watch)
 
     def collect_tokens(self, key: str, timeout: float) -> tuple[list[str], bool]:
-        """The tokens that are there now, from those who answer within `timeout` (s), and of a busy machine twice that.
+        """Return the tokens of those who answer within `timeout` (s), and whether all answered.
 
-        With it whether all have answered. Answers go to a channel, not to a callback: Zenoh gives them while it holds
-        its session's lock, as it does with nothing else that it calls back with, and would wait there for the
-        interpreter. Whoever keeps that while it waits for the lock in turn stops all for good (`KeepingPublisher`).
+        On a busy machine it may take twice the timeout. Replies go to a channel instead of a callback: Zenoh delivers
+        them while holding its session's lock, unlike with any other callback, and a callback would wait there for the
+        GIL. A thread that holds the GIL while it waits for that lock would be in deadlock with it (`KeepingPublisher`).
         """
         import zenoh
 
         found: list[str] = []
         answered = False
-        with contextlib.suppress(zenoh.ZError):  # there are no more, or no session is open
+        with contextlib.suppress(zenoh.ZError):  # no more replies, or no session is open
             replies = self._zenoh.liveliness().get(key, zenoh.handlers.FifoChannel(WAITING), timeout=timeout)
             answered = True
             until = time.monotonic() + 2 * timeout
@@ -262,17 +264,17 @@ class Session(Lifetime):
         return found, answered
 
     def links_directly(self) -> bool:
-        """Whether there is a link to each process itself, and no router that answers for others."""
+        """Whether each process is linked itself, without a router that answers for others."""
         return False
 
     def linked(self) -> set[str]:
-        """The ids of the sessions that this one has a link to; none while it is not open."""
+        """The ids of the sessions that this session is linked to; empty while it is not open."""
         with contextlib.suppress(self.errors()):
             return {str(each) for each in (*self._zenoh.info.peers_zid(), *self._zenoh.info.routers_zid())}
         return set()
 
     def watch_links(self, changed: Callable[[str, bool], None]) -> Declared:
-        """Call back with the id of each session that is or gets linked (True) or is lost (False)."""
+        """Call back with the id of each session that is or gets linked (True), or whose link is lost (False)."""
         import zenoh
 
         def take(event: zenoh.TransportEvent) -> None:
@@ -288,11 +290,11 @@ class Session(Lifetime):
         )
 
     def attendance(self, who: str = "*", timeout: float = 0.1) -> set[str]:
-        """The first eight digits of the ids of the sessions that answer within `timeout` (s)."""
+        """The first 8 digits of the ids of the sessions that answer within `timeout` (s)."""
         return {each.removeprefix(ATTENDANCE) for each in self.collect_tokens(ATTENDANCE + who, timeout)[0]}
 
     def question(self, timeout: float) -> Callable[[], bool | None]:
-        """Ask the other end something small: whether it has answered within `timeout` (s), None while it still may.
+        """Ping the other end; returns a function: whether it answered within `timeout` (s), None while it still may.
 
         Raises `RuntimeError` while the session is being closed.
         """
@@ -307,18 +309,18 @@ class Session(Lifetime):
             return lambda: False
 
         def answered() -> bool | None:
-            with contextlib.suppress(zenoh.ZError):  # it is over
+            with contextlib.suppress(zenoh.ZError):  # the query has ended
                 while replies.try_recv() is not None:
-                    pass  # nobody has such a token, but Zenoh may tell its time-out so
+                    pass  # nobody has such a token, but Zenoh may report its timeout this way
                 if time.monotonic() < late:
                     return None
-            # Without an answer it is over only after the time-out, and without a link at once.
+            # An unanswered query ends only after the timeout, and without a link at once.
             return time.monotonic() < late and bool(self.linked())
 
         return answered
 
     def is_answered(self, timeout: float) -> bool:
-        """Whether the other end answers a small question within `timeout` (s)."""
+        """Whether the other end answers a ping within `timeout` (s)."""
         answer, pause = self.question(timeout), threading.Event()
         while (answered := answer()) is None:
             pause.wait(0.001)
@@ -326,7 +328,7 @@ class Session(Lifetime):
 
 
 def preload() -> None:
-    """Import Zenoh, which opens nothing and starts no thread: for a process that others are forked from."""
+    """Import Zenoh, which opens nothing and starts no thread: for a process that forks others."""
     import zenoh.ext  # noqa: F401  # pyright: ignore[reportUnusedImport]
 
 
@@ -335,5 +337,5 @@ def _bytes(data: Any) -> bytes | None:
 
 
 def _first_line(error: Exception) -> str:
-    """What Zenoh says, without the place in its sources."""
+    """Return Zenoh's message without the source location."""
     return str(error).splitlines()[0].partition(" at /")[0]

@@ -1,4 +1,4 @@
-"""The whole graph of a domain, watched from the first question about it on."""
+"""The whole graph of a domain, watched from the first query on."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ Row = NodeId | Endpoint | ServiceEndpoint | ClientEndpoint
 
 
 class WholeGraph:
-    """What other processes have in the graph, in tables like those of this process."""
+    """The graph entries of other processes, in tables like those of this process."""
 
     def __init__(self, session: Session, changed: GraphChanged, known: Known = lambda: None) -> None:
-        """`known` gives what other watches of the session have seen."""
+        """`known` returns what other watches of the session have seen."""
         self._changed = changed
         self.tables = GraphTables(threading.RLock())
-        self._rows: dict[str, Row] = {}  # by the key of the token; tokens come one after the other
+        self._rows: dict[str, Row] = {}  # by token key; tokens arrive one after the other
         self._nodes: dict[str, tuple[str, NodeId]] = {}
         self.silent = await_answers(session, session.patience)
-        """The sockets of the processes that did not answer in time: what they have may be missing."""
+        """The sockets of the processes that did not answer in time: their entries may be missing."""
         for each in self.silent:
             if each.is_stopped():
                 notify(current(), f"process {each.pid} is stopped, so its nodes are not seen: `kill -CONT {each.pid}`")
@@ -44,7 +44,7 @@ class WholeGraph:
             )
 
     def _refused(self, key: str) -> None:
-        """Tell the first of what stands in the graph and is no token."""
+        """Report the first graph entry that is no valid token."""
         if not self._has_refused:
             self._has_refused = True
             text = f"what stands in the graph as {key[:120]!r} is not of the format of rmw_zenoh, and is ignored"
@@ -61,7 +61,7 @@ class WholeGraph:
         self._changed((token.node.name, token.node.namespace))
 
     def nodes_of(self, sessions: Container[str]) -> Mapping[str, Sequence[str]]:
-        """The nodes of sessions, which are named by the first eight digits of their ids."""
+        """Return the nodes of sessions, which are given by the first 8 digits of their ids."""
         found: dict[str, list[str]] = {}
         for session, row in list(self._nodes.values()):
             if session in sessions:
@@ -95,10 +95,10 @@ def _row(token: Token) -> Row:
 
 @lru_cache(1024)  # a node has dozens of entities
 def _node(node: TokenNode) -> NodeId:
-    """Nodes of this process have small positive numbers; those of others one made of session and number."""
+    """Return a node's id. Its number, of session and node, is negative: this process uses small positive ones."""
     number = -1 - (hash(node.zid) << 32 | node.number)
     return NodeId(node.name, node.namespace, node.enclave, number)
 
 
 def _nothing() -> None:
-    """What others have wakes nobody here."""
+    """Wake nobody: entities of other processes have no reader here."""

@@ -1,1 +1,1 @@
-"""A ROS domain on one machine: the folder of sockets in which a user's processes find each other."""
+"""A ROS domain on one machine: the socket folder through which a user's processes discover each other."""

@@ -1,4 +1,4 @@
-"""Which processes are in a domain, determined before a short-lived program reports on the graph."""
+"""Find out which processes are in a domain, before a short-lived program reports on the graph."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, lives
 from bot_console.runtime.rmw.zenoh.session import Session
 
 PATIENCE = 0.3
-"""How long the others have to answer, in s; a running one takes 5 ms."""
+"""Timeout for the answers of the other processes, in s; a running process takes 5 ms."""
 
 
 def await_answers(session: Session, patience: float = PATIENCE) -> list[Socket]:
-    """Wait until each process that was there when the session joined has answered; returns those that did not.
+    """Wait until each process that existed when the session joined has answered; return those that have not.
 
-    An answer shows that the link carries questions, which a link that was just made does not yet: only after it does
-    one question for the graph bring all of it. Frozen processes are not waited for.
+    An answer shows that the link carries queries, which a new link does not yet; only then does a single graph query
+    return the whole graph. Frozen processes are not waited for.
     """
     deadline = time.monotonic() + patience
     missing = list(session.joined)
@@ -31,7 +31,7 @@ def await_answers(session: Session, patience: float = PATIENCE) -> list[Socket]:
 
 
 def _runs(socket: Socket) -> bool:
-    """Whether its process has neither left nor been killed."""
+    """Whether the socket's process has neither left nor been killed."""
     if not os.path.lexists(socket.path):
         return False
     return lives(socket.pid)

@@ -1,4 +1,4 @@
-"""How far a program may be discovered, from the environment."""
+"""The discovery range, from the environment."""
 
 from __future__ import annotations
 
@@ -8,5 +8,5 @@ RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 
 
 def is_in_range() -> bool:
-    """Whether the environment lets the processes of this machine find each other."""
+    """Whether the environment lets the processes of this machine discover each other."""
     return os.environ.get(RANGE_VARIABLE, "").upper() != "OFF"

@@ -1,4 +1,4 @@
-"""The bus that the processes of a user share, one for each ROS domain."""
+"""The bus shared by a user's processes, one per ROS domain."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ _lock = threading.Lock()
 
 
 def shared_bus(domain: int) -> Bus:
-    """The bus of a domain, made at first use; the one within this process where the range of discovery is OFF.
+    """Return the bus of a domain, created on first use; the in-process bus if the discovery range is OFF.
 
-    To be given to `choose_middleware`. Raises what `open_session` raises.
+    Meant as an argument of `choose_middleware`. Raises what `open_session` raises.
     """
     if not is_in_range():
         return local_bus(domain)
     with _lock:
         if domain not in _buses:
-            # Here, as a launch all of whose nodes are processes of their own opens no session.
+            # Imported here because a launch whose nodes are all separate processes opens no session.
             from bot_console.runtime.rmw.zenoh.bus import ZenohBus
             from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
 
@@ -38,14 +38,14 @@ def shared_bus(domain: int) -> Bus:
 
 
 def share_domains() -> None:
-    """Let the contexts of this process that are initialised from now on share their domain; leave it at the end."""
+    """Make contexts that are initialised from now on share their domain with other processes, and leave it at exit."""
     if not is_chosen(shared_bus):
         choose_middleware(shared_bus)
         atexit.register(leave_all)
 
 
 def close_shared_buses() -> None:
-    """Leave all domains; contexts that still use their bus are not heard any more."""
+    """Leave all domains; contexts that still use their bus can no longer reach other processes."""
     with _lock:
         for bus in _buses.values():
             bus.close()
@@ -53,7 +53,7 @@ def close_shared_buses() -> None:
 
 
 def leave_all() -> None:
-    """Take this process's sockets away, for one that ends at once and does not wait until its sessions are closed."""
+    """Remove this process's sockets, for a process that exits at once without waiting for its sessions to close."""
     with _lock:
         for bus in _buses.values():
             bus.leave()

@@ -1,20 +1,20 @@
-"""A lock on an open file that is released when its process ends, however that happens."""
+"""A lock on an open file that is released when its process ends, however it ends."""
 
 from __future__ import annotations
 
 import os
 
 FOLDER_HOLDS_LOCKS = hasattr(os, "O_DIRECTORY")
-"""Whether a folder can be opened, and so be locked itself."""
+"""Whether a folder can be opened, and so can itself be locked."""
 
 NO_LINK = getattr(os, "O_NOFOLLOW", 0)
-"""Refuses to open a symbolic link, where the system has that."""
+"""Flag that refuses to open a symbolic link; 0 if the system has no such flag."""
 
 
 def try_lock(handle: int) -> bool:
-    """Lock an open file until it is closed; False where another process holds the lock.
+    """Lock an open file until it is closed; return False if another process holds the lock.
 
-    Raises `OSError` where the file cannot be locked at all.
+    Raises `OSError` if the file cannot be locked at all.
     """
     try:
         import fcntl

@@ -1,7 +1,7 @@
-"""The folder of a ROS domain: where the processes of one user on one machine find each other.
+"""The folder of a ROS domain, through which the processes of one user on one machine discover each other.
 
-As tmux does it: in `/tmp`, named after the user, closed to everybody else. Not the login session's folder, which goes
-with the last login while a robot may stay.
+Like tmux's, it is in `/tmp`, named after the user and closed to everybody else. The login session's runtime folder
+would not do: it is removed at the last logout, while a robot may go on running.
 """
 
 from __future__ import annotations
@@ -13,20 +13,20 @@ import sys
 from bot_console.runtime.rmw.zenoh.domain import loopback
 
 BASE_VARIABLE = "BOT_CONSOLE_SOCKET_DIR"
-"""Names another base folder: for tests, and for several systems side by side."""
+"""Environment variable that names another base folder: for tests, or to run several systems side by side."""
 
 LONGEST_PATH = 107 if sys.platform == "linux" else 103
-"""The bytes that the path of a Unix socket may have; a longer one fails silently on connecting."""
+"""Maximum length of a Unix socket's path in bytes; connecting to a longer one fails silently."""
 LONGEST_NAME = len("4194304.01234567")
-"""The bytes of a socket's name: a process id of the most digits, and the begin of a session's id."""
+"""Length of a socket's name in bytes: a process id of the most digits, and the first 8 digits of a session's id."""
 
 
 class FolderRefusedError(RuntimeError):
-    """A folder is not safe to meet in, or no socket can be made in it; the text says why and how to mend it."""
+    """A folder is not safe to use, or no socket can be made in it; the message says why and how to fix it."""
 
 
 def base_folder() -> str:
-    """The folder that holds one folder per domain; it need not be there yet."""
+    """Return the folder that holds one folder per domain; it need not exist yet."""
     named = os.environ.get(BASE_VARIABLE)
     if named:
         return os.path.abspath(named)
@@ -34,10 +34,10 @@ def base_folder() -> str:
 
 
 def domain_folder(domain: int) -> str:
-    """The folder of a domain, made with mode 0700 where it is missing.
+    """Return the folder of a domain, created with mode 0700 if missing.
 
-    Raises `FolderRefusedError` where it, or the base folder, belongs to somebody else or is open to others, and where
-    the path of a socket in it could be too long.
+    Raises `FolderRefusedError` if it or the base folder belongs to another user or is open to others, or if the path of
+    a socket in it could be too long.
     """
     base = base_folder()
     folder = os.path.join(base, str(domain))
@@ -52,12 +52,12 @@ def domain_folder(domain: int) -> str:
 
 
 def _user() -> int:
-    """The id of the user; 0 on Windows, where the temporary folder is the user's own and has no mode."""
+    """The user id; 0 on Windows, where the temporary folder is private to the user and has no mode."""
     return os.geteuid() if hasattr(os, "geteuid") else 0
 
 
 def _temporary_folder() -> str:
-    """`/tmp` whatever TMPDIR says: two terminals with different ones would never meet."""
+    """`/tmp` whatever TMPDIR says: two terminals with different values would never meet."""
     if os.path.isdir("/tmp"):
         return "/tmp"
     import tempfile
@@ -66,7 +66,7 @@ def _temporary_folder() -> str:
 
 
 def _private_folder(path: str) -> None:
-    """Make a folder of the user's alone, or check that it is one."""
+    """Create a private folder of the user, or check that an existing one is private."""
     try:
         os.mkdir(path, 0o700)
     except FileExistsError:
@@ -81,7 +81,7 @@ def _private_folder(path: str) -> None:
 
 
 def _problem(path: str) -> str:
-    """What is wrong with a folder, and how to mend it; empty where all is well. Links are not followed."""
+    """Say what is wrong with a folder and how to fix it; empty if nothing is. Does not follow links."""
     found = os.lstat(path)
     if stat.S_ISLNK(found.st_mode):
         return "is a symbolic link, which somebody else may have put there: remove it"

@@ -1,4 +1,4 @@
-"""Processes join a domain one at a time: otherwise two that start together would list the folder and never meet."""
+"""Let processes join a domain one at a time: two that start together would list the folder and miss each other."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from bot_console.runtime.rmw.zenoh.domain.file_lock import FOLDER_HOLDS_LOCKS, N
 from bot_console.runtime.rmw.zenoh.domain.sockets import is_stopped, live_sockets
 
 PATIENCE = 0.2
-"""How long one try for the lock lasts, in s; then it is looked at who holds it."""
+"""Timeout of one attempt to get the lock, in s; after it the holder of the lock is checked."""
 
 LONGEST_HOLD = 2.0
-"""After this time, in s, one that holds the lock and has had no processor time is taken to hang in it."""
+"""A holder of the lock that has used no processor time for so long, in s, is considered hung."""
 
 LONGEST_WAIT = 10.0
-"""After this time, in s, behind the same process, or while no process is seen to hold the lock, one goes on without it:
-to join takes 10 ms, and some times that on a busy machine.
+"""A process continues without the lock if the same process has held it for so long, in s, or if for so long no holder
+could be found. Joining takes 10 ms, and several times that on a busy machine.
 """
 
 POLL, LONGEST_POLL = 0.003, 0.02
-"""How soon the lock is tried again, in s, at first and in the end: fifty that wait would else keep one who has it from
-the processor.
+"""Interval between attempts to get the lock, in s, at first and at most: fifty waiting processes would otherwise keep
+the holder from the processor.
 """
 
 
@@ -31,8 +31,8 @@ the processor.
 def folder_lock(folder: str) -> Generator[None]:
     """Hold the lock of a domain's folder.
 
-    A process that is frozen or hangs while it holds the lock stops nobody: the others go on without, and what they miss
-    of each other is mended by the watch that each of them keeps on the folder.
+    A process that is frozen or hangs while it holds the lock blocks nobody: the others continue without the lock, and
+    the watch that each process keeps on the folder restores the links they missed.
     """
     handle = _opened(folder)
     try:
@@ -45,7 +45,7 @@ def folder_lock(folder: str) -> Generator[None]:
 
 
 class _Behind:
-    """Who holds the lock, and since when it has been the same one."""
+    """The holder of the lock, and since when it has been the same."""
 
     def __init__(self) -> None:
         self._holder: int | None = None
@@ -53,7 +53,7 @@ class _Behind:
         self._since = self._idle_since = time.monotonic()
 
     def hangs(self, holder: int | None) -> bool:
-        """Whether the one that holds the lock now does not give it back; None where that is nobody, or not told."""
+        """Whether the current holder will not release the lock; `holder` is None if there is none or it is unknown."""
         now, used = time.monotonic(), _time_used(holder)
         if holder != self._holder:
             self._since = now
@@ -66,7 +66,7 @@ class _Behind:
 
 
 def remove_dead(folder: str) -> None:
-    """Take the sockets of the dead out of a domain's folder, unless somebody joins just then, who does it as well."""
+    """Remove dead sockets from a domain's folder, unless a process is joining, which removes them as well."""
     with contextlib.suppress(OSError):
         handle = _opened(folder)
         try:
@@ -77,14 +77,14 @@ def remove_dead(folder: str) -> None:
 
 
 def _opened(folder: str) -> int:
-    """What is locked: the folder itself where it can be, as a lock file could be removed while somebody holds it."""
+    """Open what is locked: if possible the folder itself, as a lock file could be removed while somebody holds it."""
     if FOLDER_HOLDS_LOCKS:
         return os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
     return os.open(os.path.join(folder, "joining.lock"), os.O_RDWR | os.O_CREAT | NO_LINK, 0o600)
 
 
 def _taken(handle: int, patience: float) -> bool:
-    """Whether the lock was got in this time (s)."""
+    """Try to get the lock for up to `patience` (s); return whether it was acquired."""
     deadline, pause = time.monotonic() + patience, POLL
     while True:
         if try_lock(handle):
@@ -96,7 +96,7 @@ def _taken(handle: int, patience: float) -> bool:
 
 
 def _time_used(pid: int | None) -> int:
-    """The processor time that a process has had, in ticks of the system; 0 where that is not told."""
+    """The processor time that a process has used, in clock ticks; 0 if unknown."""
     try:
         with open(f"/proc/{pid}/stat", "rb") as file:
             fields = file.read().rpartition(b")")[2].split()
@@ -106,7 +106,7 @@ def _time_used(pid: int | None) -> int:
 
 
 def _holder(handle: int) -> int | None:
-    """The process that holds the lock; None where nobody does any more, or the system does not tell."""
+    """The process that holds the lock; None if nobody does any more or the system does not tell."""
     inode = f":{os.fstat(handle).st_ino}"
     try:
         with open("/proc/locks") as file:

@@ -1,7 +1,7 @@
-"""How programs meet where there are no Unix sockets: on ports of 127.0.0.1, closed by a secret.
+"""Discovery without Unix sockets: ports of 127.0.0.1, protected by a secret.
 
-Any user of the machine can reach such a port. So the domain's folder, which is the user's alone, holds a secret that
-each link is asked for, and beside it one file per process that names its port.
+Any user of the machine can reach such a port. Therefore the domain's folder, which is private to the user, holds a
+secret that each link must present, and one file per process that names its port.
 """
 
 from __future__ import annotations
@@ -14,24 +14,24 @@ from typing import Any
 from bot_console.runtime.rmw.zenoh.domain.file_lock import NO_LINK, try_lock
 
 VARIABLE = "BOT_CONSOLE_LOOPBACK"
-"""Set to 1 it chooses these ports where there are Unix sockets, too: for folders in which none can be made."""
+"""Set to 1, it selects ports even if there are Unix sockets: for folders in which no socket can be made."""
 
 SUFFIX = ".tcp"
-"""Ends the name of a file that names a port."""
+"""Suffix of a file that names a port."""
 
 HOST = "127.0.0.1"
 USER = "bot-console"
 SECRET = "secret"
-"""The file of a domain's folder that holds `USER:password`, as Zenoh reads it."""
+"""Name of the file in a domain's folder that holds `USER:password`, in Zenoh's format."""
 
 
 def is_chosen() -> bool:
-    """Whether programs meet on ports: where there are no Unix sockets, or where the environment asks for it."""
+    """Whether ports are used: there are no Unix sockets, or the environment asks for it."""
     return sys.platform == "win32" or os.environ.get(VARIABLE, "") not in ("", "0")
 
 
 class OpenPort:
-    """The port of this process: named in a file of the folder, and live for as long as `<file>.lock` is locked."""
+    """The port of this process: named in a file of the folder, and alive while `<file>.lock` is locked."""
 
     def __init__(self, path: str) -> None:
         self._path = path
@@ -43,23 +43,23 @@ class OpenPort:
             file.write(self.endpoint)
 
     def close(self) -> None:
-        """Give the lock back: from now on the file counts as that of a dead process. A second time does nothing."""
+        """Release the lock; the file now counts as that of a dead process. Does nothing if already closed."""
         lock, self._lock = self._lock, -1
         if lock >= 0:
             os.close(lock)
 
 
 def endpoint(path: str) -> str:
-    """What the file of a process names; empty where it ended before it wrote it."""
+    """Read the endpoint from a process's file; empty if the process ended before writing it."""
     with contextlib.suppress(OSError), open(path) as file:
         return file.read()
     return ""
 
 
 def authentication(folder: str) -> dict[str, Any]:
-    """Zenoh's settings under `transport/auth` that let only those link who can read the folder's secret.
+    """Return Zenoh's `transport/auth` settings, which admit only links that know the folder's secret.
 
-    Makes the secret where there is none yet; to be called with the folder's lock held.
+    Creates the secret if there is none yet; to be called with the folder's lock held.
     """
     path = os.path.join(folder, SECRET)
     if not endpoint(path).startswith(f"{USER}:"):
@@ -71,8 +71,8 @@ def authentication(folder: str) -> dict[str, Any]:
 
 
 def _free_port() -> int:
-    """A port that nobody uses just now: Zenoh does not tell which one it got when it chooses one itself."""
-    import socket  # not for each verb, most of which meet on sockets
+    """Return a port that is free now: Zenoh does not report the port it got when it chooses one itself."""
+    import socket  # not at the top: most verbs use Unix sockets and do not need it
 
     with socket.socket() as probe:
         probe.bind((HOST, 0))

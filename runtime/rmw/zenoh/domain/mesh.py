@@ -1,4 +1,4 @@
-"""A session's place in the mesh of a domain: the processes of one user on one machine, each linked to all others."""
+"""A session in the mesh of a domain: the processes of one user on one machine, each linked to all others."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ if TYPE_CHECKING:
 
 
 SETTLING = 5.0
-"""How long a session that was opened anew waits for the answers of the others, in s; 50 processes take 0.1 s."""
+"""How long a reopened session waits for the answers of the others, in s; 50 processes take 0.1 s."""
 
 
 PORTS = 5
-"""So many ports are tried to listen on, where there are no Unix sockets."""
+"""How many ports are tried for listening if there are no Unix sockets."""
 
 
 class MeshSession(Session):
-    """A session that listens on a socket in the folder of the domain and connects to all others there."""
+    """A session that listens on a socket in the domain's folder and connects to all other sockets there."""
 
     def __init__(self, domain: int, serving: Serving | None = None) -> None:
-        """With `serving` it is the way in for other machines, too."""
+        """With `serving`, the session also admits other machines."""
         super().__init__(domain)
         self._serving = serving
         self._opened = False
@@ -57,7 +57,7 @@ class MeshSession(Session):
         self._open_among(folder, self.socket.endpoint())
 
     def _join_on_port(self, folder: str) -> None:
-        """The same where there are no Unix sockets; another port is tried where somebody takes the one just found."""
+        """Join without Unix sockets, trying another port if somebody takes the one just found."""
         if self._serving:
             raise SessionError(
                 f"other machines are let in only where there are Unix sockets, and not by {loopback.VARIABLE}"
@@ -77,7 +77,7 @@ class MeshSession(Session):
                     raise
 
     def _open_among(self, folder: str, listen: str, auth: Mapping[str, Any] | None = None) -> None:
-        """Open the session, listening on an endpoint, with links to all that are in the folder."""
+        """Open the session, listening on an endpoint and linked to all processes in the folder."""
         self.joined = tuple(each for each in live_sockets(folder) if each != self.socket)
         others = [place for each in self.joined if (place := each.endpoint())]
         settings = session_settings(self._link_id(), listen, others, self._serving, auth)
@@ -88,16 +88,16 @@ class MeshSession(Session):
             raise SessionError(f"cannot listen on {' and '.join(places)}: {error}") from None
 
     def _link_id(self) -> str:
-        """The id that Zenoh is to know the session by; another one each time it is opened, but for its begin.
+        """The session's id for Zenoh: a new one on each reopening, except for its first 8 digits.
 
-        Another's half-made link to the session that was closed may count for ever, and questions of one with the same
-        id would be answered into it.
+        Another process may count its half-made link to the closed session for ever, and would send the answers to
+        queries of a session with the same id over that link.
         """
         first, self._opened = not self._opened, True
         return self.zid if first else f"{self.zid[:8]}{os.urandom(12).hex()}"
 
     def watch(self) -> None:
-        """Look after the session's place in the mesh for as long as it is open; not for short-lived programs."""
+        """Watch the session's place in the mesh while it is open; not for short-lived programs."""
         if not self._watch:
             self._watch = Watch(self)
             self._watch.begin()
@@ -107,12 +107,12 @@ class MeshSession(Session):
             self._tokens = StoppedTokens(self, self.stopped)
 
     def rejoin(self, needed: Callable[[str], bool]) -> None:
-        """Open the session anew where that is `needed` (asked with the folder's lock held), and declare all again."""
+        """Reopen the session if it is `needed` (called with the folder's lock held), and declare everything again."""
         with self._door() as folder:
             if not needed(folder):
                 return
-        # Closed without the folder's lock: it takes seconds beside a frozen process, and may hang in one whose program
-        # has closed descriptors of ours.
+        # Closed without the folder's lock: this takes seconds next to a frozen process, and may hang in a process whose
+        # program has closed our file descriptors.
         try:
             is_open = self._reopen(self._join_anew)
             if is_open:
@@ -130,24 +130,24 @@ class MeshSession(Session):
             self._join(folder)
 
     def links_directly(self) -> bool:
-        """Whether no process of the mesh is the way in for other machines, for which it answers."""
+        """Whether no process of the mesh serves other machines and answers on their behalf."""
         with contextlib.suppress(self.errors()):
             return not self._serving and not list(self._zenoh.info.routers_zid())
         return False
 
     def stopped(self) -> Mapping[str, int]:
-        """The processes of the mesh that are frozen: the first eight digits of their sessions' ids, and their pids."""
+        """The frozen processes of the mesh: the first 8 digits of their session ids, mapped to their pids."""
         found = sockets(os.path.dirname(self.socket.path))
         return {each.zid: each.pid for each in found if each != self.socket and each.is_stopped()}
 
     def close(self) -> None:
-        """Leave the mesh; what was declared is gone. A second time does nothing."""
+        """Leave the mesh and discard all declarations; does nothing if it has already been left."""
         self._look_no_more()
         super().close()
         self._take_out()
 
     def leave(self) -> None:
-        """Take the socket out of the folder, for a process that ends at once and does not wait for `close`."""
+        """Remove the socket from the folder, for a process that exits at once without waiting for `close`."""
         self._look_no_more()
         self._take_out()
 
@@ -155,7 +155,7 @@ class MeshSession(Session):
         if self._port:
             self._port.close()
         self.socket.remove()
-        if self._watch:  # a process that has been here for long: nodes of its own may have died
+        if self._watch:  # a long-lived process: nodes that it started may have died
             remove_dead(os.path.dirname(self.socket.path))
 
     def _look_no_more(self) -> None:
@@ -167,6 +167,6 @@ class MeshSession(Session):
 def open_session(domain: int) -> MeshSession:
     """Join the mesh of a domain.
 
-    Raises `FolderRefusedError` and `SessionError`, whose texts say how to mend it.
+    Raises `FolderRefusedError` and `SessionError`, whose messages say how to fix it.
     """
     return MeshSession(domain)

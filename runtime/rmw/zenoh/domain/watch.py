@@ -1,10 +1,10 @@
-"""Watches over a session's place in the mesh, and opens it anew where it has lost it.
+"""Watches a session's place in the mesh and reopens the session if it has lost it.
 
-Three things can go wrong once a process has joined: its socket is taken out of the folder (by a cleaner of temporary
-files, or by hand), so that who comes later does not see it; one that joined without the lock has no link to it; or a
-link carries nothing, as one that Zenoh gave up in the middle of its opening (`OPEN_TIMEOUT`) and counts for ever. So
-each new link is asked once whether the other is there; signs of life alone do not tell, as some such links carry them
-and no questions.
+Three things can go wrong after a process has joined: its socket is removed from the folder (by a cleaner of temporary
+files, or by hand), so that later processes do not see it; a process that joined without the lock has no link to it; or
+a link carries nothing, because Zenoh gave up opening it half-way (`OPEN_TIMEOUT`) but counts it for ever. So each new
+link is queried once for an answer of the other side; keep-alives are not enough, as some such links carry these but no
+queries.
 """
 
 from __future__ import annotations
@@ -19,60 +19,61 @@ from typing import Protocol
 from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, is_stopped, live_sockets, sockets
 
 PERIOD = 1.0
-"""How often the folder is looked at, in s."""
+"""How often the folder is checked, in s."""
 
 GRACE = 15.0
-"""How long another process may have no link, or one over which no answer has come, before that counts as a fault, in s:
-links are made in the background.
+"""How long another process may have no link, or a link without any answer, before that counts as a fault, in s: links
+are made in the background.
 
-Of two processes the one with the higher id waits twice as long, so that one of them opens its session anew; and each
-waits twice as long after each time that it did, up to `LONGEST_GRACE`.
+Of two processes the one with the higher id waits twice as long, so that only one of them reopens its session; and each
+doubles its wait after every reopening, up to `LONGEST_GRACE`.
 """
 
 LONGEST_GRACE = 8.0
-"""So many times the grace a process waits at most, on a machine that is not busy."""
+"""The largest factor of the grace period on a machine that is not busy."""
 
 BUSY = 4.0
-"""Threads that want one processor, from which on a machine counts as busy: the grace is longer as there are more of
-them, since links are made as much slower. A session that is opened anew in vain makes all others busy, too.
+"""Load per processor from which a machine counts as busy: the grace period grows with the load, as making links slows
+down with it. A session that is reopened in vain would make all others busy, too.
 """
 
 MOST_TRIES = 3
-"""So many times a session is opened anew for the sake of one other: one that never answers, whatever the reason, is
-left alone then."""
+"""How often a session is reopened because of one other process; after that a process that never answers, for whatever
+reason, is left alone.
+"""
 
 PATIENCE = 1.0
-"""How long an answer is waited for, in s; a running process takes 5 ms."""
+"""Timeout for an answer, in s; a running process takes 5 ms."""
 
 PATIENCE_AT_LAST = 10.0
-"""How long before the session is opened anew because of one that does not answer, in s."""
+"""The same timeout before the session is reopened because a process does not answer, in s."""
 
 
 class Watched(Protocol):
-    """What is watched: a session."""
+    """What the watch needs of a session."""
 
     zid: str
     socket: Socket
 
     def linked(self) -> set[str]:
-        """The ids of the sessions that this one has a link to."""
+        """The ids of the sessions that this session is linked to."""
         ...
 
     def watch_links(self, changed: Callable[[str, bool], None]) -> object:
-        """Call back with the id of each session that is or gets linked (True) or is lost (False)."""
+        """Call back with the id of each session that is or gets linked (True), or whose link is lost (False)."""
         ...
 
     def attendance(self, who: str, timeout: float) -> set[str]:
-        """The first eight digits of the ids of the sessions of this name that answer in time (s)."""
+        """The first 8 digits of the ids of the sessions matching `who` that answer within `timeout` (s)."""
         ...
 
     def rejoin(self, needed: Callable[[str], bool]) -> None:
-        """Open the session anew where that is needed."""
+        """Reopen the session if it is `needed`."""
         ...
 
 
 class Watch:
-    """Looks at the folder of a session once a second, in a thread of its own that `end` ends."""
+    """Checks a session's folder once a second, in a separate thread that `end` stops."""
 
     def __init__(self, session: Watched, clock: Callable[[], float] = time.monotonic) -> None:
         self._session = session
@@ -90,26 +91,26 @@ class Watch:
         session.watch_links(self._link_changed)
 
     def begin(self) -> None:
-        """Look from now on."""
+        """Start watching."""
         threading.Thread(target=self._run, name="zenoh-watch", daemon=True).start()
 
     def end(self) -> None:
-        """Look no more."""
+        """Stop watching."""
         self._ended.set()
 
     def _link_changed(self, zid: str, there: bool) -> None:
-        """A link is made or cut; on one of Zenoh's threads."""
+        """A link was made or lost; called on one of Zenoh's threads."""
         if not there:
             self._cut.add(zid[:8])
 
     def _run(self) -> None:
         while not self._ended.wait(PERIOD):
-            with contextlib.suppress(OSError, RuntimeError):  # as where the folder is refused for now: tried again
+            with contextlib.suppress(OSError, RuntimeError):  # for example if the folder is refused for now: retried
                 if self.has_lost_its_place():
                     self._session.rejoin(self._still_lost)
 
     def has_lost_its_place(self) -> bool:
-        """Whether the socket is not listed, or one that runs is without a link that works for its time of grace."""
+        """Whether the socket is not listed, or a running process has had no working link for its grace period."""
         own = self._session.socket
         try:
             state = os.stat(os.path.dirname(own.path))
@@ -138,7 +139,7 @@ class Watch:
         return GRACE * times * (2.0 if other[0] < self._session.zid[:8] else 1.0)
 
     def _is_to_ask(self, now: float) -> bool:
-        """Whether it is time to ask those that were not here long enough to be lost: in ever longer intervals."""
+        """Whether to query the processes that are not yet overdue; the intervals get longer."""
         if not self._since:
             self._pause = PERIOD
         if now < self._next_question or not any(now - since >= PERIOD for since in self._since.values()):
@@ -147,14 +148,16 @@ class Watch:
         return True
 
     def _ask(self, due: set[Identity]) -> None:
-        """Ask those that are linked whether they are there; longer, where those that are due are to be given up."""
+        """Query the linked processes; with the longer timeout if some of them are about to be given up."""
         linked = {zid[:8] for zid in self._session.linked()}
         if any(zid in linked for zid, _ in self._since):
             answered = self._session.attendance("*", PATIENCE_AT_LAST if due else PATIENCE)
             self._answered |= {each for each in self._since if each[0] in answered}
 
     def _still_lost(self, folder: str) -> bool:
-        """The same with the folder's lock held and the dead removed: another may have mended it meanwhile."""
+        """Check again with the folder's lock held and dead sockets removed: another process may have fixed it
+        meanwhile.
+        """
         live = live_sockets(folder)
         lost = self._running(self._without_link(live)) & self._lost
         for zid, _ in lost:
@@ -166,7 +169,7 @@ class Watch:
         return bool(lost) or self._session.socket not in live
 
     def _without_link(self, found: list[Socket]) -> list[Socket]:
-        """Those that the session has no link to, or one over which no answer has come yet."""
+        """The sockets that the session has no link to, or a link over which no answer has come yet."""
         cut, self._cut = self._cut, set()
         self._answered = {each for each in self._answered if each[0] not in cut}
         linked = {zid[:8] for zid in self._session.linked()}
@@ -174,17 +177,17 @@ class Watch:
         return [each for each in found if each.zid not in works and each.zid != self._session.zid[:8]]
 
     def _running(self, found: list[Socket]) -> set[Identity]:
-        """Those that are not frozen, and that it was not tried too often to get a link to."""
+        """The processes that are not frozen, and for which the session has not been reopened too often."""
         running = {identity(each) for each in found if not is_stopped(each.pid)}
         return {each for each in running if self._tries.get(each[0], 0) < MOST_TRIES}
 
 
 Identity = tuple[str, int]
-"""What tells a socket from a later one in its place: its session's id, and the number of its file."""
+"""What distinguishes a socket from a later one at the same path: its session's id and its inode number."""
 
 
 def identity(socket: Socket) -> Identity:
-    """What tells a socket from a later one in its place."""
+    """Return what distinguishes a socket from a later one at the same path."""
     try:
         return socket.zid, os.lstat(socket.path).st_ino
     except OSError:
@@ -192,7 +195,7 @@ def identity(socket: Socket) -> Identity:
 
 
 def slowness() -> float:
-    """How many times longer things take because the machine is busy; 1 where it is not, or does not tell."""
+    """How many times longer things take because the machine is busy; 1 if it is not, or if the load is unknown."""
     try:
         load, *_ = os.getloadavg()
     except (OSError, AttributeError):

@@ -1,4 +1,4 @@
-"""A session on a network: a client of a robot's Zenoh router, which listens nowhere and searches for nobody."""
+"""A session over the network: a client of a robot's Zenoh router, which neither listens nor scouts."""
 
 from __future__ import annotations
 
@@ -13,32 +13,32 @@ from bot_console.runtime.rmw.zenoh.network.stopped import StoppedBehind
 from bot_console.runtime.rmw.zenoh.session import ATTENDANCE, Session, SessionError, SettingsError
 
 CONFIG_VARIABLE = "ZENOH_SESSION_CONFIG_URI"
-"""Names a session's configuration file, as for nodes of rmw_zenoh."""
+"""Environment variable that names the session's configuration file, as in rmw_zenoh."""
 OVERRIDE_VARIABLE = "ZENOH_CONFIG_OVERRIDE"
-"""Has the last word on single settings, as for nodes of rmw_zenoh: `path=json5;path=json5`."""
+"""Environment variable that overrides single settings, as in rmw_zenoh: `path=json5;path=json5`."""
 QUERY_TIMEOUT = 600_000
-"""After this time, in ms, an answer is waited for no more, unless who asks says otherwise."""
+"""Timeout of a query, in ms, unless the caller sets another."""
 
 
 @dataclass(frozen=True)
 class Way:
-    """The way to a robot: the endpoints of its router, such as `tcp/robot:7447`, and the files for TLS."""
+    """How to reach a robot: the endpoints of its router, such as `tcp/robot:7447`, and the TLS files."""
 
     endpoints: tuple[str, ...] = ()
     tls: Tls = Tls()  # noqa: RUF009 - it is frozen
     file: str = ""
-    """A configuration of Zenoh; what is given beside it has precedence."""
+    """A Zenoh configuration file; the other fields take precedence over it."""
     override: tuple[tuple[str, str], ...] = ()
-    """Settings (path, JSON5) that have the last word."""
+    """Settings (path, JSON5) that override everything else."""
     patience: float = 5.0
-    """Seconds for the first connection; later ones are tried for ever."""
+    """Timeout of the first connection, in seconds; reconnecting is retried for ever."""
 
     def __str__(self) -> str:
         return ", ".join(self.endpoints) or self.file
 
 
 def with_environment(way: Way) -> Way:
-    """The way with what the variables of rmw_zenoh say; raises `SessionError` for what they cannot mean."""
+    """Return `way` with the values of rmw_zenoh's environment variables; raises `SessionError` if one is invalid."""
     file, override = os.environ.get(CONFIG_VARIABLE, ""), os.environ.get(OVERRIDE_VARIABLE, "")
     if file and not os.path.isfile(file):
         raise SessionError(f"there is no file {file}, which {CONFIG_VARIABLE} names")
@@ -52,7 +52,7 @@ def with_environment(way: Way) -> Way:
 
 
 def client_settings(zid: str, way: Way) -> dict[str, Any]:
-    """The settings of a client. It drops at once what a full link does not take: nothing here waits for a network."""
+    """Return a client's settings. It drops at once what a full link cannot take: nothing here waits for a network."""
     connect: dict[str, Any] = {
         "timeout_ms": round(way.patience * 1000),
         "exit_on_failure": True,
@@ -73,7 +73,7 @@ def client_settings(zid: str, way: Way) -> dict[str, Any]:
 
 
 class NetworkSession(Session):
-    """A client of a router; it connects again by itself when the router or the link comes back."""
+    """A client of a router; it reconnects by itself when the router or the link comes back."""
 
     patience = 3.0
 
@@ -91,31 +91,31 @@ class NetworkSession(Session):
         self._stopped: StoppedBehind | None = None
 
     def watch(self) -> None:
-        """Ask the router again and again whether the link is alive, and look which processes it shows as frozen."""
+        """Probe the link to the router repeatedly, and watch which processes the router reports as frozen."""
         self._probe = self._probe or LinkProbe(self.question, str(self.way))
         self._stopped = self._stopped or StoppedBehind(self)
 
     def stopped(self) -> Mapping[str, int]:
-        """The frozen processes behind the router, where it is one of ours; nothing is known while nobody watches."""
+        """The frozen processes behind the router, if it is one of ours; empty unless `watch` was called."""
         return self._stopped.now() if self._stopped else {}
 
     def stopped_afar(self) -> Sequence[int]:
-        """The ids of those processes, which are the robot's."""
+        """The pids of those processes, which run on the robot."""
         return sorted(self.stopped().values())
 
     @property
     def link(self) -> LinkState:
-        """How the link is; nothing is known while nobody watches."""
+        """The state of the link; unknown unless `watch` was called."""
         state = self._probe.state if self._probe else LinkState(str(self.way))
         return replace(state, lost=self.lost)
 
     def close(self) -> None:
-        """Hang up; a second time does nothing."""
+        """Disconnect; does nothing if already disconnected."""
         if self._probe:
             self._probe.end()
         super().close()
 
 
 def open_network_session(domain: int, way: Way) -> NetworkSession:
-    """Connect to a robot's router; raises `SessionError`, whose text says why not and how to mend it."""
+    """Connect to a robot's router; raises `SessionError`, whose message says why that failed and how to fix it."""
     return NetworkSession(domain, way)

@@ -1,4 +1,4 @@
-"""The bus of a program that is connected to a robot's router, one for each ROS domain."""
+"""The bus of a program connected to a robot's router, one per ROS domain."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bot_console.runtime.rmw.zenoh.network.client import NetworkSession, Way, op
 
 
 class NetworkBuses:
-    """Gives the bus of a domain; to be given to `choose_middleware`. Raises what `open_network_session` raises."""
+    """Returns the bus of a domain; an argument for `choose_middleware`. Raises what `open_network_session` raises."""
 
     def __init__(self, way: Way) -> None:
         self._way = way
@@ -20,7 +20,7 @@ class NetworkBuses:
         self._open: dict[int, tuple[NetworkSession, ZenohBus]] = {}
 
     def __call__(self, domain: int) -> Bus:
-        """The bus of a domain, made at first use."""
+        """Return the bus of a domain, created on first use."""
         with self._lock:
             if domain not in self._open:
                 session = open_network_session(domain, self._way)
@@ -29,13 +29,13 @@ class NetworkBuses:
             return self._open[domain][1]
 
     def link(self) -> LinkState:
-        """How the link is."""
+        """Return the state of the link; of several, the one that has been silent longest."""
         with self._lock:
             states = [session.link for session, _ in self._open.values()]
         return min(states, key=lambda each: each.heard or 0.0, default=LinkState(str(self._way)))
 
     def close(self) -> None:
-        """Hang up."""
+        """Close all sessions."""
         with self._lock:
             opened, self._open = list(self._open.values()), {}
         for _, bus in opened:

@@ -1,6 +1,6 @@
-"""Why a router cannot be reached: what the network and TLS say when asked without Zenoh.
+"""Find out why a router cannot be reached, by trying the network and TLS without Zenoh.
 
-Zenoh itself only says that it could not connect.
+Zenoh itself only reports that it could not connect.
 """
 
 from __future__ import annotations
@@ -13,24 +13,24 @@ from dataclasses import dataclass
 from typing import Any
 
 PATIENCE = 3.0
-"""Seconds for each step."""
+"""Timeout of each step, in seconds."""
 ENCRYPTED = ("tls", "quic", "wss")
 PORT = 7447
 
 
 @dataclass(frozen=True)
 class Tls:
-    """Files (PEM) of TLS. With a certificate of its own a client shows who it is (mutual TLS)."""
+    """TLS files (PEM). A client with a certificate of its own authenticates itself (mutual TLS)."""
 
     ca: str = ""
-    """The authority that has signed the other side's certificate."""
+    """The certificate authority that signed the other side's certificate."""
     certificate: str = ""
     key: str = ""
     any_name: bool = False
-    """Whether the name in the router's certificate need not be the one that was dialled."""
+    """Whether the name in the router's certificate may differ from the one that was dialled."""
 
     def as_client(self) -> dict[str, Any]:
-        """The settings of one that connects."""
+        """Return the settings for connecting."""
         given: dict[str, Any] = {}
         if self.ca:
             given["root_ca_certificate"] = os.path.abspath(self.ca)
@@ -45,7 +45,7 @@ class Tls:
         return given
 
     def as_listener(self) -> dict[str, Any]:
-        """The settings of one that lets others in; with an authority only those whose certificate it has signed."""
+        """Return the settings for listening; with an authority, clients need a certificate signed by it."""
         given: dict[str, Any] = {}
         if self.certificate:
             given.update(
@@ -56,7 +56,7 @@ class Tls:
         return given
 
     def problem(self) -> str:
-        """What is wrong with the files; empty where nothing is."""
+        """Say what is wrong with the files; empty if nothing is."""
         for path in filter(None, (self.ca, self.certificate, self.key)):
             try:
                 with open(path, "rb") as file:
@@ -70,7 +70,7 @@ class Tls:
 
 
 def place_of(endpoint: str) -> tuple[str, str, int]:
-    """Protocol, host and port of an endpoint such as `tcp/robot:7447` or `tls/[::1]:7447`; raises `ValueError`."""
+    """Split an endpoint such as `tcp/robot:7447` or `tls/[::1]:7447` in protocol, host, port; raises `ValueError`."""
     protocol, _, rest = endpoint.partition("#")[0].partition("?")[0].partition("/")
     host, _, port = rest.rpartition(":")
     if not (protocol.isalnum() and host and port.isdecimal() and 0 < int(port) < 65536):
@@ -79,7 +79,7 @@ def place_of(endpoint: str) -> tuple[str, str, int]:
 
 
 def why_unreachable(endpoints: Sequence[str], tls: Tls) -> str:
-    """Why none of these is reached, with what to do; empty where the network has nothing against it."""
+    """Say why none of these is reachable and what to do; empty if the network shows no reason."""
     reasons: list[str] = []
     for each in endpoints:
         protocol, host, port = place_of(each)
@@ -96,7 +96,7 @@ def _why(endpoint: str, host: str, port: int, tls: Tls | None) -> str:
     try:
         with socket.create_connection((host, port), PATIENCE) as link:
             return _why_no_tls(link, endpoint, host, tls) if tls else ""
-    except (socket.gaierror, UnicodeError):  # the latter for what cannot be a name at all
+    except (socket.gaierror, UnicodeError):  # UnicodeError: it cannot be a host name at all
         return f"{endpoint}: no host of the name '{host}' is known here: check the name, or give the robot's address"
     except ConnectionRefusedError:
         return (
@@ -115,7 +115,7 @@ def _why_no_tls(link: socket.socket, endpoint: str, host: str, tls: Tls) -> str:
         return problem
     context = ssl.create_default_context(cafile=tls.ca or None)
     context.check_hostname = not tls.any_name
-    # Zenoh takes certificates without the extensions that this asks for; Python asks for them from 3.13 on.
+    # Zenoh accepts certificates without the extensions that this flag requires; Python sets it by default from 3.13 on.
     context.verify_flags &= ~ssl.VERIFY_X509_STRICT
     try:
         if tls.certificate:
@@ -129,7 +129,7 @@ def _why_no_tls(link: socket.socket, endpoint: str, host: str, tls: Tls) -> str:
         return _refused(endpoint, error, tls)
     try:
         with secure:
-            secure.settimeout(0.5)  # a router that wants a certificate says so only after the handshake
+            secure.settimeout(0.5)  # a router that requires a certificate says so only after the handshake
             secure.recv(1)
     except TimeoutError:
         return ""

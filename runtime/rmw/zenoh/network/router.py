@@ -9,7 +9,7 @@ from bot_console.runtime.rmw.zenoh.settings import ROOM_OF_A_NETWORK, SMALL_BATC
 
 
 def router_settings(zid: str, serving: Serving) -> dict[str, Any]:
-    """The settings of a router as nodes of rmw_zenoh want it: they learn of each other from it, and talk directly."""
+    """Return a router's settings as rmw_zenoh nodes expect: they discover each other through it, then link directly."""
     return {
         "mode": "router",
         "id": zid,
@@ -29,10 +29,10 @@ def router_settings(zid: str, serving: Serving) -> dict[str, Any]:
 
 
 class Router(Session):
-    """A session that carries what others say, until it is closed. It belongs to no domain."""
+    """A session that routes the traffic of others until it is closed. It belongs to no domain."""
 
     def __init__(self, serving: Serving, file: str = "") -> None:
-        """A file is a configuration of Zenoh, for instance with an access list. Raises `SessionError`."""
+        """`file` is a Zenoh configuration, for instance with an access list. Raises `SessionError`."""
         super().__init__(0)
         try:
             self._open(router_settings(self.zid, serving), file)

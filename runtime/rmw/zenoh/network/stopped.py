@@ -1,8 +1,7 @@
 """Which processes behind a router are frozen: the router declares a token for each, which its clients watch.
 
 Zenoh itself considers a frozen process alive until its lease expires, and a client cannot read the states of processes
-on
-another machine.
+on another machine.
 """
 
 from __future__ import annotations
@@ -14,13 +13,13 @@ from bot_console.runtime.rmw.zenoh.declared import Declared
 from bot_console.runtime.rmw.zenoh.session import Session
 
 TOKEN = "@bot_console_stopped/"
-"""Begin of such a token; the begin of the session's id and the process's id follow."""
+"""Prefix of such a token; the first 8 digits of the session's id and the process's pid follow."""
 PERIOD = 0.25
-"""Seconds between two looks."""
+"""Interval between two checks, in seconds."""
 
 
 class StoppedTokens:
-    """Shows the frozen processes of a router's mesh, in a thread of its own until `end`."""
+    """Declares a token for each frozen process of a router's mesh, in a separate thread until `end`."""
 
     def __init__(self, session: Session, stopped: Callable[[], Mapping[str, int]]) -> None:
         self._session = session
@@ -30,7 +29,7 @@ class StoppedTokens:
         threading.Thread(target=self._run, name="stopped-tokens", daemon=True).start()
 
     def end(self) -> None:
-        """Look no more."""
+        """Stop checking."""
         self._ended.set()
 
     def _run(self) -> None:
@@ -41,7 +40,7 @@ class StoppedTokens:
                 continue
 
     def look(self) -> None:
-        """Show those that are frozen now, and no others."""
+        """Declare tokens for the processes that are frozen now, and undeclare all others."""
         now = set(self._stopped().items())
         for each in self._shown.keys() - now:
             self._shown.pop(each).undeclare()
@@ -50,14 +49,14 @@ class StoppedTokens:
 
 
 class StoppedBehind:
-    """Knows which processes a router shows as frozen."""
+    """Tracks which processes a router reports as frozen."""
 
     def __init__(self, session: Session) -> None:
         self._found: dict[str, int] = {}
         session.watch_tokens(f"{TOKEN}*/*", self._seen)
 
     def _seen(self, key: str, came: bool) -> None:
-        """Take a token in; a name that is none of ours comes from another program and says nothing."""
+        """Take in a token; one with a foreign name comes from another program and is ignored."""
         zid, _, pid = key.removeprefix(TOKEN).partition("/")
         if came and pid.isascii() and pid.isdecimal():
             self._found[zid] = int(pid)
@@ -65,5 +64,5 @@ class StoppedBehind:
             self._found.pop(zid, None)
 
     def now(self) -> Mapping[str, int]:
-        """The first eight digits of their sessions' ids, and their pids; from any thread."""
+        """Return the first 8 digits of their session ids, mapped to their pids. Thread-safe."""
         return self._found.copy()

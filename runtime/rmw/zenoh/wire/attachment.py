@@ -1,8 +1,8 @@
-"""What goes with each message, request and response: its number, its time, and whose it is, in rmw_zenoh's 33 bytes.
+"""The attachment of each message, request and response: number, time and sender, in rmw_zenoh's 33 bytes.
 
-Ours have a seal behind them, a hash of the payload, which rmw_zenoh does not read. Zenoh stops in the middle of a
-message when it cuts the link to a process that does not read, and still writes what waits behind it: the rest of
-that message is then bytes of others, and would be taken for the end of a command or a parameter.
+Ours end with a seal, a hash of the payload, which rmw_zenoh does not read. When Zenoh cuts the link to a process that
+does not read, it stops in the middle of a message but still writes what is queued behind it: the rest of that message
+then consists of foreign bytes, and would be taken for the end of a command or a parameter.
 """
 
 from __future__ import annotations
@@ -15,38 +15,38 @@ from xxhash import xxh3_64_intdigest, xxh3_128_intdigest
 GID_SIZE = 16
 _LAYOUT = struct.Struct("<qqB16s")
 _FIELDS = struct.Struct("<qqx16s")
-"""The same without the length of the id."""
+"""The same layout, skipping the length of the id."""
 _SEALED_LAYOUT = struct.Struct("<qqB16s4sQ")
 _SEAL = b"xxh3"
 _SEALED_SIZE = _SEALED_LAYOUT.size
 SEALED = 1 << 16
-"""So many bytes of a payload's end are hashed: a link writes at most that at once, and a cut spoils no more of one
-message. Where a longer one is cut in a piece before its last, the next piece is missing, too, unless by chance the
-foreign bytes end with the piece; Zenoh drops such a message by the numbers of its pieces.
+"""How many bytes at a payload's end are hashed: a link writes at most that much at once, and a cut corrupts no more of
+one message. If a longer message is cut in a fragment before its last, the next fragment is missing, too, unless the
+foreign bytes happen to end with the fragment; Zenoh drops such a message by its fragment numbers.
 """
 _OLD = b"\x0fsequence_number"
 
 Attachment = tuple[int, int, bytes]
-"""Number (from 1 on per publisher or client), time of sending (ns since 1970), and the sender's id."""
+"""Number (counted from 1 per publisher or client), time of sending (ns since 1970), and the sender's id."""
 
 
 def gid_of(token: str) -> bytes:
-    """The id of an entity: a hash of its liveliness token."""
+    """Return an entity's id: a hash of its liveliness token."""
     return xxh3_128_intdigest(token.encode()).to_bytes(GID_SIZE, "little")
 
 
 def pack(number: int, time_ns: int, gid: bytes, payload: bytes | None = None) -> bytes:
-    """The bytes; with a payload they are sealed."""
+    """Return the attachment as bytes; sealed if a payload is given."""
     if payload is None:
         return _LAYOUT.pack(number, time_ns, GID_SIZE, gid)
     return _SEALED_LAYOUT.pack(number, time_ns, GID_SIZE, gid, _SEAL, _hash(payload))
 
 
 def unpack(data: bytes | None, payload: bytes | None = None) -> Attachment:
-    """What the bytes say.
+    """Parse an attachment.
 
-    Raises `FormatError`, which names the releases that wrote them otherwise, and where they are sealed and the given
-    payload is not what was sent.
+    Raises `FormatError` if the layout is different, naming the rmw_zenoh releases known to write another one, or if it
+    is sealed and `payload` is not what was sent.
     """
     if data is None:
         raise FormatError("a message without attachment: its sender does not speak the format of rmw_zenoh")
@@ -60,7 +60,7 @@ def unpack(data: bytes | None, payload: bytes | None = None) -> Attachment:
     if size != _LAYOUT.size or data[16] != GID_SIZE:
         if data.startswith(_OLD):
             raise FormatError("the sender's rmw_zenoh is too old (before Jazzy 0.2.4, Humble 0.1.2): update it")
-        # Without the bytes, which differ from message to message: what is told once would be told for each of them.
+        # Without the bytes, which differ between messages: a report meant to appear once would appear for each message.
         raise FormatError(f"no attachment of 33 bytes, but one of {size} that is not sealed as ours are")
     return _FIELDS.unpack(data)
 

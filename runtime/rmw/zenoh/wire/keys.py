@@ -8,7 +8,7 @@ from __future__ import annotations
 
 
 class FormatError(ValueError):
-    """A text or bytes that are not of the format; the message says what is wrong."""
+    """A text or bytes that violate the format; the message says what is wrong."""
 
 
 def dds_type(type_name: str) -> str:
@@ -26,15 +26,15 @@ def ros_type(dds: str) -> str:
 
 
 def data_key(domain: int, name: str, type_name: str, type_hash: str) -> str:
-    """The key of a topic or service; `name` is fully qualified."""
+    """Return the key of a topic or service; `name` is fully qualified."""
     return f"{domain}/{name.strip('/')}/{dds_type(type_name)}/{type_hash}"
 
 
 def mangled(name: str) -> str:
-    """A name in one part of a key: each slash becomes a per cent sign, and nothing is the root."""
+    """Encode a name as one part of a key: each slash becomes a per cent sign, as does the empty name."""
     return name.replace("/", "%") or "%"
 
 
 def demangled(part: str) -> str:
-    """The name that a part of a key stands for."""
+    """Decode a name from a part of a key."""
     return part.replace("%", "/")

@@ -1,4 +1,4 @@
-"""QoS as rmw_zenoh writes it: six fields, each empty where it has its default."""
+"""QoS in rmw_zenoh's text format: six fields, each empty if it has its default."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 
 DEFAULT_DEPTH = 42
 ENDLESS = 2**63 - 1
-"""The longest duration (ns), which stands for no limit."""
+"""The longest duration (ns), which means no limit."""
 NANO = 1_000_000_000
 LARGEST = 2**63 - 1
 _M = TypeVar("_M", bound=IntEnum)
 
 
 class History(IntEnum):
-    """Which messages are kept; the numbers are rmw's, here and below."""
+    """Which messages are kept; the values are rmw's, here and below."""
 
     SYSTEM_DEFAULT = 0
     KEEP_LAST = 1
@@ -28,7 +28,7 @@ class History(IntEnum):
 
 
 class Reliability(IntEnum):
-    """Whether lost messages are sent again."""
+    """Whether lost messages are resent."""
 
     SYSTEM_DEFAULT = 0
     RELIABLE = 1
@@ -38,7 +38,7 @@ class Reliability(IntEnum):
 
 
 class Durability(IntEnum):
-    """Whether late subscriptions get what came before."""
+    """Whether late subscriptions get earlier messages."""
 
     SYSTEM_DEFAULT = 0
     TRANSIENT_LOCAL = 1
@@ -64,7 +64,7 @@ class Span(NamedTuple):
 
 
 class WireQos(NamedTuple):
-    """The quality of service of an endpoint of another process."""
+    """The QoS profile of an endpoint in another process."""
 
     reliability: Reliability = Reliability.RELIABLE
     durability: Durability = Durability.VOLATILE
@@ -77,7 +77,7 @@ class WireQos(NamedTuple):
 
 
 def encode_qos(qos: Profile) -> str:
-    """The text of a profile; what it leaves to the middleware is decided as rmw_zenoh does."""
+    """Encode a profile; policies left to the middleware are resolved as in rmw_zenoh."""
     reliability = _named(Reliability, qos.reliability.name, Reliability.RELIABLE)
     durability = _named(Durability, qos.durability.name, Durability.VOLATILE)
     history = _named(History, qos.history.name, History.KEEP_LAST)
@@ -94,9 +94,9 @@ def encode_qos(qos: Profile) -> str:
     return ":".join(fields)
 
 
-@lru_cache(256)  # a graph of thousands of endpoints has a few profiles
+@lru_cache(256)  # a graph of thousands of endpoints has only a few profiles
 def decode_qos(text: str) -> WireQos:
-    """The profile of a text; raises `FormatError`."""
+    """Decode a profile; raises `FormatError`."""
     fields = text.split(":")
     if len(fields) != 6:
         raise FormatError(f"a quality of service has 6 fields, not {len(fields)}: {text!r}")
@@ -120,7 +120,7 @@ def _unless(value: int, default: int) -> str:
 
 
 def _named(kind: type[IntEnum], name: str, default: IntEnum) -> IntEnum:
-    """The member of a name; the default where the choice was left open."""
+    """Return the member of a name; the default if the choice is left open."""
     found = kind.__members__.get(name, default)
     return default if found.name in ("SYSTEM_DEFAULT", "UNKNOWN", "BEST_AVAILABLE") else found
 

@@ -1,4 +1,4 @@
-"""Liveliness tokens, by which nodes, publishers, subscriptions, servers and clients appear in the graph."""
+"""Liveliness tokens, which represent nodes, publishers, subscriptions, servers and clients in the graph."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ KINDS: tuple[str, ...] = get_args(Kind)
 
 
 class TokenNode(NamedTuple):
-    """The node that a token names; `zid` is the session's, `number` the node's in it."""
+    """The node named by a token; `zid` is the session's id, `number` the node's number in that session."""
 
     zid: str
     number: int
@@ -29,7 +29,7 @@ class TokenNode(NamedTuple):
 
 
 class Token(NamedTuple):
-    """What a token says; `topic`, type and hash are empty for a node. `number` is the entity's in its session."""
+    """A parsed token; `topic`, type and hash are empty for a node. `number` is the entity's number in its session."""
 
     key: str
     kind: Kind
@@ -42,14 +42,16 @@ class Token(NamedTuple):
 
 
 def node_token(domain: int, node: TokenNode) -> str:
-    """The token of a node."""
+    """Return the token of a node."""
     return _head(domain, node, node.number, "NN")
 
 
 def entity_token(
     domain: int, node: TokenNode, number: int, kind: Kind, topic: str, type_name: str, type_hash: str, qos: str
 ) -> str:
-    """The token of an entity of a node; `topic` is a full name, of a service too, `qos` the text of a profile."""
+    """Return the token of a node's entity; `topic` is a fully qualified topic or service name, `qos` an encoded
+    profile.
+    """
     head = _head(domain, node, number, kind)
     return f"{head}/{mangled(topic)}/{dds_type(type_name)}/{type_hash}/{qos}"
 
@@ -60,7 +62,7 @@ def _head(domain: int, node: TokenNode, number: int, kind: Kind) -> str:
 
 
 def parse_token(key: str) -> Token:
-    """What a token says; parts beyond those known are ignored. Raises `FormatError`."""
+    """Parse a token, ignoring unknown trailing parts. Raises `FormatError`."""
     parts = key.split("/")
     if len(parts) < NODE_PARTS or parts[0] != SPACE:
         raise FormatError(f"no liveliness token of ROS: {key!r}")
@@ -72,7 +74,7 @@ def parse_token(key: str) -> Token:
     if kind == "NN":
         return Token(key, "NN", node, number)
     topic, dds, type_hash, qos = parts[9:ENTITY_PARTS]
-    known: Kind = kind  # pyright: ignore[reportAssignmentType] -- one of `KINDS`, as was checked
+    known: Kind = kind  # pyright: ignore[reportAssignmentType] -- one of `KINDS`, as checked above
     return Token(key, known, node, number, demangled(topic), *_type(dds, type_hash), decode_qos(qos))
 
 
@@ -94,21 +96,21 @@ def _natural(part: str) -> int:
 
 
 def all_tokens(domain: int) -> str:
-    """The key that all tokens of a domain match."""
+    """Return the key expression that matches all tokens of a domain."""
     return f"{SPACE}/{domain}/**"
 
 
 def tokens_of(domain: int, kind: Kind, topic: str) -> str:
-    """The key that the tokens of one kind for one topic or service match."""
+    """Return the key expression that matches the tokens of one kind for one topic or service."""
     return f"{SPACE}/{domain}/*/*/*/{kind}/*/*/*/{mangled(topic)}/**"
 
 
 def tokens_of_kind(domain: int, kind: Kind) -> str:
-    """The key that all tokens of one kind match."""
+    """Return the key expression that matches all tokens of one kind."""
     return f"{SPACE}/{domain}/*/*/*/{kind}/**"
 
 
 def topic_part(key: str) -> str | None:
-    """The topic or service of a token as its key has it, mangled; None where there is none. Nothing else is read."""
+    """Return a token's topic or service as mangled in its key; None if it has none. Parses nothing else."""
     parts = key.split("/", NODE_PARTS + 1)
     return parts[NODE_PARTS] if len(parts) > NODE_PARTS else None
