@@ -10,23 +10,23 @@ _WRONG_TYPE = re.compile(r"Wrong parameter type, expected 'Type\.(\w+)' got 'Typ
 
 
 def advise(text: Callable[[], str]) -> None:
-    """Print a text on stderr, if that is a terminal; it is composed only then, and may be empty."""
+    """Print a hint on stderr if stderr is a terminal; `text` is called only then, and an empty hint is not printed."""
     if is_read() and (said := text()):
         print(said, file=sys.stderr)
 
 
 def is_read() -> bool:
-    """Whether a person reads stderr."""
+    """Whether stderr is a terminal."""
     return sys.stderr.isatty()
 
 
 def no_parameter(node: str, name: str, names: Iterable[str]) -> str:
-    """That a node does not declare a parameter, and which similar one it has."""
+    """The hint that a node does not declare a parameter, with the most similar name that it does declare."""
     return f"{node} has no parameter {name}{_meant(name, names) or f'; ros2 param list {node} shows those it has'}"
 
 
 def wrong_type(name: str, value: str, reason: str) -> str:
-    """What to type instead of a value whose type a node has refused; empty for another reason."""
+    """The hint for a value refused for its type: how to write it; empty if `reason` is a different one."""
     found = _WRONG_TYPE.match(reason)
     if found is None:
         return ""
@@ -36,7 +36,7 @@ def wrong_type(name: str, value: str, reason: str) -> str:
 
 
 def usage(words: Sequence[str]) -> str:
-    """What to type instead of options that other releases of ROS 2 have; empty where nothing is known."""
+    """The replacement for options that only other releases of ROS 2 have; empty for all other command lines."""
     if list(words[:2]) == ["param", "dump"] and "--output-dir" in words[:-1]:
         folder = words[words.index("--output-dir") + 1].rstrip("/")
         node = next((each for each in words[2:] if each.startswith("/")), "/node")
@@ -46,14 +46,14 @@ def usage(words: Sequence[str]) -> str:
 
 
 def launch_files(package: str, names: Sequence[str]) -> str:
-    """Which launch files a package has, when it was asked for another one or for none."""
+    """The hint that lists a package's launch files, for a command line that names none or an unknown one."""
     if not names:
         return f"package '{package}' has no launch files; they are in its folder launch/, and setup.py installs them"
     return f"package '{package}' has: {', '.join(names)}"
 
 
 def _meant(word: str, known: Iterable[str]) -> str:
-    from difflib import get_close_matches  # where something was mistyped, which most commands never are
+    from difflib import get_close_matches  # imported late: only a mistyped name needs it
 
     near = get_close_matches(word, list(known), 1)
     return f"; did you mean {near[0]}?" if near else ""

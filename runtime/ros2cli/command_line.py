@@ -34,14 +34,14 @@ WRONG_USAGE = 2
 
 
 class HelpFormatter(argparse.RawDescriptionHelpFormatter):
-    """argparse's own, but for the width of the terminal: each parser makes some, and argparse imports shutil for it."""
+    """argparse's formatter without its import of shutil for the terminal's width, as each parser creates several."""
 
     def __init__(self, prog: str) -> None:
         super().__init__(prog, width=_columns() - 2)
 
 
 def _columns() -> int:
-    """The width of the terminal, as `shutil.get_terminal_size` finds it."""
+    """The width of the terminal in columns, as `shutil.get_terminal_size` determines it."""
     told = os.environ.get("COLUMNS", "")
     if told.isdecimal() and int(told):
         return int(told)
@@ -53,7 +53,7 @@ def _columns() -> int:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command line, without the word `ros2`, and give its exit code. Prints to this process's streams."""
+    """Run a command line, given without the word `ros2`, and return its exit code. Prints to this process's streams."""
     words = list(sys.argv[1:] if argv is None else argv)
     try:
         return _finish(_run(words))
@@ -63,11 +63,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         return stop.code if isinstance(stop.code, int) else 1 if stop.code else 0
     except KeyboardInterrupt:
         return int(signal.SIGINT)
-    except BrokenPipeError:  # nobody reads on: no fault, and quiet where commands run for a shell
+    except BrokenPipeError:  # the reader has closed the pipe: no fault, and silent where commands run for a shell
         raise
-    except RuntimeError as error:  # among them what the client library refuses
+    except RuntimeError as error:  # includes the errors of the client library
         return _finish(str(error))
-    except Exception as error:  # a verb's border: upstream ends in this traceback, and a console goes on after it
+    except Exception as error:  # boundary of a verb: upstream ends with this traceback, a console continues after it
         if code := ended_code(error):
             return code
         if fault := place_fault(error):
@@ -109,7 +109,7 @@ def _finish(result: Result) -> int:
 
 
 def load(name: str) -> Command | None:
-    """The command of a name, or None when there is none."""
+    """The command with that name, or None if there is none."""
     return importlib.import_module(COMMANDS[name][0]).COMMAND if name in COMMANDS else None
 
 

@@ -43,11 +43,11 @@ def add_strategy_arguments(parser: argparse.ArgumentParser, *, daemon: bool = Tr
 
 
 class DirectNode:
-    """A hidden node for the length of a `with` block.
+    """A hidden node that exists for the duration of a `with` block.
 
-    Upstream asks a daemon for most answers, and the daemon's node counts in the graph; here the verb's own node stands
-    in for it, with the publishers that the daemon's node would have. A block that SIGTERM ends raises
-    `ExternalShutdownException`, whatever it was at.
+    Upstream asks a daemon for most answers, and the daemon's node counts in the graph; here the verb's own node
+    replaces it, with the publishers that the daemon's node would have. A block that SIGTERM interrupts raises
+    `ExternalShutdownException`, whatever it was doing.
     """
 
     def __init__(self, arguments: argparse.Namespace | None = None, *, name: str = "") -> None:
@@ -80,14 +80,14 @@ class DirectNode:
         self._end(error)
 
     def _end(self, error: BaseException | None) -> None:
-        """End the context; whatever SIGTERM has made fail is raised as what it is."""
+        """Shut the context down; raises an error that SIGTERM has caused as `ExternalShutdownException`."""
         rclpy.try_shutdown()
         if isinstance(error, Exception) and self._context.ended_by_signal:
             raise ExternalShutdownException from error
 
 
 def node_names(node: Node, *, include_hidden: bool = False) -> list[NodeName]:
-    """All nodes of the graph but the hidden ones."""
+    """All nodes of the graph, without the hidden ones unless asked for."""
     names = [NodeName(name, space, full_name(space, name)) for name, space in node.get_node_names_and_namespaces()]
     return [each for each in names if include_hidden or not each.name.startswith(HIDDEN)]
 
@@ -98,7 +98,7 @@ def absolute(name: str) -> str:
 
 
 def spin_until(node: Node, done: Callable[[], bool], timeout: float | None = None) -> bool:
-    """Serve the node until `done()`; whether it became true in time (s)."""
+    """Spin the node until `done()` is true; returns False if that takes longer than `timeout` (s)."""
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     clock = Clock(clock_type=ClockType.STEADY_TIME)
@@ -116,13 +116,13 @@ def spin_until(node: Node, done: Callable[[], bool], timeout: float | None = Non
 
 
 class NoAnswer(RuntimeError):
-    """A request will not be answered: the text names who does not, and why."""
+    """A request will not be answered; the message names the node or service and the reason."""
 
 
 def call(node: Node, kind: Any, service: str, request: Any, timeout: float | None = None, missing: str = "") -> Any:
     """Call a service and wait for the answer, as `answer` does.
 
-    Raises `RuntimeError` with the words given where the service is not ready in time (s); else it is waited for.
+    Raises `RuntimeError(missing)` if the service is not ready within `timeout` (s); without one, waits for it.
     """
     client = node.create_client(kind, service)
     try:
@@ -134,9 +134,9 @@ def call(node: Node, kind: Any, service: str, request: Any, timeout: float | Non
 
 
 def answer(node: Node, client: Any, future: Any) -> Any:
-    """Wait for the answer to a request, for as long as it takes, as upstream does.
+    """Wait for the response to a request, without a time limit, as upstream does.
 
-    Raises `NoAnswer` where the server's process is stopped or has left, which upstream waits for for good.
+    Raises `NoAnswer` if the server's process is stopped or its node has left; upstream waits forever then.
     """
     service = client.service_name
     gone = 0
@@ -152,7 +152,7 @@ def answer(node: Node, client: Any, future: Any) -> Any:
 
 
 def _serves(node: Node, name: str, service: str) -> bool:
-    """Whether a node, of a full name, is there and offers a service."""
+    """Whether the node with that fully qualified name exists and offers the service."""
     namespace, _, base = name.rpartition("/")
     try:
         return service in dict(node.get_service_names_and_types_by_node(base, namespace or "/"))
@@ -161,7 +161,7 @@ def _serves(node: Node, name: str, service: str) -> bool:
 
 
 def wait_for_node(node: Node, name: str, *, include_hidden: bool, timeout: float) -> bool:
-    """Whether a node is in the graph, or comes within the time (s)."""
+    """Whether a node is in the graph, or appears within `timeout` (s)."""
 
     def there() -> bool:
         return any(each.full_name == name for each in node_names(node, include_hidden=include_hidden))

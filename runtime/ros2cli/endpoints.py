@@ -21,7 +21,7 @@ def without_actions(rows: NamesAndTypes, include_hidden: bool) -> list[tuple[str
 
 
 def action_names_and_types(services: NamesAndTypes) -> list[tuple[str, Sequence[str]]]:
-    """Actions, by the goal services among the given ones."""
+    """Actions with their types, derived from the goal services among the given services."""
     return sorted(
         (name[: -len(SEND_GOAL)], [each.removesuffix(GOAL_SUFFIX) for each in types])
         for name, types in services

@@ -30,7 +30,7 @@ CONSTANT = re.compile(r"^[A-Za-z]\w*(<=\d+)?\s+[A-Z][A-Z0-9_]*\s*=")
 
 
 def show_text(name: str, *, all_comments: bool = False, no_comments: bool = False) -> str:
-    """The text for `pkg/kind/Name`; raises `LookupError` with upstream's words for what is not there."""
+    """The text for `pkg/kind/Name`; raises `LookupError` with upstream's message if it does not exist."""
     package, kind, short = name.split("/")
     if package not in known_packages():
         raise LookupError(f"Unknown package '{package}'")
@@ -47,7 +47,7 @@ def _lines(text: str, package: str, depth: int, all_comments: bool, comments: bo
     for line in text.splitlines():
         bare = line.split("#")[0].rstrip()
         shown = line
-        # Upstream does not take a `#` without any text for a comment.
+        # Upstream does not treat a `#` without any text as a comment.
         if not comments and line.strip() != "#":
             if not bare.strip():
                 continue

@@ -8,7 +8,7 @@ from collections.abc import Generator, Iterable, Sequence
 
 
 class LaunchFileError(RuntimeError):
-    """A launch file that is not there, or an argument that is malformed."""
+    """A launch file does not exist, or a launch argument is malformed."""
 
 
 def find_launch_file(package: str, name: str | None) -> str:
@@ -34,9 +34,9 @@ def find_launch_file(package: str, name: str | None) -> str:
 
 
 def named_launch_file(named: str, words: Sequence[str]) -> tuple[str, list[str]]:
-    """The launch file that a path means, or a package and the first of the words; and the words behind that.
+    """The launch file given as a path, or as a package and the first of `words`; and the remaining words.
 
-    Raises `LaunchFileError` with what `ros2 launch` says.
+    Raises `LaunchFileError` with the message of `ros2 launch`.
     """
     if os.path.isfile(named):
         return named, [*words]
@@ -46,7 +46,7 @@ def named_launch_file(named: str, words: Sequence[str]) -> tuple[str, list[str]]
 
 @contextlib.contextmanager
 def of_package(named: str) -> Generator[None]:
-    """What goes wrong with a package's name, as a `LaunchFileError`."""
+    """Raise an unknown or invalid package name as `LaunchFileError`."""
     from ament_index_python.packages import PackageNotFoundError
 
     try:
@@ -54,7 +54,7 @@ def of_package(named: str) -> Generator[None]:
     except PackageNotFoundError as error:
         raise LaunchFileError(f"Package '{named}' not found: {error}") from None
     except ValueError as error:
-        # What upstream's users see for a mistyped path, with what it means in between.
+        # Upstream's output for a mistyped path, with an explanation in between.
         kind = "a folder" if os.path.isdir(named) else "no file here"
         raise LaunchFileError(
             f"Traceback (most recent call last):\n  {named} is {kind}, so it was read as a package name\n"
@@ -63,7 +63,7 @@ def of_package(named: str) -> Generator[None]:
 
 
 def parse_launch_arguments(words: Iterable[str]) -> dict[str, str]:
-    """Names and values, the last of a name; raises `LaunchFileError` for anything but `name:=value`."""
+    """Values by name, the last one given for each; raises `LaunchFileError` for anything but `name:=value`."""
     found: dict[str, str] = {}
     for word in words:
         name, separator, value = word.partition(":=")

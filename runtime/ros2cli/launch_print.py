@@ -7,27 +7,27 @@ from collections.abc import Mapping
 
 
 def print_resolved(path: str, arguments: Mapping[str, str]) -> int:
-    """Print the tree of a launch file with everything evaluated; 1 when the launch would fail."""
+    """Print the tree of a launch file with everything evaluated; returns 1 if the launch would fail."""
     from launch_ros.resolved_description import resolve_description
 
     try:
         for line in resolve_description(path, arguments):
             print(line)
-    except Exception as error:  # a launch file is a program: what it raises is told without a traceback
+    except Exception as error:  # a launch file is a program: its exceptions are reported without a traceback
         print(f"{type(error).__name__}: {error}", file=sys.stderr)
         return 1
     return 0
 
 
 def print_description(path: str) -> int:
-    """Print the tree of a launch file; 1 when the file cannot be read."""
+    """Print the tree of a launch file; returns 1 if the file cannot be read."""
     from launch.launch_description_sources import get_launch_description_from_any_launch_file
     from launch.launch_introspector import LaunchIntrospector
 
     try:
         description = get_launch_description_from_any_launch_file(path)
         text = LaunchIntrospector().format_launch_description(description)
-    except Exception as error:  # a launch file is a program: what it raises is told without a traceback
+    except Exception as error:  # a launch file is a program: its exceptions are reported without a traceback
         print(f"{type(error).__name__}: {error}", file=sys.stderr)
         return 1
     print(text)

@@ -9,12 +9,12 @@ HEADER = "Arguments (pass arguments as '<name>:=<value>'):"
 
 
 def show_args(path: str) -> int:
-    """Print the arguments of a launch file with their defaults; 1 when the file cannot be read."""
+    """Print the arguments of a launch file with their defaults; returns 1 if the file cannot be read."""
     from launch.launch_description_sources import get_launch_description_from_any_launch_file
 
     try:
         description = get_launch_description_from_any_launch_file(path)
-    except Exception as error:  # a launch file is a program: what it raises is told without a traceback
+    except Exception as error:  # a launch file is a program: its exceptions are reported without a traceback
         return _failed(error)
     print(HEADER)
     try:
@@ -26,7 +26,7 @@ def show_args(path: str) -> int:
 
 
 def print_arguments(description: Any) -> None:
-    """Print the arguments of a launch description with their defaults; raises what an included file raises."""
+    """Print the arguments of a launch description with their defaults; propagates exceptions of included files."""
     print(HEADER)
     _print(description.get_launch_arguments())
 

@@ -16,13 +16,13 @@ UNREADABLE = (
 
 
 def is_bad_syntax(path: str, error: Exception) -> bool:
-    """Whether the file is no YAML at all, of which upstream's traceback is recorded."""
+    """Whether the file is not YAML at all; upstream's traceback for that is known."""
     mark = getattr(error, "problem_mark", None)
     return isinstance(error, (ScannerError, ParserError)) and mark is not None and mark.name == path
 
 
 def fault_of(path: str, error: Exception) -> str:
-    """What is wrong with a file, on one line, by what `rclpy.parameter.parameter_dict_from_yaml_file` raised for it."""
+    """A one-line description of an error that `rclpy.parameter.parameter_dict_from_yaml_file` raised for a file."""
     if isinstance(error, OSError):
         return f"{path}: {error.strerror or error}"
     if isinstance(error, RuntimeError) and not isinstance(error, RecursionError):

@@ -35,7 +35,7 @@ PROFILES = (
 
 
 def add_qos_arguments(parser: argparse.ArgumentParser, verb: str, default: str) -> None:
-    """Add the options; `verb` is `subscribe` or `publish`."""
+    """Add the QoS options; `verb` is `subscribe` or `publish`."""
 
     def add(name: str, what: str, overrides: str, tail: str, **more: Any) -> None:
         text = f"{what} setting to {verb} with (overrides {overrides} value of --qos-profile option{tail}"
@@ -62,7 +62,7 @@ def add_qos_arguments(parser: argparse.ArgumentParser, verb: str, default: str) 
 
 
 def profile(arguments: argparse.Namespace, default: str) -> QoSProfile:
-    """The profile that the options ask for, on top of a preset."""
+    """The profile that the options select: a preset with the given policies changed."""
     changed = _preset(arguments.qos_profile or default)
     for option, policy, attribute in (
         (arguments.qos_history, HistoryPolicy, "history"),
@@ -75,7 +75,7 @@ def profile(arguments: argparse.Namespace, default: str) -> QoSProfile:
     lease: float = arguments.qos_liveliness_lease_duration_seconds or 0
     if lease > 0:
         changed.liveliness_lease_duration = Duration(seconds=lease)
-    depth: int = arguments.qos_depth or 0  # 0 and less leave the preset's, as upstream
+    depth: int = arguments.qos_depth or 0  # 0 and less keep the preset's depth, as upstream
     if depth > 0:
         changed.depth = depth
     elif changed.durability == DurabilityPolicy.TRANSIENT_LOCAL and changed.depth == 0:
@@ -84,7 +84,7 @@ def profile(arguments: argparse.Namespace, default: str) -> QoSProfile:
 
 
 def _preset(name: str) -> QoSProfile:
-    """A preset of its own, that can be changed."""
+    """A copy of a preset, which the caller may change."""
     base: Any = QoSProfile(depth=10) if name in ("unknown", "default") else QoSPresetProfiles.get_from_short_key(name)
     return QoSProfile(
         history=base.history,
@@ -96,9 +96,9 @@ def _preset(name: str) -> QoSProfile:
 
 
 def compatible(arguments: argparse.Namespace, default: str, publishers: Any) -> QoSProfile:
-    """As `profile`, but where no option but a preset is given, one that all the publishers of a topic satisfy.
+    """The profile of the options; without any but a preset, one compatible with all publishers of a topic.
 
-    Says so where that is less than what some of them offer.
+    Prints a notice if some publishers offer a stronger policy than the one chosen.
     """
     chosen = profile(arguments, default)
     settings = ("depth", "history", "reliability", "durability", "liveliness", "liveliness_lease_duration_seconds")
@@ -115,7 +115,7 @@ def compatible(arguments: argparse.Namespace, default: str, publishers: Any) -> 
 
 
 def _offered(offers: Sequence[Any], best: Any, fallback: Any) -> Any:
-    """The better of two policies where everybody offers it."""
+    """`best` if all publishers offer it, else `fallback`."""
     count = offers.count(best)
     if count == len(offers):
         return best

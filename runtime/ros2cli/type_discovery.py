@@ -20,7 +20,7 @@ MISSING = (ValueError, AttributeError, ModuleNotFoundError)
 
 
 def message_class(node: Node, topic: str, type_name: str) -> Any:
-    """The class of a topic's messages, or a text that says why there is none."""
+    """The message class of a topic, or the reason why it is not available as a string."""
     try:
         return get_message(type_name)
     except MISSING:
@@ -33,10 +33,10 @@ def message_class(node: Node, topic: str, type_name: str) -> Any:
 
 
 def typed_class(get: Callable[[str], Any], kind: str, type_name: str, invalid: str, node: Node | None = None) -> Any:
-    """The class of a type that was typed in, with `kind` (msg, srv, action) in the middle of its name or without.
+    """The class of a type that a user typed, with or without `kind` (msg, srv, action) in the middle of its name.
 
-    `get` finds it here; else those who use it are asked by `node`, or by one for that alone. Gives a text where there
-    is none: `invalid` for one that nobody uses either, else why it cannot be had.
+    `get` finds installed types; otherwise `node`, or a temporary node, asks the nodes that use the type. Returns a
+    string if there is no class: `invalid` if no node uses the type either, else why it could not be learned.
     """
     try:
         return get(type_name)
@@ -50,12 +50,12 @@ def typed_class(get: Callable[[str], Any], kind: str, type_name: str, invalid: s
 
 
 def not_installed(type_name: str, why: str) -> str:
-    """What to say of a type that could not be learned."""
+    """The message for a type that could not be learned."""
     return f"The type '{type_name}' is not installed here: {why}"
 
 
 def learned(type_name: str, node: Node | None = None) -> str | None:
-    """Learn a type by its full name; why that cannot be, empty where it was, None where nobody has it to tell."""
+    """Learn a type by its full name; returns an empty string, or why that failed, or None if no node knows the type."""
     package = type_name.partition("/")[0]
     if not TYPE_NAME.fullmatch(type_name):
         return None
@@ -68,13 +68,13 @@ def learned(type_name: str, node: Node | None = None) -> str | None:
 
 
 def full_type_name(kind: str, type_name: str) -> str:
-    """`pkg/Name` as `pkg/msg/Name`; every other name as it is."""
+    """`pkg/Name` as `pkg/<kind>/Name`; any other name unchanged."""
     package, slash, name = type_name.partition("/")
     return f"{package}/{kind}/{name}" if slash and "/" not in name else type_name
 
 
 def _learned(node: Node, type_name: str) -> str | None:
-    """Learn a type, of an action also by the names of its parts; why that cannot be, None where no node has it."""
+    """Learn a type (an action's also by its parts); returns "", why it failed, or None if no node has it."""
     from bot_console.runtime.type_inquiry import inquiries, whole
 
     why = None
@@ -87,7 +87,7 @@ def _learned(node: Node, type_name: str) -> str | None:
 
 
 def _asked(node: Node, name: str, inquiry: Any) -> str:
-    """Ask a node all that is to be asked; why it is no use, else empty."""
+    """Put all questions of an inquiry to a node; returns why that failed, or an empty string."""
     from ros2cli.direct_node import spin_until
     from type_description_interfaces.srv import GetTypeDescription
 

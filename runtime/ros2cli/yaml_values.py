@@ -11,7 +11,7 @@ MOST_BITS = 14_000
 
 
 def read_values(source: str | IO[str]) -> Any:
-    """The values; raises `YAMLError` and what `told_faults` raises."""
+    """The values; raises `YAMLError`, and `RuntimeError` as `told_faults` does."""
     import yaml
 
     with told_faults():
@@ -22,9 +22,9 @@ def read_values(source: str | IO[str]) -> Any:
 
 @contextlib.contextmanager
 def told_faults() -> Generator[None]:
-    """Around what reads YAML: its own errors come as they are, for ROS 2 shows them as well.
+    """Guard code that reads YAML: a `YAMLError` passes unchanged, as ROS 2 shows it, too.
 
-    Raises `RuntimeError`, which a command tells on one line, for what the library lets fall in other ways.
+    Raises `RuntimeError`, which a command prints on one line, for the other exceptions that the library lets escape.
     """
     import yaml
 
@@ -41,7 +41,7 @@ def told_faults() -> Generator[None]:
 
 
 def _refuse_endless(value: Any, seen: set[int]) -> None:
-    """Refuse whole numbers that cannot be written; an alias is looked at once, as it may hold itself."""
+    """Raise `OverflowError` for integers too long to print; an alias is visited once, as it may contain itself."""
     if isinstance(value, int):
         if value.bit_length() > MOST_BITS:
             raise OverflowError("endless number")

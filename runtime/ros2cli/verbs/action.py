@@ -30,7 +30,7 @@ Rows = list[tuple[str, list[str]]]
 
 
 def _clients_and_servers(node: Node, action: str) -> tuple[Rows, Rows]:
-    """The nodes that call and that serve an action; raises `InvalidTopicNameException` or `ValueError` for no name."""
+    """The clients and servers of an action; raises `InvalidTopicNameException` or `ValueError` for an invalid name."""
     name = expand_topic_name(action, node.get_name(), node.get_namespace())
     validate_full_topic_name(name)
     sides: tuple[Rows, Rows] = ([], [])
@@ -117,7 +117,7 @@ def _send_goal(arguments: argparse.Namespace) -> Result:
     goal = kind.Goal()
     try:
         set_message_fields(goal, values)
-    except Exception as error:  # whatever a field says about a value, as upstream
+    except Exception as error:  # a field may raise anything about a value; upstream catches all, too
         return f"Failed to populate message fields: {error!r}"
     arguments.no_daemon = True
     with DirectNode(arguments, name=f"_ros2cli_send_goal_{arguments.action_type.replace('/', '_')}") as node:
@@ -131,7 +131,7 @@ def _send_goal(arguments: argparse.Namespace) -> Result:
 
 
 def _follow(node: Node, client: ActionClient, goal: Any, feedback: bool) -> Result:
-    """Send the goal and stay with it to its result; Ctrl-C cancels it."""
+    """Send the goal and wait for its result; Ctrl-C cancels the goal."""
     print("Waiting for an action server to become available...")
     spin_until(node, client.server_is_ready)
     print(f"Sending goal:\n     {message_to_yaml(goal)}")
@@ -159,7 +159,7 @@ def _outcome(node: Node, future: Any) -> Any:
 
 
 def _cancel(node: Node, handle: Any) -> str | None:
-    """Ask for cancelling a goal that has not ended; what to say if the server did not agree."""
+    """Request the cancellation of a goal that has not ended; returns an error message if the server refuses."""
     if handle.status not in (GoalStatus.STATUS_ACCEPTED, GoalStatus.STATUS_EXECUTING):
         return None
     print("Canceling goal...")

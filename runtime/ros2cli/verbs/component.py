@@ -21,7 +21,7 @@ SERVICES = {"load_node": "LoadNode", "unload_node": "UnloadNode", "list_nodes": 
 
 
 def _containers(node: Node) -> list[str]:
-    """Nodes that have a container's services."""
+    """Nodes that offer the services of a component container."""
     services = dict(node.get_service_names_and_types())
 
     def offers_all(name: str) -> bool:
@@ -129,7 +129,7 @@ def _unload(arguments: argparse.Namespace) -> Result:
 
 
 def _asked(node: Node, kind: Any, container: str, service: str, request: Any) -> Any:
-    """The answer of a container's service; raises `RuntimeError` where it is not ready in time."""
+    """The response of a container's service; raises `RuntimeError` if the service is not ready in time."""
     missing = f"No '{service}' service found for '{container}' container"
     return call(node, kind, f"{container}/_container/{service}", request, ANSWER_LIMIT, missing)
 

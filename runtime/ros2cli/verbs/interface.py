@@ -98,7 +98,7 @@ def _proto(arguments: argparse.Namespace) -> Result:
         kind = _prototype(arguments.type)
     except (AttributeError, ImportError, LookupError, TypeError, ValueError) as error:
         if isinstance(error, AttributeError) and re.fullmatch(r"\w+/(msg|srv|action)/\w+", arguments.type):
-            raise  # a name that its package lacks is told as ROS 2 tells it
+            raise  # a name that its package lacks: reported as ROS 2 does
         return f"Unknown interface '{arguments.type}'"
     text = message_to_yaml(kind())
     print(text if arguments.no_quotes else f'"{text}"')
@@ -138,7 +138,7 @@ def _show(arguments: argparse.Namespace) -> Result:
         text = _text(name, arguments)
     except LookupError as error:
         return str(error.args[0])
-    except OSError as error:  # as of a name that is too long for any file
+    except OSError as error:  # such as a name too long for a file
         return f"Unknown interface '{name[:80]}': {error.strerror}"
     print(text, end="")
     package = name.partition("/")[0]
@@ -148,7 +148,7 @@ def _show(arguments: argparse.Namespace) -> Result:
 
 
 def _text(name: str, arguments: argparse.Namespace) -> str:
-    """The definition as it is here, else as a node tells it; raises `LookupError`."""
+    """The installed definition, else the one learned from a node; raises `LookupError` if there is neither."""
     try:
         return show_text(name, all_comments=arguments.all_comments, no_comments=arguments.no_comments)
     except LookupError:

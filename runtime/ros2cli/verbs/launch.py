@@ -102,7 +102,7 @@ def _launch_files_of(package: str) -> str:
 
 
 def _list_launch_files(package: str) -> Result:
-    """What `--show-args` can be asked of; raises `PackageNotFoundError`, `ValueError` as a look-up does."""
+    """List the launch files for `--show-args`; raises `PackageNotFoundError` and `ValueError` for the package."""
     from ament_index_python.packages import get_package_share_directory
     from bot_console.runtime.workspace.choices import launch_file_names
 
@@ -148,7 +148,7 @@ def launch(
     debug: bool = False,
     missing_allowed: bool = False,
 ) -> int:
-    """Run a launch file to its end; 1 when the launch itself failed, whatever became of its processes."""
+    """Run a launch file to its end; returns 1 if the launch itself failed, regardless of its processes' exit codes."""
     from launch.actions import IncludeLaunchDescription
     from launch.launch_description_sources import AnyLaunchDescriptionSource
     from launch.undeclared_arguments import WarnOfUndeclaredArguments
@@ -163,14 +163,14 @@ def launch(
         allow_missing(service)
     service.include_launch_description(LaunchDescription([include, WarnOfUndeclaredArguments(arguments)]))
     if threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGINT, _late)  # the run has a handler of its own, and puts this one back at its end
-        # Python takes handlers of its own away before it has ended.
+        signal.signal(signal.SIGINT, _late)  # the run installs its own handler, and restores this one at its end
+        # Python removes its own handlers before the process has ended.
         atexit.register(signal.signal, signal.SIGINT, signal.SIG_IGN)
     return service.run()
 
 
 def _late(number: int, frame: FrameType | None) -> None:
-    """An interrupt of a launch that is over changes nothing; a second one ends a program that does not end."""
+    """Ignore the first interrupt after the end of a launch; a second one ends a program that does not exit."""
     signal.signal(number, signal.default_int_handler)
 
 

@@ -25,7 +25,7 @@ def _timeout(parser: argparse.ArgumentParser) -> None:
 
 
 def _one(*names: tuple[str, str], middle: Any = None) -> Any:
-    """Arguments of a verb on one node: the shared options around those of its own."""
+    """The arguments of a verb on one node: the shared options around the verb's own."""
 
     def add(parser: argparse.ArgumentParser) -> None:
         add_strategy_arguments(parser)

@@ -30,9 +30,9 @@ def set_(arguments: argparse.Namespace) -> Result:
         try:
             result = call(node, SetParameters, f"{absolute(arguments.node_name)}/set_parameters", request).results[0]
         except TypeError as error:
-            if isinstance(value.string_value, str):  # a whole number beyond 64 bits
+            if isinstance(value.string_value, str):  # an integer beyond 64 bits
                 return f"{arguments.parameter_name}: {error}"
-            # A YAML map: the words of ROS 2's conversion of strings.
+            # A YAML map: the message of ROS 2's conversion of strings.
             raise TypeError("bad argument type for built-in operation") from None
         if result.successful:
             print(f"Set parameter successful{': ' + result.reason if result.reason else ''}")
@@ -60,7 +60,7 @@ def delete(arguments: argparse.Namespace) -> Result:
 
 
 def load(arguments: argparse.Namespace) -> Result:
-    """`ros2 param load`; every node key of the file is taken, as upstream does."""
+    """`ros2 param load`; the parameters of every node key in the file are set, as upstream does."""
     from ros2cli.parameter_file_faults import UNREADABLE, fault_of, is_bad_syntax
 
     with DirectNode(arguments) as node:
@@ -76,7 +76,7 @@ def load(arguments: argparse.Namespace) -> Result:
         request = SetParameters.Request(parameters=parameters)
         try:
             results = call(node, SetParameters, f"{absolute(arguments.node_name)}/set_parameters", request).results
-        except TypeError as error:  # a whole number beyond 64 bits
+        except TypeError as error:  # an integer beyond 64 bits
             return f"{arguments.parameter_file}: {error}"
     for parameter, result in zip(parameters, results, strict=True):
         if result.successful:

@@ -22,14 +22,14 @@ TYPE_WORDS = {NOT_SET: "not set", **{code: each.shown for code, each in BY_CODE.
 
 
 def found(node: Node, arguments: argparse.Namespace) -> bool:
-    """Whether the node that a verb names is there, or comes in time."""
+    """Whether the node that the arguments name exists, or appears within their time-out."""
     name = absolute(arguments.node_name)
     hidden = arguments.include_hidden_nodes
     return wait_for_node(node, name, include_hidden=hidden, timeout=arguments.timeout)
 
 
 def values_of(node: Node, name: str, parameters: list[str]) -> list[ParameterValue]:
-    """Values by the node's service; empty when one of them is not declared or not set."""
+    """The values that the node's service returns; empty if any of them is undeclared or unset."""
     request = GetParameters.Request(names=parameters)
     return list(call(node, GetParameters, f"{name}/get_parameters", request).values)
 
@@ -63,7 +63,7 @@ def _label(kind: ParameterType) -> str:
 
 
 def _shown(value: ParameterValue, kind: ParameterType) -> Any:
-    """The field of the value that counts; numbers of an array as a list."""
+    """The field of the message that holds the value; arrays as lists."""
     shown = getattr(value, kind.field)
     return shown.tolist() if hasattr(shown, "tolist") else shown
 
@@ -84,7 +84,7 @@ def describe(arguments: argparse.Namespace) -> Result:
 
 
 def tell_missing(node: Node, name: str, parameters: Sequence[str]) -> None:
-    """Tell a person which of some parameters a node, by its full name, does not have; upstream says nothing of it."""
+    """Hint on a terminal which parameters the node with that full name lacks; upstream prints nothing then."""
 
     def text() -> str:
         known = call(node, ListParameters, f"{name}/list_parameters", ListParameters.Request()).result.names
@@ -167,7 +167,7 @@ def dump(arguments: argparse.Namespace) -> Result:
 
 
 def _insert(tree: dict[str, Any], path: list[str], value: Any) -> None:
-    """Put a value below nested keys; a name that is also a prefix of others keeps its dots."""
+    """Insert a value under nested keys; where a prefix is itself a parameter, the rest of the name keeps its dots."""
     *above, last = path
     for depth, key in enumerate(above):
         below = tree.setdefault(key, {})
@@ -179,5 +179,5 @@ def _insert(tree: dict[str, Any], path: list[str], value: Any) -> None:
 
 
 def warn(text: str) -> None:
-    """Print to stderr, for refusals that leave the exit code 0."""
+    """Print to stderr, for failures that leave the exit code at 0."""
     print(text, file=sys.stderr)

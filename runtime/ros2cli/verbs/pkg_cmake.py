@@ -10,7 +10,7 @@ from ros2cli.verbs import pkg_cmake_templates as texts
 def files(
     words: Mapping[str, str], build_type: str, dependencies: list[str], node: str, library: str
 ) -> dict[str, str]:
-    """The texts of the files by their paths in the package, in order; `words` are those of `pkg create`."""
+    """The contents of the files by path in the package, in order; `words` are the template values of `pkg create`."""
     name, ament = words["name"], build_type == "ament_cmake"
     buildtool = ("ament_cmake_ros" if library else "ament_cmake") if ament else ""
     found = [*(["ament_cmake"] if ament else []), *([buildtool] if ament and library else []), *dependencies]
@@ -26,7 +26,7 @@ def files(
         "macro": name.upper(),
         "node": node,
         "library": library,
-        "kind": "" if ament else "SHARED ",  # ament_cmake_ros makes them shared by itself
+        "kind": "" if ament else "SHARED ",  # ament_cmake_ros builds shared libraries by default
         "class_name": "".join(each.capitalize() for each in library.split("_")),
         "guard": f"{name}__{library}".upper(),
         "find": "".join(f"find_package({each} REQUIRED)\n" for each in found)
@@ -65,7 +65,7 @@ def _cmake_lists(words: Mapping[str, str], ament: bool, node: str, library: str)
 
 
 def _uses(ament: bool, target: str, dependencies: list[str]) -> str:
-    """The lines that let a target use the dependencies; plain CMake cannot know the names of their targets."""
+    """The lines that link a target to the dependencies; empty for plain CMake, where their target names are unknown."""
     if not ament or not dependencies:
         return ""
     lines = "\n".join(f'  "{each}"' for each in dependencies)

@@ -26,7 +26,7 @@ NOT_COMPILED = (
 def _user() -> str:
     try:
         return getpass.getuser()
-    except (KeyError, OSError):  # a container without a name for this user
+    except (KeyError, OSError):  # for example in a container without an entry for this user
         return "user"
 
 
@@ -112,7 +112,7 @@ def _tell(arguments: argparse.Namespace, email: str) -> None:
 
 
 def _write(folder: str, arguments: argparse.Namespace, email: str) -> None:
-    """Make the folders and files, and say so line by line."""
+    """Create the folders and files, and print a line for each."""
     name, words = arguments.package_name, _words(arguments, email)
     _folder(folder)
     _file(folder, "package.xml", texts.PACKAGE_XML.substitute(words))
@@ -132,7 +132,7 @@ def _write(folder: str, arguments: argparse.Namespace, email: str) -> None:
 
 
 def _write_cmake(folder: str, arguments: argparse.Namespace, email: str) -> None:
-    """The same for a package that CMake builds."""
+    """Create the folders and files of a CMake package."""
     from ros2cli.verbs.pkg_cmake import files
 
     node, library = arguments.node_name or "", arguments.library_name or ""
@@ -162,7 +162,7 @@ def _file(folder: str, name: str, text: str) -> None:
 
 
 def _words(arguments: argparse.Namespace, email: str) -> dict[str, str]:
-    """What the templates are filled with."""
+    """The values that the templates are filled with."""
     name, node = arguments.package_name, arguments.node_name
     depends = "".join(f"  <depend>{each}</depend>\n" for each in arguments.dependencies)
     free = {
@@ -182,7 +182,7 @@ def _words(arguments: argparse.Namespace, email: str) -> dict[str, str]:
 
 
 def _license(folder: str, identifier: str) -> None:
-    """Put the text of a license into the package, or say why there is none."""
+    """Write the license file of the package, or print why there is none."""
     text = licenses.text(identifier)
     if text:
         with open(os.path.join(folder, "LICENSE"), "w", encoding="utf-8") as file:

@@ -21,7 +21,7 @@ FOLDER = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))
 
 
 def text(identifier: str) -> str:
-    """The text of a license; empty where it is not brought, as those of the GPL are not."""
+    """The text of a license; empty for those that are not included, such as the GPL's."""
     path = os.path.join(FOLDER, f"{identifier}.txt")
     if identifier not in KNOWN or not os.path.exists(path):
         return ""

@@ -49,7 +49,7 @@ def _run(arguments: argparse.Namespace) -> Result:
 
 
 def run(executable: Executable, words: list[str], prefix: str | None = None) -> int:
-    """Run an executable in this process where it is Python and no prefix is asked for, else as one of its own."""
+    """Run an executable: in this process if it is Python and has no prefix, else in a child; returns its exit code."""
     from bot_console.runtime.process.node.main_thread import exit_code_of
     from bot_console.runtime.workspace.program import program
 
@@ -72,7 +72,7 @@ def _wait_for(command: list[str]) -> int:
         try:
             return process.wait()
         except KeyboardInterrupt:
-            # The child has had the same signal and ends in its own time.
+            # The child has received the same signal and ends in its own time.
             continue
 
 

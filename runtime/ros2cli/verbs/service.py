@@ -26,7 +26,7 @@ def _hidden_argument(parser: argparse.ArgumentParser, **more: Any) -> None:
 
 
 def _hidden_as_well(parser: argparse.ArgumentParser) -> None:
-    """The same option behind the verb: where it is not, the one before the verb counts."""
+    """Accept the option after the verb as well; if it is absent there, the one before the verb applies."""
     _hidden_argument(parser, default=argparse.SUPPRESS)
 
 
@@ -140,7 +140,7 @@ def _call(arguments: argparse.Namespace) -> Result:
 
 
 def _interface(type_name: str) -> Any:
-    """What stands under a type's name, service or not."""
+    """The interface class with that type name, whether it is a service or not."""
     *modules, name = full_type_name("srv", type_name).split("/")
     return getattr(importlib.import_module(".".join(modules)), name)
 
@@ -150,7 +150,7 @@ def _requests(node: Node, kind: Any, values: Any, arguments: argparse.Namespace)
     request = kind.Request()
     try:
         set_message_fields(request, values)
-    except Exception as error:  # whatever a field says about a value, as upstream
+    except Exception as error:  # a field may raise anything about a value; upstream catches all, too
         return f"Failed to populate field: {error}"
     if not client.service_is_ready():
         print("waiting for service to become available...")

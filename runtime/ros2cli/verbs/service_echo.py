@@ -49,7 +49,7 @@ def echo(arguments: argparse.Namespace) -> Result:
 
 
 def _service_class(node: Node, arguments: argparse.Namespace) -> Any:
-    """The class of the service, or a text that says why there is none."""
+    """The class of the service, or the reason why it is not available as a string."""
     name = arguments.service_name
     if arguments.service_type is not None:
         invalid = f"The service type '{arguments.service_type}' is invalid"

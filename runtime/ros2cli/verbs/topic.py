@@ -18,7 +18,7 @@ def _hidden_argument(parser: argparse.ArgumentParser, **more: Any) -> None:
 
 
 def _hidden_as_well(parser: argparse.ArgumentParser) -> None:
-    """The same option behind the verb: where it is not, the one before the verb counts."""
+    """Accept the option after the verb as well; if it is absent there, the one before the verb applies."""
     _hidden_argument(parser, default=argparse.SUPPRESS)
 
 

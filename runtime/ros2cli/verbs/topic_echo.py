@@ -21,7 +21,7 @@ TRUNCATE = 128
 
 
 def unsigned(text: str) -> int:
-    """A number of an option that is 0 or more."""
+    """Parse the value of an option as an integer of at least 0."""
     try:
         value = int(text)
     except ValueError:
@@ -32,7 +32,7 @@ def unsigned(text: str) -> int:
 
 
 def add_form_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the options that say in which form, and how much of arrays and strings, is shown."""
+    """Add the options for the output format and for how much of arrays and strings is shown."""
     parser.add_argument(
         "--full-length",
         "-f",
@@ -90,7 +90,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 
 class _Printer:
-    """Prints messages as the options ask, and knows when enough were printed."""
+    """Prints messages as the options request; `done` becomes true after the last one."""
 
     def __init__(self, arguments: argparse.Namespace) -> None:
         self._arguments = arguments
@@ -103,7 +103,7 @@ class _Printer:
         self.done = False
 
     def show(self, message: Any, info: Any) -> None:
-        """Print one message, or its field; the filter sees what would be printed."""
+        """Print one message, or the selected field of it; the filter is applied to what would be printed."""
         chosen = self._arguments
         if self._field:
             try:
@@ -123,7 +123,7 @@ class _Printer:
         self.done = chosen.once
 
     def _print_value(self, value: Any, info: Any) -> None:
-        """What is no message: a field, or raw bytes; `--csv` does not count for it."""
+        """Print what is not a message, that is a field or raw bytes; ignores `--csv`."""
         if self._arguments.include_message_info:
             print(f"---Got new message, message info:---\n{info}\n---Message data:---")
         print(value, end="\n---\n")
@@ -152,7 +152,7 @@ class _Printer:
 
 
 def _filter(expression: str | None) -> Callable[[Any], bool]:
-    """A function of a message; raises `SyntaxError` for what is not an expression."""
+    """Compile a filter expression to a predicate on messages; raises `SyntaxError` if it is not an expression."""
     if expression is None:
         return lambda message: True
     code = compile(expression, "<string>", "eval")
@@ -160,7 +160,7 @@ def _filter(expression: str | None) -> Callable[[Any], bool]:
 
 
 def _message_class(node: Node, arguments: argparse.Namespace) -> Any:
-    """The class to subscribe with, or a text that says why there is none."""
+    """The class to subscribe with, or the reason why it is not available as a string."""
     if arguments.message_type:
         invalid = "The passed message type is invalid"
         return typed_class(get_message, "msg", arguments.message_type, invalid, node)
@@ -176,7 +176,7 @@ def _message_class(node: Node, arguments: argparse.Namespace) -> Any:
 
 def _tell_lost(info: Any) -> None:
     counts = f"\ttotal count change:{info.total_count_change}\n\ttotal count: {info.total_count}"
-    print(f"A message was lost!!!\n{counts}", end="---\n")  # upstream, too, does not end the line before the dashes
+    print(f"A message was lost!!!\n{counts}", end="---\n")  # upstream does not end the line before the dashes either
 
 
 def echo(arguments: argparse.Namespace) -> Result:

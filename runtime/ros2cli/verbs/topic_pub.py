@@ -125,21 +125,21 @@ def publish(arguments: argparse.Namespace) -> Result:
 
 
 class _Refused(Exception):
-    """Values that do not fit the message."""
+    """The values do not fit the message."""
 
 
 _Filled = tuple[Any, Sequence[Callable[[Any], None]]]
 
 
 def _wait_for_subscriptions(node: Node, publisher: Any, arguments: argparse.Namespace) -> str:
-    """Wait for as many as were asked for, saying so once a second; what to say where too few came in time."""
+    """Wait for the requested number, with a notice each second; returns an error message if too few came in time."""
     wanted = arguments.wait_matching_subscriptions
     wanted = int(arguments.once or arguments.times > 0) if wanted is None else wanted
     left: float = math.inf if arguments.max_wait_time_secs is None else arguments.max_wait_time_secs
     count: Callable[[], int] = publisher.get_subscription_count
     while count() < wanted:
         if left <= 0:
-            # the misspelt word is upstream's: scripts look for its line
+            # the misspelling is upstream's: scripts search for this line
             return f"Timed out waiting for subscribers: Expected {wanted} subcribers but only got {count()} subscribers"
         print(f"Waiting for at least {wanted} matching subscription(s)...")
         spin_until(node, lambda: count() >= wanted, min(left, 1.0))
@@ -148,7 +148,7 @@ def _wait_for_subscriptions(node: Node, publisher: Any, arguments: argparse.Name
 
 
 def _loop(node: Node, publisher: Any, messages: Iterator[_Filled], arguments: argparse.Namespace) -> None:
-    """Publish the first message at once and the others by a timer of the node, which is served meanwhile."""
+    """Publish the first message at once and the others from a timer, spinning the node until the last one."""
     sender = _Sender(node, publisher, messages, arguments)
     print("publisher: beginning loop")
     sender.send()
@@ -159,7 +159,7 @@ def _loop(node: Node, publisher: Any, messages: Iterator[_Filled], arguments: ar
 
 
 class _Sender:
-    """Publishes messages one by one, tells of every n-th, and knows when enough were published."""
+    """Publishes messages one by one, prints every n-th, and is `done` after the last one."""
 
     def __init__(self, node: Node, publisher: Any, messages: Iterator[_Filled], arguments: argparse.Namespace) -> None:
         self._node = node
@@ -172,11 +172,11 @@ class _Sender:
 
     @property
     def done(self) -> bool:
-        """Whether the last message is published."""
+        """Whether the last message has been published."""
         return self._following is None or bool(self._times and self._count >= self._times)
 
     def send(self) -> None:
-        """Publish a message, if there is one to come."""
+        """Publish the next message, if there is one."""
         if self.done or self._following is None:
             return
         message, stamps = self._following
@@ -192,10 +192,10 @@ class _Sender:
 
 
 def _filled(kind: Any, values: Any) -> _Filled:
-    """A message with the values, and what sets the time in it just before it is sent."""
+    """A message with the values, and functions that set its time stamps just before it is sent."""
     message = kind()
     try:
         stamps = set_message_fields(message, values, expand_header_auto=True, expand_time_now=True)
-    except Exception as error:  # whatever a field says about a value, as upstream
+    except Exception as error:  # a field may raise anything about a value; upstream catches all, too
         raise _Refused(f"Failed to populate field: {error}") from None
     return message, stamps or ()

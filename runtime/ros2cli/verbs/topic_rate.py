@@ -68,7 +68,7 @@ def delay_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _subscribe(node: Node, topic: str, take: Callable[[Any], None], *, raw: bool = False) -> str:
-    """Subscribe when the topic appears; why that cannot be, empty where it can."""
+    """Wait for the topic and subscribe to it; returns why that is impossible, or an empty string."""
     name = topic if topic.startswith("/") else f"/{topic}"
     if name not in dict(node.get_topic_names_and_types()):
         print(f"WARNING: topic [{topic}] does not appear to be published yet")
@@ -81,7 +81,7 @@ def _subscribe(node: Node, topic: str, take: Callable[[Any], None], *, raw: bool
 
 
 def _tell_each_second(node: Node, tell: Callable[[], str]) -> Result:
-    """Print once a second what there is to tell, for ever."""
+    """Print the text that `tell` returns, if any, once a second, forever."""
 
     def show() -> None:
         if text := tell():
@@ -99,7 +99,7 @@ def spread(values: Sequence[float]) -> tuple[float, float, float, float]:
 
 
 class _Rate:
-    """Gaps (ns) between messages; the report is due with the first message a second (1e9 ns) after the last one."""
+    """Gaps (ns) between messages; a report is due with the first message 1 s (1e9 ns) or more after the last report."""
 
     def __init__(self, window: int, now: Callable[[], int]) -> None:
         self.gaps: deque[int] = deque(maxlen=window)
@@ -107,7 +107,7 @@ class _Rate:
         self._last = self._reported = 0
 
     def take(self) -> str:
-        """Count a message; the report where one is due."""
+        """Count a message; returns the report if one is due, else an empty string."""
         now, last = self._now(), self._last
         if now == 0:
             text = "time has reset, resetting counters" if self.gaps else ""
@@ -167,7 +167,7 @@ def bandwidth(arguments: argparse.Namespace) -> Result:
             if len(sizes) < 2:
                 return ""
             seconds = (clock.now().nanoseconds - sizes[0][0]) * 1e-9
-            if seconds <= 0:  # the simulation began anew
+            if seconds <= 0:  # the simulation was restarted
                 sizes.clear()
                 return ""
             amounts = [size for _, size in sizes]
@@ -186,14 +186,14 @@ def bandwidth(arguments: argparse.Namespace) -> Result:
 
 
 def _amount(count: float, total: float) -> str:
-    """Bytes in the unit that suits the total of a second (B/s)."""
+    """Format a number of bytes in the unit that suits the total per second (B/s)."""
     if total < 1e3:
         return f"{count:.0f} B"
     return f"{count / 1e3:.2f} KB" if total < 1e6 else f"{count / 1e6:.2f} MB"
 
 
 def delay(arguments: argparse.Namespace) -> Result:
-    """`ros2 topic delay`; the first message only begins it. Raises `RuntimeError` for messages without a header."""
+    """`ros2 topic delay`; not measured on the first message. Raises `RuntimeError` for messages without a header."""
     delays: deque[int] = deque(maxlen=arguments.window_size)
     started: list[None] = []
     fresh: list[None] = []
