@@ -33,7 +33,10 @@ Wait = Callable[[threading.Event, float], bool]
 DURATION = 60.0
 """Seconds of a run for which no duration is given."""
 GRACE = 5.0
-"""Seconds that the last question, and the end of the launched processes, may take."""
+"""Seconds that the last question may take."""
+LAUNCH_GRACE = 12.0
+"""Seconds that the end of a launch may take: it sends SIGTERM after 5 and SIGKILL after 10, and whoever ended it before
+that would leave its processes behind."""
 SETTLED = 0.1
 """Seconds after which the nodes are up: from then on garbage is collected."""
 SLOW_START = 60.0
@@ -75,7 +78,7 @@ def simulated(options: Options, observer: Observer | None = None) -> tuple[dict[
         with contextlib.suppress(KeyboardInterrupt):
             _wait_for(observer, launches, duration, threading.Event.wait if options.fast else wait_awake)
         report = observer.report()
-        launches.stop(GRACE)
+        launches.stop(LAUNCH_GRACE)
         watching.stop(GRACE)
         report["deterministic"] = bool(getattr(clock, "deterministic", False))
         stalls = getattr(clock, "stalls", [])
