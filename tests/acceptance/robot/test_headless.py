@@ -96,6 +96,41 @@ def test_a_launch_that_ends_itself_is_reported_until_then(tmp_path):
     assert report["deterministic"]
 
 
+NEVER_ENDS = """
+import threading
+import time
+
+
+def work():
+    while True:
+        time.sleep(0.5)
+
+
+threading.Thread(target=work).start()
+try:
+    time.sleep(1000.0)
+except KeyboardInterrupt:
+    pass  # and its thread goes on
+"""
+STARTS_IT = """
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([Node(executable={program!r})])
+"""
+
+
+def test_a_program_that_never_ends_is_terminated_by_its_launch(tmp_path):
+    program = tmp_path / "never_ends.py"
+    program.write_text(NEVER_ENDS)
+    (tmp_path / "starts_it.launch.py").write_text(STARTS_IT.format(program=str(program)))
+    report = headless(tmp_path, "--duration", "2", "--simulator", "--launch", "starts_it.launch.py")
+    assert "[never_ends.py-1]: process has died" in report["log"]
+    assert "exit code -15" in report["log"]
+
+
 @pytest.mark.parametrize(
     ("content", "code"), [("simulator:\n  ros__parameters:\n    world: 5\n", 1), ("a: [\n", 0)], ids=["value", "YAML"]
 )
