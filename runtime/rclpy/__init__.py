@@ -39,7 +39,7 @@ explain_with(_explain)
 
 
 class InitContextManager:
-    """What `init` gives: shuts the context down at the end of a `with` block."""
+    """The result of `init`: shuts the context down at the end of a `with` block."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
@@ -143,7 +143,7 @@ def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: floa
         was_added = executor.add_node(node)
         executor.spin_once(timeout_sec=timeout_sec)
     finally:
-        if was_added:  # else who spins it already goes on to do so, such as the caller's caller
+        if was_added:  # else whoever spins the node already, such as the caller's caller, keeps it
             executor.remove_node(node)
 
 
@@ -160,7 +160,7 @@ def spin(node: Node, executor: Executor | None = None) -> None:
 
 
 def _tell_unused(node: Node) -> None:
-    """Warn a person of values of the command line that nobody has declared by now, when most nodes have."""
+    """Warn on a terminal of command-line values for parameters that are undeclared when spinning begins."""
     from rclpy.impl.command_line import is_read
 
     if is_read():

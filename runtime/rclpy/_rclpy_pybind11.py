@@ -31,7 +31,7 @@ class NotImplementedError(builtins.NotImplementedError):
 
 
 class InvalidHandle(RuntimeError):
-    """Something was used after it was destroyed."""
+    """An entity was used after it was destroyed."""
 
 
 class RMWError(RuntimeError):

@@ -25,14 +25,14 @@ class CallbackGroup:
         self.entities: set[Any] = set()
 
     def block(self, entity: Any) -> None:
-        """Register an entity that may not run, to be notified when it may."""
+        """Register an entity that may not run now, to be notified when it may."""
         if self.own_rules:
             entity.sink.ask_again(entity)
             return
         if self.blocked is None:
             self.blocked = []
         self.blocked.append(entity)
-        if self.can_execute(entity):  # what it had to wait for ended meanwhile in another thread
+        if self.can_execute(entity):  # the callback it waited for has ended meanwhile in another thread
             self.unblock()
 
     def unblock(self) -> None:
@@ -44,8 +44,8 @@ class CallbackGroup:
     def add_entity(self, entity: Any) -> None:
         """Add an entity to the group."""
         if len(self.entities) >= self._full:
-            # Here and not when they go: then a program that iterates over the set would find it changed at any moment.
-            known = tuple(self.entities)  # at once: other threads may add meanwhile
+            # Dead references go here, not when they die: else the set could change while a program iterates over it.
+            known = tuple(self.entities)  # an atomic copy: other threads may add meanwhile
             self.entities.difference_update([each for each in known if each() is None])
             self._full = 2 * max(len(self.entities), CallbackGroup._full)
         self.entities.add(weakref.ref(entity))
@@ -75,11 +75,11 @@ class ReentrantCallbackGroup(CallbackGroup):
         return True
 
     def beginning_execution(self, entity: Any) -> bool:
-        """Begin; always allowed."""
+        """Mark the entity's callback as running, which is always allowed."""
         return True
 
     def ending_execution(self, entity: Any) -> None:
-        """The callback has ended."""
+        """Mark the entity's callback as ended."""
 
 
 class MutuallyExclusiveCallbackGroup(CallbackGroup):
@@ -95,14 +95,14 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
         return not self._busy.locked()
 
     def beginning_execution(self, entity: Any) -> bool:
-        """Begin, unless another callback of the group runs."""
+        """Mark the entity's callback as running, unless another callback of the group is."""
         if self._busy.acquire(False):
             self._active_entity = entity
             return True
         return False
 
     def ending_execution(self, entity: Any) -> None:
-        """The callback has ended."""
+        """Mark the entity's callback as ended."""
         if self._active_entity is entity:
             self._active_entity = None
             self._busy.release()

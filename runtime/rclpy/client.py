@@ -42,7 +42,7 @@ class Client(Entity):
 
     @property
     def handle(self) -> Destroyable:
-        """What upstream's client wraps."""
+        """The client's handle, as upstream's client has one."""
         return Destroyable(self, self.use)
 
     @property

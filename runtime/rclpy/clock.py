@@ -74,7 +74,7 @@ class TimeJump:
 
     @property
     def delta(self) -> Duration:
-        """By how much time moved."""
+        """How far time moved."""
         return self._delta
 
 
@@ -116,7 +116,7 @@ class Clock(AnyClock):
     def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
         self._clock_type = clock_type
         self._source = current().clock
-        # Chosen once: a timer asks what time it is several times for each call.
+        # Chosen once: a timer reads its clock several times per call.
         self._read = self._source.steady_ns if clock_type is ClockType.STEADY_TIME else self._source.system_ns
         self._jump_handles: list[JumpHandle] = []
         self._timers: weakref.WeakSet[Any] = weakref.WeakSet()
@@ -136,21 +136,21 @@ class Clock(AnyClock):
         return f"Clock(clock_type={self._clock_type.name})"
 
     def now(self) -> Time:
-        """The time now."""
+        """The current time."""
         return Time._of(self._now_ns(), self._clock_type)
 
     def _now_ns(self) -> int:
         return self._read()
 
     def _reader(self) -> Callable[[], int]:
-        """What `_now_ns` calls, for who asks often."""
+        """The function behind `_now_ns`, for frequent callers."""
         return self._read
 
     def _steady_deadline(self, when: int) -> int | None:
-        """The steady time (ns) at which this clock shows `when`; None where something else drives the clock."""
+        """The steady time (ns) at which this clock shows `when`; None if something else drives the clock."""
         if self._clock_type is ClockType.STEADY_TIME:
             return when
-        # In this order: a thread that is kept from the processor in between wakes late, and never before the time.
+        # In this order, a thread that is preempted in between wakes late, but never early.
         until = when - self._source.system_ns()
         return self._source.steady_ns() + until
 
@@ -239,13 +239,13 @@ class ROSClock(Clock):
         def switch() -> None:
             self._active = enabled
 
-        # Of a change of the source rcl tells no time, however far apart the two sources are.
+        # rcl reports a change of source with a delta of zero, however far apart the two sources are.
         self._jump(TimeJump(change, Duration()), switch)
         for timer in list(self._timers):
             timer.time_jumped(True)
 
     def set_ros_time_override(self, time: Time) -> None:
-        """Set the time that the clock shows while it is driven."""
+        """Set the time that the clock shows while a time source drives it."""
         if not isinstance(time, Time):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
             raise TypeError(f"Time must be specified as rclpy.time.Time. Received type: {type(time)}")
         before, after = self._ros_time, time.nanoseconds

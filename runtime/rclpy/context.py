@@ -44,9 +44,9 @@ class Context:
     def init(
         self, args: Sequence[str] | None = None, *, initialize_logging: bool = True, domain_id: int | None = None
     ) -> None:
-        """Begin; raises `RuntimeError` the second time and `RCLError` for arguments that cannot be parsed.
+        """Initialise; raises `RuntimeError` the second time and `RCLError` for arguments that cannot be parsed.
 
-        The log is there whatever `initialize_logging` says, without the file: all contexts of a process share it.
+        `initialize_logging` affects only the log file: all contexts of a process share its logging.
         """
         import sys
 
@@ -90,7 +90,7 @@ class Context:
 
     @property
     def handle(self) -> Destroyable:
-        """What upstream's context wraps."""
+        """The context's handle, as upstream's context has one."""
         return Destroyable(self, lambda: None)
 
     @property
@@ -120,7 +120,7 @@ class Context:
             self._end()
 
     def shut_down_by_signal(self) -> None:
-        """End because the process was asked to; as upstream, without the callbacks of `on_shutdown`."""
+        """Shut down on a signal; as upstream, without the callbacks of `on_shutdown`."""
         if self._initialized and not self.ended:
             self.ended_by_signal = True
             self._end()
@@ -141,13 +141,13 @@ class Context:
                 callback()
 
     def on_shutdown(self, callback: Callable[[], Any]) -> Callable[[], None]:
-        """Call back once at the shutdown, or at once after it; returns a function that removes the callback."""
+        """Register a callback for the shutdown, called at once if that is over; returns a function that removes it."""
         if not callable(callback):
             raise TypeError(f"callback should be a callable, got {type(callback)}")
         return self._add(callback, "_callbacks")
 
     def on_end(self, wake: Callable[[], Any]) -> Callable[[], None]:
-        """Wake a waiter when the context ends, for any reason; returns a function that removes it."""
+        """Register `wake` to be called when the context ends for any reason; returns a function that removes it."""
         return self._add(wake, "_wakes")
 
     def _add(self, callback: Callable[[], Any], name: str) -> Callable[[], None]:
@@ -160,11 +160,11 @@ class Context:
         return lambda: None
 
     def _held(self, callback: Callable[[], Any]) -> Callable[[], Any]:
-        """A function that returns the callback: methods are held weakly, so that a context keeps no object alive."""
+        """A reference to the callback: methods are held weakly, so that the context keeps no object alive."""
         if ismethod(callback):
             try:
                 return weakref.WeakMethod(callback, self._forget)
-            except TypeError:  # its object allows no weak references
+            except TypeError:  # the object does not support weak references
                 pass
         return lambda: callback
 
@@ -174,7 +174,7 @@ class Context:
             self._wakes = [each for each in self._wakes if each is not held]
 
     def track_node(self, node: Any) -> None:
-        """Note a node created in this context."""
+        """Register a node created in this context."""
         self._nodes.add(node)
         if self._abandoned:
             node._ros_leave_graph()
@@ -184,11 +184,11 @@ class Context:
         return list(self._nodes)
 
     def untrack_node(self, node: Any) -> None:
-        """Note that a node was destroyed."""
+        """Unregister a destroyed node."""
         self._nodes.discard(node)
 
     def _abandon(self) -> None:
-        """Remove the nodes from the graph and silence them: the process was killed, but its code may go on."""
+        """Remove the nodes from the graph and silence them: the process was killed, but its code may still run."""
         self.ended = self._abandoned = True
         self._end_log_file()
         for endpoint in list(self.lingering):
@@ -202,7 +202,7 @@ class Context:
             log_file.end()
 
     def destroy(self) -> None:
-        """Free what the context holds."""
+        """Release the context's resources."""
         self.try_shutdown()
 
     def __enter__(self) -> Context:

@@ -74,7 +74,7 @@ class Duration:
         return cls(seconds=msg.sec, nanoseconds=msg.nanosec)
 
     def get_c_duration(self) -> int:
-        """The length as upstream's C layer takes it: here the ns."""
+        """The length as passed to upstream's C layer: here in ns."""
         return self._nanoseconds
 
 

@@ -42,7 +42,7 @@ class ExternalShutdownException(Exception):
 
 
 class ConditionReachedException(Exception):
-    """What was waited for has come about."""
+    """The awaited condition has become true."""
 
 
 class Executor(ReadyCallbacks):
@@ -66,7 +66,7 @@ class Executor(ReadyCallbacks):
         self._held: list[Any] = []
         """Ready entities whose group, one of the program's own, did not let them begin."""
         self._timers = TimerHeap()
-        self._lock = allocate_lock()  # of a few lines that never wait: also in a stepped run nobody is kept by it
+        self._lock = allocate_lock()  # held for a few lines that never wait: it blocks nobody, in a stepped run either
         self._wakeup = self._clock.wakeup()
         self._waiting = 0
         self._is_shutdown = False
@@ -90,23 +90,23 @@ class Executor(ReadyCallbacks):
         self.shutdown()
 
     def arm(self, timer: Any, deadline: int) -> None:
-        """A timer is due at a steady time (ns); from any thread."""
+        """Set the steady time (ns) at which a timer is due; thread-safe."""
         self._timers.push(deadline, timer)
         if self._waiting:
             self._wakeup.set()
 
     def ask_again(self, entity: Any) -> None:
-        """An entity may not begin now; its group is asked anew at the next wake."""
+        """Retry an entity that may not begin now at the next wake."""
         self._held.append(entity)
 
     def wake(self) -> None:
-        """Let a waiting `spin_once` look again."""
+        """Wake a waiting `spin_once`."""
         self._wakeup.set()
 
     def create_task(
         self, callback: Callable[..., Any] | Coroutine[Any, Any, Any], *args: Any, **kwargs: Any
     ) -> Task[Any]:
-        """Run a function or coroutine in this executor; from any thread."""
+        """Schedule a function or coroutine in this executor; thread-safe."""
         if self._is_shutdown:
             raise AttributeError("this executor was shut down: it takes no more tasks")
         task: Task[Any] = Task(callback, args, kwargs, executor=self)
@@ -128,7 +128,7 @@ class Executor(ReadyCallbacks):
             self._wakeup.set()
 
     def add_node(self, node: Any) -> bool:
-        """Serve a node; whether it was new. It leaves the executor that it was in."""
+        """Add a node, removing it from its previous executor; returns whether it was new here."""
         if node in self._nodes:
             return False
         self._nodes[node] = self._node_count
@@ -141,16 +141,16 @@ class Executor(ReadyCallbacks):
         return True
 
     def remove_node(self, node: Any) -> None:
-        """Serve a node no more; its `executor` goes on pointing here, as upstream leaves it."""
+        """Remove a node; its `executor` still refers to this one, as upstream."""
         if self._nodes.pop(node, None) is not None:
             node._ros_detach()
 
     def get_nodes(self) -> list[Any]:
-        """The nodes that are served."""
+        """The nodes of this executor."""
         return list(self._nodes)
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
-        """Stop serving; whether running callbacks ended in time."""
+        """Shut down; returns whether running callbacks ended in time."""
         self._is_shutdown = True
         self.wake()
         for node in self.get_nodes():
@@ -158,7 +158,7 @@ class Executor(ReadyCallbacks):
         return True
 
     def spin(self) -> None:
-        """Serve until shut down; raises `ExternalShutdownException` when the context is while nothing runs here."""
+        """Run callbacks until shut down; raises `ExternalShutdownException` if the context is, while none runs."""
         while self._context.ok() and not self._is_shutdown:
             self.spin_once()
 
@@ -172,7 +172,7 @@ class Executor(ReadyCallbacks):
         self._spin_once(timeout_sec, future._settled)
 
     def spin_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
-        """Serve until the future is done or cancelled, or time is over."""
+        """Run callbacks until the future is done or cancelled, or the time-out (s) expires."""
         future._when_settled(self.wake)
         timeout = timeout_sec_to_nsec(timeout_sec)
         deadline = None if timeout < 0 else self._clock.steady_ns() + timeout
@@ -186,13 +186,13 @@ class Executor(ReadyCallbacks):
         raise NotImplementedError
 
     def _take(self, timeout_sec: float | None, condition: Condition | None) -> Any:
-        """The next entity or task, with its callback group begun; raises what says why there is none."""
+        """Take the next entity (with its callback group entered) or task; raises the reason if there is none."""
         timeout = -1 if timeout_sec is None else timeout_sec_to_nsec(timeout_sec)
         deadline = None if timeout < 0 else self._clock.steady_ns() + timeout
         batch, context = self._batch, self._context
         if self._polled:
             self._polled = False
-            if timeout == 0 and not batch:  # as upstream: the poll after a wake's last callback only ends that wake
+            if timeout == 0 and not batch:  # as upstream: a poll after a wake's last callback merely ends that wake
                 raise TimeoutException
         if self._held:
             self._release_held()
@@ -200,13 +200,13 @@ class Executor(ReadyCallbacks):
             while batch:
                 try:
                     item = batch.popleft()
-                except IndexError:  # another thread spins this executor, too
+                except IndexError:  # another thread spins this executor as well
                     break
                 if item.__class__ is Task:
                     self._polled = timeout == 0
                     return item
                 if item.sink is not self or not item.pending():
-                    item.arm()  # a timer whose clock was set back is due later
+                    item.arm()  # for a timer whose clock was set back, which is due later now
                     continue
                 group = item.callback_group
                 if (not group.own_rules or group.can_execute(item)) and group.beginning_execution(item):
@@ -221,7 +221,7 @@ class Executor(ReadyCallbacks):
                     self._release_held()
 
     def _look_for_end(self, condition: Condition | None) -> None:
-        """Raise what says that there is no more work to wait for, if so."""
+        """Raise the exception that ends the wait for work, if there is a reason to."""
         context = self._context
         if self._is_shutdown:
             raise ShutdownException
@@ -237,11 +237,11 @@ class Executor(ReadyCallbacks):
             entity.notify()
 
     def _new_batch(self) -> bool:
-        """Collect what is ready; whether there was anything."""
+        """Collect the ready entities and tasks into the batch; returns whether there are any."""
         ready, batch, timers = self._ready, self._batch, self._timers.entries
         now = self._steady_ns() if timers else 0
         due = bool(timers) and timers[0][0] <= now
-        if not (due or ready or self._ready_tasks):  # as before each wait
+        if not (due or ready or self._ready_tasks):  # the usual case before a wait
             return bool(batch)
         entities: list[Any] = []
         if due:
@@ -276,7 +276,7 @@ class Executor(ReadyCallbacks):
             raise TimeoutException
 
     def _run(self, item: Any) -> None:
-        """Run what `_take` gave; raises what the callback raises."""
+        """Run an item of `_take`; propagates exceptions of the callback."""
         if item.__class__ is Task:
             self._run_task(item)
             return
@@ -383,12 +383,12 @@ class MultiThreadedExecutor(Executor):
                 each.result()
 
     def spin(self) -> None:
-        """Serve until shut down; a context's shutdown ends this silently."""
+        """Run callbacks until shut down; returns silently if the context is shut down."""
         while self._context.ok() and not self._is_shutdown:
             self.spin_once()
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
-        """Stop serving, and end the pool's threads."""
+        """Shut down, and end the pool's threads."""
         result = super().shutdown(timeout_sec)
         self._pool.shutdown()
         return result

@@ -6,7 +6,7 @@ from bot_console.runtime.rmw import names
 
 
 def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> str:
-    """The full name of a topic typed in a node; raises `ValueError` for a bad name of any of the three."""
+    """The full name of a topic as named in a node; raises `ValueError` if any of the three names is invalid."""
     problem = names.validate_topic_name(topic_name)
     if problem:
         raise ValueError(f"topic name '{topic_name}' is invalid: {problem[0]}")

@@ -10,7 +10,7 @@ from rclpy.impl.entity import GUARD, Entity
 
 
 class GuardCondition(Entity):
-    """Calls back in an executor when it has been triggered, at most once per wake."""
+    """Calls back in an executor after it was triggered, at most once per wake."""
 
     KIND = GUARD
 
@@ -21,11 +21,11 @@ class GuardCondition(Entity):
 
     @property
     def handle(self) -> Destroyable:
-        """What upstream's guard condition wraps."""
+        """The guard condition's handle, as upstream's has one."""
         return Destroyable(self, self.use)
 
     def trigger(self) -> None:
-        """Trigger the callback; from any thread."""
+        """Trigger the callback; thread-safe."""
         self.use()
         self._triggered = True
         self.notify()
@@ -35,12 +35,12 @@ class GuardCondition(Entity):
         return self._triggered and not self.destroyed
 
     def run(self) -> Any:
-        """Call back."""
+        """Run the callback."""
         self._triggered = False
         result = self._callback() if self._callback is not None else None
         return result if self._is_async else None
 
     def destroy(self) -> None:
-        """End it."""
+        """Destroy the guard condition."""
         self.destroyed = True
         self.detach()

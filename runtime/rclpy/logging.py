@@ -22,7 +22,7 @@ _REGISTERED_TWICE = (
 
 
 def get_logger(name: str) -> RcutilsLogger:
-    """A logger of that name; raises `ValueError` for an empty one."""
+    """The logger with that name; raises `ValueError` for an empty one."""
     if not name:
         raise ValueError("Logger name must not be empty.")
     return RcutilsLogger(name)
@@ -34,22 +34,22 @@ def initialize() -> None:
 
 
 def shutdown() -> None:
-    """Forget levels and formats."""
+    """Reset levels and formats."""
     _reset()
 
 
 def clear_config() -> None:
-    """Forget levels."""
+    """Reset levels."""
     _reset()
 
 
 def set_logger_level(name: str, level: LoggingSeverity | int, detailed_error: bool = False) -> Any:
-    """Set a logger's level; with `detailed_error` raises `RuntimeError` for a bad one, and nothing is returned."""
+    """Set a logger's level; raises `ValueError` for an invalid one, whatever `detailed_error` says."""
     state().set_level(name, LoggingSeverity(level))
 
 
 def get_logger_level(name: str) -> LoggingSeverity:
-    """The level set for exactly that logger, UNSET where there is none."""
+    """The level set for exactly that logger, UNSET if there is none."""
     shared = state()
     return LoggingSeverity(shared.levels.get(name, 0) if name else shared.default)
 
@@ -60,7 +60,7 @@ def get_logger_effective_level(name: str) -> LoggingSeverity:
 
 
 def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
-    """The severity of a name in any case; raises `RuntimeError`."""
+    """The severity with that name, in upper or lower case; raises `RuntimeError` if there is none."""
     try:
         return LoggingSeverity[log_severity.upper()]
     except KeyError:
@@ -68,14 +68,14 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
 
 
 def get_logging_directory() -> Path:
-    """Where log files lie."""
+    """The folder for log files."""
     from pathlib import Path
 
     return Path(logging_directory())
 
 
 def register_rosout(name: str, say: Any) -> None:
-    """Let a node's publisher carry what the logger of that name says."""
+    """Publish the messages of the logger with that name by a node's publisher."""
     shared = state()
     if name in shared.rosout:
         get_logger("rcl.logging_rosout").warning(_REGISTERED_TWICE.format(name))
@@ -84,7 +84,7 @@ def register_rosout(name: str, say: Any) -> None:
 
 
 def unregister_rosout(name: str) -> None:
-    """Let the logger of that name, and its children, go to the console only."""
+    """Stop publishing the messages of the logger with that name and of its children."""
     shared = state()
     say = shared.rosout.get(name)
     if say is not None:

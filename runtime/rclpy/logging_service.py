@@ -10,7 +10,7 @@ from rclpy.qos import qos_profile_services_default
 
 
 class LoggingService:
-    """`~/get_logger_levels` and `~/set_logger_levels` of a node."""
+    """Serves `~/get_logger_levels` and `~/set_logger_levels` of a node."""
 
     def __init__(self, node: Any) -> None:
         from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels

@@ -35,8 +35,8 @@ LOGGER_SEPARATOR = "."
 class Node(NodeEntities, NodeParameters, NodeGraph):
     """A node of the ROS graph: it has parameters, and makes publishers, subscriptions, services, clients and timers.
 
-    Programs inherit from it and name attributes of their own as they like, `_name` or `_bus` as well; therefore what is
-    inside begins with `_ros_`, apart from what has the same name upstream.
+    Programs inherit from it and name their attributes as they like, `_name` or `_bus` as well; therefore internal names
+    begin with `_ros_`, except those that upstream has, too.
     """
 
     PARAM_REL_TOL = 1e-6
@@ -95,7 +95,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         self._type_description_service = TypeDescriptionService(self)
 
     def _ros_read_arguments(self, cli_args: Sequence[str] | None, use_global: bool) -> list[Any]:
-        """The command lines that concern this node, the context's first."""
+        """The parsed command lines that concern this node, the context's first."""
         found = [self.context.arguments] if use_global else []
         if cli_args is not None:
             from rclpy.impl.command_line import parse_local
@@ -104,7 +104,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         return found
 
     def _ros_choose_name(self, name: str, namespace: str, arguments: list[Any]) -> None:
-        """Check and remap name and namespace; rules of the node's own command line come first."""
+        """Check and remap name and namespace; rules of the node's own command line take precedence."""
         if not isinstance(name, str):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
             raise TypeError(f"node name must be a string, not {type(name).__name__}")
         problem = names.validate_node_name(name)
@@ -142,7 +142,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
 
     def _ros_tell_missed_files(self, arguments: list[Any]) -> None:
         if remapping.remap_node_name(self._ros_remap_rules, self._ros_name):
-            return  # whoever gave it its name knew it, as launch does, which tells this with its own line
+            return  # whoever remapped its name knew it, such as launch, which reports this in its own way
         own = self.get_fully_qualified_name()
         others = [each.get_fully_qualified_name() for each in self.context.tracked_nodes() if each is not self]
         for each in arguments:
@@ -176,12 +176,12 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
 
     @property
     def default_callback_group(self) -> MutuallyExclusiveCallbackGroup:
-        """The group of entities for which none is named; mutually exclusive."""
+        """The callback group of entities created without one; mutually exclusive."""
         return self._default_callback_group
 
     @property
     def handle(self) -> Destroyable:
-        """What upstream's node wraps."""
+        """The node's handle, as upstream's node has one."""
         return Destroyable(self, self._ros_use)
 
     @handle.setter
@@ -216,7 +216,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         return self._logger
 
     def destroy_node(self) -> None:
-        """Destroy all that the node has, and let it leave the graph; a second call does nothing."""
+        """Destroy the node's entities and remove it from the graph; a second call does nothing."""
         if self._ros_destroyed:
             return
         executor = self.executor
@@ -234,7 +234,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
             executor.wake()
 
     def _ros_leave_graph(self) -> None:
-        """Vanish from the graph and be heard no more, whatever this node's code goes on to do."""
+        """Remove the node from the graph and silence it, whatever its code may still do."""
         if self._ros_rosout is not None:
             self._ros_rosout.close()
         if self._ros_id is not None:
@@ -252,7 +252,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
 for _part in (NodeEntities, NodeParameters, NodeGraph):
     for _name, _method in vars(_part).items():
         if isinstance(_method, FunctionType):
-            _method.__qualname__ = f"Node.{_name}"  # as an error of a call with wrong arguments names it
+            _method.__qualname__ = f"Node.{_name}"  # shown by the error of a call with wrong arguments
 
 
 def _logger_name(namespace: str, name: str) -> str:

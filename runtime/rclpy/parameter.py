@@ -18,7 +18,7 @@ PARAMETER_SEPARATOR_STRING = "."
 
 
 class Parameter:
-    """A parameter; it does not change once made."""
+    """An immutable parameter."""
 
     class Type(Enum):
         """Types of a parameter; the values are those of `rcl_interfaces/msg/ParameterType`."""
@@ -36,7 +36,7 @@ class Parameter:
 
         @classmethod
         def from_parameter_value(cls, parameter_value: Any) -> Parameter.Type:
-            """The type that a Python value stands for; raises `TypeError` where it stands for none."""
+            """The parameter type of a Python value; raises `TypeError` for a value of no such type."""
             return cls(infer(parameter_value))
 
         def check(self, parameter_value: Any) -> bool:
@@ -58,7 +58,7 @@ class Parameter:
 
     @classmethod
     def from_parameter_msg(cls, param_msg: ParameterMsg) -> Parameter:
-        """The parameter of a message; raises `ValueError` for an unknown type."""
+        """The parameter in a message; raises `ValueError` for an unknown type."""
         type_ = Parameter.Type(param_msg.value.type)
         field = FIELDS.get(type_.value)
         return cls(param_msg.name, type_, None if field is None else getattr(param_msg.value, field))
@@ -75,7 +75,7 @@ class Parameter:
 
     @property
     def value(self) -> Any:
-        """The value as it was given; None for NOT_SET."""
+        """The value as given; None for NOT_SET."""
         return self._value
 
     def get_parameter_value(self) -> ParameterValue:
@@ -98,19 +98,19 @@ _YAML_ARRAYS = tuple((each.python, each.code) for each in ARRAYS if each.python 
 
 
 def get_parameter_value(string_value: str) -> ParameterValue:
-    """The value that a text means in YAML 1.1, as `ros2 param set` takes it; raises `yaml.YAMLError`."""
+    """The value of a text in YAML 1.1, as `ros2 param set` reads it; raises `yaml.YAMLError`."""
     from rcl_interfaces.msg import ParameterValue
 
     value = _yaml_value(string_value)
     code = _yaml_type(value)
     if code is None:
-        # Upstream takes what is no parameter value as a string: mixed lists by their text, the rest as it is.
+        # Upstream treats anything but a parameter value as a string: mixed lists by their text, the rest unchanged.
         return ParameterValue(type=STRING.code, string_value=string_value if isinstance(value, list) else value)
     return ParameterValue(type=code, **{FIELDS[code]: value})
 
 
 def _yaml_value(text: str) -> Any:
-    """What a text means in YAML; itself where it means nothing, or cannot be parsed."""
+    """The value of a text in YAML; the text itself if that is null or it cannot be parsed."""
     plain = plain_scalar(text)
     if plain is not None:
         return plain
@@ -125,7 +125,7 @@ def _yaml_value(text: str) -> Any:
 
 
 def _yaml_type(value: Any) -> int | None:
-    """The type of a value out of YAML; an empty list counts as one of booleans."""
+    """The type code of a value read from YAML, or None; an empty list counts as a list of booleans."""
     if isinstance(value, list):
         items = cast("list[Any]", value)
         for kind, code in _YAML_ARRAYS:
@@ -154,7 +154,7 @@ def parameter_dict_from_yaml_file(
     target_nodes: list[str] | None = None,
     namespace: str = "",
 ) -> dict[str, ParameterMsg]:
-    """The parameters that a file of `ros2 param dump` gives, by name; without `target_nodes` those of all nodes.
+    """The parameters of a file as of `ros2 param dump`, by name; without `target_nodes` those of all nodes.
 
     Raises `RuntimeError` for a file without the wanted parameters, `OSError` and `yaml.YAMLError`.
     """
@@ -168,7 +168,7 @@ def parameter_dict_from_yaml_file(
             AttributeError,
             LookupError,
             OverflowError,
-        ):  # of the library's constructors of tagged values
+        ):  # raised by the library's constructors of tagged values
             raise RuntimeError(f"{parameter_file}: a value is not what its tag says") from None
     keys = ["/**"] if use_wildcard and "/**" in content else []
     if target_nodes:
@@ -193,7 +193,7 @@ def parameter_dict_from_yaml_file(
 
 
 def _unpack_parameter_dict(namespace: str, parameter_dict: dict[str, Any]) -> dict[str, ParameterMsg]:
-    """Flatten nested parameters; the namespace, with its dot, comes before each name."""
+    """Flatten nested parameters; each name is prefixed with the namespace, which ends with a dot."""
     from rcl_interfaces.msg import Parameter as ParameterMsg
 
     parameters: dict[str, ParameterMsg] = {}

@@ -60,11 +60,11 @@ class AsyncParameterClient:
         )
 
     def services_are_ready(self) -> bool:
-        """Whether all parameter services of the remote node are there."""
+        """Whether all parameter services of the remote node are available."""
         return all(client.service_is_ready() for client in self._clients())
 
     def wait_for_services(self, timeout_sec: float | None = None) -> bool:
-        """Block until the services are there; False when time (s) is over or the context was shut down."""
+        """Block until the services are available; False after the time-out (s) or a shutdown of the context."""
         clock = current().clock
         deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * NANO)
         for client in self._clients():
@@ -110,7 +110,7 @@ class AsyncParameterClient:
         return _ask(client, client.srv_type.Request(names=names), callback)
 
     def delete_parameters(self, names: list[str], callback: Callback | None = None) -> Future[Any]:
-        """Delete parameters, which only those with dynamic typing allow."""
+        """Delete parameters, which must have dynamic typing."""
         return self.set_parameters([Parameter(name) for name in names], callback)
 
     def load_parameter_file(

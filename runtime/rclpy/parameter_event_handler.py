@@ -62,7 +62,7 @@ class ParameterEventHandler:
         )
 
     def destroy(self) -> None:
-        """Listen no more."""
+        """Stop listening."""
         self.node.destroy_subscription(self.parameter_event_subscription)
 
     def _on_event(self, event: ParameterEvent) -> None:
@@ -76,7 +76,7 @@ class ParameterEventHandler:
 
     @staticmethod
     def get_parameter_from_event(event: ParameterEvent, parameter_name: str, node_name: str) -> ParameterMsg | None:
-        """The new or changed parameter of a node in an event, or None where the event does not have it."""
+        """The new or changed parameter of a node in an event, or None if the event does not contain it."""
         if event.node != node_name:
             return None
         for parameter in ParameterEventHandler.get_parameters_from_event(event):
@@ -92,13 +92,13 @@ class ParameterEventHandler:
     def add_parameter_callback(
         self, parameter_name: str, node_name: str, callback: Callable[[ParameterMsg], None]
     ) -> ParameterCallbackHandle:
-        """Call back with a parameter of a node, given relative or by full name, whenever it is set."""
+        """Add a callback that gets a parameter of a node (relative or full name) whenever it is set."""
         handle = ParameterCallbackHandle(parameter_name, self._resolve_path(node_name), callback)
         self._parameter_callbacks.setdefault((parameter_name, handle.node_name), []).insert(0, handle)
         return handle
 
     def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
-        """Call back no more; raises `RuntimeError` for a handle that is not there."""
+        """Remove a callback; raises `RuntimeError` for an unknown handle."""
         key = (handle.parameter_name, handle.node_name)
         handles = self._parameter_callbacks.get(key, [])
         if handle not in handles:
@@ -108,19 +108,19 @@ class ParameterEventHandler:
             del self._parameter_callbacks[key]
 
     def add_parameter_event_callback(self, callback: Callable[[ParameterEvent], None]) -> ParameterEventCallbackHandle:
-        """Call back with each event of any node."""
+        """Add a callback that gets each event of any node."""
         handle = ParameterEventCallbackHandle(callback)
         self._event_callbacks.insert(0, handle)
         return handle
 
     def remove_parameter_event_callback(self, handle: ParameterEventCallbackHandle) -> None:
-        """Call back no more; raises `RuntimeError` for a handle that is not there."""
+        """Remove a callback; raises `RuntimeError` for an unknown handle."""
         if handle not in self._event_callbacks:
             raise RuntimeError(UNKNOWN)
         self._event_callbacks.remove(handle)
 
     def _resolve_path(self, node_path: str | None = None) -> str:
-        """The full name of a node; an empty one means the node that listens."""
+        """The full name of a node; an empty one means the listening node."""
         if not node_path:
             return self.node.get_fully_qualified_name()
         if node_path.startswith("/"):

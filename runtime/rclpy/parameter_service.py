@@ -12,7 +12,7 @@ from rclpy.qos import qos_profile_parameters
 
 
 class ParameterService:
-    """Answers questions about the parameters of a node, and sets them; made by the node itself."""
+    """Serves requests to read, describe and set the parameters of a node; created by the node itself."""
 
     def __init__(self, node: Any) -> None:
         from rcl_interfaces import srv
@@ -36,7 +36,7 @@ class ParameterService:
         return node
 
     def _describe(self, request: Any, response: Any) -> Any:
-        """One undeclared name empties the whole answer, here as in the two services below."""
+        """Describe parameters; one undeclared name empties the whole response, as in the two services below."""
         try:
             response.descriptors = self._node().describe_parameters(request.names)
         except ParameterNotDeclaredException:
@@ -61,7 +61,7 @@ class ParameterService:
         return response
 
     def _list(self, request: Any, response: Any) -> Any:
-        # Upstream answers a wrong question with an empty list.
+        # Upstream answers an invalid request with an empty list.
         with suppress(TypeError, ValueError):
             response.result = self._node().list_parameters(request.prefixes, request.depth)
         return response

@@ -44,7 +44,7 @@ class Publisher:
 
     @property
     def handle(self) -> Destroyable:
-        """What upstream's publisher wraps."""
+        """The publisher's handle, as upstream's publisher has one."""
         return Destroyable(self, self._use)
 
     @property
@@ -63,9 +63,9 @@ class Publisher:
             raise InvalidHandle(DESTROYED)
 
     def publish(self, msg: Any) -> None:
-        """Publish a message, or its serialized bytes; each subscription gets a copy of its own.
+        """Publish a message, or its serialized bytes; each subscription gets its own copy.
 
-        Raises `TypeError` for another class, `FieldTypeError` (a `TypeError`) for a field of a wrong type.
+        Raises `TypeError` for another class, `FieldTypeError` (a `TypeError`) for a field of the wrong type.
         """
         if msg.__class__ is not self.msg_type:
             self._publish_other(msg)
@@ -85,11 +85,11 @@ class Publisher:
         self._endpoint.publish_own(msg)
 
     def _is_wanted(self) -> bool:
-        """Whether a message is given to anybody, or kept for who comes later."""
+        """Whether a message would be delivered to anybody, or kept for late subscriptions."""
         return self._endpoint.is_heard() or self._endpoint.endpoint.qos.durability.name in LATCHING
 
     def _skip(self) -> None:
-        """Do as `_publish_own` does with a message that is not wanted, which need not be made then."""
+        """Do what `_publish_own` does with an unwanted message, so that none has to be created."""
         if self.destroyed or self._context.ended:
             self._refuse()
         self._endpoint.skip()
@@ -106,15 +106,15 @@ class Publisher:
 
     def _refuse(self, what: str = "Failed to publish") -> None:
         self._use()
-        # An interrupt shuts the context down on its way: the interrupt is what the caller is to see, not this refusal.
+        # An interrupt shuts the context down as well: the caller shall see the interrupt, not this error.
         current().deliver_signals()
         raise RCLError(f"{what}: publisher's context is invalid")
 
     def _explain(self, error: FieldTypeError) -> None:
-        """One ERROR that names field, type and the line that published."""
+        """Log an ERROR that names field, type and the publishing line."""
         frame = sys._getframe(2)
         while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("rclpy."):
-            frame = frame.f_back  # a lifecycle publisher's publish is no line of the user's
+            frame = frame.f_back  # skips the `publish` of a lifecycle publisher, which is not the user's code
         where = f"{frame.f_code.co_filename}:{frame.f_lineno}"
         self._node.get_logger().error(f"cannot publish on '{self._endpoint.endpoint.topic}': {error}, at {where}")
 
@@ -125,7 +125,7 @@ class Publisher:
         return self._endpoint.matched_count()
 
     def _is_heard(self) -> bool:
-        """Whether anybody gets what is published; other than subscriptions there may be who keeps what was."""
+        """Whether anybody receives messages: a subscription, or somebody who stores them for later."""
         return self._endpoint.is_heard()
 
     def assert_liveliness(self) -> None:
@@ -135,7 +135,7 @@ class Publisher:
         self._endpoint.assert_liveliness()
 
     def wait_for_all_acked(self, timeout: Duration | None = None) -> bool:
-        """Whether all reliable subscriptions have what was published; within a process they have at once.
+        """Whether all reliable subscriptions have received everything; within a process they have at once.
 
         Raises `RCLError` after a shutdown of the context.
         """

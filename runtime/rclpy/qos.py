@@ -46,7 +46,7 @@ class InvalidQoSProfileException(Exception):
 class QoSProfile:
     """A set of policies; durations are `Duration`s, zero means unlimited.
 
-    Raises `InvalidQoSProfileException` where neither history nor depth is given, `AssertionError` for wrong types.
+    Raises `InvalidQoSProfileException` if neither history nor depth is given, `AssertionError` for wrong types.
     """
 
     __slots__ = (
@@ -105,7 +105,7 @@ class QoSProfile:
 
     @property
     def reliability(self) -> ReliabilityPolicy:
-        """Whether lost messages are sent again."""
+        """Whether lost messages are retransmitted."""
         return self._reliability
 
     @reliability.setter
@@ -115,7 +115,7 @@ class QoSProfile:
 
     @property
     def durability(self) -> DurabilityPolicy:
-        """Whether late subscriptions get what came before."""
+        """Whether late subscriptions receive earlier messages."""
         return self._durability
 
     @durability.setter
@@ -125,7 +125,7 @@ class QoSProfile:
 
     @property
     def lifespan(self) -> Duration:
-        """How long a message is worth delivering."""
+        """The age up to which a message is delivered."""
         return self._lifespan
 
     @lifespan.setter
@@ -135,7 +135,7 @@ class QoSProfile:
 
     @property
     def deadline(self) -> Duration:
-        """The longest time that is expected between two messages."""
+        """The longest expected time between two messages."""
         return self._deadline
 
     @deadline.setter
@@ -155,7 +155,7 @@ class QoSProfile:
 
     @property
     def liveliness_lease_duration(self) -> Duration:
-        """After what silence a publisher counts as dead."""
+        """The silence after which a publisher counts as dead."""
         return self._liveliness_lease_duration
 
     @liveliness_lease_duration.setter
@@ -165,7 +165,7 @@ class QoSProfile:
 
     @property
     def avoid_ros_namespace_conventions(self) -> bool:
-        """Whether topic names go to the middleware as they are."""
+        """Whether topic names are passed to the middleware unchanged."""
         return self._avoid_ros_namespace_conventions
 
     @avoid_ros_namespace_conventions.setter
@@ -194,7 +194,7 @@ class QoSProfile:
         return f"QoSProfile({', '.join(parts)})"
 
     def get_c_qos_profile(self) -> QoSProfile:
-        """What upstream's C layer takes: here the profile itself."""
+        """The profile as passed to upstream's C layer: here the profile itself."""
         return self
 
 
@@ -249,12 +249,12 @@ class QoSPresetProfiles(Enum):
 
     @classmethod
     def get_from_short_key(cls, name: str) -> QoSProfile:
-        """The preset of a key; raises `KeyError`."""
+        """The preset with that key; raises `KeyError`."""
         return cls[name.upper()].value
 
 
 def qos_check_compatible(publisher_qos: QoSProfile, subscription_qos: QoSProfile) -> tuple[QoSCompatibility, str]:
-    """Whether messages would flow, and the reasons why not, or why that is not sure."""
+    """Whether two profiles are compatible, with the reasons why not, or why that is uncertain."""
     from rclpy.impl.qos_check import errors, warnings
 
     found = errors(publisher_qos, subscription_qos)

@@ -31,11 +31,11 @@ _DURATIONS = (QoSPolicyKind.LIFESPAN, QoSPolicyKind.DEADLINE, QoSPolicyKind.LIVE
 
 
 class InvalidQosOverridesError(Exception):
-    """The callback of the options refuses the profile that the overrides make."""
+    """The callback of the options rejects the overridden profile."""
 
 
 class QoSOverridingOptions:
-    """Which policies may be overridden; `entity_id` tells two entities of one topic apart."""
+    """Which policies may be overridden; `entity_id` distinguishes entities of one topic."""
 
     def __init__(
         self,
@@ -50,17 +50,17 @@ class QoSOverridingOptions:
 
     @property
     def policy_kinds(self) -> Iterable[QoSPolicyKind]:
-        """The policies that get a parameter each."""
+        """The policies that each get a parameter."""
         return self._policy_kinds
 
     @property
     def callback(self) -> QosCallbackType | None:
-        """What says whether the profile with its overrides is valid."""
+        """The function that decides whether the overridden profile is valid."""
         return self._callback
 
     @property
     def entity_id(self) -> str | None:
-        """What stands after the kind of entity in the parameters' names."""
+        """The suffix that follows the kind of entity in the parameters' names."""
         return self._entity_id
 
     @classmethod
@@ -79,9 +79,9 @@ def _declare_qos_parameters(  # pyright: ignore[reportUnusedFunction] -- node_pa
     qos: QoSProfile,
     options: QoSOverridingOptions,
 ) -> None:
-    """Declare a read-only parameter for each policy of the options, and put the values into the profile.
+    """Declare a read-only parameter for each policy of the options, and set the values in the profile.
 
-    Raises `RuntimeError` for a value that is no policy, `InvalidQosOverridesError`, and what declaring raises.
+    Raises `RuntimeError` for a value that is not a policy, `InvalidQosOverridesError`, and what declaring raises.
     """
     if not issubclass(entity_type, (Publisher, Subscription)):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
         raise TypeError("Argument `entity_type` should be a subclass of Publisher or Subscription")
@@ -106,7 +106,7 @@ def _declare_qos_parameters(  # pyright: ignore[reportUnusedFunction] -- node_pa
 
 
 def _refuse_where_told(answer: Any, about: str) -> None:
-    """Raise where a callback's answer, a `QosCallbackResult` or as in older releases a bool, is no."""
+    """Raise if a callback has returned a failure: a `QosCallbackResult`, or a bool as in older releases."""
     if isinstance(answer, bool):
         if not answer:
             raise InvalidQosOverridesError(f"Provided QoS overrides {about}, are not valid")
@@ -115,7 +115,7 @@ def _refuse_where_told(answer: Any, about: str) -> None:
 
 
 def _parameter_value(qos: QoSProfile, policy: QoSPolicyKind) -> Any:
-    """A policy as the value of a parameter: a word, nanoseconds, or a number."""
+    """A policy as a parameter value: a lower-case name, nanoseconds, or a plain value."""
     value = getattr(qos, policy.name.lower())
     if policy in _ENUMS:
         if value.name == "UNKNOWN":
@@ -136,7 +136,7 @@ def _policy_value(policy: QoSPolicyKind, value: Any) -> Any:
 
 
 def __getattr__(name: str) -> Any:
-    """`QosCallbackResult`, which is a message, and is loaded when it is asked for."""
+    """Load `QosCallbackResult`, which is a message, on first access."""
     if name == "QosCallbackResult":
         from rcl_interfaces.msg import SetParametersResult
 

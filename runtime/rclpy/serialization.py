@@ -10,16 +10,16 @@ from rclpy.type_support import check_is_valid_msg_type
 
 
 def serialize_message(message: Any) -> bytes:
-    """The bytes of a message as a middleware sends it: CDR version 1, little endian.
+    """Serialize a message as a middleware does: CDR version 1, little endian.
 
-    Raises `TypeError` where a field holds what cannot be sent.
+    Raises `TypeError` if a field holds a value that cannot be serialized.
     """
     check_is_valid_msg_type(type(message))
     return cdr.serialize(message)
 
 
 def deserialize_message(serialized_message: bytes, message_type: Any) -> Any:
-    """The message of a class that bytes are; raises `RMWError` (a `RuntimeError`) where they are none."""
+    """Deserialize a message of a class; raises `RMWError` (a `RuntimeError`) for bytes that are not one."""
     check_is_valid_msg_type(message_type)
     try:
         return cdr.deserialize(serialized_message, message_type)

@@ -12,7 +12,7 @@ from rclpy.impl.reexports import reexporting
 
 
 class Service(Entity):
-    """Serves requests; made by `Node.create_service`. The callback takes request and response, and returns one."""
+    """Serves requests; made by `Node.create_service`. The callback takes (request, response) and returns a response."""
 
     KIND = SERVICE
     events: Any = None
@@ -37,7 +37,7 @@ class Service(Entity):
 
     @property
     def handle(self) -> Destroyable:
-        """What upstream's service wraps."""
+        """The service's handle, as upstream's service has one."""
         return Destroyable(self, self.use)
 
     @property
@@ -56,13 +56,13 @@ class Service(Entity):
         return bool(self.endpoint.queue) and not self.destroyed
 
     def run(self) -> Any:
-        """Take one request, call back and respond."""
+        """Take one request, run the callback and respond."""
         try:
             client, number, request = self.endpoint.queue.popleft()
         except IndexError:
             return None
         if self.endpoint.queue:
-            self.notify()  # a reentrant group lets the next one begin before this one has ended
+            self.notify()  # in a reentrant group the next one may begin before this one has ended
         if self.events is not None:
             self.events.tell(1, client, number, request=request)
         if self._is_async:

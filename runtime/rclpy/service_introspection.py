@@ -19,7 +19,7 @@ class ServiceIntrospectionState(NamedIntEnum):
 
 
 class ServiceEvents:
-    """Publishes the events of one service or client; their numbers are those of `ServiceEventInfo`."""
+    """Publishes the events of one service or client; event types are those of `ServiceEventInfo`."""
 
     def __init__(self, entity: Any, clock: Any, qos_profile: Any) -> None:
         self.state = ServiceIntrospectionState.OFF
@@ -28,7 +28,7 @@ class ServiceEvents:
         self._publisher = entity._node.create_publisher(self._event, entity.service_name + EVENT_TOPIC, qos_profile)
 
     def tell(self, kind: int, client: Any, number: int, *, request: Any = None, response: Any = None) -> None:
-        """Publish one event; request and response only in the state CONTENTS."""
+        """Publish one event, with request and response only in the state CONTENTS."""
         if self.state == ServiceIntrospectionState.OFF:
             return
         event = self._event()
@@ -43,18 +43,18 @@ class ServiceEvents:
         self._publisher.publish(event)
 
     def close(self) -> None:
-        """Publish no more."""
+        """Stop publishing."""
         self.state = ServiceIntrospectionState.OFF
         self._publisher._node.destroy_publisher(self._publisher)
 
 
 def client_gid(client: ClientEndpoint) -> bytes:
-    """Sixteen bytes that no other client has."""
+    """Sixteen bytes that identify a client."""
     return client.gid
 
 
 def configure(entity: Any, clock: Any, qos_profile: Any, state: ServiceIntrospectionState) -> None:
-    """Let a service or client publish its events, or stop it with the state OFF; raises `ValueError` for no state."""
+    """Make a service or client publish its events, or stop it with OFF; raises `ValueError` for an invalid state."""
     state = ServiceIntrospectionState(state)
     entity.use()
     events = entity.events

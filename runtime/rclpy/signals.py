@@ -29,7 +29,7 @@ SIGNALS = {
 
 
 class _State:
-    """What one process has installed, and its contexts."""
+    """The signal handling of one process, and its contexts."""
 
     def __init__(self) -> None:
         self.option = SignalHandlerOptions.NO
@@ -50,7 +50,7 @@ def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions
 
 
 def uninstall_signal_handlers() -> None:
-    """Leave signals alone again."""
+    """Stop handling signals."""
     state = _state.get()
     if state.remove is not None:
         state.remove()
@@ -59,12 +59,12 @@ def uninstall_signal_handlers() -> None:
 
 
 def get_current_signal_handlers_options() -> SignalHandlerOptions:
-    """Which signals are handled now."""
+    """The signals that are handled now."""
     return _state.get().option
 
 
 def remember_context(context: Any) -> None:
-    """A context of this process was initialised."""
+    """Register a context of this process, to be shut down on a signal."""
     _state.get().contexts.add(context)
 
 

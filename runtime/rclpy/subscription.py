@@ -23,7 +23,7 @@ class Subscription(Entity):
     KIND = SUBSCRIPTION
 
     class CallbackType(Enum):
-        """Whether the callback takes the message alone or its info as well."""
+        """Whether the callback takes only the message or also its info."""
 
         MessageOnly = 0
         WithMessageInfo = 1
@@ -56,12 +56,12 @@ class Subscription(Entity):
 
     @property
     def handle(self) -> SubscriptionHandle:
-        """What upstream's subscription wraps."""
+        """The subscription's handle, as upstream's subscription has one."""
         return SubscriptionHandle(self, self.use)
 
     @property
     def callback(self) -> Callable[..., Any]:
-        """What is called with `(message)` or `(message, info)`."""
+        """The function called with `(message)` or `(message, info)`."""
         return self._callback
 
     @callback.setter
@@ -101,16 +101,16 @@ class Subscription(Entity):
         return self._node.get_logger().name
 
     def get_publisher_count(self) -> int:
-        """How many publishers send."""
+        """The number of matched publishers."""
         self.use()
         return self.endpoint.matched
 
     def pending(self) -> bool:
-        """Whether a message is there."""
+        """Whether a message has arrived."""
         return bool(self._queue)
 
     def take(self) -> tuple[Any, dict[str, int | None]] | None:
-        """The next message that is still valid with what is known of it, past every executor; None without one."""
+        """Take the next unexpired message with its info, bypassing executors; None without one."""
         while self._queue:
             message, stamp, number, expires = self._queue.popleft()
             if expires is None or current().clock.system_ns() <= expires:
@@ -120,16 +120,16 @@ class Subscription(Entity):
         return None
 
     def run(self) -> Any:
-        """Take one message and call back."""
+        """Take one message and run the callback."""
         try:
             message, stamp, number, expires = self._queue.popleft()
         except IndexError:  # another thread was faster
             return None
         if self._queue:
-            self.notify()  # a reentrant group lets the next one begin before this one has ended
+            self.notify()  # in a reentrant group the next one may begin before this one has ended
         if expires is not None and current().clock.system_ns() > expires:
             return None
-        if isinstance(message, Held):  # as `own`, which would be a call for each message
+        if isinstance(message, Held):  # inlined from `own`, to save a call per message
             message = message.take()
             if message is None:
                 return None
@@ -145,7 +145,7 @@ class Subscription(Entity):
         }
 
     def destroy(self) -> None:
-        """Receive no more."""
+        """Destroy the subscription."""
         for handler in self.event_handlers:
             handler.destroy()
         self.destroyed = True

@@ -17,7 +17,7 @@ _running = threading.local()
 
 
 class Future(Generic[T]):
-    """A result that comes later. Done callbacks run as tasks of the executor where there is one, else at once."""
+    """A result that arrives later. Done callbacks run as tasks of the executor if there is one, else at once."""
 
     def __init__(self, *, executor: Any = None) -> None:
         self._done = False
@@ -35,7 +35,7 @@ class Future(Generic[T]):
         self.tell_unfetched()
 
     def tell_unfetched(self) -> None:
-        """Print the exception, if there is one that nobody has fetched; once."""
+        """Print the exception, once, if there is one that was never retrieved."""
         if getattr(self, "_exception", None) is not None and not self._exception_fetched:
             self._exception_fetched = True
             print(f"The following exception was never retrieved: {self._exception}", file=sys.stderr)
@@ -49,7 +49,7 @@ class Future(Generic[T]):
         return self.result()
 
     def cancel(self) -> None:
-        """Ask for the work to be given up; a future that is done stays as it is. Who awaits it goes on with None."""
+        """Cancel the future unless it is done; whoever awaits it continues with None."""
         with self._lock:
             if not self._done:
                 self._cancelled = True
@@ -64,22 +64,22 @@ class Future(Generic[T]):
         return self._done
 
     def _settled(self) -> bool:
-        """Whether nobody need wait for it any more: done or cancelled."""
+        """Whether the future is done or cancelled."""
         return self._done or self._cancelled
 
     def result(self) -> T | None:
-        """The result, None while there is none; raises the exception if there is one."""
+        """The result, or None while there is none; raises the exception if there is one."""
         if self._exception:
             raise self.exception()  # type: ignore[misc] -- there is one here
         return self._result
 
     def exception(self) -> BaseException | None:
-        """The exception, if there is one."""
+        """The exception, or None."""
         self._exception_fetched = True
         return self._exception
 
     def set_result(self, result: T) -> None:
-        """Give the result."""
+        """Set the result."""
         with self._lock:
             self._result = result
             self._done = True
@@ -87,7 +87,7 @@ class Future(Generic[T]):
         self._settle()
 
     def set_exception(self, exception: BaseException) -> None:
-        """Give an exception instead of a result."""
+        """Set an exception instead of a result."""
         with self._lock:
             self._exception = exception
             self._exception_fetched = False
@@ -96,7 +96,7 @@ class Future(Generic[T]):
         self._settle()
 
     def add_done_callback(self, callback: Callable[[Future[T]], Any]) -> None:
-        """Call back with this future when it is done or cancelled; at once where it is."""
+        """Add a callback that gets this future when it is done or cancelled, or at once if it is already."""
         with self._lock:
             if not self._settled():
                 self._callbacks.append(callback)
@@ -108,7 +108,7 @@ class Future(Generic[T]):
             callback(self)
 
     def remove_done_callback(self, callback: Callable[[Future[T]], Any]) -> bool:
-        """Take a callback away, once where it was added twice; whether it was there."""
+        """Remove one occurrence of a callback; returns whether there was one."""
         with self._lock:
             if callback not in self._callbacks:
                 return False
@@ -119,7 +119,7 @@ class Future(Generic[T]):
         self._executor = None if executor is None else weakref.ref(executor)
 
     def _when_settled(self, wake: Callable[[], object]) -> None:
-        """Call `wake` once, from whichever thread, when the future is settled; at once where it is."""
+        """Call `wake` once, from any thread, when the future is settled, or at once if it is already."""
         with self._lock:
             if not self._settled():
                 self._waiters.append(wake)
@@ -142,12 +142,12 @@ class Future(Generic[T]):
     def _call(self, callback: Callable[[Future[T]], Any]) -> None:
         try:
             callback(self)
-        except Exception as error:  # a done callback's fault must not reach whoever settled the future
+        except Exception as error:  # an exception of a done callback must not reach whoever settled the future
             warnings.warn(f"Unhandled exception in done callback: {error}", stacklevel=2)
 
 
 class Task(Future[T]):
-    """A function or coroutine that an executor runs; calling the task runs it on to its next wait."""
+    """A function or coroutine that an executor runs; calling the task runs it up to its next wait."""
 
     def __init__(
         self,
@@ -168,7 +168,7 @@ class Task(Future[T]):
         self.waits_for: Future[Any] | None = None
 
     def __call__(self) -> None:
-        """Run until the next wait, or to the end; a coroutine that was cancelled does not go on."""
+        """Run until the next wait, or to the end; a cancelled coroutine does not continue."""
         if self._done or self._executing or not self._task_lock.acquire(blocking=False):
             return
         try:
@@ -194,24 +194,24 @@ class Task(Future[T]):
         except StopIteration as stop:
             self._handler = None
             self.set_result(stop.value)
-        except Exception as error:  # the border to a callback: the executor raises it out of spin
+        except Exception as error:  # boundary of a user callback: the executor raises it out of spin
             self.set_exception(error)
 
     def _run(self) -> None:
         try:
             self.set_result(self._handler(*self._args, **self._kwargs))
-        except Exception as error:  # the border to a callback, as above
+        except Exception as error:  # boundary of a user callback, as above
             self.set_exception(error)
         self._handler, self._args, self._kwargs = None, (), {}
 
     def executing(self) -> bool:
-        """Whether it runs right now."""
+        """Whether the task is running."""
         return self._executing
 
     def cancel(self) -> None:
-        """Give the work up: a coroutine is closed, a function that waits for its turn runs all the same.
+        """Cancel the task: a coroutine is closed, a function that has not run yet still runs.
 
-        Raises ValueError where the coroutine is what runs right now.
+        Raises ValueError if the coroutine is running.
         """
         if inspect.iscoroutine(self._handler):
             self._handler.close()

@@ -38,7 +38,7 @@ class Time:
 
     @classmethod
     def _of(cls, nanoseconds: int, clock_type: ClockType) -> Time:
-        """A time whose parts are known to be good."""
+        """A time from parts that are known to be valid."""
         made = cls.__new__(cls)
         made._nanoseconds = nanoseconds
         made._clock_type = clock_type

@@ -64,7 +64,7 @@ class TimeSource:
             self._subscription = node.create_subscription(Clock, CLOCK_TOPIC, self.clock_callback, qos)
 
     def attach_node(self, node: Any) -> None:
-        """Follow the node's parameter, declaring it where it is not."""
+        """Follow the node's parameter `use_sim_time`, declaring it if necessary."""
         if self._node_ref is not None:
             self.detach_node()
         self._node_ref = weakref.ref(node)
@@ -80,7 +80,7 @@ class TimeSource:
         node.add_on_set_parameters_callback(self._on_parameter_event)
 
     def detach_node(self) -> None:
-        """Follow no node."""
+        """Stop following the node."""
         node = self._node()
         if node is not None and self._subscription is not None:
             node.destroy_subscription(self._subscription)
@@ -88,7 +88,7 @@ class TimeSource:
         self._node_ref = None
 
     def attach_clock(self, clock: Any) -> None:
-        """Drive a clock as well."""
+        """Drive another clock; raises `ValueError` unless its type is ROS_TIME."""
         if not isinstance(clock, ROSClock):
             raise ValueError("Only clocks with type ROS_TIME can be attached.")
         clock.set_ros_time_override(self._last)
@@ -96,7 +96,7 @@ class TimeSource:
         self._clocks.append(clock)
 
     def clock_callback(self, message: Any) -> None:
-        """`/clock` tells the time."""
+        """Set the clocks to the time of a message of `/clock`."""
         self._last = Time.from_msg(message.clock)
         for clock in self._clocks:
             clock.set_ros_time_override(self._last)

@@ -50,7 +50,7 @@ class Timer(Entity):
 
     @property
     def handle(self) -> Destroyable:
-        """What upstream's timer wraps."""
+        """The timer's handle, as upstream's timer has one."""
         return Destroyable(self, self.use)
 
     @property
@@ -84,12 +84,12 @@ class Timer(Entity):
         return self._canceled
 
     def cancel(self) -> None:
-        """Call back no more until `reset`."""
+        """Stop calling back until `reset`."""
         self.use()
         self._canceled = True
 
     def reset(self) -> None:
-        """Call back one period from now, and go on."""
+        """Restart the timer: the next call is one period from now."""
         self.use()
         self._next = self.clock_of_timer._now_ns() + self._period
         self._canceled = False
@@ -106,12 +106,12 @@ class Timer(Entity):
         return None if self._canceled else self._next - self.clock_of_timer._now_ns()
 
     def attach(self, sink: Any, node_order: int) -> None:
-        """Let an executor serve this timer."""
+        """Attach the timer to an executor."""
         self._belong(sink, node_order)
-        self.arm()  # and no `notify`: it would be served twice in one wake
+        self.arm()  # without `notify`, which would run it twice in one wake
 
     def arm(self) -> None:
-        """Tell the executor when the timer is due; under simulated time the clock tells it."""
+        """Tell the executor when the timer is due; simulated time calls this again at each jump."""
         sink = self.sink
         if sink is None or self._canceled or self.destroyed:
             return
@@ -122,7 +122,7 @@ class Timer(Entity):
             self.notify()
 
     def time_jumped(self, backward: bool) -> None:
-        """The clock was set: after a jump back the timer starts again one period later."""
+        """Re-arm after a jump of the clock; after a jump back the next call is one period later."""
         if backward:
             now = self.clock_of_timer._now_ns()
             self._last = now
@@ -130,7 +130,7 @@ class Timer(Entity):
         self.arm()
 
     def run(self) -> Any:
-        """Call back, and set the next time."""
+        """Run the callback, and set the time of the next call."""
         self._last = now = self._now()
         period = self._period
         due = self._next + period
@@ -138,14 +138,14 @@ class Timer(Entity):
             due = now if period == 0 else due + ((now - due) // period + 1) * period
         self._next = due
         if self._is_steady and self.sink is not None and not self._canceled:
-            self.sink.arm(self, due)  # as `arm` does
+            self.sink.arm(self, due)  # inlined from `arm`
         else:
             self.arm()
         result = self._callback() if self._callback is not None else None
         return result if self._is_async else None
 
     def destroy(self) -> None:
-        """Call back no more; every use from now on raises `InvalidHandle`."""
+        """Destroy the timer; every use from now on raises `InvalidHandle`."""
         self.destroyed = True
         self.clock_of_timer._remove_timer(self)
         self.detach()
@@ -174,7 +174,7 @@ class Rate:
         self.destroy()
 
     def destroy(self) -> None:
-        """End the rate; who sleeps wakes up."""
+        """Destroy the rate, waking its sleepers."""
         self._is_destroyed = True
         self._wakeup.set()
 
@@ -195,7 +195,7 @@ class Rate:
                 self._wakeup.clear()
 
     def sleep(self) -> None:
-        """Block until the next tick, not at all where one has come since the last sleep.
+        """Block until the next tick; returns at once if one has come since the last sleep.
 
         Raises `ROSInterruptException` when ROS is shut down meanwhile; returns when the rate is destroyed.
         """
@@ -205,7 +205,7 @@ class Rate:
         finally:
             self._postsleep()
         if self._is_shutdown:
-            current().deliver_signals()  # Ctrl-C shuts down, too: its sleeper is to see `KeyboardInterrupt`
+            current().deliver_signals()  # Ctrl-C shuts down as well: the sleeper shall see `KeyboardInterrupt`
             raise ROSInterruptException
 
 

@@ -144,5 +144,5 @@ class TopicEndpointInfo:
 
 
 def _duration(duration: Any) -> str:
-    """Unlimited durations read as upstream's middleware reports them."""
+    """The text of a duration; unlimited ones as upstream's middleware reports them."""
     return str(duration) if duration.nanoseconds else "Infinite"

@@ -17,7 +17,7 @@ START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
 
 
 class TypeDescriptionService:
-    """Declares the read-only parameter that switches the service, and starts it unless that says no."""
+    """Declares the read-only parameter that enables the service, and starts the service unless it is false."""
 
     def __init__(self, node: Any) -> None:
         self._node = node
@@ -37,9 +37,9 @@ class TypeDescriptionService:
             self._service = node.create_service(GetTypeDescription, self.service_name, self._answer)
 
     def outlive_destroy(self) -> None:
-        """Stay in the graph, deaf, when the node is destroyed: upstream keeps this service while the node object lives.
+        """Stay in the graph, unresponsive, after the node is destroyed: upstream keeps it with the node object.
 
-        It goes with the object or with the context, whichever ends first.
+        It disappears with the node object or with the context, whichever ends first.
         """
         service, node = self._service, self._node
         if service is None:
@@ -55,7 +55,7 @@ class TypeDescriptionService:
         weakref.finalize(node, _vanish, node._ros_bus, node.context.lingering, endpoint).atexit = False
 
     def _answer(self, request: Any, response: Any) -> Any:
-        """Describe a type that an entity of this node has, found by its hash; words as rcl's."""
+        """Describe a type that an entity of this node uses, found by its hash; with the messages of rcl."""
         if not _is_hash(request.type_hash):
             self._node.get_logger().error(f"Failed to parse type hash '{request.type_hash}'")
             response.failure_reason = "Failed to parse type hash"
@@ -85,7 +85,7 @@ class TypeDescriptionService:
 
 
 def _nothing() -> None:
-    """Nobody is there to be told."""
+    """Ignore a notification."""
 
 
 def _vanish(bus: Bus, lingering: set[Thing], endpoint: ServiceEndpoint) -> None:
@@ -118,7 +118,7 @@ def _individual(row: Mapping[str, Any]) -> Any:
 
 
 def _source(name: str) -> Any:
-    """The definition file of a type; an empty one for what is derived from another definition."""
+    """The source file of a type; empty for types that are derived from another definition."""
     from bot_console.runtime.rosidl.texts import definition_text
     from type_description_interfaces.msg import TypeSource
 

@@ -55,7 +55,7 @@ def type_hash_of(interface: Any) -> TypeHash:
 
 
 def type_hash_from(text: str) -> TypeHash:
-    """The hash that a text such as `RIHS01_...` tells; one that is no hash where the text is none."""
+    """Parse a hash such as `RIHS01_...`; returns an unset hash for any other text."""
     scheme, _, digits = text.partition("_")
     try:
         return TypeHash(int(scheme.removeprefix("RIHS")), bytes.fromhex(digits))

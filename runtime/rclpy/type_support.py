@@ -27,14 +27,14 @@ def _class_name(value: Any) -> str:
 
 
 def check_is_valid_msg_type(msg_type: Any) -> None:
-    """Raise `RuntimeError` for a service or action, `AttributeError` for what is no interface class at all."""
+    """Raise `RuntimeError` for a service or action, `AttributeError` for anything but an interface class."""
     check_for_type_support(msg_type)
     if isinstance(msg_type, ServiceType):
         raise RuntimeError(f"The message type provided is not valid ({msg_type}), this might be a service or action")
 
 
 def check_is_valid_srv_type(srv_type: Any) -> None:
-    """Raise `RuntimeError` for a message or action, `AttributeError` for what is no interface class at all."""
+    """Raise `RuntimeError` for a message or action, `AttributeError` for anything but an interface class."""
     check_for_type_support(srv_type)
     parts = ("Response", "Request", "Event")
     if not all(part in getattr(srv_type, "_later", ()) or hasattr(srv_type, part) for part in parts):
@@ -42,7 +42,7 @@ def check_is_valid_srv_type(srv_type: Any) -> None:
 
 
 def check_is_valid_action_type(action_type: Any) -> None:
-    """Raise `RuntimeError` for a message or service, `AttributeError` for what is no interface class at all."""
+    """Raise `RuntimeError` for a message or service, `AttributeError` for anything but an interface class."""
     check_for_type_support(action_type)
     if not all(hasattr(action_type, part) for part in ("Goal", "Result", "Feedback", "Impl")):
         raise RuntimeError(f"The action type provided is not valid ({action_type}), this might be a message or service")

@@ -18,7 +18,7 @@ _lock = threading.Lock()
 
 
 def get_default_context(*, shutting_down: bool = False) -> Any:
-    """The context that is used where none is named; with `shutting_down` the next call makes a new one."""
+    """The context used by default; with `shutting_down` the next call creates a new one."""
     from rclpy.context import Context
 
     with _lock:
@@ -29,9 +29,9 @@ def get_default_context(*, shutting_down: bool = False) -> Any:
 
 
 def remove_ros_args(args: Sequence[str] | None = None) -> list[str]:
-    """The words that are not for ROS, the program's name included.
+    """The arguments without those for ROS, including the program's name.
 
-    Raises `RCLInvalidROSArgsError` for bad rules, `UnknownROSArgsError` for words that ROS does not know.
+    Raises `RCLInvalidROSArgsError` for invalid rules, `UnknownROSArgsError` for unknown ROS arguments.
     """
     import sys
 
@@ -46,7 +46,7 @@ def ok(*, context: Any = None) -> bool:
 
 
 def shutdown(*, context: Any = None) -> None:
-    """Shut a context down; raises `RuntimeError` before `init`, `RCLError` where a signal has done it already."""
+    """Shut a context down; raises `RuntimeError` before `init`, `RCLError` if a signal has done so already."""
     (get_default_context(shutting_down=True) if context is None else context).shutdown()
 
 
@@ -61,12 +61,12 @@ def get_rmw_implementation_identifier() -> str:
 
 
 def get_available_rmw_implementations() -> set[str]:
-    """The names of the middlewares that are there."""
+    """The names of the available middlewares."""
     return {get_rmw_implementation_identifier()}
 
 
 def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
-    """A time-out in ns; -1 (for ever) for None and for negative ones."""
+    """A time-out in ns; -1 (forever) for None and negative ones."""
     if timeout_sec is None or timeout_sec < 0:
         return -1
     return int(float(timeout_sec) * NANO)

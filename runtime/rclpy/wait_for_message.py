@@ -12,9 +12,9 @@ from rclpy.task import Future
 def wait_for_message(
     msg_type: Any, node: Any, topic: str, *, qos_profile: QoSProfile | int = 1, time_to_wait: float = -1
 ) -> tuple[bool, Any]:
-    """The next message of a topic: (True, message), or (False, None) when time (s, negative: for ever) is over.
+    """The next message of a topic: (True, message), or (False, None) after the time-out (s; negative: forever).
 
-    Works beside an executor that serves the node, and without one.
+    Works with and without an executor that spins the node.
     """
     future: Future[Any] = Future()
 
@@ -26,7 +26,7 @@ def wait_for_message(
     try:
         timeout = None if time_to_wait < 0 else time_to_wait
         executor = SingleThreadedExecutor(context=node.context)
-        # Only this subscription: another executor may serve the node.
+        # Only this subscription: another executor may be spinning the node.
         subscription.attach(executor, 0)
         executor.spin_until_future_complete(future, timeout)
         return (True, future.result()) if future.done() else (False, None)

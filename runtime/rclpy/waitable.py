@@ -49,9 +49,9 @@ class Waitable:
         return None
 
     def add_future(self, future: Any) -> None:
-        """Let the waitable keep a future."""
+        """Add a future to the waitable."""
         self._futures.append(future)
 
     def remove_future(self, future: Any) -> None:
-        """Let go of a future."""
+        """Remove a future from the waitable."""
         self._futures.remove(future)

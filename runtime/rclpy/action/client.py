@@ -62,13 +62,13 @@ class ActionClient(ActionEntity):
         self._join()
 
     def get_num_entities(self) -> NumberOfEntities:
-        """Two subscriptions and three clients."""
+        """The number of entities: two subscriptions and three clients."""
         return NumberOfEntities(2, 0, 0, 3, 0)
 
     def run(self) -> Any:
-        """Take a response of each kind, a feedback and a status, and tell whom they concern.
+        """Take one response of each kind, one feedback and one status, and dispatch them.
 
-        With a result all the feedback that came before it is taken, as nobody is told of it afterwards.
+        A result is preceded by all the feedback that arrived before it, as feedback is not delivered afterwards.
         """
         ends = self._endpoints
         responses = (take(ends.goal.queue), take(ends.cancel.queue), take(ends.result.queue))

@@ -36,7 +36,7 @@ class ActionNames:
 
 
 def action_names(node: Any, action: str, side: str) -> ActionNames:
-    """The names of an action's parts; raises `ValueError` for an action name that is none, in the words of rcl.
+    """The names of an action's parts; raises `ValueError` for an invalid action name, with the message of rcl.
 
     `side` is "client" or "server".
     """
@@ -54,7 +54,7 @@ def action_names(node: Any, action: str, side: str) -> ActionNames:
 
 
 class ServerEndpoints:
-    """What an action server has on the bus."""
+    """The endpoints of an action server on the bus."""
 
     def __init__(
         self, node: Any, impl: Any, names: ActionNames, notify: Notify, feedback_qos: Any, status_qos: Any
@@ -76,17 +76,17 @@ class ServerEndpoints:
         return self._bus.create_publisher(endpoint, no_event)
 
     def pending(self) -> bool:
-        """Whether a request is there."""
+        """Whether a request has arrived."""
         return bool(self.goal.queue or self.cancel.queue or self.result.queue)
 
     def remove(self) -> None:
-        """Leave the bus."""
+        """Remove the endpoints from the bus."""
         for each in (self.goal, self.cancel, self.result, self.feedback, self.status):
             self._bus.remove(each)
 
 
 class ClientEndpoints:
-    """What an action client has on the bus."""
+    """The endpoints of an action client on the bus."""
 
     def __init__(
         self, node: Any, impl: Any, names: ActionNames, notify: Notify, feedback_qos: Any, status_qos: Any
@@ -110,13 +110,13 @@ class ClientEndpoints:
         return subscription
 
     def pending(self) -> bool:
-        """Whether a response, feedback or a status is there."""
+        """Whether a response, feedback or a status has arrived."""
         return bool(
             self.goal.queue or self.cancel.queue or self.result.queue or self.feedback.queue or self.status.queue
         )
 
     def server_is_there(self) -> bool:
-        """Whether all five parts of a server are in the graph."""
+        """Whether all five endpoints of a server are in the graph."""
         tables = self._bus.tables()
         topics = (self.feedback.endpoint.topic, self.status.endpoint.topic)
         return all(any(each.publishers.on(topic) for each in tables) for topic in topics) and all(
@@ -124,6 +124,6 @@ class ClientEndpoints:
         )
 
     def remove(self) -> None:
-        """Leave the bus."""
+        """Remove the endpoints from the bus."""
         for each in (self.goal, self.cancel, self.result, self.feedback, self.status):
             self._bus.remove(each)

@@ -14,7 +14,7 @@ from rclpy.waitable import Waitable
 
 
 class ActionEntity(Entity, Waitable):
-    """A waitable over several endpoints: one wake takes one thing from each that has something."""
+    """A waitable over several endpoints: each wake takes one item from every endpoint that has any."""
 
     KIND = WAITABLE
 
@@ -27,7 +27,7 @@ class ActionEntity(Entity, Waitable):
         self._endpoints: Any = None
 
     def _check(self, side: str) -> None:
-        """Whether the node can have a new action server or client; raises `ValueError` where its context has ended."""
+        """Check that the node can have a new action server or client; raises `ValueError` if its context has ended."""
         check_is_valid_action_type(self._action_type)
         if self._node._ros_destroyed:
             raise InvalidHandle(DESTROYED)
@@ -39,11 +39,11 @@ class ActionEntity(Entity, Waitable):
         self._node._ros_enter(self, self.callback_group)
 
     def pending(self) -> bool:
-        """Whether something has come."""
+        """Whether anything has arrived."""
         return not self.destroyed and self._endpoints.pending()
 
     def interfaces(self) -> Sequence[Any]:
-        """The action, and what of it has a hash of its own in the graph."""
+        """The action, and those of its interfaces that have their own type hashes in the graph."""
         impl = self._action_type.Impl
         return (self._action_type, impl.SendGoalService, impl.GetResultService, impl.FeedbackMessage)
 
@@ -59,7 +59,7 @@ class ActionEntity(Entity, Waitable):
 
 
 def take(queue: deque[Any]) -> Any:
-    """The oldest entry of a queue, None where another thread was faster."""
+    """Take the oldest entry of a queue; None if another thread was faster."""
     try:
         return queue.popleft()
     except IndexError:
@@ -67,7 +67,7 @@ def take(queue: deque[Any]) -> Any:
 
 
 async def call(callback: Callable[..., Any], *args: Any) -> Any:
-    """Call a function, or await a coroutine function."""
+    """Call a function, or await the coroutine of a coroutine function."""
     if inspect.iscoroutinefunction(callback):
         return await callback(*args)
     return callback(*args)

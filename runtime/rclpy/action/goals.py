@@ -17,7 +17,7 @@ ANY_GOAL = bytes(16)
 
 
 class Goals:
-    """Goal handles by UUID in the order of their acceptance; results are kept for `timeout_ns` after the end."""
+    """Goal handles by UUID in order of acceptance; results are kept for `timeout_ns` after the goal has ended."""
 
     def __init__(self, timeout_ns: int) -> None:
         self._timeout_ns = timeout_ns
@@ -29,15 +29,15 @@ class Goals:
         return uuid in self._handles
 
     def get(self, uuid: bytes) -> ServerGoalHandle | None:
-        """The goal of a UUID."""
+        """The handle of the goal with that UUID, or None."""
         return self._handles.get(uuid)
 
     def add(self, uuid: bytes, handle: ServerGoalHandle) -> None:
-        """Keep an accepted goal."""
+        """Add an accepted goal."""
         self._handles[uuid] = handle
 
     def status_array(self) -> Any:
-        """What the status topic shows: each goal that is kept."""
+        """The message of the status topic, with each goal that is still kept."""
         return GoalStatusArray(
             status_list=[
                 GoalStatus(goal_info=each._goal_info, status=each._status) for each in list(self._handles.values())
@@ -45,10 +45,10 @@ class Goals:
         )
 
     def to_cancel(self, request: Any) -> tuple[list[ServerGoalHandle], int]:
-        """The goals that a cancel request means, and the return code of the answer.
+        """The goals that a cancel request selects, and the return code of the response.
 
-        A UUID alone means that goal; a time stamp means all goals accepted until then (besides the one of the UUID);
-        neither means all goals.
+        A UUID alone selects that goal; a time stamp selects all goals accepted up to then (and the one of the UUID);
+        neither selects all goals.
         """
         uuid, stamp = bytes(request.goal_info.goal_id.uuid), _ns(request.goal_info.stamp)
         none, terminated = CancelGoal.Response.ERROR_NONE, CancelGoal.Response.ERROR_GOAL_TERMINATED
@@ -66,12 +66,12 @@ class Goals:
         return meant, none
 
     def find_next_expiry(self) -> None:
-        """Work out `next_expiry` anew, after a goal has ended or was forgotten."""
+        """Recompute `next_expiry` after a goal has ended or was removed."""
         ends = [each.terminal_ns for each in list(self._handles.values()) if each.terminal_ns is not None]
         self.next_expiry = min(ends) + self._timeout_ns + 1 if ends else None
 
     def expire(self, now_ns: int) -> None:
-        """Forget the goals that ended more than the time-out ago."""
+        """Remove the goals that ended more than the time-out ago."""
         for uuid, each in list(self._handles.items()):
             if each.terminal_ns is not None and now_ns - each.terminal_ns > self._timeout_ns:
                 each.destroy()
@@ -79,7 +79,7 @@ class Goals:
         self.find_next_expiry()
 
     def destroy(self) -> None:
-        """Let go of all goals."""
+        """Destroy all goal handles."""
         for each in list(self._handles.values()):
             each.destroy()
 

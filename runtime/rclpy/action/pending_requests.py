@@ -14,7 +14,7 @@ from rclpy.task import Future
 
 
 class PendingRequests:
-    """Futures of requests of one service, with the goal that each is about."""
+    """Futures of the requests to one service, with the goal that each concerns."""
 
     def __init__(self, bus: Bus) -> None:
         self._bus = bus
@@ -23,7 +23,7 @@ class PendingRequests:
         self._waiting: dict[int, tuple[Future[Any], Any]] = {}
 
     def send(self, endpoint: ClientEndpoint, request: Any, goal_id: Any) -> Future[Any]:
-        """Send a request; the future is settled by `settle`, and forgotten when it is cancelled before."""
+        """Send a request; its future is completed by `settle`, and dropped if it is cancelled before."""
         future: Future[Any] = Future()
         with self._lock:
             self._number += 1
@@ -34,13 +34,13 @@ class PendingRequests:
         return future
 
     def subject(self, number: int) -> Any:
-        """The goal that a request is about; None for one that nobody waits for."""
+        """The goal that a request concerns; None for a request that is not pending."""
         with self._lock:
             found = self._waiting.get(number)
         return None if found is None else found[1]
 
     def settle(self, number: int, result: Any, executor: Any) -> bool:
-        """Give a request its result, done callbacks running in the executor; whether anybody waited for it."""
+        """Complete a request, with done callbacks run by `executor`; returns whether the request was pending."""
         found = self._forget(number)
         if found is None:
             return False

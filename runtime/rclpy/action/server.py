@@ -64,7 +64,7 @@ class ActionServer(ActionEntity):
     """Serves an action; callbacks may be functions or coroutine functions.
 
     `execute_callback(goal_handle)` returns the result. Results are kept for `result_timeout` (s) after the end of
-    their goal. Raises `ValueError` for a name that is none, `TypeError` for an execute callback that is none.
+    their goal. Raises `ValueError` for an invalid name, `TypeError` for an execute callback that is not callable.
     """
 
     def __init__(
@@ -127,7 +127,7 @@ class ActionServer(ActionEntity):
         self._execute_callback = execute_callback
 
     def get_num_entities(self) -> NumberOfEntities:
-        """A timer and three services."""
+        """The number of entities: a timer and three services."""
         return NumberOfEntities(0, 0, 1, 0, 3)
 
     def pending(self) -> bool:
@@ -135,7 +135,7 @@ class ActionServer(ActionEntity):
         return super().pending() or (not self.destroyed and self._expired())
 
     def run(self) -> Any:
-        """Take a request of each kind and serve them."""
+        """Take one request of each kind and serve them."""
         ends = self._endpoints
         return self._serve(take(ends.goal.queue), take(ends.cancel.queue), take(ends.result.queue), self._expired())
 
@@ -165,7 +165,7 @@ class ActionServer(ActionEntity):
         await call(self._handle_accepted_callback, handle)
 
     async def _accepted(self, request: Any, uuid: bytes) -> ServerGoalHandle | None:
-        """The handle of a goal if the goal callback accepts it; a UUID that is known is rejected unasked."""
+        """The handle of a goal that the goal callback accepts, else None; a known UUID is rejected without asking."""
         self._debug("New goal request with ID: {}", request.goal_id.uuid)
         if uuid in self._goals:
             return None
@@ -177,7 +177,7 @@ class ActionServer(ActionEntity):
             return None
         info = GoalInfo(goal_id=request.goal_id, stamp=self._clock.now().to_msg())
         with self._lock:
-            # An asynchronous goal callback may have let the same goal in meanwhile.
+            # An asynchronous goal callback may have accepted the same goal meanwhile.
             if uuid in self._goals:
                 return None
             handle = ServerGoalHandle(self, info, request.goal)
@@ -218,7 +218,7 @@ class ActionServer(ActionEntity):
         self._node._ros_bus.respond(client, number, future.result())
 
     def notify_execute(self, goal_handle: ServerGoalHandle, execute_callback: Callable[..., Any] | None) -> None:
-        """Let the node's executor run a callback, the server's own by default, for a goal."""
+        """Schedule a callback, the server's own by default, for a goal in the node's executor."""
         callback = self._execute_callback if execute_callback is None else execute_callback
         self._node.executor.create_task(self._execute_goal, callback, goal_handle)
 
@@ -227,7 +227,7 @@ class ActionServer(ActionEntity):
         self._debug("Executing goal with ID {}", uuid)
         try:
             result = await call(callback, handle)
-        except Exception as error:  # the border to a callback: the client gets an empty result, the log the reason
+        except Exception as error:  # boundary of a user callback: the client gets an empty result, the log the reason
             result = self._action_type.Result()
             self._logger.error(f"Error raised in execute callback: {error}")
             traceback.print_exc()
@@ -243,7 +243,7 @@ class ActionServer(ActionEntity):
         handle._result_future.set_result(response)
 
     def _warn_of_result(self, callback: Callable[..., Any], result: Any) -> None:
-        """Upstream says nothing before somebody asks for the result, and then does not name the callback."""
+        """Warn of a result of a wrong type; upstream fails only at a request for it, without naming the callback."""
         code = getattr(callback, "__code__", None)
         place = f" ({code.co_filename}:{code.co_firstlineno})" if code else ""
         self._logger.warning(
@@ -252,7 +252,7 @@ class ActionServer(ActionEntity):
         )
 
     def notify_goal_done(self) -> None:
-        """A goal has ended: from now on its result grows old."""
+        """Start the expiry of an ended goal's result."""
         self._goals.find_next_expiry()
         self.arm()
 
@@ -267,7 +267,7 @@ class ActionServer(ActionEntity):
     def _may_publish(self, refused: str) -> None:
         self.use()
         if self._node.context.ended:
-            current().deliver_signals()  # as in a publisher: of two reasons the caller is to see the interrupt
+            current().deliver_signals()  # as in a publisher: an interrupt takes precedence over this error
             raise RCLError(f"{refused}: feedback publisher is invalid")
 
     def _debug(self, text: str, *values: Any) -> None:
@@ -282,7 +282,7 @@ class ActionServer(ActionEntity):
         return due is not None and self._now_ns() >= due
 
     def arm(self) -> None:
-        """Let the executor wake when the next result expires; under simulated time the clock tells it."""
+        """Arm the executor for the expiry of the next result; simulated time calls this again at each jump."""
         due, sink = self._goals.next_expiry, self.sink
         if due is None or sink is None or self.destroyed:
             return
@@ -293,12 +293,12 @@ class ActionServer(ActionEntity):
             self.notify()
 
     def attach(self, sink: Any, node_order: int) -> None:
-        """Let an executor serve this from now on."""
+        """Attach the server to an executor."""
         super().attach(sink, node_order)
         self.arm()
 
     def time_jumped(self, backward: bool) -> None:
-        """The node's clock was set."""
+        """Re-arm after a jump of the node's clock."""
         self.arm()
 
     def destroy(self) -> None:

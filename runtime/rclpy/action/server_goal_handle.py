@@ -13,7 +13,7 @@ from rclpy.task import Future
 class ServerGoalHandle:
     """An accepted goal: execute it, publish feedback, and end it by `succeed`, `abort` or `canceled`.
 
-    These three raise `RCLError` in a state in which they make no sense, such as `canceled` without a cancel request.
+    These three raise `RCLError` in a state that does not allow them, such as `canceled` without a cancel request.
     """
 
     def __init__(self, action_server: Any, goal_info: Any, goal_request: Any) -> None:
@@ -71,7 +71,7 @@ class ServerGoalHandle:
                 self._action_server.notify_goal_done()
 
     def execute(self, execute_callback: Callable[..., Any] | None = None) -> None:
-        """Let the executor run the callback, the server's own by default.
+        """Schedule the execute callback, the server's own by default, in the executor.
 
         A goal that is being cancelled keeps its state: the callback then has to end it.
         """
@@ -92,18 +92,18 @@ class ServerGoalHandle:
             self._action_server._publish_feedback(message)
 
     def succeed(self) -> None:
-        """The goal was reached."""
+        """Mark the goal as reached."""
         self._update_state(GoalEvent.SUCCEED)
 
     def abort(self) -> None:
-        """The server gave the goal up."""
+        """Mark the goal as aborted by the server."""
         self._update_state(GoalEvent.ABORT)
 
     def canceled(self) -> None:
-        """The goal was given up as its client asked."""
+        """Mark the goal as cancelled at its client's request."""
         self._update_state(GoalEvent.CANCELED)
 
     def destroy(self) -> None:
-        """Let go of the goal; what is called from now on does nothing."""
+        """Release the goal; later calls do nothing."""
         with self._lock:
             self._destroyed = True

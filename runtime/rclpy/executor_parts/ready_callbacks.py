@@ -24,7 +24,7 @@ async def await_or_execute(callback: Callable[..., Any], *args: Any) -> Any:
 
 
 class ReadyCallbacks:
-    """The part of `Executor` that hands work out instead of running it."""
+    """The methods of `Executor` that hand out work instead of running it."""
 
     _nodes: dict[Any, int]
     _take: Callable[[float | None, Callable[[], bool] | None], Any]
@@ -43,7 +43,7 @@ class ReadyCallbacks:
     ) -> tuple[Task[Any], Any, Any]:
         """The next piece of work as (task, entity, node): calling the task, in any thread, runs the callback.
 
-        Only of the given nodes, where there are some. Raises `TimeoutException`, `ShutdownException`,
+        Limited to the given nodes, if any. Raises `TimeoutException`, `ShutdownException`,
         `ExternalShutdownException` and, once `condition()` is true, `ConditionReachedException`.
         """
         timeout = timeout_sec.timeout if isinstance(timeout_sec, TimeoutObject) else timeout_sec
@@ -65,11 +65,11 @@ class ReadyCallbacks:
         return Future(executor=self)
 
     def can_execute(self, entity: Any) -> bool:
-        """Whether the group of an entity lets its callback begin now."""
+        """Whether the entity's callback group allows its callback to begin now."""
         return entity.callback_group.can_execute(entity)
 
     def _origin(self, item: Any) -> tuple[Any, Any]:
-        """Whose callback it is: entity and node, None for a task that somebody created."""
+        """The entity and node that a callback belongs to; the entity is None for a task created by `create_task`."""
         task: Any = item
         entity = self._tasks.get(task) if isinstance(item, Task) else item
         return entity, next((node for node in self._nodes if entity in node._ros_entities), None)
@@ -80,11 +80,11 @@ class ReadyCallbacks:
             self._resume(task)
         else:
             self._ended(item)
-            if item.pending():  # a timer is asked here alone: it has not run, which would have armed it
+            if item.pending():  # only here for a timer, too: it has not run, which would have armed it
                 item.notify()
 
     def _collect_tasks(self) -> list[Task[Any]]:
-        """Tasks that can go on, the newest first."""
+        """The tasks that can continue, newest first."""
         with self._lock:
             tasks, self._ready_tasks = self._ready_tasks, []
             if len(tasks) > 1:

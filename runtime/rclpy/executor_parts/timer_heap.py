@@ -9,7 +9,7 @@ from typing import Any
 class TimerHeap:
     """A heap of (deadline ns, creation, timer), with one entry for each timer.
 
-    A timer that is put off keeps its early entry; when that one comes up it is put back to the time that was meant.
+    A postponed timer keeps its earlier entry, which moves to the later deadline once it reaches the top.
     Pushes come from any thread: heap operations on these tuples do not run Python code, so they need no lock.
     """
 
@@ -17,7 +17,7 @@ class TimerHeap:
         self.entries: list[tuple[int, int, Any]] = []
 
     def push(self, deadline: int, timer: Any) -> None:
-        """A timer is due at a steady time; an earlier call for it counts no more."""
+        """Set the steady time (ns) at which a timer is due, replacing its previous deadline."""
         timer.due_at = deadline
         if timer.heap is self and timer.heap_deadline <= deadline:
             return
@@ -26,7 +26,7 @@ class TimerHeap:
         heappush(self.entries, (deadline, timer.order, timer))
 
     def next_deadline(self, sink: Any) -> int | None:
-        """When the next timer of this executor is due; None without one."""
+        """The deadline (steady ns) of the executor's next timer; None without one."""
         entries = self.entries
         while entries:
             entry = entries[0]
@@ -37,7 +37,7 @@ class TimerHeap:
         return None
 
     def pop_due(self, now: int, sink: Any) -> list[Any]:
-        """Timers that are due, taken out."""
+        """Remove and return the timers that are due."""
         due: list[Any] = []
         entries = self.entries
         while entries and entries[0][0] <= now:
@@ -52,7 +52,7 @@ class TimerHeap:
         return due
 
     def _put_right(self, entry: tuple[int, int, Any], sink: Any) -> None:
-        """Take the first entry, which does not count, away or put it back."""
+        """Remove the outdated first entry, or move it to its timer's deadline."""
         deadline, order, timer = entry
         # A stale entry: the timer has gone to another executor, or was pushed again for an earlier time.
         if timer.heap is not self or timer.heap_deadline != deadline:

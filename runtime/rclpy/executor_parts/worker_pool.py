@@ -26,7 +26,7 @@ class WorkerPool:
         current().end_with_main(self)
 
     def submit(self, work: Callable[[], Any]) -> None:
-        """Run `work()` in one of the threads; it must not raise. Once the pool was shut down nothing new begins."""
+        """Run `work()` in one of the threads; it must not raise. After `shutdown` the call has no effect."""
         with self._lock:
             if self._closed:
                 return
@@ -36,7 +36,7 @@ class WorkerPool:
             elif self._threads < self._size:
                 self._threads += 1
                 name = f"{self._name}-{self._threads}"
-                # No daemon: a callback that has begun goes on to its end although the program is over, as upstream.
+                # Not a daemon: a callback that has begun runs to its end even if the program is over, as upstream.
                 threading.Thread(target=self._serve, name=name, daemon=False).start()
 
     def _serve(self) -> None:
@@ -47,7 +47,7 @@ class WorkerPool:
                 if work is None:
                     if self._closed:
                         return
-                    # With the lock held: work that comes from here on finds this thread among the idle ones.
+                    # With the lock held, so that work submitted from here on finds this thread idle.
                     wakeup.clear()
                     self._idle.append(wakeup)
             if work is None:
@@ -57,11 +57,11 @@ class WorkerPool:
                     work()
                 except ProcessKilled:
                     raise
-                except BaseException:  # SystemExit ... ends the callback alone, as in upstream's pool
+                except BaseException:  # SystemExit and the like end only the callback, as in upstream's pool
                     continue
 
     def shutdown(self, wait: bool = False) -> None:
-        """Let the threads end when they have nothing left to do; nobody waits for that here."""
+        """Let the threads end once they have no work left, without waiting for them."""
         with self._lock:
             self._closed = True
             while self._idle:
@@ -69,7 +69,7 @@ class WorkerPool:
 
 
 def tell_unfetched_at_exit(owner: object, futures: deque[Any]) -> None:
-    """At the end of the program print exceptions that nobody has fetched, as upstream's interpreter does then."""
+    """At the program's end, print exceptions that were never retrieved, as happens upstream."""
     weakref.finalize(owner, _tell_unfetched, futures)
 
 

@@ -12,8 +12,8 @@ from rclpy.task import Future
 def wait_until_settled(future: Future[Any], context: Any, deadline_ns: int | None = None) -> None:
     """Block until the future is done or cancelled, or until a steady time (ns).
 
-    Without a deadline it raises `ROSInterruptException` when the context is shut down, as nobody takes an answer after
-    that. Upstream waits on for ever, and its program does not end.
+    Without a deadline it raises `ROSInterruptException` when the context is shut down, as no answer is received after
+    that. Upstream keeps waiting, so that its program never ends.
     """
     wakeup = current().clock.wakeup()
     future._when_settled(wakeup.set)  # pyright: ignore[reportPrivateUsage] -- rclpy is one library
@@ -28,5 +28,5 @@ def wait_until_settled(future: Future[Any], context: Any, deadline_ns: int | Non
     finally:
         forget()
     if not future._settled():  # pyright: ignore[reportPrivateUsage] -- as above
-        current().deliver_signals()  # Ctrl-C shuts down, too: who waits is to see `KeyboardInterrupt`
+        current().deliver_signals()  # Ctrl-C shuts down as well: the waiting thread shall see `KeyboardInterrupt`
         raise ROSInterruptException

@@ -6,8 +6,8 @@ from typing import Any
 
 
 class AnyClock:
-    """Base of `rclpy.clock.Clock`, by which a logger knows one without importing that module."""
+    """Base of `rclpy.clock.Clock`, by which a logger recognises a clock without importing that module."""
 
     def now(self) -> Any:
-        """The time now; has `nanoseconds`."""
+        """The current time, an object with `nanoseconds`."""
         raise NotImplementedError

@@ -23,7 +23,7 @@ NO_LOG_CONFIG = "spdlog logging backend doesn't currently support external confi
 
 
 def parse_global(words: Sequence[str]) -> Arguments:
-    """The arguments of a context; raises `RCLError` (rcl logs why), `UnknownROSArgsError` for strange flags."""
+    """Parse the arguments of a context; raises `RCLError` (rcl logs why), `UnknownROSArgsError` for unknown flags."""
     try:
         parsed = _parse(words)
     except ArgumentsError as error:
@@ -43,7 +43,7 @@ def parse_global(words: Sequence[str]) -> Arguments:
 
 
 def begin_log_file(parsed: Arguments) -> LogFile:
-    """The file of the process's log, for a context that begins; raises `RCLError` where it cannot be."""
+    """Choose the process's log file for a new context; raises `RCLError` if its folder cannot be created."""
     log_file = state().log_file
     try:
         log_file.begin(parsed)
@@ -54,7 +54,7 @@ def begin_log_file(parsed: Arguments) -> LogFile:
 
 
 def parse_words(words: Sequence[str]) -> Arguments:
-    """Parse a command line, strange flags or not; raises `RCLInvalidROSArgsError`."""
+    """Parse a command line, allowing unknown flags; raises `RCLInvalidROSArgsError`."""
     try:
         return _parse(words)
     except ArgumentsError as error:
@@ -62,7 +62,7 @@ def parse_words(words: Sequence[str]) -> Arguments:
 
 
 def parse_local(words: Sequence[str]) -> Arguments:
-    """The arguments of one node (`cli_args`); raises `RCLInvalidROSArgsError` and `UnknownROSArgsError`."""
+    """Parse the arguments of one node (`cli_args`); raises `RCLInvalidROSArgsError` and `UnknownROSArgsError`."""
     parsed = parse_words(words)
     _refuse_unknown(parsed)
     return parsed
@@ -81,7 +81,7 @@ def _parse(words: Sequence[str]) -> Arguments:
 
 
 def is_read() -> bool:
-    """Whether a person reads along: a program whose words go elsewhere says those of rcl, and no more."""
+    """Whether stderr is a terminal: elsewhere a program prints only the messages of rcl."""
     return sys.stderr is not None and sys.stderr.isatty()
 
 

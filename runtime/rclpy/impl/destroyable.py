@@ -11,7 +11,7 @@ from typing import Any
 
 
 class Destroyable:
-    """The handle of an entity. In a `with` block it is used; what it has no name for is asked of the entity."""
+    """The handle of an entity: a context manager that checks it is alive, and delegates attributes to the entity."""
 
     def __init__(self, owner: Any, use: Callable[[], None]) -> None:
         self._owner = owner
@@ -19,7 +19,7 @@ class Destroyable:
 
     @property
     def pointer(self) -> int:
-        """A number that no other entity has."""
+        """A number that is unique to the entity."""
         return id(self._owner)
 
     def __enter__(self) -> None:
@@ -28,7 +28,7 @@ class Destroyable:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """The entity lives on."""
+        """Leave the entity alive."""
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Destroyable) and self._owner is other._owner
@@ -41,10 +41,10 @@ class Destroyable:
 
 
 class SubscriptionHandle(Destroyable):
-    """The handle of a subscription: messages can be taken from it where no executor does."""
+    """The handle of a subscription, from which messages can be taken without an executor."""
 
     def take_message(self, pymsg_type: Any, raw: bool) -> tuple[Any, dict[str, int | None]] | None:
-        """The next message, as bytes if `raw`, with its times; None where there is none. Raises `InvalidHandle`."""
+        """Take the next message, as bytes if `raw`, with its info; None if there is none. Raises `InvalidHandle`."""
         self._use()
         taken = self._owner.take()
         if taken is None:

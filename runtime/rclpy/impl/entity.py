@@ -17,7 +17,7 @@ _creation = itertools.count()
 
 
 class Entity:
-    """Something that becomes ready, and whose callback an executor then runs."""
+    """Something that becomes ready and whose callback an executor then runs."""
 
     KIND = WAITABLE
     marked: Any = None
@@ -37,9 +37,9 @@ class Entity:
         self.key: tuple[int, int, int] = (0, self.KIND, self.order)
 
     def notify(self) -> None:
-        """Mark the entity as ready; from any thread."""
+        """Mark the entity as ready; thread-safe."""
         sink = self.sink
-        # Marked once per wake: a thousand messages before it cost one place in the queue.
+        # Marked once per wake: a thousand messages before it take one place in the queue.
         if sink is not None and self.marked is not sink:
             self.marked = sink
             sink._ready.append(self)
@@ -51,34 +51,34 @@ class Entity:
         raise NotImplementedError
 
     def arm(self) -> None:
-        """Tell the executor when there is something to do, where that is a matter of time."""
+        """Tell the executor when the entity will be ready, if that depends on time."""
 
     def run(self) -> Any:
-        """Take one piece of work and do it; a coroutine is driven on by the executor."""
+        """Do one piece of work; the executor drives a returned coroutine."""
         raise NotImplementedError
 
     def interfaces(self) -> Sequence[Any]:
-        """The interface classes that it uses beyond its node's topics and services."""
+        """The interface classes that the entity uses beyond its node's topics and services."""
         return ()
 
     def attach(self, sink: Any, node_order: int) -> None:
-        """Take note of the executor that serves this from now on."""
+        """Attach the entity to an executor."""
         self._belong(sink, node_order)
         if self.pending():
             self.notify()
 
     def _belong(self, sink: Any, node_order: int) -> None:
-        # Upstream's executor asks waitables before everything else, whichever node they are of.
+        # Upstream's executor checks waitables before everything else, whichever node they belong to.
         self.key = (-1 if self.KIND == WAITABLE else node_order, self.KIND, self.order)
         self.sink = sink
 
     def detach(self) -> None:
-        """Take note that no executor serves this any more."""
+        """Detach the entity from its executor."""
         self.sink = None
 
     @property
     def callback(self) -> Any:
-        """What is called; a coroutine function is driven on by the executor."""
+        """The function to call; the executor drives coroutine functions."""
         return self._callback
 
     @callback.setter
@@ -87,6 +87,6 @@ class Entity:
         self._is_async = iscoroutinefunction(value)
 
     def use(self) -> None:
-        """Raise `InvalidHandle` once the entity was destroyed."""
+        """Raise `InvalidHandle` if the entity was destroyed."""
         if self.destroyed:
             raise InvalidHandle(DESTROYED)

@@ -26,7 +26,7 @@ class EventHandler(Entity):
         self._told = False
 
     def happened(self, kind: str, what: Any) -> None:
-        """An event has come; from any thread."""
+        """Record an event; thread-safe."""
         raise NotImplementedError
 
     def _tell(self) -> None:
@@ -34,34 +34,34 @@ class EventHandler(Entity):
         self.notify()
 
     def _info(self) -> Any:
-        """What the callback gets; the changes begin anew."""
+        """The callback's argument; resets the changes."""
         raise NotImplementedError
 
     def pending(self) -> bool:
-        """Whether there is something to tell."""
+        """Whether an event is to be reported."""
         return self._told
 
     def run(self) -> Any:
-        """Call back."""
-        # Before the callback: what happens while it runs is told by the next one.
+        """Run the callback."""
+        # Before the callback: events during it are reported by the next one.
         self._told = False
         result = self._callback(self._info())
         return result if self._is_async else None
 
     def destroy(self) -> None:
-        """Call back no more."""
+        """Stop calling back."""
         self.destroyed = True
         self.detach()
 
 
 class MatchedHandler(EventHandler):
-    """Endpoints came or went that fit."""
+    """Matching endpoints appeared or left."""
 
     kinds = ("matched",)
     _total = _new = _now = _change = 0
 
     def happened(self, kind: str, what: int) -> None:
-        """One came (1) or went (-1)."""
+        """Record that one appeared (1) or left (-1)."""
         self._total += max(0, what)
         self._new += max(0, what)
         self._now += what
@@ -75,14 +75,14 @@ class MatchedHandler(EventHandler):
 
 
 class IncompatibleHandler(EventHandler):
-    """Endpoints came whose profile does not fit."""
+    """Endpoints with an incompatible QoS profile appeared."""
 
     kinds = ("incompatible",)
     _total = _new = 0
     _policy = QoSPolicyKind.INVALID
 
     def happened(self, kind: str, what: str) -> None:
-        """One came that does not fit in a policy."""
+        """Record an endpoint that is incompatible in the policy `what`."""
         self._total += 1
         self._new += 1
         self._policy = QoSPolicyKind[what]
@@ -95,13 +95,13 @@ class IncompatibleHandler(EventHandler):
 
 
 class LostHandler(EventHandler):
-    """Messages did not arrive."""
+    """Messages were lost."""
 
     kinds = ("lost",)
     _total = _new = 0
 
     def happened(self, kind: str, what: int) -> None:
-        """So many were lost."""
+        """Record a number of lost messages."""
         self._total += what
         self._new += what
         self._tell()
@@ -113,14 +113,14 @@ class LostHandler(EventHandler):
 
 
 class TimedHandler(EventHandler):
-    """Events that come about because nothing happens in time."""
+    """Base of handlers of events that occur when something does not happen in time."""
 
     def __init__(self, info_type: Any, callback: Callable[[Any], Any], callback_group: Any) -> None:
         super().__init__(info_type, callback, callback_group)
         self._clock = current().clock
 
     def _due(self) -> int | None:
-        """When (steady ns) the next one comes about."""
+        """The steady time (ns) at which the next event occurs; None without one."""
         raise NotImplementedError
 
     def _arm(self) -> None:
@@ -129,17 +129,17 @@ class TimedHandler(EventHandler):
             sink.arm(self, due)
 
     def attach(self, sink: Any, node_order: int) -> None:
-        """Let an executor serve this from now on."""
+        """Attach the handler to an executor."""
         super().attach(sink, node_order)
         self._arm()
 
     def pending(self) -> bool:
-        """Whether there is something to tell."""
+        """Whether an event is to be reported."""
         due = self._due()
         return self._told or (due is not None and self._clock.steady_ns() >= due)
 
     def run(self) -> Any:
-        """Count what did not happen, and call back."""
+        """Count what did not happen, and run the callback."""
         self._expire(self._clock.steady_ns())
         self._arm()
         return super().run()
@@ -149,7 +149,7 @@ class TimedHandler(EventHandler):
 
 
 class MissedHandler(TimedHandler):
-    """Nothing happened for a while (ns): a deadline, missed again and again, or a lease, which is lost once."""
+    """Nothing happened for a period (ns): a deadline, which is missed repeatedly, or a lease, which is lost once."""
 
     kinds = ("message",)
     _total = _new = 0
@@ -166,7 +166,7 @@ class MissedHandler(TimedHandler):
         return self._next
 
     def happened(self, kind: str, what: Any) -> None:
-        """It happened: the time begins anew."""
+        """Restart the period."""
         self._next = self._clock.steady_ns() + self._period
         self._arm()
 
@@ -183,7 +183,7 @@ class MissedHandler(TimedHandler):
 
 
 class LivelinessHandler(TimedHandler):
-    """Publishers of a topic came, went, fell silent beyond their lease, or were heard again."""
+    """Publishers of a topic appeared, left, were silent beyond their lease, or were heard again."""
 
     kinds = ("alive", "gone", "asserted")
 
@@ -194,7 +194,7 @@ class LivelinessHandler(TimedHandler):
         self._before = 0, 0
 
     def happened(self, kind: str, what: Any) -> None:
-        """A publisher came, went or was heard."""
+        """Record that a publisher appeared, left or was heard."""
         silent = what in self._silent
         if kind == "gone":
             self._alive.pop(what, None)

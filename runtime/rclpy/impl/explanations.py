@@ -24,7 +24,7 @@ _EXPECTED = re.compile(r"expecting type '(\w+)'")
 
 
 def explain(exception: BaseException) -> str | None:
-    """Cause and mend with file and line, for the mistakes known here; None for all others."""
+    """The cause and remedy of a known mistake, with file and line; None for all others."""
     for is_it, text in _KNOWN:
         if is_it(exception):
             return f"{_users_line(exception)}{text}"
@@ -49,7 +49,7 @@ def _no_result(exception: BaseException) -> bool:
 
 
 def _wrong_type(exception: BaseException) -> str:
-    """How the value is written for the type that was declared; only for a person, as rclpy has words of its own."""
+    """How to write a value of the declared type; only on a terminal, as rclpy has its own message."""
     if not isinstance(exception, InvalidParameterTypeException) or not is_read():
         return ""
     found = _EXPECTED.search(str(exception.args[0]))
@@ -64,7 +64,7 @@ _KNOWN: tuple[tuple[Callable[[BaseException], bool], str], ...] = (
 
 
 def _users_line(exception: BaseException) -> str:
-    """`file.py:12: ` of the innermost frame that is not of the runtime; empty where there is none."""
+    """`file.py:12: ` for the innermost frame outside the runtime; empty without one."""
     found = ""
     trace = exception.__traceback__
     while trace is not None:

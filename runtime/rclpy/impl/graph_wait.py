@@ -17,16 +17,16 @@ POLL = NANO // 4
 
 
 def require_valid(context: Any, what: str) -> None:
-    """Raise `RCLError` where the context was shut down: nobody can say then who is there.
+    """Raise `RCLError` if the context was shut down, as the graph is unknown then.
 
-    A loop that asks until somebody is there ends by that, instead of going on for ever.
+    This ends loops that poll for an endpoint, which would never end otherwise.
     """
-    if context.ended and not context.ok():  # ok() lets a pending interrupt come first
+    if context.ended and not context.ok():  # ok() raises a pending interrupt first
         raise RCLError(f"{what}: rcl node's context is invalid")
 
 
 def wait_until_there(node: Any, is_there: Callable[[], bool], timeout_sec: float | None) -> bool:
-    """Block until somebody is there, the time (s) is over or the context was shut down; gives what `is_there` says."""
+    """Block until `is_there()`, a time-out (s) or the context's shutdown; returns the last `is_there()`."""
     clock = current().clock
     deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * NANO)
     wakeup = clock.wakeup()
@@ -40,7 +40,7 @@ def wait_until_there(node: Any, is_there: Callable[[], bool], timeout_sec: float
             now = clock.steady_ns()
             if deadline is not None and now >= deadline:
                 break
-            # The graph wakes this up; the poll is for a shutdown of the context.
+            # Changes of the graph wake this up; the poll notices a shutdown of the context.
             until = now + POLL
             wakeup.wait(until if deadline is None else min(until, deadline))
             wakeup.clear()

@@ -20,9 +20,9 @@ PER_MILLISECOND = 1_000_000
 
 
 class LogFile:
-    """Takes what the loggers of a process say while one of its contexts lasts.
+    """Receives the log messages of a process while any of its contexts exists.
 
-    It is made with the first line, so that a program that says nothing leaves nothing.
+    The file is created with the first message, so that a program that logs nothing leaves none.
     """
 
     def __init__(self) -> None:
@@ -33,9 +33,9 @@ class LogFile:
         self._contexts = 0
 
     def begin(self, arguments: Arguments) -> None:
-        """A context begins; the first one decides on the file. Raises `OSError` where its folder cannot be made.
+        """Register a new context; the first one chooses the file. Raises `OSError` if its folder cannot be created.
 
-        `--log-file-name` is the first part of the name, else that of the interpreter is.
+        The file name begins with `--log-file-name`, or by default with the interpreter's name.
         """
         given = os.environ.get("ROS_LOG_DIR")
         if not self._contexts and given and arguments.external_logs_enabled:
@@ -50,7 +50,7 @@ class LogFile:
         self._contexts += 1
 
     def end(self) -> None:
-        """A context has ended; the last one closes the file."""
+        """Unregister an ended context; the last one closes the file."""
         self._contexts -= 1
         if not self._contexts:
             self._close()
@@ -58,13 +58,13 @@ class LogFile:
     def write(
         self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int, on_rosout: bool
     ) -> None:
-        """Write a message at once; after the first that cannot be written none is."""
+        """Write a message at once; the first failure to write ends the log file."""
         formatter = self._formatter
         if not self.is_wanted or formatter is None:
             return
         try:
             if self._stream is None:
-                os.makedirs(os.path.dirname(self._path), exist_ok=True)  # `--log-file-name` may have folders in it
+                os.makedirs(os.path.dirname(self._path), exist_ok=True)  # `--log-file-name` may contain folders
                 self._stream = open(self._path, "a", 1, "utf-8", "backslashreplace")  # noqa: SIM115 -- until `_close`
             self._stream.write(formatter.line(severity, name, text, file, function, line, stamp_ns, on_rosout) + "\n")
         except (OSError, ValueError) as error:  # a full disk; closed by another thread

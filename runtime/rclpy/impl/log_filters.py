@@ -11,7 +11,7 @@ OPTIONS = ("throttle_duration_sec", "throttle_time_source_type", "skip_first", "
 
 
 def detect(options: dict[str, Any]) -> tuple[str, ...]:
-    """The filters that a call asks for, in their order; raises `TypeError` for other options."""
+    """The filters that a call's options select, in order of application; raises `TypeError` for other options."""
     for name in options:
         if name == "severity":
             raise TypeError("RcutilsLogger.log() got multiple values for argument 'severity'")
@@ -33,7 +33,7 @@ def detect(options: dict[str, Any]) -> tuple[str, ...]:
 
 
 class Site:
-    """What is remembered of one place in a program that logs."""
+    """The state of one logging call site in a program."""
 
     __slots__ = ("_clock", "_done", "_last", "_skipped", "filters", "name", "options", "severity")
 
@@ -47,7 +47,7 @@ class Site:
         self._clock = _clock(options) if "throttle" in filters else None
 
     def allows(self) -> bool:
-        """Whether the filters let this call through."""
+        """Whether the filters let this call pass."""
         return all(getattr(self, f"_{name}")() for name in self.filters)
 
     def _throttle(self) -> bool:
@@ -67,7 +67,7 @@ class Site:
 
 
 def _clock(options: dict[str, Any]) -> AnyClock | None:
-    """The clock that a call names; None where it names none, which means system time."""
+    """The clock that a call's options name; None means system time."""
     if "throttle_time_source_type" not in options:
         return None
     clock = options["throttle_time_source_type"]

@@ -34,7 +34,7 @@ _FIELDS = {
 
 
 class Formatter:
-    """Makes and writes lines; settings as rcutils reads them from the environment."""
+    """Formats and writes log lines; settings as rcutils reads them from the environment."""
 
     def __init__(self, pattern: str, colours: str, *, to_stdout: bool) -> None:
         self._simple = not pattern or pattern == DEFAULT_FORMAT
@@ -45,7 +45,7 @@ class Formatter:
 
     @classmethod
     def of_environment(cls, *, enveloped: bool = True) -> Formatter:
-        """The formatter that the calling process's environment asks for; lines of a file have no envelope."""
+        """The formatter configured by the calling process's environment; lines of a file have no envelope."""
         environment = os.environ
         put = _in_envelope if enveloped else _out_of_envelope
         return cls(
@@ -65,10 +65,10 @@ class Formatter:
         stamp_ns: int,
         on_rosout: bool = False,
     ) -> str:
-        """One message as it is printed, without colours and line end; `on_rosout` says whether it went there too."""
+        """One formatted message, without colours and line end; `on_rosout` says whether `/rosout` got it, too."""
         seconds, nanoseconds = divmod(stamp_ns, NANO)
         level = NAMES.get(severity, "UNKNOWN")
-        # The usual format without a template: half the time of a log line.
+        # The default format without a template: halves the time of a log line.
         if self._simple:
             return f"[{level}] [{seconds:010d}.{nanoseconds:09d}] [{name}]: {text}"
         dated = _dated(seconds, nanoseconds) if self._dated else ""
@@ -104,20 +104,20 @@ class Formatter:
 
 
 def _in_envelope(pattern: str, envelope: str) -> str:
-    """The pattern, put into the envelope unless it is in it already."""
+    """Wrap the pattern in the envelope, unless it is wrapped already."""
     if not envelope or pattern.startswith(envelope.partition("{line}")[0]):
         return pattern
     return envelope.replace("{line}", pattern or DEFAULT_FORMAT)
 
 
 def _out_of_envelope(pattern: str, envelope: str) -> str:
-    """The pattern that was put into the envelope."""
+    """Unwrap the pattern from the envelope."""
     before, _, after = envelope.partition("{line}")
     return pattern.removeprefix(before).removesuffix(after) if pattern.startswith(before) else pattern
 
 
 def _template(pattern: str) -> str:
-    """The pattern as a template of `str.format`."""
+    """Convert the pattern to a template of `str.format`."""
     for written, meant in _ESCAPES.items():
         pattern = pattern.replace(written, meant)
     parts: list[str] = []

@@ -42,7 +42,7 @@ class LogState:
         self.effective.clear()
 
     def obey(self, arguments: Arguments) -> None:
-        """Take the log levels and switches of a context's command line."""
+        """Apply the log levels and switches of a context's command line."""
         for name, level in arguments.logger_levels.items():
             self.set_level(name, level)
         if arguments.default_level is not None:
@@ -65,9 +65,9 @@ class LogState:
         return self.default or INFO
 
     def say(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> None:
-        """Write a line to `/rosout`, to the console, which is told whether that was done, and to the log file."""
+        """Write a message to `/rosout`, the console and the log file."""
         publish = self.rosout.get(name)
-        # First to the graph: the printed line says whether that was done.
+        # First to `/rosout`: the formatted line can say whether that was done.
         sent = publish is not None and publish(severity, name, text, file, function, line, stamp_ns)
         if self.stdout:
             self.formatter.write(severity, name, text, file, function, line, stamp_ns, sent)
@@ -80,7 +80,7 @@ state = _state.get
 
 
 def logging_directory() -> str:
-    """Where log files would lie: `ROS_LOG_DIR`, else `log` below `ROS_HOME`, else `~/.ros/log`."""
+    """The folder for log files: `ROS_LOG_DIR`, else `log` in `ROS_HOME`, else `~/.ros/log`."""
     given = os.environ.get("ROS_LOG_DIR")
     if given:
         return os.path.abspath(os.path.expanduser(given))
@@ -89,11 +89,11 @@ def logging_directory() -> str:
 
 
 def reset() -> None:
-    """Forget the calling process's levels and read its environment again; its log file goes on."""
+    """Reset the calling process's levels and read its environment again; its log file remains."""
     _state.set(LogState(state().log_file))
 
 
 def forget_rosout(found: LogState, say: Any) -> None:
-    """Take a publisher of `/rosout` away from every logger that used it."""
+    """Remove a publisher of `/rosout` from every logger that uses it."""
     for name in [name for name, each in found.rosout.items() if each == say]:
         del found.rosout[name]

@@ -18,14 +18,14 @@ from bot_console.runtime.rmw.parameter_types import (
 FIELDS = {code: each.field for code, each in BY_CODE.items()}
 """The field of `ParameterValue` that holds a value of each type."""
 
-# tuples, because they are gone through at each value that is declared or set
+# tuples, because they are iterated over for each value that is declared or set
 _SCALARS = tuple((each.python, each.code) for each in SCALARS)
 _ELEMENTS = tuple((each.python, each.code) for each in ARRAYS)
 _NUMERIC_LISTS = frozenset((INTEGER_ARRAY.code, DOUBLE_ARRAY.code))
 
 
 def infer(value: Any) -> int:
-    """The type that a value stands for; an empty list is a byte array. Raises `TypeError` where it stands for none."""
+    """The parameter type of a value; an empty list is a byte array. Raises `TypeError` for a value of no such type."""
     if value is None:
         return NOT_SET
     for kind, code in _SCALARS:

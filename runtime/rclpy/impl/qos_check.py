@@ -12,7 +12,7 @@ _MISSPELT = {"durability": "durabilty"}
 
 
 def errors(publisher: Any, subscription: Any) -> list[str]:
-    """What keeps messages from flowing."""
+    """The reasons why two profiles are incompatible."""
     found: list[str] = []
     reliability = publisher.reliability, subscription.reliability
     if reliability == (ReliabilityPolicy.BEST_EFFORT, ReliabilityPolicy.RELIABLE):
@@ -40,7 +40,7 @@ def _duration(offered: Any, requested: Any, what: str, other: str) -> list[str]:
 
 
 def warnings(publisher: Any, subscription: Any) -> list[str]:
-    """What may keep messages from flowing, as a default of the middleware decides."""
+    """The reasons why two profiles may be incompatible, depending on a default of the middleware."""
     found = _unsure("reliability", publisher.reliability, subscription.reliability, "RELIABLE", "BEST_EFFORT")
     found += _unsure("durability", publisher.durability, subscription.durability, "TRANSIENT_LOCAL", "VOLATILE")
     found += _unsure("liveliness", publisher.liveliness, subscription.liveliness, "MANUAL_BY_TOPIC", "AUTOMATIC")

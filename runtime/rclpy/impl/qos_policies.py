@@ -10,7 +10,7 @@ from rclpy.impl.named_enum import NamedIntEnum
 
 
 class QoSPolicyEnumMeta(EnumMeta):
-    """Still answers to the names of ROS 2 Dashing, with a warning."""
+    """Accepts the deprecated member names of ROS 2 Dashing, with a warning."""
 
     def __getattr__(cls, name: str) -> Any:
         prefix = cls.__dict__.get("_deprecated_prefix")
@@ -31,12 +31,12 @@ class QoSPolicyEnum(IntEnum, metaclass=QoSPolicyEnumMeta):
 
     @classmethod
     def get_from_short_key(cls, name: str) -> int:
-        """The number of a member; raises `KeyError`."""
+        """The number of the member with that key; raises `KeyError`."""
         return cls[name.upper()].value
 
     @property
     def short_key(self) -> str:
-        """The key of this member; raises `AttributeError` where it has none."""
+        """The key of this member; raises `AttributeError` if it has none."""
         return self.name.lower()
 
 
@@ -50,7 +50,7 @@ class HistoryPolicy(QoSPolicyEnum):
 
 
 class ReliabilityPolicy(QoSPolicyEnum):
-    """Whether lost messages are sent again."""
+    """Whether lost messages are retransmitted."""
 
     SYSTEM_DEFAULT = 0
     RELIABLE = 1
@@ -60,7 +60,7 @@ class ReliabilityPolicy(QoSPolicyEnum):
 
 
 class DurabilityPolicy(QoSPolicyEnum):
-    """Whether subscriptions that come late get the messages of before."""
+    """Whether late subscriptions receive earlier messages."""
 
     SYSTEM_DEFAULT = 0
     TRANSIENT_LOCAL = 1

@@ -27,7 +27,7 @@ class RcutilsLogger:
         self._sites: dict[tuple[str, str, int, int], Site] = {}
 
     def get_child(self, name: str) -> RcutilsLogger:
-        """The logger `<this>.<name>`; raises `ValueError` for empty names, `TypeError` for what is no text."""
+        """The logger `<this>.<name>`; raises `ValueError` for an empty name, `TypeError` for anything but a string."""
         if not self.name:
             raise ValueError("Logger name must not be empty.")
         if not name:
@@ -39,11 +39,11 @@ class RcutilsLogger:
         return child
 
     def set_level(self, level: LoggingSeverity | int) -> None:
-        """Set the least severity that is logged; raises `ValueError` for a number that is none."""
+        """Set the lowest severity that is logged; raises `ValueError` for an invalid number."""
         state().set_level(self.name, LoggingSeverity(level))
 
     def get_effective_level(self) -> LoggingSeverity:
-        """The least severity that is logged."""
+        """The lowest severity that is logged."""
         return LoggingSeverity(state().effective_level(self.name))
 
     def is_enabled_for(self, severity: LoggingSeverity | int) -> bool:
@@ -51,15 +51,15 @@ class RcutilsLogger:
         return LoggingSeverity(severity) >= state().effective_level(self.name)
 
     def debug(self, message: str, **kwargs: Any) -> bool:
-        """Log for those who look for a fault."""
+        """Log a message for debugging."""
         return self._log(message, DEBUG, kwargs)
 
     def info(self, message: str, **kwargs: Any) -> bool:
-        """Log what is going on."""
+        """Log what the program is doing."""
         return self._log(message, INFO, kwargs)
 
     def warning(self, message: str, **kwargs: Any) -> bool:
-        """Log what may become a fault."""
+        """Log a possible problem."""
         return self._log(message, WARN, kwargs)
 
     def warn(self, message: str, **kwargs: Any) -> bool:
@@ -67,11 +67,11 @@ class RcutilsLogger:
         return self._log(message, WARN, kwargs)
 
     def error(self, message: str, **kwargs: Any) -> bool:
-        """Log a fault."""
+        """Log an error."""
         return self._log(message, ERROR, kwargs)
 
     def fatal(self, message: str, **kwargs: Any) -> bool:
-        """Log a fault that ends the program."""
+        """Log an error that ends the program."""
         return self._log(message, FATAL, kwargs)
 
     def log(self, message: str, severity: LoggingSeverity | int, **kwargs: Any) -> bool:
@@ -83,11 +83,11 @@ class RcutilsLogger:
         name = self.name
         if severity < (shared.effective.get(self.name) or shared.effective_level(self.name)):
             return False
-        # The caller of `info` and the like, which call this.
+        # The caller of `info` and the like, which call this method.
         frame = _frame(2)
         code = frame.f_code
         line = frame.f_lineno
-        # With `f_lasti`, as two calls may stand on one line.
+        # With `f_lasti`, as there may be two calls on one line.
         key = (code.co_name, code.co_filename, line, frame.f_lasti)
         site = self._sites.get(key)
         if options:
@@ -117,7 +117,7 @@ def _check_unchanged(site: Site, options: dict[str, Any]) -> None:
 
 
 def _text(message: Any) -> str:
-    """What the C layer takes for a text besides strings."""
+    """Convert a message that is not a plain `str` as upstream's C layer does."""
     if message is None:
         return "(null)"
     if isinstance(message, str):

@@ -103,7 +103,7 @@ _WITH_NODE = [
 
 
 def reexporting(module: str, names: str) -> Callable[[str], Any]:
-    """The `__getattr__` of a module that gives these names, and the C extension as `_rclpy`."""
+    """A module-level `__getattr__` that re-exports these names, and the C extension as `_rclpy`."""
     known = frozenset(names.split())
 
     def find(name: str) -> Any:
@@ -118,7 +118,7 @@ def reexporting(module: str, names: str) -> Callable[[str], Any]:
 
 
 def submodule(name: str) -> Any:
-    """The module `rclpy.<name>` where upstream has loaded it by now, be it that the program has not imported it."""
+    """The module `rclpy.<name>` if upstream would have loaded it by now, even without an import by the program."""
     if name in _WITH_RCLPY or (name in _WITH_NODE and "rclpy.node" in sys.modules):
         return import_module(f"rclpy.{name}")
     raise AttributeError(f"module 'rclpy' has no attribute {name!r}")

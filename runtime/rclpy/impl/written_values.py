@@ -6,12 +6,12 @@ from typing import Any
 
 
 def value_text(value: Any) -> str:
-    """A value as YAML has it."""
+    """A value as written in YAML."""
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def written(name: str, value: str, expected: str, given: str) -> str:
-    """How a value is written for a type, both types by their names in `rclpy.Parameter.Type`."""
+    """A hint how to write a value for the expected type; type names as in `rclpy.Parameter.Type`."""
     if (expected, given) == ("DOUBLE", "INTEGER"):
         point = f"{value}.0" if value.lstrip("+-").isdecimal() else "it with a point"
         return f"{name} is a double, which takes no integer: write {point}"

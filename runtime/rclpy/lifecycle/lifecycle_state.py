@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 
 class LifecycleState(NamedTuple):
-    """A state, as transition callbacks get it."""
+    """A lifecycle state, as passed to transition callbacks."""
 
     label: str
     state_id: int

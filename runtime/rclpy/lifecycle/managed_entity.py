@@ -11,7 +11,7 @@ from rclpy.lifecycle.transition_callback_return import TransitionCallbackReturnT
 
 
 class ManagedEntity:
-    """Takes part in the transitions of its node; each callback gets the state that the node comes from."""
+    """Takes part in the transitions of its node; each callback gets the state that the node leaves."""
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """The node is being configured."""
@@ -39,18 +39,18 @@ class ManagedEntity:
 
 
 class SimpleManagedEntity(ManagedEntity):
-    """Knows whether its node is active."""
+    """A managed entity that knows whether its node is active."""
 
     def __init__(self) -> None:
         self._enabled = False
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """From now on enabled."""
+        """Enable the entity."""
         self._enabled = True
         return TransitionCallbackReturn.SUCCESS
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """No longer enabled."""
+        """Disable the entity."""
         self._enabled = False
         return TransitionCallbackReturn.SUCCESS
 
@@ -63,7 +63,7 @@ class SimpleManagedEntity(ManagedEntity):
     def when_enabled(
         wrapped: Callable[..., Any] | None = None, *, when_not_enabled: Callable[[], Any] | None = None
     ) -> Any:
-        """Decorate a method so that it does nothing, or calls `when_not_enabled`, while the node is not active."""
+        """Decorate a method to do nothing, or to call `when_not_enabled`, while the node is not active."""
 
         def decorate(method: Callable[..., Any]) -> Callable[..., None]:
             @wraps(method)

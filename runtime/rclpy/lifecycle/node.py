@@ -25,9 +25,9 @@ _SHUTDOWNS = {
 
 
 class LifecycleNodeMixin(ManagedEntity):
-    """What makes a node a managed one; only for inheritance together with `Node`.
+    """The mix-in that makes a node a managed one; only for inheritance together with `Node`.
 
-    The default transition callbacks ask all managed entities, up to the first that does not say SUCCESS.
+    The default transition callbacks call those of the managed entities, up to the first that does not return SUCCESS.
     """
 
     _logger: Any
@@ -75,7 +75,7 @@ class LifecycleNodeMixin(ManagedEntity):
         return self.__change_state(transition)
 
     def __change_state(self, transition_id: int) -> TransitionCallbackReturn:
-        """Enter the transition state, call back, and go where the callback's answer leads."""
+        """Enter the transition state, run the callback, and make the transition that its return value selects."""
         machine = self._state_machine
         number, label = machine.current_state
         before = LifecycleState(label=label, state_id=number)
@@ -87,11 +87,11 @@ class LifecycleNodeMixin(ManagedEntity):
         return answer
 
     def __call_back(self, before: LifecycleState) -> TransitionCallbackReturn:
-        """Call what belongs to the current transition state."""
+        """Run the callback of the current transition state."""
         callback = self._callbacks[self._state_machine.current_state[0]]
         try:
             return callback(before)
-        except Exception as error:  # the border to a callback: upstream makes it an ERROR in silence, here it is told
+        except Exception as error:  # boundary of a user callback: an ERROR as upstream, but not a silent one
             place = traceback.extract_tb(error.__traceback__)[-1]
             name = getattr(callback, "__name__", repr(callback))
             self._logger.warning(
@@ -121,7 +121,7 @@ class LifecycleNodeMixin(ManagedEntity):
         return self.__ask_entities("on_deactivate", state)
 
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """A transition has ended in an error; SUCCESS leads back to unconfigured, all else to finalized."""
+        """A transition has ended in an error; SUCCESS leads back to unconfigured, anything else to finalized."""
         return self.__ask_entities("on_error", state)
 
     def __ask_entities(self, name: str, state: LifecycleState) -> TransitionCallbackReturn:
@@ -143,7 +143,7 @@ class LifecycleNodeMixin(ManagedEntity):
         self._managed_entities[entity] = None
 
     def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
-        """Make a publisher that is silent while the node is not active; arguments as of `create_publisher`."""
+        """Create a publisher that is silent while the node is not active; arguments as for `create_publisher`."""
         if "publisher_class" in kwargs:
             raise TypeError("create_publisher() got an unexpected keyword argument 'publisher_class'")
         publisher: Any = Node.create_publisher(self, *args, **kwargs, publisher_class=LifecyclePublisher)  # type: ignore[arg-type] -- the mixin is always part of a Node
@@ -151,13 +151,13 @@ class LifecycleNodeMixin(ManagedEntity):
         return publisher
 
     def destroy_lifecycle_publisher(self, publisher: LifecyclePublisher) -> bool:
-        """Destroy such a publisher; whether it was one of this node."""
+        """Destroy a lifecycle publisher; returns whether it was one of this node's."""
         self._managed_entities.pop(publisher, None)
         return Node.destroy_publisher(self, publisher)  # type: ignore[arg-type] -- the mixin is always part of a Node
 
 
 class LifecycleNode(LifecycleNodeMixin, Node):
-    """A managed node: its state starts as unconfigured, and others change it by its services."""
+    """A managed node: it starts as unconfigured, and others change its state through its services."""
 
     def __init__(self, node_name: str, *, enable_communication_interface: bool = True, **kwargs: Any) -> None:
         Node.__init__(self, node_name, **kwargs)

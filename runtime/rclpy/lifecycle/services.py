@@ -37,7 +37,7 @@ class LifecycleServices:
         )
 
     def _on_change_state(self, request: Any, response: Any) -> Any:
-        """A label wins over an id; an unknown label is no success, an id that does not fit raises out of spin."""
+        """Serve a request: a label precedes an id; an unknown label fails, an invalid id raises out of spin."""
         transition = request.transition.id
         if request.transition.label:
             try:
@@ -68,7 +68,7 @@ class LifecycleServices:
 
 def _serve(node: Any, kind: Any, name: str, callback: Callable[..., Any], group: Any) -> Any:
     service = node.create_service(kind, f"~/{name}", callback, callback_group=group)
-    # Upstream makes these in rcl, where only the full name is known.
+    # Upstream creates these in rcl, where only the full name is known.
     service.srv_name = service.service_name
     return service
 

@@ -20,7 +20,7 @@ Described = tuple[int, str, int, str, int, str]
 
 
 class LifecycleStateMachine:
-    """Knows the current state, and tells the topic `~/transition_event` of each change."""
+    """Holds the current state, and publishes each change on the topic `~/transition_event`."""
 
     def __init__(self, node: Any, enable_com_interface: bool) -> None:
         if not isinstance(enable_com_interface, bool):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
@@ -36,7 +36,7 @@ class LifecycleStateMachine:
 
     @property
     def initialized(self) -> bool:
-        """Whether the machine can be used: from the start."""
+        """Whether the machine can be used: always."""
         return True
 
     @property
@@ -67,11 +67,11 @@ class LifecycleStateMachine:
         return found.id
 
     def trigger_transition_by_id(self, transition_id: int, publish_update: bool) -> None:
-        """Make a transition; raises `RCLError` for one that does not start in the current state."""
+        """Make a transition; raises `RCLError` for one that does not start from the current state."""
         self._trigger(self._find(lambda each: each.id == transition_id, transition_id), publish_update)
 
     def trigger_transition_by_label(self, label: str, publish_update: bool) -> None:
-        """Make a transition; raises `RCLError` for one that does not start in the current state."""
+        """Make a transition; raises `RCLError` for one that does not start from the current state."""
         self._trigger(self._find(lambda each: each.label == label, label), publish_update)
 
     def _valid(self) -> list[TransitionRow]:

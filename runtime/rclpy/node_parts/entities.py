@@ -68,7 +68,7 @@ class NodeEntities:
             entity.detach()
 
     def _ros_enter(self, entity: Any, group: Any) -> None:
-        """Let a new entity belong to this node, to its group, and to the executor that serves the node."""
+        """Register a new entity with this node, its callback group, and the node's executor."""
         self._ros_entities[entity] = None
         group.add_entity(entity)
         if self._ros_sink is not None:
@@ -103,7 +103,7 @@ class NodeEntities:
         qos_overriding_options: Any = None,
         publisher_class: type[Publisher] = Publisher,
     ) -> Publisher:
-        """Make a publisher; a number as QoS is a history depth."""
+        """Create a publisher; an integer as QoS is a history depth."""
         qos = self._ros_profile(qos_profile)
         group = self._ros_group(callback_group)
         self._ros_may_create("publisher")
@@ -133,7 +133,7 @@ class NodeEntities:
         qos_overriding_options: Any = None,
         raw: bool = False,
     ) -> Subscription:
-        """Make a subscription; the callback takes (message) or (message, info), bytes with `raw`."""
+        """Create a subscription; the callback takes (message) or (message, info), with `raw` the message as bytes."""
         qos = self._ros_profile(qos_profile)
         group = self._ros_group(callback_group)
         self._ros_may_create("subscription")
@@ -150,7 +150,7 @@ class NodeEntities:
         for handler in handlers:
             self._ros_enter(handler, group)
         self._ros_enter(subscription, group)
-        # Last: from here on messages come, and the executor must know whose they are.
+        # Last: from here on messages arrive, and the executor must know the subscription.
         self._ros_bus.create_subscription(subscription.endpoint)
         return subscription
 
@@ -174,7 +174,7 @@ class NodeEntities:
         qos_profile: QoSProfile = qos_profile_services_default,
         callback_group: Any = None,
     ) -> Service:
-        """Make a service server; the callback takes (request, response) and returns a response."""
+        """Create a service server; the callback takes (request, response) and returns a response."""
         group = self._ros_group(callback_group)
         self._ros_may_create("service")
         check_is_valid_srv_type(srv_type)
@@ -194,7 +194,7 @@ class NodeEntities:
         qos_profile: QoSProfile = qos_profile_services_default,
         callback_group: Any = None,
     ) -> Client:
-        """Make a service client."""
+        """Create a service client."""
         group = self._ros_group(callback_group)
         self._ros_may_create("client")
         check_is_valid_srv_type(srv_type)
@@ -214,7 +214,7 @@ class NodeEntities:
         clock: Any = None,
         autostart: bool = True,
     ) -> Timer:
-        """Make a timer (s) on a clock, the node's own by default."""
+        """Create a timer with a period (s) of a clock, the node's own by default."""
         period = int(float(timer_period_sec) * NANO)
         group = self._ros_group(callback_group)
         self.context.require_running("timer")
@@ -223,7 +223,7 @@ class NodeEntities:
         return timer
 
     def create_guard_condition(self, callback: Callable[[], Any] | None, callback_group: Any = None) -> GuardCondition:
-        """Make a guard condition."""
+        """Create a guard condition."""
         group = self._ros_group(callback_group)
         self.context.require_running("guard_condition")
         guard = GuardCondition(callback, group, context=self.context)
@@ -231,7 +231,7 @@ class NodeEntities:
         return guard
 
     def create_rate(self, frequency: float, clock: Any = None) -> Rate:
-        """Make a rate (Hz); it ticks while another thread serves the node."""
+        """Create a rate (Hz); it ticks while another thread spins the node."""
         if frequency <= 0:
             raise ValueError("frequency must be > 0")
         timer = self.create_timer(1.0 / frequency, None, ReentrantCallbackGroup(), clock)
@@ -240,15 +240,15 @@ class NodeEntities:
         return rate
 
     def add_waitable(self, waitable: Any) -> None:
-        """Let executors serve a waitable."""
+        """Add a waitable to the node."""
         self._ros_waitables[waitable] = None
 
     def remove_waitable(self, waitable: Any) -> None:
-        """Let executors serve a waitable no more."""
+        """Remove a waitable from the node."""
         self._ros_waitables.pop(waitable, None)
 
     def destroy_publisher(self, publisher: Publisher) -> bool:
-        """Destroy a publisher; whether it was one of this node."""
+        """Destroy a publisher; returns whether it was one of this node's."""
         if publisher not in self._ros_publishers:
             return False
         del self._ros_publishers[publisher]
@@ -267,27 +267,27 @@ class NodeEntities:
         return True
 
     def destroy_subscription(self, subscription: Subscription) -> bool:
-        """Destroy a subscription; whether it was one of this node."""
+        """Destroy a subscription; returns whether it was one of this node's."""
         return self._ros_destroy(subscription, Subscription)
 
     def destroy_client(self, client: Client) -> bool:
-        """Destroy a client; whether it was one of this node."""
+        """Destroy a client; returns whether it was one of this node's."""
         return self._ros_destroy(client, Client)
 
     def destroy_service(self, service: Service) -> bool:
-        """Destroy a service; whether it was one of this node."""
+        """Destroy a service; returns whether it was one of this node's."""
         return self._ros_destroy(service, Service)
 
     def destroy_timer(self, timer: Timer) -> bool:
-        """Destroy a timer; whether it was one of this node."""
+        """Destroy a timer; returns whether it was one of this node's."""
         return self._ros_destroy(timer, Timer)
 
     def destroy_guard_condition(self, guard: GuardCondition) -> bool:
-        """Destroy a guard condition; whether it was one of this node."""
+        """Destroy a guard condition; returns whether it was one of this node's."""
         return self._ros_destroy(guard, GuardCondition)
 
     def destroy_rate(self, rate: Rate) -> bool:
-        """Destroy a rate; whether it was one of this node."""
+        """Destroy a rate; returns whether it was one of this node's."""
         timer = self._ros_rates.pop(rate, None)
         if timer is None:
             return False
@@ -299,7 +299,7 @@ class NodeEntities:
 
     @property
     def publishers(self) -> Any:
-        """The node's publishers, without that of its log lines."""
+        """The node's publishers, except that of `/rosout`."""
         rosout = None if self._ros_rosout is None else self._ros_rosout.publisher
         yield from [each for each in self._ros_publishers if each is not rosout]
 
@@ -335,13 +335,13 @@ class NodeEntities:
 
 
 def _check_service_qos(profile: object) -> None:
-    """Raise where a service's QoS is no profile: a number stands for a depth with topics only."""
+    """Raise `AttributeError` unless a service's QoS is a profile: only topics accept a depth."""
     if not isinstance(profile, QoSProfile):
         raise AttributeError(f"'{type(profile).__name__}' object has no attribute 'get_c_qos_profile'")
 
 
 def _teller(handlers: list[Any]) -> OnEvent:
-    """What tells the handlers of an event of the bus."""
+    """A function that passes an event of the bus to the handlers of its kind."""
 
     def tell(kind: Event, what: Any) -> None:
         for handler in handlers:
@@ -352,7 +352,7 @@ def _teller(handlers: list[Any]) -> OnEvent:
 
 
 def _listener(handlers: list[Any]) -> Callable[[], None] | None:
-    """What tells the handlers that watch messages of one; None where there are none, as messages are frequent."""
+    """A function that passes a message event to its handlers; None without any, as messages are frequent."""
     watching = [handler for handler in handlers if "message" in handler.kinds]
     return partial(_teller(watching), "message", None) if watching else None
 

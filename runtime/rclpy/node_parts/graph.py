@@ -32,7 +32,7 @@ class NodeGraph:
         )
 
     def get_service_names_and_types(self) -> NamesAndTypes:
-        """All services with their types, by name; those that only clients know count.
+        """All services with their types, by name, including those that only have clients.
 
         Raises `RCLError` after a shutdown of the context.
         """
@@ -69,24 +69,24 @@ class NodeGraph:
     def get_publisher_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
-        """What a node publishes; raises `NodeNameNonExistentError`."""
+        """The topics that a node publishes, with types; raises `NodeNameNonExistentError`."""
         owner = self._ros_who("publisher", node_name, node_namespace)
         return collect(pair for each in self._ros_bus.tables() for pair in each.publishers.of(owner))
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
-        """What a node subscribes to; raises `NodeNameNonExistentError`."""
+        """The topics that a node subscribes to, with types; raises `NodeNameNonExistentError`."""
         owner = self._ros_who("subscriber", node_name, node_namespace)
         return collect(pair for each in self._ros_bus.tables() for pair in each.subscriptions.of(owner))
 
     def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
-        """What services a node offers; raises `NodeNameNonExistentError`."""
+        """The services that a node offers, with types; raises `NodeNameNonExistentError`."""
         owner = self._ros_who("service", node_name, node_namespace)
         return collect(pair for each in self._ros_bus.tables() for pair in each.servers.of(owner))
 
     def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
-        """What services a node asks; raises `NodeNameNonExistentError`."""
+        """The services that a node is a client of, with types; raises `NodeNameNonExistentError`."""
         owner = self._ros_who("client", node_name, node_namespace)
         return collect(pair for each in self._ros_bus.tables() for pair in each.clients.of(owner))
 
@@ -94,7 +94,7 @@ class NodeGraph:
         return [node for each in self._ros_bus.tables() for node in each.nodes()]
 
     def _ros_who(self, what: str, name: str, namespace: str) -> Owner:
-        """Whom a question is about; raises `RCLError` for what can be no node, and `NodeNameNonExistentError`."""
+        """The node that a query concerns; raises `RCLError` for an invalid name, and `NodeNameNonExistentError`."""
         self._ros_use()
         require_valid(self.context, f"failed to get {what} names and types")
         owner = name, namespace or "/"
@@ -109,25 +109,25 @@ class NodeGraph:
         raise NodeNameNonExistentError(f"cannot get {what} names and types for nonexistent node: error not set")
 
     def count_publishers(self, topic_name: str) -> int:
-        """How many publishers a topic has; the name is expanded but not remapped."""
+        """The number of publishers of a topic; the name is expanded but not remapped."""
         require_valid(self.context, "Error in rcl_count_publishers")
         name = expand_name(self, topic_name)
         return sum(len(each.publishers.on(name)) for each in self._ros_bus.tables())
 
     def count_subscribers(self, topic_name: str) -> int:
-        """How many subscriptions a topic has; the name is expanded but not remapped."""
+        """The number of subscriptions of a topic; the name is expanded but not remapped."""
         require_valid(self.context, "Error in rcl_count_subscribers")
         name = expand_name(self, topic_name)
         return sum(len(each.subscriptions.on(name)) for each in self._ros_bus.tables())
 
     def count_clients(self, service_name: str) -> int:
-        """How many clients a service has; the name is expanded but not remapped."""
+        """The number of clients of a service; the name is expanded but not remapped."""
         require_valid(self.context, "Error in rcl_count_clients")
         name = expand_name(self, service_name, service=True)
         return sum(len(each.clients.on(name)) for each in self._ros_bus.tables())
 
     def count_services(self, service_name: str) -> int:
-        """How many servers a service has; the name is expanded but not remapped."""
+        """The number of servers of a service; the name is expanded but not remapped."""
         require_valid(self.context, "Error in rcl_count_services")
         name = expand_name(self, service_name, service=True)
         return sum(len(each.servers.on(name)) for each in self._ros_bus.tables())
@@ -165,7 +165,7 @@ class NodeGraph:
         ]
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
-        """Whether a node is there, or comes within the time (s); a name without a slash is one of the root."""
+        """Whether a node exists, or appears within a time-out (s); a name without a slash is in the root namespace."""
         full_name = f"/{fully_qualified_node_name.removeprefix('/')}"
         return wait_until_there(self, lambda: full_name in self.get_fully_qualified_node_names(), timeout)
 

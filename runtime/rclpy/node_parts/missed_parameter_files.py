@@ -14,10 +14,10 @@ HIDDEN = "_"
 
 
 def missed_files(table: ParameterTable, node: str, others: Collection[str]) -> Iterator[str]:
-    """A line for each file in which a node, by its full name, has no key, and whose key for it seems to be mistyped.
+    """Yield a line for each file that has no key for a node (full name), but one that seems to be mistyped.
 
-    A file for many nodes may well leave one out: told is where a key that means none of the `others` of the process
-    (full names) looks like the node's name, or is all that the file has.
+    A file for many nodes may well omit one: a file is reported if a key that matches none of the process's `others`
+    (full names) resembles the node's name, or is the only key of the file.
     """
     if node.rpartition("/")[2].startswith(HIDDEN):
         return
@@ -40,7 +40,7 @@ def _keys_by_file(table: ParameterTable) -> dict[str, list[str]]:
 
 
 def _nearest(node: str, keys: list[str]) -> str:
-    from difflib import get_close_matches  # where something was missed, which most programs never do
+    from difflib import get_close_matches  # imported late: only a mistyped key needs it
 
     by_name = {key.rpartition("/")[2]: key for key in keys if "*" not in key}
     found = get_close_matches(node.rpartition("/")[2], by_name, 1)

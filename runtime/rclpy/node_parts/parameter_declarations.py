@@ -24,9 +24,9 @@ TYPE_AND_DYNAMIC = (
 def read_declaration(
     index: int, declaration: Sequence[Any], namespace: str, overrides: Mapping[str, Parameter]
 ) -> tuple[Parameter, Any]:
-    """The parameter, with the value of its override where there is one, and the descriptor that a tuple declares.
+    """The parameter, with the value of its override if there is one, and the descriptor that a tuple declares.
 
-    The type that the tuple means is written into the descriptor. Raises `TypeError`, `ValueError` and
+    The declared type is written into the descriptor. Raises `TypeError`, `ValueError` and
     `InvalidParameterException`.
     """
     if not 1 <= len(declaration) <= 3:
@@ -71,7 +71,7 @@ def _descriptor(index: int, declaration: Sequence[Any]) -> Any:
 
 
 def _set_type(name: str, wanted: Parameter.Type, descriptor: Any) -> None:
-    """Declare by type alone."""
+    """Set the descriptor's type to a declared type; raises `ValueError`."""
     if wanted == Parameter.Type.NOT_SET:
         raise ValueError(f"Cannot declare parameter {{{name}}} as statically typed of type NOT_SET")
     if descriptor.dynamic_typing is True:
@@ -80,7 +80,7 @@ def _set_type(name: str, wanted: Parameter.Type, descriptor: Any) -> None:
 
 
 def _infer_type(default: Any, descriptor: Any) -> None:
-    """Declare by a default value; with dynamic typing the type follows the values."""
+    """Set the descriptor's type to that of a default value, except with dynamic typing; raises `ValueError`."""
     from rcl_interfaces.msg import ParameterValue
 
     if descriptor.dynamic_typing:

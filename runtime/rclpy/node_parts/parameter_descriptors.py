@@ -9,9 +9,9 @@ from bot_console.runtime.rmw.parameter_types import DOUBLE, INTEGER, NOT_SET
 
 
 def refusal(parameter: Any, descriptor: Any, *, check_read_only: bool, declared: bool, tolerance: float) -> str | None:
-    """Check a parameter against a descriptor, which takes over its name and, with dynamic typing, its type.
+    """Why a descriptor forbids a parameter, or None; sets the descriptor's name and, with dynamic typing, its type.
 
-    `declared` tells whether the parameter exists already, `tolerance` is the relative one of the ranges of doubles.
+    `declared` says whether the parameter exists already; `tolerance` is the relative tolerance of ranges of doubles.
     """
     name, code = parameter._name, parameter._type_._value_
     descriptor.name = name
@@ -33,7 +33,7 @@ def refusal(parameter: Any, descriptor: Any, *, check_read_only: bool, declared:
 
 
 def _outside_integers(name: str, value: int, allowed: Any) -> str | None:
-    """The ends are always allowed; steps count from the lower end."""
+    """Why an integer is out of range, or None: both ends are always allowed; steps count from the lower end."""
     low, high = sorted((allowed.from_value, allowed.to_value))
     if value in (low, high):
         return None
@@ -48,7 +48,7 @@ def _outside_integers(name: str, value: int, allowed: Any) -> str | None:
 
 
 def _outside_doubles(name: str, value: float, allowed: Any, tolerance: float) -> str | None:
-    """As for integers, with a relative tolerance at the ends and at each step."""
+    """The same for a double, with a relative tolerance at the ends and at each step."""
     low, high = allowed.from_value, allowed.to_value
     if low > high:
         low, high = high, low

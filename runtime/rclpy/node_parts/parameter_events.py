@@ -20,7 +20,7 @@ NANO = 1_000_000_000
 
 
 def parameter_event(node: str, now: int, new: list[Any], changed: list[Any], deleted: list[Any]) -> ParameterEvent:
-    """The event of a node (full name) at a time (ns)."""
+    """The parameter event of a node (full name) at a time (ns)."""
     seconds, nanoseconds = divmod(now, NANO)
     return ParameterEvent(
         stamp=Time(sec=seconds, nanosec=nanoseconds, check_fields=False),
@@ -33,10 +33,10 @@ def parameter_event(node: str, now: int, new: list[Any], changed: list[Any], del
 
 
 def check_carried(parameter: Parameter) -> None:
-    """Raise `FieldTypeError` where `event_parameter` would, without a message for what goes as it is.
+    """Raise `FieldTypeError` where `event_parameter` would, without creating a message for values that need no check.
 
-    A message is seven objects for the garbage collector: of ten thousand that nobody gets, they would take two thirds
-    of the time in which those parameters are set.
+    A message is seven objects for the garbage collector: for ten thousand that nobody receives, they would take two
+    thirds of the time to set those parameters.
     """
     value = parameter._value
     kind = value.__class__
@@ -45,7 +45,7 @@ def check_carried(parameter: Parameter) -> None:
 
 
 def event_parameter(parameter: Parameter) -> ParameterMsg:
-    """A parameter as it stands in an event, well formed; raises `FieldTypeError` where the wire could not carry it."""
+    """A parameter as a well-formed message for an event; raises `FieldTypeError` if it cannot be serialized."""
     code = parameter._type_._value_
     value = ParameterValue(type=code, check_fields=False)
     message = ParameterMsg(name=parameter._name, value=value, check_fields=False)

@@ -16,9 +16,9 @@ IN_CODE = "parameter_overrides of its program"
 def tell_declared(
     node: str, declared: Iterable[tuple[str, Sequence[Any]]], values: Iterable[Any], sources: Mapping[str, str]
 ) -> None:
-    """Tell the declarations (full name, tuple) of a node, where anybody listens, and the values that came of them.
+    """Report the declarations (full name, tuple) of a node with the resulting values, if anybody listens.
 
-    `sources` are those of overrides. A default that is no plain value, a type for instance, is told as None.
+    `sources` are those of overrides. A default that is not a plain value, such as a type, is reported as None.
     """
     if not anybody_listens():
         return
@@ -34,7 +34,7 @@ def tell_declared(
 
 
 def _plain(value: Any) -> Any:
-    """A default as JSON has it: a scalar, or a list of scalars; bytes, which it has not, as `{"byte": 0 .. 255}`."""
+    """A value for JSON: a scalar, or a list of scalars; bytes, which JSON lacks, as `{"byte": 0 .. 255}`; else None."""
     if isinstance(value, (bool, int, float, str)) or value is None:
         return value
     if isinstance(value, Parameter.Type):

@@ -54,7 +54,7 @@ class ParameterSetting:
         return [self._set_parameters_atomically([parameter]) for parameter in parameter_list]
 
     def set_parameters_atomically(self, parameter_list: Sequence[Parameter]) -> SetParametersResult:
-        """Set all parameters or none; raises `ParameterNotDeclaredException` where one is undeclared."""
+        """Set all parameters or none; raises `ParameterNotDeclaredException` if one is undeclared."""
         return self._set_parameters_atomically(parameter_list)
 
     def _set_parameters_atomically(self, parameters: Sequence[Parameter]) -> SetParametersResult:
@@ -73,7 +73,7 @@ class ParameterSetting:
             return
         known = self._parameters
         undeclared = (parameter._name for parameter in parameters if parameter._name not in known)
-        # `any` takes names up to the first one that is not empty; the message lists what is left, as upstream's does.
+        # `any` consumes names up to the first non-empty one; the message lists the rest, as upstream's does.
         if any(undeclared):
             raise ParameterNotDeclaredException(list(undeclared))
 
@@ -84,7 +84,7 @@ class ParameterSetting:
         *,
         keep_not_set: bool = False,
     ) -> SetParametersResult:
-        """Check, ask the callbacks, store, publish and tell; `descriptors` are new ones, of a declaration.
+        """Check the values, run the callbacks, store and publish; `descriptors` are the new ones of a declaration.
 
         A NOT_SET parameter is deleted unless `keep_not_set`.
         """
@@ -95,7 +95,7 @@ class ParameterSetting:
             result = callback(parameters)
             if not result.successful:
                 return result
-        self._ros_use()  # the event names the node, and a destroyed one refuses that before anything is stored
+        self._ros_use()  # the event needs the node's name, which a destroyed node refuses, before anything is stored
         publisher = self._parameter_event_publisher
         if publisher._is_wanted():
             publisher._publish_own(self._ros_store_and_tell(parameters, descriptors, keep_not_set))
@@ -127,7 +127,7 @@ class ParameterSetting:
     def _ros_store_and_tell(
         self, parameters: Sequence[Parameter], descriptors: dict[str, ParameterDescriptor] | None, keep_not_set: bool
     ) -> ParameterEvent:
-        """Take the values over; returns the event with all of them."""
+        """Store the values; returns the event with all of them."""
         pause = len(parameters) > FEW and gc.isenabled()
         if pause:
             gc.disable()
@@ -144,7 +144,7 @@ class ParameterSetting:
         keep_not_set: bool,
         told: Callable[[Parameter], Any],
     ) -> ParameterEvent:
-        """Take the values over; returns the event of what is `told` of each."""
+        """Store the values; returns the event made of `told(parameter)` for each."""
         stored = self._parameters
         new: list[Any] = []
         changed: list[Any] = []
@@ -166,25 +166,25 @@ class ParameterSetting:
         return parameter_event(self._ros_event_node_name, self._clock._now_ns(), new, changed, deleted)
 
     def add_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:
-        """Call back with the parameters to be set, before any check; what it returns is set instead."""
+        """Add a callback that gets the parameters to be set before any check; the ones it returns are set instead."""
         self._pre_set_parameters_callbacks.insert(0, callback)
 
     def add_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], SetParametersResult]) -> None:
-        """Ask a callback whether parameters may be set; values are still the old ones then."""
+        """Add a callback that decides whether parameters may be set; it still sees the old values."""
         self._on_set_parameters_callbacks.insert(0, callback)
 
     def add_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
-        """Tell a callback which parameters have been set."""
+        """Add a callback that gets the parameters that have been set."""
         self._post_set_parameters_callbacks.insert(0, callback)
 
     def remove_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:
-        """Take a callback away; raises `ValueError` for one that is not there."""
+        """Remove a callback; raises `ValueError` if it was not added."""
         self._pre_set_parameters_callbacks.remove(callback)
 
     def remove_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], SetParametersResult]) -> None:
-        """Take a callback away; raises `ValueError` for one that is not there."""
+        """Remove a callback; raises `ValueError` if it was not added."""
         self._on_set_parameters_callbacks.remove(callback)
 
     def remove_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
-        """Take a callback away; raises `ValueError` for one that is not there."""
+        """Remove a callback; raises `ValueError` if it was not added."""
         self._post_set_parameters_callbacks.remove(callback)

@@ -34,7 +34,7 @@ class NodeParameters(ParameterSetting):
     if TYPE_CHECKING:
 
         def get_fully_qualified_name(self) -> str:
-            """What `Node` itself has."""
+            """Namespace and name, implemented by `Node`."""
             ...
 
     def _ros_init_parameters(
@@ -44,7 +44,7 @@ class NodeParameters(ParameterSetting):
         allow_undeclared: bool,
         automatic: bool,
     ) -> None:
-        """Take the overrides that reach this node: of its command lines, the context's first, then of the code."""
+        """Collect this node's overrides: from the command lines, the context's first, then from the code."""
         self._parameters = {}
         self._descriptors = {}
         self._allow_undeclared_parameters = allow_undeclared
@@ -72,7 +72,7 @@ class NodeParameters(ParameterSetting):
         descriptor: ParameterDescriptor | None = None,
         ignore_override: bool = False,
     ) -> Parameter:
-        """Declare a parameter by a default value or a `Parameter.Type`; an override from outside comes first.
+        """Declare a parameter by a default value or a `Parameter.Type`; an override takes precedence.
 
         Raises `ParameterAlreadyDeclaredException`, `InvalidParameterException`, `InvalidParameterTypeException`,
         `InvalidParameterValueException`, `TypeError` and `ValueError`.
@@ -86,9 +86,9 @@ class NodeParameters(ParameterSetting):
     def declare_parameters(
         self, namespace: str, parameters: Sequence[Sequence[Any]], ignore_override: bool = False
     ) -> list[Parameter]:
-        """Declare tuples (name[, value or type[, descriptor]]); the namespace and a dot come before each name.
+        """Declare tuples (name[, value or type[, descriptor]]); each name is prefixed with the namespace and a dot.
 
-        Nothing is declared if a tuple is wrong or a name is taken; a value that is refused leaves those before it
+        Nothing is declared if a tuple is invalid or a name is taken; a refused value leaves those before it
         declared. Raises what `declare_parameter` raises.
         """
         overrides = {} if ignore_override else self._parameter_overrides
@@ -118,7 +118,7 @@ class NodeParameters(ParameterSetting):
         raise InvalidParameterValueException(parameter.name, parameter.value, result.reason)
 
     def undeclare_parameter(self, name: str) -> None:
-        """Forget a parameter, without event or callback.
+        """Remove a parameter, without event or callback.
 
         Raises `ParameterNotDeclaredException`, and `ParameterImmutableException` for a read-only one.
         """
@@ -136,7 +136,7 @@ class NodeParameters(ParameterSetting):
     def get_parameter(self, name: str) -> Parameter:
         """A parameter; raises `ParameterNotDeclaredException` and `ParameterUninitializedException`.
 
-        Where undeclared parameters are allowed, such a one is NOT_SET.
+        If undeclared parameters are allowed, an undeclared one is returned as NOT_SET.
         """
         parameter = self._parameters.get(name)
         if parameter is None:
@@ -148,12 +148,12 @@ class NodeParameters(ParameterSetting):
         return parameter
 
     def get_parameters(self, names: Sequence[str]) -> list[Parameter]:
-        """Several parameters; raises what `get_parameter` raises, and `TypeError` for a name that is no str."""
+        """Several parameters; raises what `get_parameter` raises, and `TypeError` for a name that is not a string."""
         _check_names(names)
         return [self.get_parameter(name) for name in names]
 
     def get_parameter_or(self, name: str, alternative_value: Any = None) -> Any:
-        """A parameter, or the alternative, as it is, where there is no value; without one a NOT_SET parameter."""
+        """A parameter; if it has no value, the alternative itself, or a NOT_SET parameter without one."""
         parameter = self._parameters.get(name)
         if parameter is not None and parameter._type_ is not NOT_SET:
             return parameter
@@ -162,7 +162,7 @@ class NodeParameters(ParameterSetting):
     def get_parameter_type(self, name: str) -> Any:
         """The code of a parameter's type, 0 while it has no value; raises `ParameterNotDeclaredException`.
 
-        Where undeclared parameters are allowed, it is `Parameter.Type.NOT_SET` for such a one, as upstream has it.
+        If undeclared parameters are allowed, it is `Parameter.Type.NOT_SET` for an undeclared one, as upstream.
         """
         if name in self._parameters:
             return self._parameters[name].type_.value
@@ -176,7 +176,7 @@ class NodeParameters(ParameterSetting):
         return [self.get_parameter_type(name) for name in names]
 
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
-        """The parameters below a prefix, by the rest of their names; all of them for an empty prefix."""
+        """The parameters below a prefix, by the rest of their names; all parameters for an empty prefix."""
         start = prefix + PARAMETER_SEPARATOR_STRING if prefix else ""
         return {name[len(start) :]: parameter for name, parameter in self._parameters.items() if name.startswith(start)}
 
@@ -194,7 +194,7 @@ class NodeParameters(ParameterSetting):
     def describe_parameter(self, name: str) -> ParameterDescriptor:
         """The descriptor of a parameter, the very object that it was declared with.
 
-        Raises `ParameterNotDeclaredException`; where undeclared parameters are allowed, such a one has a default.
+        Raises `ParameterNotDeclaredException`; if undeclared ones are allowed, returns a default descriptor instead.
         """
         if name in self._descriptors:
             return self._descriptors[name]
@@ -209,7 +209,7 @@ class NodeParameters(ParameterSetting):
     def set_descriptor(
         self, name: str, descriptor: ParameterDescriptor, alternative_value: ParameterValue | None = None
     ) -> ParameterValue:
-        """Give a parameter another descriptor; the alternative becomes its value where the old one does not fit.
+        """Replace a parameter's descriptor; the alternative becomes its value if the old value does not fit.
 
         Raises `ParameterNotDeclaredException`, `ParameterImmutableException` and `InvalidParameterValueException`.
         """

@@ -15,14 +15,14 @@ _UNDECIDED = ("SYSTEM_DEFAULT", "BEST_AVAILABLE", "UNKNOWN")
 
 
 def in_effect(asked: Profile) -> QoSProfile:
-    """The profile with the middleware's choice where the program left it open, and unlimited durations as infinite.
+    """The profile with the middleware's defaults where the program left it open, and unlimited durations as infinite.
 
-    One of its own for each caller, who may change it. Of a profile that came over the wire it is worked out once.
+    Each caller gets its own object, which it may change. For a profile received over the wire it is computed once.
     """
     return copied(_of_wire(asked)) if isinstance(asked, tuple) else _in_effect(asked)
 
 
-@lru_cache(256)  # a graph of thousands of endpoints has a few profiles
+@lru_cache(256)  # a graph of thousands of endpoints has only a few profiles
 def _of_wire(asked: Profile) -> QoSProfile:
     return _in_effect(asked)
 
@@ -42,7 +42,7 @@ def _in_effect(asked: Profile) -> QoSProfile:
 
 
 def copied(profile: QoSProfile) -> QoSProfile:
-    """The same policies in another object; durations never change."""
+    """A copy of a profile; durations are shared, as they are immutable."""
     copy = QoSProfile.__new__(QoSProfile)
     for slot in QoSProfile.__slots__:
         setattr(copy, slot, getattr(profile, slot))

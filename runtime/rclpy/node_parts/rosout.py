@@ -28,7 +28,7 @@ class Rosout:
 
     def _say(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> bool:
         message = self._log()
-        # Past the properties and their checks, which the logger's own values need not: this is done for each line.
+        # Bypasses the properties and their checks, which the logger's own values do not need: this runs for each line.
         stamp = message._stamp
         stamp._sec, stamp._nanosec = divmod(stamp_ns, NANO)
         message._level = severity
@@ -40,5 +40,5 @@ class Rosout:
         return self._endpoint.publish_own(message)
 
     def close(self) -> None:
-        """Say nothing more."""
+        """Stop publishing."""
         logging.unregister_rosout(self._name)

@@ -10,7 +10,7 @@ from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameExcept
 
 
 def checked(node: Any, name: str, *, service: bool = False) -> str:
-    """The full, remapped name of an entity to be made.
+    """The full, remapped name of an entity to be created.
 
     Raises `InvalidTopicNameException` or `InvalidServiceNameException`, and `ValueError` for an unknown substitution.
     """
@@ -28,7 +28,7 @@ def checked(node: Any, name: str, *, service: bool = False) -> str:
 def expand_name(node: Any, name: str, *, service: bool = False) -> str:
     """The full name of an existing topic or service, not remapped.
 
-    Raises `ValueError` as upstream's counts do, and for full names that are no good the exceptions of `checked`.
+    Raises `ValueError` as upstream's counts do, and the exceptions of `checked` for invalid full names.
     """
     problem = names.validate_topic_name(name)
     if problem:
@@ -65,7 +65,7 @@ def resolve(node: Any, name: str, *, only_expand: bool, service: bool = False) -
 
 
 def remapped(node: Any, full: str, service: bool = False) -> str:
-    """A full name after the node's remap rules."""
+    """A full name with the node's remap rules applied."""
     rules = node._ros_remap_rules
     if not rules:
         return full

@@ -12,12 +12,12 @@ BY_PUBLISHERS = "qos_overrides."
 
 
 def unused_overrides(nodes: Iterable[Any]) -> Iterator[str]:
-    """A line for each value (`-p name:=value`) that reaches some of the nodes and is taken by none of them."""
+    """Yield a line for each value (`-p name:=value`) that is given to some of the nodes and declared by none."""
     given: dict[str, list[Any]] = {}
     declared: set[str] = set()
     for node in nodes:
         if node._allow_undeclared_parameters:
-            return  # it may look at any of them
+            return  # it may read any of them
         declared |= node._parameters.keys()
         for name, source in node._ros_override_sources.items():
             if source == COMMAND_LINE and not name.startswith(BY_PUBLISHERS):
@@ -33,7 +33,7 @@ def _who(nodes: list[Any]) -> str:
 
 
 def _meant(name: str, declared: Iterable[str]) -> str:
-    from difflib import get_close_matches  # where something was mistyped, which most programs never are
+    from difflib import get_close_matches  # imported late: only a mistyped name needs it
 
     near = get_close_matches(name, sorted(declared), 1)
     return f"; did you mean {near[0]}?" if near else ""
