@@ -1,34 +1,34 @@
-"""Node processes: threads that each look to their code like a process of their own. Knows no ROS.
+"""Node processes: threads that each look like a separate process to their code. Independent of ROS.
 
-Who am I
-    `current()`: the node process of the calling thread; `MAIN` where there is none (the real process, nothing virtual).
-    `ProcessLocal(factory)`: a variable that each node process has for itself.
-    `running_as(process)`: let this thread work for a node process for the length of a `with`.
+Identity
+    `current()`: the node process of the calling thread; `MAIN` if there is none (the real process, nothing virtual).
+    `ProcessLocal(factory)`: a variable with a separate value per node process.
+    `running_as(process)`: run a `with` block as part of a node process.
 
 Time and waiting (everything that blocks goes through these, so that it can be woken and stepped)
     `current().clock`: `steady_ns()`, `system_ns()`, `wakeup()`, `sleep_until(deadline_ns)`, `stepped`.
     A `Wakeup` has `set`, `clear`, `is_set`, `wait(deadline_ns) -> bool`. A wait raises `KeyboardInterrupt` once when
-    the process is interrupted, and `ProcessKilled` (not an `Exception`) whenever it was killed.
+    the process is interrupted, and `ProcessKilled` (not an `Exception`) always once it was killed.
 
 A node process
     `process = NodeProcess("talker-1", clock)`: has `name`, `pid` (synthetic), `state`, `exit_code`, `argv`, `env`.
     `process.start(target, argv=, env=, stdout=, stderr=, cwd=)`: `target()` is its main program, see `file_program` and
     `entry_point_program`; `stdout`/`stderr` are called with each line of text, newline included, and must not block.
     `process.wait(timeout_s) -> exit_code | None`, `is_alive`, `line()` (where its main thread is).
-    `interrupt()` SIGINT, `terminate()` SIGTERM, `kill()` SIGKILL, `send_signal(n)`, `stop(grace_s)` all three in turn.
-    `on_interrupt(callback(signum), signals)`: hook that runs before the handler, as that of `rclpy.init`; a hook for
+    `interrupt()` (SIGINT), `terminate()` (SIGTERM), `kill()` (SIGKILL), `send_signal(n)`; `stop(grace_s)`: all in turn.
+    `on_interrupt(callback(signum), signals)`: hook that runs before the handler, like that of `rclpy.init`; a hook for
     SIGTERM replaces its default. On `MAIN` it is a real signal handler. `on_abandon(callback())`: it is over, however
     it ended; leave the graph, because code of it may still run. `on_exit(callback(process))`: after that, newest
-    callback first. All three return a callable that takes the callback away.
+    callback first. All three return a callable that removes the callback.
     Exit codes: 0; n of `sys.exit(n)`; 1 for a text (on its stderr) or an uncaught exception (traceback on its stderr);
     -2 for `KeyboardInterrupt`; -15, -9, -n for a signal.
-    `explain_with(hook(exception) -> text | None)`: cause and mend of an uncaught exception, given as a notice after it.
+    `explain_with(hook(exception) -> text | None)`: its cause and how to fix it, given as a notice after the traceback.
     `on_notice(hook(process, text))`: what a node does that cannot be virtual, and lines that hang; to be shown as WARN.
 
 Stepped runs
     `with stepped(seed=1) as clock`: virtual time for `MAIN` in this block; `NodeProcess(name, clock)` takes part in it.
     `clock.run_for(seconds)`, `clock.run_until(steady_ns)`: let exactly one thread run at a time up to that time.
-    `clock.deterministic`, `clock.stalls`: whether a thread blocked past the clock, and in which lines.
+    `clock.deterministic`, `clock.stalls`: whether no thread blocked outside the clock, and the lines where one did.
 
 Virtual in a node process: threads and their lists, `sys.argv`, `sys.path`, `sys.stdin/stdout/stderr/excepthook`,
 `os.environ`, `os.getpid/kill/_exit/exec*/system`, `subprocess`, `signal.signal` and relatives, `atexit` (for the node's
@@ -61,7 +61,7 @@ _LATE = {
 
 
 def __getattr__(name: str) -> Any:
-    """What a plain start does not need is imported when it is asked for."""
+    """Import lazily what a plain start does not need."""
     if name in _LATE:
         from importlib import import_module
 

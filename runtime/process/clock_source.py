@@ -1,4 +1,4 @@
-"""Where all time comes from, and how a thread waits: the interface that makes a stepped run possible.
+"""Clock sources and how a thread waits on them: the interface that makes stepped runs possible.
 
 Protocols only: `real_time` and `stepping.stepped_time` are the two sources, `node.thread_state` is what they wake.
 """
@@ -14,19 +14,19 @@ class WaitingThread(Protocol):
 
     @property
     def called(self) -> bool:
-        """Whether something waits to be raised or run in this thread."""
+        """Whether anything is pending to be raised or run in this thread."""
         ...
 
     def begin_wait(self, waker: Callable[[], None]) -> None:
-        """Say how to wake the thread from the wait it now enters; raises what is to be raised in it."""
+        """Register how to wake the thread from the wait it is entering; raises what is pending for it."""
         ...
 
     def end_wait(self) -> None:
-        """The wait is over."""
+        """End the wait."""
         ...
 
     def deliver(self) -> None:
-        """Run, in this thread, what waits for that; raises what it raises."""
+        """Run, in this thread, the pending actions; raises what they raise."""
         ...
 
 
@@ -34,14 +34,14 @@ class Seat(Protocol):
     """A thread's place in a stepped run, as the thread sees it."""
 
     detached: bool
-    """Whether it was taken for hanging, and others go on beside it."""
+    """Whether the thread was considered hung, so that others run beside it."""
 
     def take(self) -> None:
-        """Wait for the first turn, in the thread that has this place from now on."""
+        """Wait for the first turn; called in the thread that occupies this seat from now on."""
         ...
 
     def hold_clock(self) -> None:
-        """Let time stand still until the first wait, or the end, of this thread."""
+        """Stop the clock until this thread first waits, or ends."""
         ...
 
     def leave(self) -> None:
@@ -50,14 +50,14 @@ class Seat(Protocol):
 
 
 class Wakeup(Protocol):
-    """What a thread of a node process waits on: as `threading.Event`, with deadlines of steady time."""
+    """What a thread of a node process waits on: like `threading.Event`, with deadlines in steady time."""
 
     def set(self) -> None:
-        """Wake the waiter; from any thread, at any time."""
+        """Wake the waiter; may be called from any thread at any time."""
         ...
 
     def clear(self) -> None:
-        """Forget an earlier `set`."""
+        """Undo an earlier `set`."""
         ...
 
     def is_set(self) -> bool:
@@ -65,9 +65,9 @@ class Wakeup(Protocol):
         ...
 
     def wait(self, deadline_ns: int | None = None) -> bool:
-        """Block until set or until steady time reaches the deadline (ns); whether it is set.
+        """Block until set or until steady time reaches the deadline (ns); return whether it is set.
 
-        Raises `KeyboardInterrupt` when the node process is interrupted meanwhile.
+        Raises `KeyboardInterrupt` if the node process is interrupted meanwhile.
         """
         ...
 
@@ -87,7 +87,7 @@ class ClockSource(Protocol):
         ...
 
     def wakeup(self) -> Wakeup:
-        """A new, unset wakeup of this clock source."""
+        """Return a new, unset wakeup of this clock source."""
         ...
 
     def sleep_until(self, deadline_ns: int) -> None:
@@ -95,5 +95,5 @@ class ClockSource(Protocol):
         ...
 
     def seat(self, thread: WaitingThread) -> Seat | None:
-        """A place for a new thread of a node process; None where threads run as they like."""
+        """Return a seat for a new thread of a node process; None if threads run freely."""
         ...

@@ -5,22 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable
 
 Explain = Callable[[BaseException], "str | None"]
-"""Names cause and mend of an exception, or gives None for one that it does not know."""
+"""Returns the cause of an exception and how to fix it, or None for an unknown one."""
 
 MEND = "mend"
-"""Attribute of an exception that brings its own explanation: cause and mend, as a text."""
+"""Attribute of an exception that holds its own explanation: the cause and how to fix it, as a text."""
 
 _explainers: list[Explain] = []
 
 
 def explain_with(explain: Explain) -> None:
-    """Ask `explain` about each uncaught exception of a node process; a second time for the same one does nothing."""
+    """Register `explain` for the uncaught exceptions of node processes; does nothing if it is already registered."""
     if explain not in _explainers:
         _explainers.append(explain)
 
 
 def explanation(exception: BaseException) -> str | None:
-    """The exception's own explanation, else the first that somebody has; None where nobody has one."""
+    """Return the exception's own explanation, else the first from a registered function; None if there is none."""
     if own := getattr(exception, MEND, ""):
         return str(own)
     for explain in _explainers:

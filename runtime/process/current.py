@@ -1,4 +1,4 @@
-"""Which node process the calling thread belongs to, and state that each node process has for itself."""
+"""The node process of the calling thread, and variables that each node process has for itself."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["MAIN", "NodeProcess", "ProcessLocal", "current", "running_as"]
 T = TypeVar("T")
 
 MAIN = MainProcess("main")
-"""The real process: what every thread belongs to that no node process has started."""
+"""The real process, to which every thread belongs that was not started by a node process."""
 
 type(local).process = MAIN
 
@@ -30,7 +30,7 @@ def current() -> CurrentProcess:
 
 @contextmanager
 def running_as(process: CurrentProcess) -> Generator[None]:
-    """Let the calling thread work for a node process for a while: its `current()`, output, arguments, environment."""
+    """Run the block as part of a node process: with its `current()`, output, arguments and environment."""
     before = local.process
     local.process = process
     try:
@@ -40,7 +40,7 @@ def running_as(process: CurrentProcess) -> Generator[None]:
 
 
 class ProcessLocal(Generic[T]):
-    """A variable that each node process has for itself, made at first use.
+    """A variable with a separate value per node process, created on first use.
 
     _default_context = ProcessLocal(Context)
     _default_context.get()
@@ -50,7 +50,7 @@ class ProcessLocal(Generic[T]):
         self._factory = factory
 
     def get(self) -> T:
-        """The calling thread's node process's value."""
+        """Return the value in the calling thread's node process."""
         values = local.process.locals
         try:
             return values[self]

@@ -1,6 +1,7 @@
-"""What only this process knows about itself, as plain data through a pipe inherited from the process that started it.
+"""Send facts that only this process knows to its parent, as plain data through an inherited pipe.
 
-One JSON object per line, `{"kind": ..., ...}`. A crash in C code writes its stacks into the same pipe as plain text.
+One JSON object per line, `{"kind": ..., ...}`. A crash in C code writes its stack traces into the same pipe as plain
+text.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from _thread import allocate_lock
 from typing import Any
 
 REMEMBERED = 1 << 20
-"""Bytes that wait here at most where the parent does not read; what comes then is lost."""
+"""Maximum number of bytes buffered while the parent does not read; further data is lost."""
 
 
 class _Pipe:
@@ -26,19 +27,19 @@ _pipe = _Pipe()
 
 
 def use(descriptor: int) -> None:
-    """Tell by this descriptor from now on, without ever waiting; stacks of a crash go there, too."""
+    """Use this descriptor from now on, in non-blocking mode; stack traces of crashes go there, too."""
     os.set_blocking(descriptor, False)
     _pipe.descriptor = descriptor
     faulthandler.enable(descriptor)
 
 
 def is_open() -> bool:
-    """Whether anybody listens."""
+    """Whether there is a parent that reads."""
     return _pipe.descriptor >= 0
 
 
 def tell(kind: str, **facts: Any) -> None:
-    """Tell the parent; without one this does nothing. Never waits."""
+    """Send a fact to the parent; does nothing without one. Never blocks."""
     if _pipe.descriptor < 0:
         return
     line = json.dumps({"kind": kind, **facts}).encode() + b"\n"

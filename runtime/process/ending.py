@@ -1,4 +1,4 @@
-"""Ends a process without finalizing its interpreter, which calls from other threads would find half torn down."""
+"""End a process without finalizing its interpreter, which calls from foreign threads would find half torn down."""
 
 from __future__ import annotations
 
@@ -8,24 +8,25 @@ import sys
 import threading
 
 FLUSH_FAILED = 120
-"""Exit code of the interpreter where its last output could not be written."""
+"""Exit code of the interpreter if its last output could not be written."""
 
 
 def wait_for_threads() -> None:
-    """Wait for threads that are no daemons and for executors, as the interpreter does; Ctrl-C ends the waiting."""
+    """Wait for non-daemon threads and executors, as the interpreter does at exit; Ctrl-C ends the wait."""
     with contextlib.suppress(KeyboardInterrupt):
         threading._shutdown()  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType] -- has no other name
 
 
 def exit_functions_run(code: int) -> int:
-    """Call the exit functions and write what was printed, as the interpreter does at its end; `os._exit` is left to do.
+    """Call the exit functions and flush the output streams, as the interpreter does at exit; leaves `os._exit` to the
+    caller.
 
-    Gives the exit code: `code`, or that of output which could not be written.
+    Returns the exit code: `code`, or `FLUSH_FAILED` if output could not be written.
     """
     atexit._run_exitfuncs()  # pyright: ignore[reportPrivateUsage] -- the only way before `os._exit`
     for stream in (sys.stdout, sys.stderr):
         try:
             stream.flush()
-        except (AttributeError, OSError, ValueError):  # None, a reader that has gone, closed
+        except (AttributeError, OSError, ValueError):  # None, closed, or its reader is gone
             code = code if stream is None or getattr(stream, "closed", False) else FLUSH_FAILED
     return code

@@ -1,6 +1,6 @@
-"""What a node process knows about itself and no topic tells, as plain data for whoever started it.
+"""Facts that a node process knows about itself and that no topic tells, as plain data for whoever started it.
 
-A process of its own writes to its data pipe; a node process that is a thread calls hooks of this process.
+A separate process writes them to its data pipe; a node process in a thread calls hooks of this process.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ _hooks: list[Hook] = []
 
 
 def on_fact(hook: Hook) -> Callable[[], None]:
-    """Have facts given to `hook(kind, facts)`, from any thread; it must not block. Returns what ends that."""
+    """Register `hook(kind, facts)`, called from any thread; it must not block. Returns a function that removes it."""
     _hooks.append(hook)
 
     def forget() -> None:
@@ -26,12 +26,12 @@ def on_fact(hook: Hook) -> Callable[[], None]:
 
 
 def anybody_listens() -> bool:
-    """Whether it is worth while to work a fact out."""
+    """Whether anybody receives facts, so that computing one is worth while."""
     return bool(_hooks) or data_pipe.is_open()
 
 
 def tell_fact(kind: str, **facts: Any) -> None:
-    """Tell a fact of plain values; never waits."""
+    """Publish a fact made of plain values; never blocks."""
     data_pipe.tell(kind, **facts)
     for hook in tuple(_hooks):
         hook(kind, facts)

@@ -1,4 +1,4 @@
-"""Which line of a program a thread is executing, as a person would name it; and tracebacks without our own frames."""
+"""The line of a program that a thread is executing, as a user would name it; and tracebacks without our own frames."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from types import FrameType, TracebackType
 
 _PROCESS = os.path.dirname(os.path.abspath(__file__)) + os.sep
 _RUNTIME = os.path.dirname(_PROCESS.rstrip(os.sep)) + os.sep
-# ROS names are imported from where links lead to, which is another place in an editable installation.
+# ROS names are imported through links, whose targets are in another place in an editable installation.
 _OURS = (_RUNTIME, os.path.realpath(_RUNTIME) + os.sep)
 _SHIPPED = tuple(os.path.dirname(each.rstrip(os.sep)) + os.sep for each in _OURS)
 _STDLIB = os.path.dirname(os.path.realpath(os.__file__)) + os.sep
@@ -17,24 +17,24 @@ _SITE = ("site-packages", "dist-packages")
 
 
 def is_library(filename: str) -> bool:
-    """Whether a file is the interpreter's, an installed library's or the runtime's: not where a user would look."""
+    """Whether a file belongs to the interpreter, an installed library or the runtime: not where a user would look."""
     if filename.startswith(("<frozen", *_OURS)):
         return True
     return any(part in filename for part in _SITE) or os.path.realpath(filename).startswith(_STDLIB)
 
 
 def is_idle(filename: str) -> bool:
-    """Whether a thread whose innermost frame is in this file waits: in the runtime, or in the library's own waits."""
+    """Whether a thread whose innermost frame is in this file is waiting: in the runtime or in the standard library."""
     return filename.startswith(_OURS) or os.path.realpath(filename).removeprefix(_STDLIB) in _WAITS
 
 
 def is_shipped(filename: str) -> bool:
-    """Whether a file came with this program, as its nodes did."""
+    """Whether a file is part of this program, like its own nodes."""
     return filename.startswith(_SHIPPED)
 
 
 def user_frame(frame: FrameType) -> FrameType:
-    """The innermost frame of the user's own code on this stack; the innermost of all where there is none."""
+    """Return the innermost frame of the user's own code on this stack; without any, the innermost of all."""
     candidate: FrameType | None = frame
     while candidate is not None:
         if not is_library(candidate.f_code.co_filename):
@@ -44,24 +44,24 @@ def user_frame(frame: FrameType) -> FrameType:
 
 
 def describe(frame: FrameType) -> str:
-    """`/path/file.py:12, in function`."""
+    """Format a frame as `/path/file.py:12, in function`."""
     return f"{frame.f_code.co_filename}:{frame.f_lineno}, in {frame.f_code.co_name}"
 
 
 def calling_line() -> str:
-    """The line of the user's code that is now at work in this thread."""
+    """Return the line of the user's code that this thread is executing."""
     return describe(user_frame(sys._getframe(1)))  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
 
 
 def line_outside(frame: FrameType | None) -> str:
-    """`/path/file.py:12` of the innermost frame that is not the runtime's, be it a library's; empty without one."""
+    """Return `/path/file.py:12` of the innermost frame outside the runtime, even a library's; empty if none."""
     while frame is not None and frame.f_code.co_filename.startswith((*_OURS, "<frozen")):
         frame = frame.f_back
     return f"{frame.f_code.co_filename}:{frame.f_lineno}" if frame is not None else ""
 
 
 def thread_line(ident: int) -> str | None:
-    """The line of the user's code that a thread is in; None where the thread has ended."""
+    """Return the line of the user's code that a thread is executing; None if the thread has ended."""
     frame = sys._current_frames().get(ident)  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
     return None if frame is None else describe(user_frame(frame))
 
@@ -81,7 +81,7 @@ def _is_ours(frame: FrameType) -> bool:
 
 
 def trimmed(trace: TracebackType | None) -> TracebackType | None:
-    """A traceback without the frames of this package and of the import machinery."""
+    """Return a traceback without the frames of this package and of the import machinery."""
     kept: TracebackType | None = None
     entries: list[TracebackType] = []
     while trace is not None:
@@ -94,7 +94,7 @@ def trimmed(trace: TracebackType | None) -> TracebackType | None:
 
 
 def trim(exception: BaseException) -> BaseException:
-    """Trim the traceback of an exception and of all that it was raised from; the same exception."""
+    """Trim the tracebacks of an exception and of its causes and contexts; return the same exception."""
     seen: set[int] = set()
     queue: list[BaseException | None] = [exception]
     while queue:
@@ -108,7 +108,7 @@ def trim(exception: BaseException) -> BaseException:
 
 
 def print_exception(exception: BaseException) -> None:
-    """Print as the interpreter does for an uncaught exception, to the calling thread's `sys.stderr`."""
+    """Print an uncaught exception as the interpreter does, to the calling thread's `sys.stderr`."""
     trim(exception)
     hook = sys.excepthook
     if hook is sys.__excepthook__:

@@ -17,7 +17,7 @@ _hooks: list[NoticeHook] = []
 
 
 def on_notice(hook: NoticeHook) -> Callable[[], None]:
-    """Have notices given to `hook(process, text)`, from any thread; it must not block. Returns what ends that.
+    """Register `hook(process, text)`, called from any thread; it must not block. Returns a function that removes it.
 
     Without a hook a notice goes to the standard error stream of its process.
     """
@@ -42,6 +42,6 @@ def notify(process: Warned, text: str) -> None:
         if process.stderr is not None:
             process.stderr.write(line)
         else:
-            # Not `sys.__stderr__`, which is the screen while a console runs: the line would stand in its picture.
+            # Not `sys.__stderr__`, which is the screen while a console runs: the line would corrupt its display.
             with contextlib.suppress(OSError):
                 os.write(STDERR, line.encode("utf-8", "backslashreplace"))

@@ -20,7 +20,7 @@ NO_MAIN = (
 
 
 NO_ENTRY = "The line of 'console_scripts' in setup.py that starts this names {0}, which is not there{1}. Mend that line"
-"""Said of an entry point that leads nowhere, with what the module has instead."""
+"""Message for an entry point that does not exist, with what the module has instead."""
 
 
 def _no_main(exception: BaseException) -> str | None:
@@ -33,16 +33,16 @@ explain_with(_no_main)
 
 
 def file_program(path: str, modules: FreshModules | None = None) -> Callable[[], None]:
-    """A callable that runs a Python file as `python path` does: as `__main__`, its folder first on `sys.path`.
+    """Return a callable that runs a Python file as `python path` does: as `__main__`, its folder first on `sys.path`.
 
-    Modules beside the file are the process's own. The callable raises what the file raises; a file that cannot be read
-    ends it with exit code 2 and the interpreter's words.
+    Modules beside the file are the process's own. The callable raises what the file raises; for a file that cannot be
+    read it exits with code 2 and the interpreter's message.
     """
     return _FileProgram(os.fspath(path), modules)
 
 
 def entry_point_program(entry_point: str, modules: FreshModules | None = None) -> Callable[[], None]:
-    """A callable that runs `module:function`; what that returns is the exit code, as in `sys.exit(main())`.
+    """Return a callable that runs `module:function`; its result is the exit code, as in `sys.exit(main())`.
 
     Raises `ValueError` for anything not of the form `module:function`.
     """
@@ -99,7 +99,7 @@ class _EntryPoint:
                 found = getattr(found, name)
             except AttributeError as error:
                 if name == "main":
-                    raise  # which has an explanation of its own
+                    raise  # which has its own explanation
                 functions = _functions(module)
                 has = f"; it has {', '.join(functions)}" if functions else ""
                 setattr(error, MEND, NO_ENTRY.format(f"{self._function}() of {self._module}", has))
@@ -108,14 +108,14 @@ class _EntryPoint:
 
 
 def _functions(module: ModuleType) -> list[str]:
-    """Names of the functions that a module itself defines."""
+    """Return the names of the functions that a module itself defines."""
     found: dict[str, object] = vars(module)
     own = (each for each in found.values() if isinstance(each, FunctionType) and each.__module__ == module.__name__)
     return sorted(each.__name__ for each in own)
 
 
 def _adopt(modules: FreshModules) -> FreshModules | None:
-    """Make them the calling node process's own; in the real process nothing is virtual, its `sys.path` gets folders."""
+    """Make the modules the calling node process's own; the real process gets only their folders on `sys.path`."""
     if local.process.main_state is None:
         sys.path[:0] = modules.folders
         return None

@@ -22,13 +22,13 @@ enumerate_threads = threading.enumerate
 
 
 class _Agenda:
-    """Actions at wall times, in one thread that exists while there are any."""
+    """Actions scheduled in wall time, in one thread that exists only while there are any."""
 
     def __init__(self) -> None:
-        # Plain locks and threads: those of `threading` belong to node processes, and to stepped runs.
+        # Plain locks and threads: those of `threading` belong to node processes and to stepped runs.
         self._guard = _thread.allocate_lock()
         self._news = _thread.allocate_lock()
-        # An event made of a lock: held while there is no news.
+        # A lock used as an event: held while there is no news.
         self._news.acquire()
         self._entries: list[tuple[float, int, Callable[[], None]]] = []
         self._count = 0
@@ -63,5 +63,5 @@ _agenda = _Agenda()
 
 
 def later(seconds: float, action: Callable[[], None]) -> None:
-    """Call `action`, which must not block, after that much wall time (s), in a thread that is of no node process."""
+    """Call `action`, which must not block, after `seconds` of wall time, in a thread of no node process."""
     _agenda.add(monotonic() + seconds, action)

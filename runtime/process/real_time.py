@@ -15,13 +15,13 @@ if TYPE_CHECKING:
     from .clock_source import WaitingThread, Wakeup
 
 SIGNAL_CHECK_NS = 500_000_000
-"""How often the real main thread looks up from a wait: another thread may have received a signal for it."""
+"""How often (ns) a waiting real main thread checks for signals that another thread received for it."""
 _MAIN_THREAD = threading.main_thread().ident
-_monotonic_ns = time.monotonic_ns  # the real one: `time.monotonic_ns` is virtual while a stepped run is on
+_monotonic_ns = time.monotonic_ns  # the real one: `time.monotonic_ns` is virtual during a stepped run
 
 
 class _RealWakeup:
-    """A wakeup on the machine's own clock; one lock per wait, so that a waiter costs no condition variable."""
+    """A wakeup on the machine's own clock; with one lock per wait, cheaper than a condition variable."""
 
     __slots__ = ("__weakref__", "_set", "_waiters")
 
@@ -35,7 +35,7 @@ class _RealWakeup:
         while waiters:
             try:
                 waiter = waiters.pop()
-            except IndexError:  # another thread sets it, too
+            except IndexError:  # another thread is setting it as well
                 return
             _release(waiter)
 
@@ -56,7 +56,7 @@ class _RealWakeup:
     def _block(self, deadline_ns: int | None) -> bool:
         lock = allocate_lock()
         lock.acquire()
-        # First in the list, then a look at the flag: a `set` in between would find nobody and be lost.
+        # Enlist first, then check the flag: a `set` in between would find nobody and be lost.
         self._waiters.append(lock)
         try:
             return self._set or _acquire_until(lock, deadline_ns)
@@ -73,7 +73,7 @@ class _RealWakeup:
                 woken = self._set or _acquire_until(lock, deadline_ns)
             finally:
                 state.end_wait()
-                # Woken by `set`, even where `clear` came before this thread ran again.
+                # Woken by `set`, even if `clear` was called before this thread ran again.
                 was_set = not self._withdraw(lock)
             if state.called:
                 state.deliver()
@@ -81,7 +81,7 @@ class _RealWakeup:
                 return self._set or was_set
 
     def _withdraw(self, lock: LockType) -> bool:
-        """Take the waiter off the list; False where `set` has done so."""
+        """Remove the waiter from the list; returns False if `set` has already done so."""
         try:
             self._waiters.remove(lock)
         except ValueError:
@@ -95,7 +95,7 @@ def _release(lock: LockType) -> None:
 
 
 def _acquire_until(lock: LockType, deadline_ns: int | None) -> bool:
-    # A signal that another thread received ends no acquire here, though its handler runs in this one.
+    # A signal received by another thread does not end an acquire here, though its handler runs in this thread.
     if get_ident() == _MAIN_THREAD:
         while deadline_ns is None or deadline_ns - _monotonic_ns() > SIGNAL_CHECK_NS:
             if lock.acquire(True, SIGNAL_CHECK_NS * 1e-9):
@@ -116,7 +116,7 @@ class RealTime:
     system_ns = staticmethod(time.time_ns)
 
     def wakeup(self) -> Wakeup:
-        """A new, unset wakeup."""
+        """Return a new, unset wakeup."""
         return _RealWakeup()
 
     def sleep_until(self, deadline_ns: int) -> None:
@@ -124,4 +124,4 @@ class RealTime:
         _RealWakeup().wait(deadline_ns)
 
     def seat(self, thread: WaitingThread) -> None:
-        """None: the threads run as they like."""
+        """Return None: threads run freely."""

@@ -1,7 +1,7 @@
-"""What a node process is to each of those that deal with it: protocols, so that it may know them and they not it.
+"""The roles of a node process towards those that use it: protocols, so that it may depend on them and not vice versa.
 
-`node.node_process.NodeProcess` plays the roles of a process, `node.thread_state.ThreadState` that of its threads.
-For the type checker only: nothing imports this when it runs.
+`node.node_process.NodeProcess` implements the roles of a process, `node.thread_state.ThreadState` that of its threads.
+For the type checker only: nothing imports this at run time.
 """
 
 from __future__ import annotations
@@ -18,21 +18,21 @@ from .clock_source import ClockSource, WaitingThread
 from .node.process_state import ProcessState
 
 Handler = Callable[[int, Any], Any] | int | None
-"""What `signal.signal` takes: a function, or a number such as `SIG_DFL`; None for one that is not Python's."""
+"""What `signal.signal` takes: a function, or a number such as `SIG_DFL`; None for a handler not set from Python."""
 
 
 class NodeThread(WaitingThread, Protocol):
-    """A thread of a node process, as those see it who want to wake it or to raise something in it."""
+    """A thread of a node process, for those who want to wake it or raise something in it."""
 
     daemon: bool
-    """Whether its process ends without waiting for it, as its program wanted it."""
+    """Whether its process ends without waiting for it, as its program requested."""
     ident: int
     waits: int
     """How many waits of the runtime it has entered."""
 
     @property
     def thread(self) -> threading.Thread:
-        """As the program has it."""
+        """The thread object that the program has."""
         ...
 
     @property
@@ -42,64 +42,64 @@ class NodeThread(WaitingThread, Protocol):
 
     @property
     def takes_turns(self) -> bool:
-        """Whether it is in step with a run."""
+        """Whether it takes turns in a stepped run."""
         ...
 
     def post(self, action: Callable[[], Any]) -> None:
-        """Have it call `action` in its present or its next wait."""
+        """Make it call `action` in its present or next wait."""
         ...
 
     def take_back(self, action: Callable[[], Any]) -> bool:
-        """Withdraw a posted action; whether it was in time."""
+        """Withdraw a posted action; return whether it was in time."""
         ...
 
     def throw(self, exception: type[BaseException]) -> None:
-        """Raise in it, were it busy."""
+        """Raise in it, even if it is busy."""
         ...
 
     def kill(self) -> None:
-        """Let this wait and every later one raise `ProcessKilled`."""
+        """Make this wait and every later one raise `ProcessKilled`."""
         ...
 
 
 class Warned(Protocol):
-    """Whom a notice is about."""
+    """The process that a notice is about."""
 
     @property
     def name(self) -> str:
-        """As the log shows it."""
+        """The name shown in the log."""
         ...
 
     @property
     def notices(self) -> list[str]:
-        """Those given so far; each is given once."""
+        """The notices given so far; each is given once."""
         ...
 
     @property
     def stderr(self) -> TextIOBase | None:
-        """Its standard error stream; None where that is the real one."""
+        """Its standard error stream; None for the real one."""
         ...
 
 
 class RunningProcess(Warned, Protocol):
-    """Who is found by a pid: to be sent a signal, or examined."""
+    """A process found by its pid, to be sent a signal or examined."""
 
     @property
     def state(self) -> ProcessState:
-        """How far it has come."""
+        """Its state."""
         ...
 
     def cpu_seconds(self) -> float | None:
-        """Processor time (s) that its threads have used; None where the system does not tell."""
+        """Return the processor time (s) its threads have used; None if the system does not tell."""
         ...
 
     def send_signal(self, signum: int) -> None:
-        """Deliver a signal by number; without effect once it has ended."""
+        """Deliver a signal by number; does nothing if the process has ended."""
         ...
 
 
 class Watched(Warned, Protocol):
-    """Who is looked after while it runs."""
+    """A process watched while it runs."""
 
     @property
     def is_alive(self) -> bool:
@@ -107,22 +107,22 @@ class Watched(Warned, Protocol):
         ...
 
     def thread_states(self) -> list[NodeThread]:
-        """Its main thread and the threads that it started, those that have ended excepted."""
+        """Return its main thread and the threads it started, except those that have ended."""
         ...
 
 
 class SignalTable(Protocol):
-    """What a process has said about its signals."""
+    """The signal handling of a process."""
 
     wakeup_fd: int
-    """Where each signal writes its number; -1: nowhere."""
+    """The descriptor to which each signal writes its number; -1 for none."""
 
     def handler(self, signum: int) -> Handler:
-        """What `signal.getsignal` says."""
+        """Return the handler, as `signal.getsignal` does."""
         ...
 
     def set_handler(self, signum: int, handler: Handler) -> Handler:
-        """What `signal.signal` does."""
+        """Set the handler, as `signal.signal` does."""
         ...
 
     def pause(self) -> None:
@@ -131,10 +131,10 @@ class SignalTable(Protocol):
 
 
 class Pool(Protocol):
-    """Threads that do what is submitted to them: an executor of `concurrent.futures`, or one of the runtime."""
+    """A thread pool: an executor of `concurrent.futures`, or one of the runtime's own."""
 
     def shutdown(self, wait: bool = ...) -> None:
-        """Let its threads end once they have done what was submitted."""
+        """Let its threads end once they have finished the submitted work."""
         ...
 
 
@@ -143,12 +143,12 @@ class OwnModules(Protocol):
 
     @property
     def builtins(self) -> dict[str, Any]:
-        """The builtins of each of them, by which its code is known."""
+        """The builtins of these modules, which identify the node's code."""
         ...
 
     @property
     def table(self) -> Mapping[str, ModuleType]:
-        """What `sys.modules` is to its code."""
+        """The `sys.modules` of its code."""
         ...
 
     def owns(self, name: str) -> bool:
@@ -156,40 +156,40 @@ class OwnModules(Protocol):
         ...
 
     def load(self, name: str) -> ModuleType:
-        """The process's own module of that dotted name, imported if need be."""
+        """Return the process's own module of that dotted name, importing it if needed."""
         ...
 
 
 class CurrentProcess(Watched, RunningProcess, Protocol):
-    """The process that a thread works for, as wraps and ROS see it: it answers what its code asks of its process."""
+    """The process that a thread works for, as seen by wrappers and ROS code: it answers its code's process queries."""
 
     main_state: NodeThread | None
-    """Its main thread; None before the start, and in the real process: nothing there is virtual."""
+    """Its main thread; None before the start, and in the real process, where nothing is virtual."""
     children: dict[threading.Thread, NodeThread]
-    """The threads that it has started."""
+    """The threads it has started."""
     pools: WeakSet[Pool]
-    """Whose threads end with its main program."""
+    """The pools whose threads end with its main program."""
     exit_functions: list[partial[Any]]
-    """Those of `atexit`, oldest first."""
+    """Its `atexit` functions, oldest first."""
     cpu_of_ended_threads: float
-    """Processor time (s)."""
+    """Processor time (s) used by its threads that have ended."""
     argv: list[str]
     path: list[str]
     modules: OwnModules | None
-    """None where its code shares the interpreter's."""
+    """None if its code shares the interpreter's modules."""
     overrides: dict[Any, Any]
-    """The variables of modules that it has set for itself."""
+    """The module variables that it has set for itself."""
     locals: dict[Any, Any]
     """The values of `ProcessLocal`."""
 
     @property
     def clock(self) -> ClockSource:
-        """Where its time comes from, and how its threads wait."""
+        """Its clock source."""
         ...
 
     @property
     def pid(self) -> int:
-        """Synthetic, but that of the real process."""
+        """Its synthetic pid; the real one for the real process."""
         ...
 
     @property
@@ -199,33 +199,33 @@ class CurrentProcess(Watched, RunningProcess, Protocol):
 
     @property
     def cwd(self) -> str | None:
-        """Where its child processes start; None: where the real process is."""
+        """Where its child processes start; None: in the real process's working directory."""
         ...
 
     @property
     def stdout(self) -> TextIOBase | None:
-        """Its standard output stream; None where that is the real one."""
+        """Its standard output stream; None for the real one."""
         ...
 
     @property
     def signals(self) -> SignalTable:
-        """What it has said about its signals."""
+        """Its signal handling."""
         ...
 
     def deliver_signals(self) -> None:
-        """Let signals that are on their way take effect first, where the caller is its main thread."""
+        """Let pending signals take effect first, if called from its main thread."""
         ...
 
     def on_interrupt(self, callback: Callable[[int], Any], signals: Iterable[int] = ...) -> Callable[[], None]:
-        """Call `callback(signum)` first when one of the signals comes. Returns what takes the hook away."""
+        """Call `callback(signum)` before the handler of these signals. Returns a function that removes the hook."""
         ...
 
     def on_abandon(self, callback: Callable[[], Any]) -> Callable[[], None]:
-        """Call `callback()` once it is over, however. Returns what takes the callback away."""
+        """Call `callback()` when the process is over, however it ended. Returns a function that removes it."""
         ...
 
     def end_with_main(self, pool: Pool) -> None:
-        """Once its main program is over, let a pool do what was submitted to it and end, and wait for that."""
+        """When its main program is over, let a pool finish its submitted work and shut down, and wait for that."""
         ...
 
     def guarded(self, callback: Callable[[], Any]) -> None:
@@ -233,13 +233,13 @@ class CurrentProcess(Watched, RunningProcess, Protocol):
         ...
 
     def die(self, code: int) -> None:
-        """End now with this exit code, without last words."""
+        """End now with this exit code, discarding unfinished output."""
         ...
 
     def finish(self, code: int) -> None:
-        """Record the end of the process, once, and tell everyone."""
+        """Record the end of the process, once, and notify all."""
         ...
 
     def break_off_later(self, states: Sequence[NodeThread]) -> None:
-        """Give killed threads a moment to unwind; then raise in those that compute."""
+        """Give killed threads a moment to unwind, then raise in those still busy."""
         ...

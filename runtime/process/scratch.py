@@ -1,7 +1,7 @@
-"""A folder for the temporary files of this process: it goes with the process, and what a killed one left is removed.
+"""A folder for this process's temporary files, removed with the process; leftovers of killed ones are removed, too.
 
-One folder for all of a user's programs, with one in it for each process. Each is locked by its process for as long as
-that lives, so that the next one to start knows which are left over.
+A user's programs share one folder with a subfolder per process. Each process keeps its subfolder locked while it lives,
+so that the next process to start can tell which are left over.
 """
 
 from __future__ import annotations
@@ -18,17 +18,17 @@ from . import real
 
 LOCK = "lock"
 OVER = ".over"
-"""What the name of a folder ends with that is being removed: whoever had the old name writes into it no more."""
+"""Suffix of a folder being removed: whoever still has the old name can no longer write into it."""
 _made: dict[int, tuple[Path, int]] = {}
 _ended: set[int] = set()
-"""The process, once its end has removed what there was: nothing would remove what is made after that."""
+"""The pid of this process, once its folder was removed at its end: nothing would remove a folder made after that."""
 _guard = _thread.allocate_lock()
-"""Several launches of a process begin at once, and each would make a folder of which only one is remembered."""
+"""Several launches of a process start at once: each would make a folder, and only one would be remembered."""
 
 
 def _after_fork() -> None:
     global _guard
-    _guard = _thread.allocate_lock()  # a thread that is not here may have held it
+    _guard = _thread.allocate_lock()  # a thread that does not exist in the child may have held it
 
 
 if hasattr(os, "register_at_fork"):
@@ -36,7 +36,7 @@ if hasattr(os, "register_at_fork"):
 
 
 def scratch() -> Path:
-    """The folder of this process; raises `OSError` where none can be made, and once the process is ending."""
+    """Return this process's folder; raises `OSError` if none can be made, or if the process is ending."""
     pid = real.getpid()
     with _guard:
         if pid in _ended:
@@ -53,14 +53,14 @@ def _make(pid: int) -> None:
     handle = os.open(new / LOCK, os.O_RDWR | os.O_CREAT, 0o600)
     with contextlib.suppress(OSError):
         _take(handle)
-    folder = new.rename(base / new.name[1:])  # whoever cleans sees it only now that it is locked
-    _made.clear()  # of the process that this one was forked from
+    folder = new.rename(base / new.name[1:])  # visible to `clean` only now that it is locked
+    _made.clear()  # entries of the process that this one was forked from
     _made[pid] = (folder, handle)
     real.at_exit(remove)
 
 
 def scratch_file(prefix: str, text: str) -> Path:
-    """A new file of this process with this text."""
+    """Create a file of this process with this text."""
     handle, path = tempfile.mkstemp(prefix=prefix, dir=scratch())
     with open(handle, "w", encoding="utf-8") as file:
         file.write(text)
@@ -68,20 +68,20 @@ def scratch_file(prefix: str, text: str) -> Path:
 
 
 def remove() -> None:
-    """Take this process's folder away, as its end does; there is none from now on."""
+    """Remove this process's folder, at its end; no new one can be made."""
     pid = real.getpid()
     with _guard:
         _ended.add(pid)
         folder, handle = _made.pop(pid, (None, -1))
     if folder is not None:
-        with contextlib.suppress(OSError):  # threads of a launch may still write
+        with contextlib.suppress(OSError):  # threads of a launch may still be writing
             folder = folder.rename(folder.with_name(folder.name + OVER))
         _delete(folder)
         os.close(handle)
 
 
 def clean(base: Path) -> None:
-    """Remove the folders of processes that are no more."""
+    """Remove the folders of processes that no longer exist."""
     for folder in base.glob("[0-9]*.*"):
         with contextlib.suppress(OSError):
             handle = os.open(folder / LOCK, os.O_RDWR)
@@ -93,7 +93,7 @@ def clean(base: Path) -> None:
 
 
 def _delete(folder: Path) -> None:
-    """Remove a folder, its lock last: one whose removal is cut short is found by the next who cleans."""
+    """Remove a folder, its lock last: an interrupted removal is completed by the next `clean`."""
     with contextlib.suppress(OSError):
         for each in folder.iterdir():
             if each.is_dir() and not each.is_symlink():
@@ -105,16 +105,16 @@ def _delete(folder: Path) -> None:
 
 
 def _take(handle: int) -> None:
-    """Lock a file for as long as it is open; raises `OSError` where another process has it, or none can be locked."""
+    """Lock a file while it is open; raises `OSError` if another process holds the lock, or locking is unsupported."""
     try:
         import fcntl
-    except ImportError:  # Windows: nobody can tell what is left over, so nothing is removed
+    except ImportError:  # Windows: leftovers cannot be told apart, so nothing is removed
         raise OSError("no file locks here") from None
     fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 def _base() -> Path:
-    """Beside the sockets as a rule, in a folder closed to other users; where that is not ours, one for us alone."""
+    """Return a folder closed to other users, normally beside the sockets; a private one if that is not ours."""
     user = os.geteuid() if hasattr(os, "geteuid") else 0
     ours = Path(tempfile.gettempdir()) / f"bot-console-{user}"
     for each in (ours, ours / "files"):

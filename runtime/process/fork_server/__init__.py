@@ -1,4 +1,4 @@
-"""Real processes in milliseconds: forked from a server that has imported everything. Knows no ROS. POSIX only.
+"""Real processes in milliseconds: forked from a server that has imported everything. Independent of ROS. POSIX only.
 
 Here (the parent)
     `server = ForkServer("package.module:warm_up")`: starts it at once, warms up while the parent goes on.

@@ -18,13 +18,13 @@ if sys.path[:1] == [""]:
 from bot_console.runtime.process.fork_server.main import main
 main({descriptor}, {warm_up!r})
 """
-"""The working directory is not looked into: a user's `random.py` is for the user's nodes."""
+"""The working directory is removed from `sys.path`: a user's `random.py` is for the user's nodes."""
 END_S = 12.0
-"""Seconds that the server may take to end its children: both steps of its escalation, and some."""
+"""Seconds the server may take to end its children: both steps of its escalation plus a margin."""
 
 
 class ForkServer:
-    """A fork server of this process. Methods may be called from any thread."""
+    """A fork server of this process. Thread-safe."""
 
     def __init__(self, warm_up: str) -> None:
         """`warm_up` names a function, `package.module:function`; it must leave no thread and no open socket behind."""
@@ -36,7 +36,7 @@ class ForkServer:
                 [sys.executable, "-c", CODE.format(descriptor=theirs.fileno(), warm_up=warm_up)],
                 stdin=subprocess.DEVNULL,
                 pass_fds=[theirs.fileno()],
-                # OpenBLAS starts threads when it is imported; a fork beside them loses them, and may hang.
+                # OpenBLAS starts threads on import; a fork loses them, and may hang.
                 env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
                 # Ctrl-C in the terminal is for the parent, which then ends what it has started.
                 start_new_session=True,
@@ -45,13 +45,13 @@ class ForkServer:
 
     @property
     def is_alive(self) -> bool:
-        """Whether it can start anything."""
+        """Whether the server runs and can start children."""
         return self._process.poll() is None
 
     def start(self, job: Job, *, stdin: int, stdout: int, stderr: int, data: int) -> int:
-        """Start a child with these descriptors, which stay open here; the descriptor that its `Report` comes from.
+        """Start a child with these descriptors, which stay open here; return the descriptor to read its `Report` from.
 
-        Raises `FileNotFoundError` for a directory that is not there, `OSError` when the server has ended.
+        Raises `FileNotFoundError` for a missing directory, `OSError` if the server has ended.
         """
         if not os.path.isdir(job.cwd):
             raise FileNotFoundError(2, os.strerror(2), job.cwd)
@@ -63,12 +63,12 @@ class ForkServer:
             os.close(report)
             raise
         finally:
-            # The server has its own copy; while ours is open the report would never end.
+            # The server has its own copy; while ours stays open, the report would never reach its end.
             os.close(told)
         return report
 
     def close(self) -> None:
-        """End all children and the server; waits for that."""
+        """End all children and the server, and wait for that."""
         self._connection.close()
         try:
             self._process.wait(END_S)

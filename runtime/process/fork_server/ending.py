@@ -1,8 +1,7 @@
-"""The end of a process that runs a program, in the interpreter's own order and with its exit codes.
+"""End a process that runs a program, in the interpreter's own order and with its exit codes.
 
-The interpreter itself is not finalized: threads that are not Python's (a middleware's) may call back at any time, and
-one
-that finds it half torn down writes a panic after what the program printed.
+The interpreter itself is not finalized: foreign threads (of a middleware) may call back at any time, and one that finds
+it half torn down would print a panic after the program's output.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ def run_to_end(program: Callable[[], object]) -> NoReturn:
     wait_for_threads()
     code = exit_functions_run(code)
     _flush_of_c()
-    if code == -signal.SIGINT:  # so that who waits for it sees by what it ended
+    if code == -signal.SIGINT:  # so that the parent sees the signal as the cause
         signal.signal(signal.SIGINT, signal.SIG_DFL)
         os.kill(os.getpid(), signal.SIGINT)
     os._exit(code & 0xFF)
@@ -47,7 +46,7 @@ def _run(program: Callable[[], object]) -> int:
 
 
 def _flush_of_c() -> None:
-    """Write what libraries in C have printed and their buffers still hold."""
+    """Flush the stdio buffers of C libraries."""
     import ctypes
 
     with contextlib.suppress(OSError, AttributeError):

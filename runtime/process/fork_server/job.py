@@ -1,4 +1,4 @@
-"""What a child of the fork server should run, as plain data."""
+"""What a child of the fork server runs, as plain data."""
 
 from __future__ import annotations
 
@@ -10,30 +10,30 @@ from typing import Any
 
 
 def function_named(name: str) -> Callable[..., Any]:
-    """The function that `package.module:function` names."""
+    """Import and return the function named by `package.module:function`."""
     module, _, function = name.partition(":")
     return getattr(importlib.import_module(module), function)
 
 
 @dataclass(frozen=True)
 class Job:
-    """A program and what it finds when it starts."""
+    """A program and its environment at start."""
 
     name: str
-    """What system tools list it as; they show 15 characters."""
+    """The name in system tools, which show 15 characters."""
     program: str
-    """`package.module:function` that gives the program: a callable without arguments."""
+    """`package.module:function` that returns the program: a callable without arguments."""
     arguments: Sequence[Any]
-    """What that function is called with: numbers, texts, lists, None."""
+    """The arguments of that function: numbers, strings, lists, None."""
     argv: Sequence[str]
     env: Mapping[str, str]
     cwd: str
 
     def to_bytes(self) -> bytes:
-        """For the socket; texts that are no valid Unicode (as file names may be) survive it."""
+        """Serialize for the socket; strings that are not valid Unicode (as file names may be) are preserved."""
         return json.dumps(asdict(self)).encode()
 
     @classmethod
     def from_bytes(cls, data: bytes) -> Job:
-        """What `to_bytes` has written."""
+        """Deserialize the output of `to_bytes`."""
         return cls(**json.loads(data))

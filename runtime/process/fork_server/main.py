@@ -12,10 +12,10 @@ from .start import become, let_signals_in
 
 
 def main(descriptor: int, warm_up: str) -> None:
-    """Serve the parent at the other end of a socket; in each child: run its program."""
+    """Serve the parent at the other end of a socket; in each child, run its program."""
     function_named(warm_up)()
     gc.collect()
-    gc.freeze()  # what is never looked at again is not copied into each child
+    gc.freeze()  # objects that the collector never touches are not copied into each child
     birth = Server(socket.socket(fileno=descriptor)).serve()
     if birth is None:
         return

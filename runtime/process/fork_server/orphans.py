@@ -1,4 +1,4 @@
-"""Processes that a child started and left behind: they become children of the server, and end with it.
+"""Processes that a child left behind: they become children of the server, and end with it.
 
 Only Linux hands them over (`prctl(2)`, PR_SET_CHILD_SUBREAPER); elsewhere they are left to the system.
 """
@@ -16,15 +16,15 @@ _SUBREAPER = 36
 
 
 def adopt() -> None:
-    """Have them handed to this process from now on."""
+    """Make this process the parent of orphaned descendants from now on."""
     with contextlib.suppress(AttributeError, OSError):  # a system without it
         ctypes.CDLL(None).prctl(_SUBREAPER, 1, 0, 0, 0)
 
 
 def tell_to_end(sessions: Collection[int], number: signal.Signals) -> bool:
-    """Send a signal to those that are still in the sessions of such children; whether there are any.
+    """Send a signal to the orphans still in these sessions; return whether there are any.
 
-    One that has begun a session of its own, as a daemon does, wants to stay.
+    A process that has started a session of its own, as a daemon does, is meant to stay.
     """
     left = [pid for pid in _children() if _session(pid) in sessions]
     for pid in left:

@@ -1,4 +1,4 @@
-"""What the fork server reports about a child: its pid at once, its exit code when it has ended."""
+"""The fork server's report on a child: its pid at once, its exit code when it has ended."""
 
 from __future__ import annotations
 
@@ -6,18 +6,18 @@ import os
 
 
 class Report:
-    """Collects the bytes that come from the descriptor which `ForkServer.start` gives."""
+    """Parses the bytes read from the descriptor that `ForkServer.start` returns."""
 
     def __init__(self) -> None:
         self._text = b""
         self.pid: int | None = None
         self.exit_code: int | None = None
-        """As of `subprocess`: negative for a signal."""
+        """As in `subprocess`: negative for a signal."""
         self.problem = ""
-        """Why it could not be started."""
+        """Why the child could not be started."""
 
     def feed(self, data: bytes) -> None:
-        """Take the next bytes."""
+        """Parse the next bytes."""
         *lines, self._text = (self._text + data).split(b"\n")
         for line in lines:
             kind, _, value = line.decode().partition(" ")
@@ -30,22 +30,22 @@ class Report:
 
 
 def tell_pid(descriptor: int, pid: int) -> None:
-    """Say that the child runs."""
+    """Report that the child runs."""
     _write(descriptor, f"pid {pid}\n")
 
 
 def tell_exit(descriptor: int, code: int) -> None:
-    """Say that the child has ended; the last word."""
+    """Report that the child has ended; the final line."""
     _write(descriptor, f"exit {code}\n")
 
 
 def tell_problem(descriptor: int, text: str) -> None:
-    """Say that there is no child; the last word."""
+    """Report that the child could not be started; the final line."""
     _write(descriptor, f"problem {text}\n")
 
 
 def _write(descriptor: int, text: str) -> None:
     try:
         os.write(descriptor, text.encode())
-    except BrokenPipeError:  # nobody wants to know
+    except BrokenPipeError:  # nobody reads the report any more
         return

@@ -1,4 +1,4 @@
-"""The fork server's loop: starts children and reports how they ended. It never has a second thread."""
+"""The fork server's loop: starts children and reports how they ended. It never starts a second thread."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from .job import Job
 from .report import tell_exit, tell_pid, tell_problem
 
 ESCALATION_S = 5.0
-"""Seconds between SIGINT and SIGTERM, and SIGTERM and SIGKILL, to children whose parent has gone."""
+"""Seconds between SIGINT and SIGTERM, and between SIGTERM and SIGKILL, to children whose parent is gone."""
 ORPHANS_S = 1.0
-"""Seconds between SIGTERM and SIGKILL to what children have left behind."""
+"""Seconds between SIGTERM and SIGKILL to the processes that children have left behind."""
 HELD_BACK = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGCHLD)
-"""Signals that a child gets only when it is ready for them."""
+"""Signals blocked in a child until it is ready for them."""
 
 
 @dataclass
 class Birth:
-    """What a child is born with."""
+    """What a new child gets."""
 
     job: Job
     stdio: tuple[int, int, int]
@@ -34,21 +34,21 @@ class Birth:
 
 @dataclass
 class Server:
-    """Serves one parent until that is gone."""
+    """Serves one parent until the parent is gone."""
 
     parent: socket.socket
     _children: dict[int, int] = field(default_factory=dict[int, int])
-    """Where the report of each child goes, by its pid."""
+    """The report descriptor of each child, by pid."""
     _sessions: set[int] = field(default_factory=set[int])
-    """Those of all children that there ever were."""
+    """The session ids of all children started so far."""
     _ending: bool = False
 
     def serve(self) -> Birth | None:
-        """Start children until the parent is gone and all have ended: None. In each child: what it is to do."""
+        """Start children until the parent is gone and all have ended; return None, or in each child its `Birth`."""
         wake, woken = os.pipe()
         os.set_blocking(wake, False)
         os.set_blocking(woken, False)
-        # A signal makes `select` return: children end, and the parent asks for the end, at any time.
+        # A signal makes `select` return: a child may end, or the parent may ask for the end, at any time.
         signal.set_wakeup_fd(woken, warn_on_full_buffer=False)
         for each in HELD_BACK:
             signal.signal(each, self._signalled)
@@ -66,7 +66,7 @@ class Server:
         return None
 
     def _look(self, wake: int, timeout: float | None = None) -> bool:
-        """Wait for a request or a signal, at most so many seconds; whether there is a request."""
+        """Wait for a request or a signal, at most `timeout` seconds; return whether there is a request."""
         ready, _, _ = select.select([wake] if self._ending else [self.parent, wake], [], [], timeout)
         if wake in ready:
             os.read(wake, 4096)
@@ -78,7 +78,7 @@ class Server:
             self._ending = True
 
     def _next(self) -> Birth | None:
-        """Take a request; in the child: what it is to do."""
+        """Handle a request; in the child, return its `Birth`."""
         request = wire.receive(self.parent)
         if request is None:
             self._ending = True
@@ -86,7 +86,7 @@ class Server:
         data, descriptors = request
         *given, report = descriptors
         job = Job.from_bytes(data)
-        # Until it has handlers of its own, a signal to the child would run those of the server.
+        # Until the child has its own handlers, a signal to it would run those of the server.
         signal.pthread_sigmask(signal.SIG_BLOCK, HELD_BACK)
         try:
             pid = os.fork()
@@ -97,7 +97,7 @@ class Server:
         if pid == 0:
             os.close(report)
             for each in self._children.values():
-                # The reports of its siblings: a child that kept them open would hide that a sibling has ended.
+                # The reports of its siblings: a child that kept them open would hide the end of a sibling.
                 os.close(each)
             return Birth(job, (given[0], given[1], given[2]), given[3])
         signal.pthread_sigmask(signal.SIG_UNBLOCK, HELD_BACK)
@@ -121,12 +121,12 @@ class Server:
             if pid == 0:
                 return
             report = self._children.pop(pid, None)
-            if report is not None:  # else it is one that a child has left behind
+            if report is not None:  # else it is an orphan of a child
                 tell_exit(report, os.waitstatus_to_exitcode(status))
                 os.close(report)
 
     def _end_children(self, wake: int) -> None:
-        """The parent is gone: nobody could stop them any more."""
+        """End the children of a parent that is gone: nobody else could stop them."""
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
             for pid in self._children:
                 os.kill(pid, number)  # not reaped yet, so the pid is still the child's

@@ -1,4 +1,4 @@
-"""From a fork of the server to a process of its own that runs a program."""
+"""Turn a fork of the server into a separate process that runs a program."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from .job import function_named
 from .server import HELD_BACK, Birth
 
 LAST_PRIORITY = 500
-"""Raised chance (of -1000 to 1000) to be the one that the system ends when memory runs out, before the console."""
+"""OOM score adjustment (-1000 to 1000), so that the system kills this process before the console."""
 
 
 def become(birth: Birth) -> Callable[[], object]:
-    """Make this fork the process that a job describes; what it is to run. Signals are still held back."""
+    """Make this fork the process that a job describes and return its program. Signals are still blocked."""
     job = birth.job
     os.setsid()
     _take_streams(birth.stdio)
@@ -42,7 +42,7 @@ def become(birth: Birth) -> Callable[[], object]:
     MAIN.notices.clear()
     _name(job.name)
     random.seed()
-    if "numpy.random" in sys.modules:  # else it seeds itself when it is imported, which takes as long as all of this
+    if "numpy.random" in sys.modules:  # otherwise it seeds itself on import, which takes as long as all of this
         sys.modules["numpy.random"].seed()
     sys.excepthook = _uncaught
     on_notice(lambda process, text: data_pipe.tell("notice", text=text))
@@ -52,13 +52,13 @@ def become(birth: Birth) -> Callable[[], object]:
 
 
 def let_signals_in() -> None:
-    """Default handlers, and from now on whatever has come meanwhile."""
+    """Install the default handlers and unblock the signals, including those received meanwhile."""
     for each in HELD_BACK:
         signal.signal(each, signal.default_int_handler if each == signal.SIGINT else signal.SIG_DFL)
     try:
         signal.pthread_sigmask(signal.SIG_UNBLOCK, HELD_BACK)
     except KeyboardInterrupt as interrupt:
-        raise interrupt.with_traceback(None) from None  # it met the program before its first line
+        raise interrupt.with_traceback(None) from None  # it arrived before the program's first line
 
 
 def _take_streams(stdio: Sequence[int]) -> None:
@@ -71,12 +71,12 @@ def _take_streams(stdio: Sequence[int]) -> None:
 
 
 def _output(descriptor: int, errors: str) -> TextIO:
-    """A stream that hands on each line at once, though it is no terminal: a log shows lines when they are printed."""
+    """Open a line-buffered stream though it is no terminal: a log shows lines when they are printed."""
     return os.fdopen(descriptor, "w", buffering=1, closefd=False, encoding="utf-8", errors=errors)
 
 
 def _add_python_path(folders: str) -> None:
-    """What the interpreter does when it starts with this environment."""
+    """Add the folders of PYTHONPATH to `sys.path`, as the interpreter does at start."""
     wanted = [os.path.abspath(each) for each in folders.split(os.pathsep) if each]
     sys.path[:0] = [each for each in wanted if each not in sys.path]
 
@@ -91,7 +91,7 @@ def _name(name: str) -> None:
 
 
 def _uncaught(kind: type[BaseException], exception: BaseException, trace: TracebackType | None) -> None:
-    """Print an uncaught exception as the interpreter does, from the program's own first line on; tell the parent."""
+    """Print an uncaught exception as the interpreter does, from the program's first line on; report it."""
     exception.__traceback__ = trace.tb_next if trace is not None else None  # without the line that called `main` here
     trim(exception)
     lines = traceback.format_exception(kind, exception, exception.__traceback__)

@@ -1,4 +1,4 @@
-"""Jobs on a stream socket: a length, the bytes, and the descriptors that belong to them."""
+"""Framing of jobs on a stream socket: a length, the bytes, and the descriptors that belong to them."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ MOST_DESCRIPTORS = 8
 
 
 def send(connection: socket.socket, data: bytes, descriptors: Sequence[int]) -> None:
-    """Send one frame; raises `OSError` when nobody reads any more."""
+    """Send one frame; raises `OSError` if nobody reads any more."""
     frame = _LENGTH.pack(len(data)) + data
     sent = socket.send_fds(connection, [frame], list(descriptors))
     connection.sendall(frame[sent:])
 
 
 def receive(connection: socket.socket) -> tuple[bytes, list[int]] | None:
-    """The next frame; None at the end."""
+    """Return the next frame; None at the end."""
     head, descriptors, _, _ = socket.recv_fds(connection, _LENGTH.size, MOST_DESCRIPTORS)
     head += _rest(connection, _LENGTH.size - len(head)) if head else b""
     body = _rest(connection, _LENGTH.unpack(head)[0]) if len(head) == _LENGTH.size else None

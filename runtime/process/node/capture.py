@@ -12,11 +12,11 @@ if TYPE_CHECKING:
     from .output_pipe import OutputPipe
 
 Sink = Callable[[str], None]
-"""Takes one line with its newline (the last one may lack it), in the thread that wrote it. Must never block."""
+"""Receives one line with its newline (the last one may lack it), in the thread that wrote it. Must never block."""
 
 
 class LineCapture(io.TextIOBase):
-    """A text stream as `sys.stdout` is, whose lines go to a sink; whatever threads write, each line stays whole."""
+    """A text stream like `sys.stdout` that passes lines to a sink; lines stay whole whatever threads write."""
 
     encoding = "utf-8"
     errors = "replace"
@@ -32,15 +32,15 @@ class LineCapture(io.TextIOBase):
         self._pipe: OutputPipe | None = None
 
     def writable(self) -> bool:
-        """True."""
+        """Return True."""
         return True
 
     def isatty(self) -> bool:
-        """False: nobody sees it as it is."""
+        """Return False: no terminal is attached."""
         return False
 
     def write(self, text: str) -> int:
-        """Take text; every line that it completes goes to the sink. Raises `TypeError` for anything but text."""
+        """Write text; each completed line goes to the sink. Raises `TypeError` for anything but text."""
         if not isinstance(text, str):  # pyright: ignore[reportUnnecessaryIsInstance] -- node code is not checked
             raise TypeError(f"write() argument must be str, not {type(text).__name__}")
         if self._pipe is not None:
@@ -57,10 +57,10 @@ class LineCapture(io.TextIOBase):
                 self._sink(line + "\n")
 
     def reconfigure(self, **_options: Any) -> None:
-        """Accepted and without effect: lines are always handed on at once, as UTF-8."""
+        """Accept and ignore options: lines are always passed on at once, as UTF-8."""
 
     def fileno(self) -> int:
-        """A descriptor for child processes and C code, whose bytes come out here as lines."""
+        """Return a descriptor for child processes and C code, whose output arrives at the sink as lines."""
         with self._lock:
             if self._pipe is None:
                 if self.closed:
@@ -71,7 +71,7 @@ class LineCapture(io.TextIOBase):
             return self._pipe.write_end
 
     def end(self) -> None:
-        """The process has ended: hand on an unfinished last line, and take no more."""
+        """Pass on an unfinished last line and close, when the process has ended."""
         pipe, self._pipe = self._pipe, None
         if pipe is not None:
             pipe.close()
@@ -82,20 +82,20 @@ class LineCapture(io.TextIOBase):
             super().close()
 
     def mute(self) -> None:
-        """Take no more, hand on nothing: a killed process prints no last words."""
+        """Close without passing anything on: a killed process prints no last words."""
         with self._lock:
             self._partial = ""
         self.end()
 
     def flush(self) -> None:
-        """Nothing to do: whole lines are handed on at once."""
+        """Do nothing: whole lines are passed on at once."""
 
     def close(self) -> None:
-        """Keep open: `sys.stdout.close()` by a node, or a garbage collector, must not lose what comes later."""
+        """Stay open: `sys.stdout.close()` by a node, or the garbage collector, must not lose later output."""
 
 
 class _NoInput(io.TextIOBase):
-    """Standard input of a node process: at its end, because the keyboard belongs to the console."""
+    """Standard input of a node process: always at its end, because the keyboard belongs to the console."""
 
     name = "<stdin>"
     encoding = "utf-8"

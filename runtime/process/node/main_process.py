@@ -1,4 +1,4 @@
-"""The real process, seen as a node process: nothing in it is virtual."""
+"""The real process in the role of a node process: nothing in it is virtual."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class MainProcess(NodeProcess):
-    """What threads belong to that no node process has started; its signals are real ones."""
+    """The process of all threads that no node process started; its signals are real ones."""
 
     def __init__(self, name: str) -> None:
         super().__init__(name, RealTime())
@@ -32,15 +32,16 @@ class MainProcess(NodeProcess):
 
     @property
     def is_alive(self) -> bool:
-        """True: this code runs in it."""
+        """Always True: this code runs in it."""
         return True
 
     def on_interrupt(
         self, callback: Callable[[int], Any], signals: Iterable[int] = (signal.SIGINT, signal.SIGTERM)
     ) -> Callable[[], None]:
-        """Call `callback(signum)` when the real process gets the signal, then the handler that was there before.
+        """Call `callback(signum)` when the real process gets the signal, then the previous handler.
 
-        Takes effect only from the main thread, where Python allows signal handlers. Returns what takes the hook away.
+        Takes effect only from the main thread, where Python allows signal handlers. Returns a function that removes the
+        hook.
         """
         wanted = frozenset(int(signum) for signum in signals)
         remove = self.signals.add_hook(callback, wanted)
@@ -65,11 +66,11 @@ class MainProcess(NodeProcess):
             before(signum, frame)
 
     def end_with_main(self, pool: Pool) -> None:
-        """Let a pool end once the main program is over: before the interpreter waits for threads, as its own pools."""
+        """Shut a pool down after the main program, before the interpreter waits for threads, as with its own pools."""
         super().end_with_main(pool)
         if not self._ends_pools:
             self._ends_pools = True
-            with suppress(RuntimeError):  # it is over: a thread makes this pool
+            with suppress(RuntimeError):  # the main program is over: a thread creates this pool
                 threading._register_atexit(self._end_pools)  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType] -- as `concurrent.futures`
 
     def _end_pools(self) -> None:
@@ -84,8 +85,8 @@ class MainProcess(NodeProcess):
             os.kill(os.getpid(), signum)
 
     def die(self, code: int) -> None:
-        """Nothing: the real process is not ended from within a run."""
+        """Do nothing: the real process is not ended from within a run."""
 
     def start(self, *_arguments: Any, **_options: Any) -> None:
-        """Raises `RuntimeError`: it runs already."""
+        """Raise `RuntimeError`: it is already running."""
         raise RuntimeError("the real process is already running")

@@ -20,25 +20,25 @@ SIGINT_EXIT = -2
 
 
 def start_main_thread(process: CurrentProcess, target: Callable[[], object]) -> None:
-    """Start the thread that runs `target` as the main of the process."""
+    """Start the thread that runs `target` as the main program of the process."""
     thread = threading.Thread(target=_Main(process, target), name="MainThread", daemon=False)
     child_threads.start_inside(process, process.clock, thread, child=False)
 
 
 class _Main:
-    """What the thread runs."""
+    """The callable that the thread runs."""
 
     def __init__(self, process: CurrentProcess, target: Callable[[], object]) -> None:
         self._process = process
         self._target: Callable[[], object] | None = target
 
     def __call__(self) -> None:
-        # What the program holds goes with the program, not with the thread object that somebody may keep.
+        # The program's objects are released with the program, not with the thread object, which somebody may keep.
         target, self._target = self._target, None
         assert target is not None
         try:
             code = exit_code_of(target)
-        except BaseException:  # an interrupt that fell into its last words
+        except BaseException:  # an interrupt during its last output
             code = SIGINT_EXIT
         if local.state is not None:
             local.state.ending = True
@@ -48,19 +48,19 @@ class _Main:
             self._end_children()
 
     def _wind_down(self) -> None:
-        """What the interpreter does after the main program: wait for threads, then the exit functions."""
+        """Do what the interpreter does after the main program: wait for threads, then call the exit functions."""
         pools.shut_down(self._process)
         try:
             while waited_for := [t for t, s in self._process.children.items() if not s.daemon and t.is_alive()]:
                 waited_for[0].join()
-        except BaseException as exception:  # a second Ctrl-C ends the waiting, and only that
+        except BaseException as exception:  # a second Ctrl-C ends only the waiting
             if not isinstance(exception, ProcessKilled):
                 print_exception(exception)
         while self._process.exit_functions:
             exit_code_of(self._process.exit_functions.pop())
 
     def _end_children(self) -> None:
-        """Daemon threads end with their process."""
+        """Kill the remaining daemon threads."""
         states = [state for state in self._process.children.values() if state.thread.is_alive()]
         for state in states:
             state.kill()
@@ -69,7 +69,7 @@ class _Main:
 
 
 def exit_code_of(target: Callable[[], object]) -> int:
-    """Run a callable and say how a Python process that does so ends; tracebacks go to its standard error stream."""
+    """Run a callable and return the exit code of a Python process doing so; tracebacks go to its standard error."""
     try:
         target()
     except SystemExit as exception:
@@ -79,7 +79,7 @@ def exit_code_of(target: Callable[[], object]) -> int:
     except KeyboardInterrupt as exception:
         print_exception(exception)
         return SIGINT_EXIT
-    except BaseException as exception:  # the border of the process
+    except BaseException as exception:  # the boundary of the process
         print_exception(exception)
         if text := explanation(exception):
             notify(local.process, text)

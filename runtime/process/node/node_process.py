@@ -1,4 +1,4 @@
-"""A node process: a thread, and the threads it starts, that look to their code like a process of their own."""
+"""A node process: a thread, and the threads it starts, that look like a separate process to their code."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from .thread_state import ProcessKilled, local
 if TYPE_CHECKING:
     from ..roles import NodeThread, OwnModules, Pool
 
-_pids = itertools.count((1 << 22) + 1)  # above Linux's highest possible pid, so that a stray kill() hits nobody
+_pids = itertools.count((1 << 22) + 1)  # above Linux's highest pid, so that a stray kill() hits nobody
 KILL_GRACE_S = 0.5
 """How long (s) a killed process's threads may take to unwind before it counts as abandoned."""
 
@@ -33,8 +33,8 @@ KILL_GRACE_S = 0.5
 class NodeProcess:
     """A process as its code sees it: arguments, environment, output, signals, exit code, and its own clock source.
 
-    Its clock source is that of the process which makes it unless given. `start` runs a callable in it. All other
-    methods may be called from any thread.
+    The clock source defaults to that of the process that creates it. `start` runs a callable in it. All other methods
+    are thread-safe.
     """
 
     def __init__(self, name: str, clock: ClockSource | None = None) -> None:
@@ -75,10 +75,10 @@ class NodeProcess:
         stderr: Sink | None = None,
         cwd: str | None = None,
     ) -> None:
-        """Run `target()` as the main of this process. Raises `RuntimeError` when it was started before.
+        """Run `target()` as the main program. Raises `RuntimeError` if the process was started before.
 
-        `argv` is `sys.argv` whole, `env` the whole environment (default: the starter's), `stdout` and `stderr` get each
-        line of output (default: the real streams). `cwd` is where child processes start.
+        `argv` is all of `sys.argv`, `env` the whole environment (default: the starter's); `stdout` and `stderr` receive
+        each line of output (default: the real streams). `cwd` is where child processes start.
         """
         from ..virtual.install import install_virtual_process
         from ..watch.busy_watch import busy_watch
@@ -101,47 +101,50 @@ class NodeProcess:
 
     @property
     def is_alive(self) -> bool:
-        """Whether it was started and has not ended."""
+        """Whether the process was started and has not ended."""
         return self.state is ProcessState.RUNNING
 
     def wait(self, timeout: float | None = None) -> int | None:
-        """Block until it has ended, at most `timeout` s of its clock's time; its exit code, None while it runs."""
+        """Block until the process has ended, at most `timeout` s of its clock; return its exit code, or None."""
         deadline = None if timeout is None else self.clock.steady_ns() + int(timeout * 1e9)
         self._ended.wait(deadline)
         return self.exit_code
 
     def interrupt(self) -> None:
-        """SIGINT: hooks, then `KeyboardInterrupt` (or its own handler) in its main thread, woken from any wait."""
+        """Send SIGINT: runs hooks, then raises `KeyboardInterrupt` (or calls its handler) in its main thread.
+
+        The main thread is woken from any wait.
+        """
         self.send_signal(signal.SIGINT)
 
     def terminate(self) -> None:
-        """SIGTERM: hooks or its own handler; where there is neither it ends with -15."""
+        """Send SIGTERM: runs hooks or its handler; without either it ends with -15."""
         self.send_signal(signal.SIGTERM)
 
     def deliver_signals(self) -> None:
-        """Let signals that are on their way take effect first, where the caller is its main thread.
+        """Let pending signals take effect first, if called from its main thread.
 
-        For code that has seen the effect of a hook: a real process would by now run the handler.
+        For code that has seen the effect of a hook: a real process would have run the handler by now.
         """
         state = local.state
         if state is None or state is not self.main_state:
             return
-        # A stepped run has one thread at work, so nothing can be on its way; waiting would keep the baton.
+        # A stepped run has one thread at work, so nothing can be pending; waiting would keep the baton.
         while self.signals.sending and not self.clock.stepped:
             real.sleep(0.0005)
         state.deliver()
 
     def kill(self) -> None:
-        """SIGKILL: it ends now with -9; code of it that does not unwind is abandoned, and a notice names the line."""
+        """Send SIGKILL: it ends now with -9; code that does not unwind is abandoned, and a notice names the line."""
         self.send_signal(SIGKILL)
 
     def send_signal(self, signum: int) -> None:
-        """Deliver a signal by number; without effect once it has ended."""
+        """Deliver a signal by number; does nothing if the process has ended."""
         if self.is_alive:
             self.signals.send(int(signum))
 
     def stop(self, grace: float = 5.0) -> int:
-        """Interrupt, terminate, kill, with `grace` s of its clock's time between; its exit code."""
+        """Interrupt, terminate, kill, waiting `grace` s of its clock between the steps; return its exit code."""
         for signum in (signal.SIGINT, signal.SIGTERM):
             self.send_signal(signum)
             if self.wait(grace) is not None:
@@ -152,16 +155,16 @@ class NodeProcess:
     def on_interrupt(
         self, callback: Callable[[int], Any], signals: Iterable[int] = (signal.SIGINT, signal.SIGTERM)
     ) -> Callable[[], None]:
-        """Call `callback(signum)` first when one of the signals comes, in the sender's thread with this `current()`.
+        """Call `callback(signum)` before the handler of these signals, in the sender's thread with this `current()`.
 
-        A hook for SIGTERM counts as its handler: the process goes on. Returns what takes the hook away.
+        A hook for SIGTERM counts as its handler: the process goes on. Returns a function that removes the hook.
         """
         return self.signals.add_hook(callback, (int(signum) for signum in signals))
 
     def on_exit(self, callback: Callable[[NodeProcess], Any]) -> Callable[[], None]:
-        """Call `callback(process)` once when it has ended, however; newest first. At once where it has ended already.
+        """Call `callback(process)` once when the process has ended, newest first; at once if it has already ended.
 
-        Returns what takes the callback away.
+        Returns a function that removes the callback.
         """
         with self._exit_lock:
             if self.exit_code is None:
@@ -171,15 +174,15 @@ class NodeProcess:
         return lambda: None
 
     def end_with_main(self, pool: Pool) -> None:
-        """Once the main program is over, let a pool do what was submitted to it and end, and wait for that."""
+        """When the main program is over, let a pool finish its submitted work and shut down, and wait for that."""
         self.pools.add(pool)
 
     def on_abandon(self, callback: Callable[[], Any]) -> Callable[[], None]:
-        """Call `callback()` once it is over, however: leave the graph, because code of it may still be running.
+        """Call `callback()` when the process is over, however it ended, to leave the graph: its code may still be
+        running.
 
-        At once where it is over: a killed thread may come this far.
-
-        All these come before the first `on_exit`. Returns what takes the callback away.
+        Called at once if it is already over: a killed thread may get this far. All of these run before the first
+        `on_exit` callback. Returns a function that removes the callback.
         """
         with self._exit_lock:
             over = self.exit_code is not None
@@ -190,36 +193,36 @@ class NodeProcess:
         return partial(_discard, self._abandon_callbacks, callback)
 
     def line(self) -> str | None:
-        """Where its main thread is, as `file.py:12, in function`; None when it has ended."""
+        """Return where its main thread is, as `file.py:12, in function`; None if it has ended."""
         return None if self.main_state is None else frames.thread_line(self.main_state.ident)
 
     def thread_states(self) -> list[NodeThread]:
-        """Its main thread and the threads that it started, those that have ended excepted."""
+        """Return its main thread and the threads it started, except those that have ended."""
         main = [] if self.main_state is None else [self.main_state]
         return [state for state in (*main, *self.children.values()) if state.thread.is_alive()]
 
     def cpu_seconds(self) -> float | None:
-        """Processor time (s) that its threads have used; None where the system does not tell."""
+        """Return the processor time (s) its threads have used; None if the system does not tell."""
         from ..watch.processor_time import total_seconds
 
         running = total_seconds(self.thread_states())
         return None if running is None else self.cpu_of_ended_threads + running
 
     def guarded(self, callback: Callable[[], Any]) -> None:
-        """Call back; an exception becomes a notice, because whoever ends or signals a process must get on."""
+        """Call back and turn an exception into a notice, because ending or signalling the process must go on."""
         try:
             callback()
         except Exception as exception:
             notify(self, f"a callback at the end of the process failed: {exception!r}")
 
     def die(self, code: int) -> None:
-        """End now with this exit code, without last words; raises `ProcessKilled` in all of its threads."""
+        """End now with this exit code, discarding unfinished output; raises `ProcessKilled` in all of its threads."""
         if not self.is_alive:
             return
         states = self.thread_states()
         for capture in (self.stdout, self.stderr):
             if capture is not None:
-                # Before the exit is told: a killed process says nothing after that.
+                # Before the exit is reported: a killed process prints nothing after that.
                 capture.mute()
         self.finish(code)
         for state in states:
@@ -229,12 +232,12 @@ class NodeProcess:
             raise ProcessKilled
 
     def break_off_later(self, states: Sequence[NodeThread]) -> None:
-        """Give killed threads a moment to unwind; then raise in those that compute, then say which one hangs where."""
+        """Give killed threads a moment to unwind, then raise in those still busy, then report which one hangs where."""
         real.later(KILL_GRACE_S, partial(self._break_off, states))
 
     def _break_off(self, states: Sequence[NodeThread]) -> None:
         left = [state for state in states if state.thread.is_alive()]
-        # One that waits for its turn raises by itself when that comes; thrown at, it would break the order.
+        # A thread waiting for its turn raises by itself when that comes; raising in it now would break the order.
         if any(state.takes_turns for state in left):
             self.break_off_later(left)
             return
@@ -251,14 +254,14 @@ class NodeProcess:
                 notify(self, f"did not end when it was told to, so it is abandoned. It hangs in {line}")
 
     def finish(self, code: int) -> None:
-        """Record the end of the process, once, and tell everyone."""
+        """Record the end of the process, once, and notify all."""
         with self._exit_lock:
             if self.exit_code is not None:
                 return
             self.exit_code = code
         self.state = ProcessState.EXITED
         running.pop(self.pid, None)
-        # Whoever ends it, the callbacks find out for whom they are called by `current()`.
+        # Whoever ends the process, `current()` tells the callbacks which one has ended.
         before, local.process = local.process, self
         try:
             for abandon in tuple(self._abandon_callbacks):

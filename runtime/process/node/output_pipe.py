@@ -1,4 +1,4 @@
-"""A real file descriptor that leads into a captured stream, for the output of a node's child processes and C code."""
+"""A real file descriptor that feeds a captured stream, for the output of a node's child processes and C code."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from collections.abc import Callable
 from ..virtual.child_threads import start_outside
 
 GRACE_S = 0.5
-"""How long (s) the end of a process waits for what its child processes have just printed."""
+"""How long (s) the end of a process waits for the last output of its child processes."""
 CHUNK = 65536
 
 
 class OutputPipe:
-    """Hands on as text what is written to `write_end`."""
+    """Passes on as text what is written to `write_end`."""
 
     def __init__(self, take: Callable[[str], None]) -> None:
         self._take = take
@@ -28,11 +28,11 @@ class OutputPipe:
         if os.name == "posix":
             os.set_blocking(self._read_end, False)
         self._pump = threading.Thread(target=self._run, name="output pump", daemon=True)
-        # Of no node process: it has to live until the last child of the node has printed.
+        # Belongs to no node process: it must live until the last child of the node has printed.
         start_outside(self._pump)
 
     def drain(self) -> None:
-        """Hand on what is in the pipe now, so that it comes before what is printed after it."""
+        """Pass on what is in the pipe now, so that it precedes what is printed next."""
         if os.name != "posix":
             return
         with self._guard:
@@ -44,7 +44,7 @@ class OutputPipe:
             self._ended = True
 
     def close(self) -> None:
-        """Close our end. What children have written arrives; one that lives on and prints is not waited for."""
+        """Close our end. What children have written arrives; a child that goes on printing is not waited for."""
         os.close(self.write_end)
         self._pump.join(GRACE_S)
 

@@ -6,10 +6,10 @@ from enum import Enum
 
 
 class ProcessState(Enum):
-    """From its making to its end; what becomes of its code after that."""
+    """The stages from its creation to its end, and beyond for a thread that does not end."""
 
     NEW = "new"
     RUNNING = "running"
     EXITED = "exited"
     ABANDONED = "abandoned"
-    """Killed, but a thread of it still runs; it has left the graph and its output is dropped."""
+    """Killed, but a thread of it still runs; it has left the graph and its output is discarded."""

@@ -12,5 +12,5 @@ running: WeakValueDictionary[int, RunningProcess] = WeakValueDictionary()
 
 
 def running_process(pid: int) -> RunningProcess | None:
-    """The running node process with this synthetic pid."""
+    """Return the running node process with this synthetic pid, or None."""
     return running.get(pid)

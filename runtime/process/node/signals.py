@@ -1,4 +1,4 @@
-"""Signals of a node process: what SIGINT and SIGTERM do to a thread that looks like a process."""
+"""Signals of a node process: the effect of SIGINT, SIGTERM and others on a thread that looks like a process."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ Hook = Callable[[int], Any]
 
 
 class Signals:
-    """What one node process does about each signal: hooks as rclpy's, and the handler that `signal.signal` set."""
+    """One node process's response to each signal: hooks such as rclpy's, and the handler set by `signal.signal`."""
 
     def __init__(self, process: CurrentProcess) -> None:
         self._process = process
@@ -41,10 +41,10 @@ class Signals:
         self._pause: Wakeup | None = None
         self.wakeup_fd = -1
         self.sending = 0
-        """How many signals are between their hooks and their handler."""
+        """Number of signals between their hooks and their handler."""
 
     def add_hook(self, hook: Hook, signals: Iterable[int]) -> Callable[[], None]:
-        """Call `hook(signum)` before the handler, as a handler does that calls the one it replaced."""
+        """Call `hook(signum)` before the handler, like a handler that calls the one it replaced."""
         entry = (hook, frozenset(signals))
         self._hooks.append(entry)
         return partial(self._remove_hook, entry)
@@ -54,11 +54,11 @@ class Signals:
             self._hooks.remove(entry)
 
     def handler(self, signum: int) -> Handler:
-        """What `signal.getsignal` says."""
+        """Return the handler, as `signal.getsignal` does."""
         return self._handlers.get(signum, signal.SIG_DFL)
 
     def set_handler(self, signum: int, handler: Handler) -> Handler:
-        """What `signal.signal` does: hooks set earlier are out, as an earlier `sigaction` would be."""
+        """Set the handler, as `signal.signal` does: earlier hooks are removed, as an earlier `sigaction` would be."""
         before = self.handler(signum)
         self._hooks = [(hook, signals - {signum}) for hook, signals in self._hooks]
         self._handlers[signum] = handler
@@ -87,11 +87,11 @@ class Signals:
 
     @property
     def hooked(self) -> bool:
-        """Whether any hook is left."""
+        """Whether any hook is registered."""
         return bool(self._hooks)
 
     def run_hooks(self, signum: int) -> bool:
-        """Call the hooks of a signal as this process; whether there was any."""
+        """Call the hooks of a signal as this process; return whether there were any."""
         hooks = [hook for hook, signals in self._hooks if signum in signals]
         # The sender is another thread, often of another process.
         before, local.process = local.process, self._process
@@ -126,12 +126,12 @@ class Signals:
         handler(signum, sys._getframe())  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
 
     def _break_in(self, state: NodeThread, action: partial[Any]) -> None:
-        """Interrupt a thread that computes: what a handler raises elsewhere is raised there."""
+        """Interrupt a busy thread: run the handler elsewhere and raise in the thread what the handler raises."""
         if state.takes_turns:
             if state.called and state.thread.is_alive():
                 real.later(BUSY_GRACE_S, partial(self._break_in, state, action))
         elif state.take_back(action):
-            # The busy thread cannot be made to call it; so it is called here, and what it raises is raised there.
+            # The busy thread cannot be made to call the handler, so it is called in a new thread.
             _thread.start_new_thread(self._handle_for, (state, action))
 
     def _handle_for(self, state: NodeThread, action: partial[Any]) -> None:
@@ -143,7 +143,7 @@ class Signals:
 
 
 def _as_class(exception: BaseException) -> type[BaseException]:
-    """A class that makes the same exception: the interpreter raises only classes in another thread."""
+    """Return a class that creates the same exception: the interpreter raises only classes in another thread."""
     if not exception.args:
         return type(exception)
 

@@ -1,4 +1,4 @@
-"""What the runtime knows about each thread of a node process: its owner, and what should be raised in it."""
+"""The runtime's state of each node process thread: its owner, and what is pending to be raised in it."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ if TYPE_CHECKING:
 
 
 IMPORT_PATIENCE_S = 0.005
-"""How long (s) until it is looked again whether a thread that imports has done so."""
+"""How long (s) until it is checked again whether a thread has finished importing."""
 
 
 class ProcessKilled(BaseException):
-    """Raised in the threads of a node process that was killed; no `except Exception` of a node catches it."""
+    """Raised in the threads of a killed node process; no `except Exception` of a node catches it."""
 
 
 class ThreadState:
-    """One thread of a node process, as those see it who want to wake it or to raise something in it.
+    """One thread of a node process, for those who want to wake it or raise something in it.
 
-    A thread that waits is woken and raises by itself; a busy one is only interrupted by `throw`, so that an exception
-    does not fall into the middle of the runtime's own work.
+    A waiting thread is woken and raises by itself; a busy one is only interrupted by `throw`, so that an exception does
+    not hit the runtime's own work half-way.
     """
 
     __slots__ = (
@@ -61,9 +61,9 @@ class ThreadState:
         self.waits = 0
         self.killed = False
         self.called = False
-        """Whether something waits to be raised or run in this thread."""
+        """Whether anything is pending to be raised or run in this thread."""
         self.ending = False
-        """Whether its program is over: what remains is the runtime's own work, and nothing is thrown into that."""
+        """Whether its program is over: the rest is the runtime's own work, and nothing is raised in that."""
         self._guard = allocate_lock()
         self._pending: deque[Callable[[], Any]] = deque()
         self._waker: Callable[[], None] | None = None
@@ -76,11 +76,11 @@ class ThreadState:
 
     @property
     def takes_turns(self) -> bool:
-        """Whether it is in step with a run: then its time comes by its turn, however long that takes."""
+        """Whether the thread takes turns in a stepped run: then it acts in its turn, however long that takes."""
         return self.seat is not None and not self.seat.detached
 
     def enter(self) -> None:
-        """Make the calling thread this one; in a stepped run that waits for its turn."""
+        """Make the calling thread this one; in a stepped run, wait for its turn."""
         self.ident = threading.get_ident()
         local.process = self.process
         local.state = self
@@ -90,23 +90,23 @@ class ThreadState:
             self.seat.take()
 
     def leave(self) -> None:
-        """The thread's work is over: let others have the turn, wake those that join it."""
+        """End the thread's work: pass the turn on and wake those that join it."""
         if self.ident:
-            # The system forgets a thread that has ended.
+            # The system discards the times of a thread that has ended.
             self.process.cpu_of_ended_threads += time.thread_time()
         self.finished.set()
         if self.seat is not None:
             self.seat.leave()
 
     def post(self, action: Callable[[], Any]) -> None:
-        """Have the thread call `action` in its present or its next wait; what that raises comes out of the wait."""
+        """Make the thread call `action` in its present or next wait, which raises what the action raises."""
         with self._guard:
             self._pending.append(action)
             self.called = True
             self._wake()
 
     def kill(self) -> None:
-        """Let this wait and every later one of the thread raise `ProcessKilled`."""
+        """Make this wait and every later one of the thread raise `ProcessKilled`."""
         with self._guard:
             self.killed = self.called = True
             self._wake()
@@ -116,7 +116,7 @@ class ThreadState:
             self._waker()
 
     def take_back(self, action: Callable[[], Any]) -> bool:
-        """Withdraw a posted action; False where the thread has taken it up or, in a wait, is about to."""
+        """Withdraw a posted action; returns False if the thread has taken it or, in a wait, is about to."""
         with self._guard:
             if self.waiting or action not in self._pending:
                 return False
@@ -125,14 +125,14 @@ class ThreadState:
             return True
 
     def throw(self, exception: type[BaseException]) -> None:
-        """Raise in the thread, a busy one at its next bytecode; a call into C code has to return first.
+        """Raise in the thread; in a busy one at its next bytecode, after any call into C code has returned.
 
-        The import machinery is left to finish: in the middle of it the exception could be lost, or leave a module's
-        lock held for ever, which all other node processes would wait for.
+        The import machinery is allowed to finish: within it the exception could be lost, or leave a module's lock held
+        for ever, which all other node processes would wait for.
         """
         with self._guard:
             if self.waiting:
-                # It will raise by itself when it is woken: thrown, the exception would come after the wait, anywhere.
+                # It raises by itself when woken: thrown, the exception would come at any point after the wait.
                 self._pending.append(partial(_raise, exception))
                 self.called = True
                 self._wake()
@@ -147,7 +147,7 @@ class ThreadState:
                 ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(self.ident), ctypes.py_object(exception))
 
     def begin_wait(self, waker: Callable[[], None]) -> None:
-        """Say how to wake the thread from the wait it now enters; raises what was posted or thrown before."""
+        """Register how to wake the thread from the wait it is entering; raises what was posted or thrown before."""
         with self._guard:
             self._waker = waker
             self.waits += 1
@@ -159,11 +159,11 @@ class ThreadState:
             self.deliver()
 
     def end_wait(self) -> None:
-        """The wait is over: from here on the thread counts as busy."""
+        """End the wait: from here on the thread counts as busy."""
         self._waker = None
 
     def deliver(self) -> None:
-        """Run what was posted, in this thread; raises what that raises."""
+        """Run the posted actions, in this thread; raises what they raise."""
         while self.called:
             if self.killed:
                 raise ProcessKilled
@@ -179,17 +179,17 @@ def _raise(exception: type[BaseException]) -> None:
 
 
 def _checkpoint() -> None:
-    """A call, because that is where the interpreter raises what `PyThreadState_SetAsyncExc` left."""
+    """Do nothing: calls are where the interpreter raises what `PyThreadState_SetAsyncExc` left."""
 
 
 class _ThreadLocals(threading.local):
-    """What is looked up at every call: plain attributes of the thread."""
+    """Thread-local values looked up at every call."""
 
     process: CurrentProcess
     state: ThreadState | None = None
     seat: Seat | None = None
     waits_on: ClockSource | None = None
-    """The clock that `time.sleep`, `Condition.wait` and `Thread.join` go through; None: the original calls."""
+    """The clock that `time.sleep`, `Condition.wait` and `Thread.join` use; None: the original calls."""
 
 
 local = _ThreadLocals()

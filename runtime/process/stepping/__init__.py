@@ -1,1 +1,1 @@
-"""The stepped run: one thread at a time, and time that jumps when all of them wait."""
+"""Stepped runs: one thread at a time, and time that jumps when all of them wait."""

@@ -1,7 +1,7 @@
-"""The scheduler of a stepped run. One thread has the baton and runs; who waits hands it on, in a fixed order.
+"""The scheduler of a stepped run. The thread with the baton runs; when it waits, it hands it on in a fixed order.
 
-Threads run in the order in which they became ready. When none is, time jumps to the earliest deadline, and those whose
-deadline that is become ready in the order in which they were made.
+Threads run in the order in which they became ready. When none is ready, time jumps to the earliest deadline, and the
+threads with that deadline become ready in order of creation.
 """
 
 from __future__ import annotations
@@ -18,19 +18,19 @@ if TYPE_CHECKING:
     from ..clock_source import WaitingThread
 
 LAST = 1 << 60
-"""The driver's rank: it sees everything that happens at the time until which it waits."""
+"""The driver's rank, the last: it sees everything that happens up to the time until which it waits."""
 POLL_NS = 20_000
-"""What a wait costs that would not block (ns), so that a loop of polls does not stand still in time."""
+"""Cost of a wait that would not block (ns), so that a polling loop advances time."""
 INSTANT_WAITS = 50_000
-"""How many waits may happen at one instant before each costs `POLL_NS`: nodes may keep each other awake for ever."""
+"""Number of waits at one instant after which each costs `POLL_NS`: nodes may keep waking each other for ever."""
 STALE_DEADLINES = 64
 Note = TypeVar("Note")
 SIGNAL_CHECK_S = 0.2
-"""How often (s of wall time) a waiting driver looks for real signals: another thread may have received them."""
+"""How often (s of wall time) a waiting driver checks for real signals: another thread may have received them."""
 
 
 class Awaited(Protocol):
-    """What threads wait for, as the scheduler sees it."""
+    """What threads wait for, as seen by the scheduler."""
 
     flag: bool
     """Whether it is set."""
@@ -39,7 +39,7 @@ class Awaited(Protocol):
 
 
 class Seat:
-    """One thread's place in the run."""
+    """One thread's seat in the run."""
 
     __slots__ = (
         "baton",
@@ -62,7 +62,7 @@ class Seat:
         self.rank = rank
         self.state = state
         self.lock = allocate_lock()
-        # Held from the start: to wait for the turn is to acquire it again, to be given the turn is its release.
+        # Held from the start: waiting for the turn is acquiring it again, granting the turn is releasing it.
         self.lock.acquire()
         self.wakeup: Awaited | None = None
         self.due: int | None = None
@@ -74,25 +74,25 @@ class Seat:
         self.ident = self.native_id = 0
 
     def take(self) -> None:
-        """Wait for the first turn, in the thread that has this place from now on."""
+        """Wait for the first turn; called in the thread that occupies this seat from now on."""
         self.native_id = get_native_id()
         self.ident = get_ident()
         self.lock.acquire()
 
     def hold_clock(self) -> None:
-        """Let time stand still until the first wait, or the end, of this thread."""
+        """Stop the clock until this thread first waits, or ends."""
         self.baton.starting.add(self)
 
     def leave(self) -> None:
-        """Take no more turns; the next one has it."""
+        """Leave the run and pass the turn on."""
         self.baton.leave(self)
 
     def rouse(self) -> None:
-        """End the present wait of this thread, though neither set nor due."""
+        """End the thread's present wait though it is neither set nor due."""
         self.baton.rouse(self)
 
     def wait(self, wakeup: Awaited | None, deadline: int | None) -> bool:
-        """Hand the baton on until woken or due (ns); whether woken. Raises what is to be raised in this thread."""
+        """Hand the baton on until woken or due (ns); return whether woken. Raises what is pending for this thread."""
         state, baton = self.state, self.baton
         if state is None:
             return baton.wait(self, wakeup, deadline)
@@ -109,7 +109,7 @@ class Seat:
 
 
 class Baton:
-    """The scheduler: who runs, who is ready, who waits for what (its deadline queue), and what time it is (ns)."""
+    """The scheduler: which thread runs, which are ready, which wait for what (the deadline queue), the time (ns)."""
 
     def __init__(self, now: int) -> None:
         self.now = now
@@ -118,7 +118,7 @@ class Baton:
         self.reads = 0
         self.seats: dict[int, Seat] = {}
         self.starting: set[Seat] = set()
-        """Those for whose first wait time stands still."""
+        """Threads that have not reached their first wait and stop the clock until then."""
         self._guard = allocate_lock()
         self._ready: deque[Seat] = deque()
         self._deadlines: list[tuple[int, int, Seat]] = []
@@ -126,12 +126,12 @@ class Baton:
         self._instant_waits = 0
 
     def driver_seat(self) -> Seat:
-        """The seat of a thread that has the baton from the start and may keep it as long as it likes."""
+        """Return the seat of a thread that has the baton from the start and may keep it as long as it likes."""
         self.holder = seat = self.seats[LAST] = Seat(self, LAST, None)
         return seat
 
     def seat(self, state: WaitingThread | None) -> Seat:
-        """A seat for a new thread, which is ready to run."""
+        """Return a seat for a new thread, which is ready to run."""
         with self._guard:
             self._next_rank += 1
             seat = self.seats[self._next_rank] = Seat(self, self._next_rank, state)
@@ -141,7 +141,7 @@ class Baton:
         return seat
 
     def leave(self, seat: Seat) -> None:
-        """The thread ends."""
+        """Remove a thread that ends."""
         with self._guard:
             self.seats.pop(seat.rank, None)
             self.starting.discard(seat)
@@ -152,7 +152,7 @@ class Baton:
                 self._grant_next()
 
     def wait(self, seat: Seat, wakeup: Awaited | None, deadline: int | None) -> bool:
-        """Hand the baton on; True when the wakeup is set, False when due or roused."""
+        """Hand the baton on; return True if the wakeup was set, False if due or roused."""
         with self._guard:
             self.turns += 1
             self._instant_waits += 1
@@ -161,7 +161,8 @@ class Baton:
             if self._instant_waits > INSTANT_WAITS:
                 self.now += POLL_NS
             if wakeup is not None and wakeup.flag:
-                # What is set already costs no turn; but who only ever does that would let nobody else run.
+                # A wakeup that is already set costs no turn; but a thread that only waited for such would let nobody
+                # else run.
                 if not seat.detached and self._instant_waits <= INSTANT_WAITS:
                     return True
                 self._ready.append(seat)
@@ -177,10 +178,11 @@ class Baton:
                 if seat.rank != LAST:
                     seat.lock.acquire()
                 else:
-                    # A signal that another thread received ends no acquire here, though its handler runs in this one.
+                    # A signal received by another thread does not end an acquire here, though its handler runs in this
+                    # thread.
                     while not seat.lock.acquire(True, SIGNAL_CHECK_S):
                         pass
-            except BaseException:  # a handler of a real signal raised in the real main thread
+            except BaseException:  # a real signal's handler raised in the real main thread
                 self._reclaim(seat)
                 raise
         if seat.waiting:
@@ -188,7 +190,7 @@ class Baton:
         return seat.woken or (wakeup is not None and wakeup.flag)
 
     def _is_next(self, seat: Seat, deadline: int) -> bool:
-        """Whether nothing happens before a wait of the holder is over, or at the same time."""
+        """Whether nothing happens before, or at the same time as, the end of the holder's wait."""
         deadlines = self._deadlines
         return (
             not self._ready
@@ -198,7 +200,7 @@ class Baton:
         )
 
     def wait_outside(self, wakeup: Awaited, deadline: int | None) -> bool:
-        """The wait of a thread that never has the baton: it goes on beside the one that has."""
+        """Wait in a thread that never has the baton and runs beside the one that does."""
         with self._guard:
             if wakeup.flag:
                 return True
@@ -224,7 +226,7 @@ class Baton:
                 self._grant_next()
 
     def rouse_all(self, wakeup: Awaited) -> None:
-        """Set a wakeup: all that wait for it are ready, in the order of their waits."""
+        """Set a wakeup: its waiters become ready, in the order of their waits."""
         with self._guard:
             wakeup.flag = True
             if wakeup.waiters:
@@ -237,7 +239,7 @@ class Baton:
     def detach(self, seat: Seat, turns: int, note: Callable[[Seat], Note]) -> Note | None:
         """Take the baton from a thread that blocks elsewhere, unless it has moved on since.
 
-        If so, what `note` says of it before the next one goes on; else None.
+        Returns the result of `note`, called before the next thread runs; None if the thread has moved on.
         """
         with self._guard:
             if self.holder is not seat or self.turns != turns:
@@ -248,7 +250,7 @@ class Baton:
             return said
 
     def stop_waiting_for_starts(self) -> None:
-        """Let time go on although not all threads that hold it have come to their first wait."""
+        """Let time go on although some threads have not reached their first wait."""
         with self._guard:
             self.starting.clear()
             if self.holder is None:
@@ -285,13 +287,13 @@ class Baton:
             self._ready.append(seat)
 
     def _withdraw(self, seat: Seat, wakeup: Awaited | None) -> None:
-        """End a wait that nothing has ended."""
+        """Cancel a wait that was not ended by a wakeup."""
         seat.waiting = False
         if wakeup is not None:
             wakeup.waiters.remove(seat)
 
     def _next(self) -> Seat | None:
-        """The thread whose turn it is now; time moves on when none is ready."""
+        """Return the thread whose turn it is, advancing time if none is ready."""
         ready, deadlines = self._ready, self._deadlines
         while deadlines and (not ready or deadlines[0][0] <= self.now):
             deadline, rank, seat = deadlines[0]
@@ -300,13 +302,13 @@ class Baton:
                 if rank == LAST and ready and deadline == self.now:
                     break
                 if deadline > self.now:
-                    # How long a start takes in wall time must not decide what happens before it.
+                    # The wall time that a start takes must not decide what happens before it.
                     if self.starting:
                         break
                     self.now = deadline
                     self.reads = self._instant_waits = 0
                 self._make_ready(seat)
-            # Woken before it was due, or served now: either way this entry is done with.
+            # Woken before it was due, or served now: either way this entry is done.
             heappop(deadlines)
             if seat.in_heap == deadline:
                 seat.in_heap = None
@@ -318,11 +320,11 @@ class Baton:
             seat.lock.release()
 
     def _hand_on(self, seat: Seat) -> bool:
-        """Let the next one run; whether `seat` has to wait for its turn."""
+        """Let the next thread run; return whether `seat` has to wait for its turn."""
         if len(self._deadlines) > STALE_DEADLINES + 4 * len(self.seats):
             self._drop_stale_deadlines()
         if seat.detached:
-            # It was taken for hanging, and somebody else may have the baton by now.
+            # It was considered hung, and another thread may have the baton by now.
             seat.detached = False
             if self.holder is not None:
                 return True
@@ -356,5 +358,5 @@ class Baton:
             with suppress(KeyboardInterrupt):
                 if seat.lock.acquire(timeout=1.0):
                     return
-        # A turn that was granted meanwhile would let the next wait return at once.
+        # A turn granted meanwhile would make the next wait return at once.
         seat.lock.acquire(False)

@@ -1,4 +1,4 @@
-"""What is wrapped during stepped runs: the `time` module shows their time, and new locks belong to them."""
+"""Calls wrapped during stepped runs: the `time` module returns virtual time, and new locks are those of the run."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def _stepped() -> ClockSource | None:
 
 
 def _reading(name: str, read: Callable[[ClockSource], int]) -> tuple[Callable[[], float], Callable[[], int]]:
-    """The wraps of `time.<name>` (s) and `time.<name>_ns`."""
+    """Return the wrappers of `time.<name>` (s) and `time.<name>_ns`."""
     real_s, real_ns = getattr(time, name), getattr(time, f"{name}_ns")
 
     def seconds() -> float:
@@ -36,7 +36,7 @@ def _reading(name: str, read: Callable[[ClockSource], int]) -> tuple[Callable[[]
 
 
 def _broken_down(name: str) -> Callable[..., Any]:
-    """`time.localtime` and the like: without an argument, of the present time."""
+    """Return the wrapper of `time.localtime` and the like, which default to the virtual time."""
     real_call = getattr(time, name)
 
     def wrapped(seconds: float | None = None, /) -> Any:
@@ -73,7 +73,7 @@ _guard = threading.Lock()
 
 
 def install_stepped_calls() -> None:
-    """Wrap these calls, until as many `uninstall_stepped_calls`."""
+    """Wrap these calls, until a matching number of `uninstall_stepped_calls`."""
     global _users
     with _guard:
         _users += 1
@@ -84,7 +84,7 @@ def install_stepped_calls() -> None:
 
 
 def uninstall_stepped_calls() -> None:
-    """Put the calls back once no stepped run needs them."""
+    """Restore the calls once no stepped run needs them."""
     global _users
     with _guard:
         _users -= 1

@@ -1,4 +1,4 @@
-"""An asyncio event loop in stepped time: its timers are virtual, and while it waits other threads run."""
+"""An asyncio event loop in stepped time: its timers are virtual, and other threads run while it waits."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 class SteppedEventLoop(asyncio.SelectorEventLoop):
     """An event loop for a thread that takes part in a stepped run.
 
-    Files and sockets are looked at whenever the loop comes round, but do not wake it: virtual time does not wait for
-    what is outside of the run.
+    Files and sockets are polled on every iteration but do not wake the loop: virtual time does not wait for events
+    outside the run.
     """
 
     def __init__(self, clock: ClockSource) -> None:
@@ -30,7 +30,7 @@ class SteppedEventLoop(asyncio.SelectorEventLoop):
         return self._stepped_clock.steady_ns() * 1e-9
 
     def call_soon_threadsafe(self, callback: Callable[..., Any], *args: Any, context: Any = None) -> asyncio.Handle:
-        """Call back in the loop; from any thread, which wakes the loop."""
+        """Call back in the loop, which is woken; thread-safe."""
         handle = super().call_soon_threadsafe(callback, *args, context=context)
         self._called.set()
         return handle
@@ -43,7 +43,7 @@ class _SteppedSelector(selectors.DefaultSelector):
         self._called = called
 
     def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
-        """What is ready now, or after a virtual wait of at most `timeout` s."""
+        """Return what is ready now, or after a virtual wait of at most `timeout` s."""
         events = super().select(0)
         if not events and (timeout is None or timeout > 0):
             deadline = None if timeout is None else self._clock.steady_ns() + round(timeout * 1e9)
@@ -54,6 +54,6 @@ class _SteppedSelector(selectors.DefaultSelector):
 
 
 def new_event_loop() -> asyncio.AbstractEventLoop:
-    """An event loop in the time of the calling thread's node process."""
+    """Return an event loop in the time of the calling thread's node process."""
     clock = current().clock
     return SteppedEventLoop(clock) if clock.stepped else asyncio.new_event_loop()

@@ -23,7 +23,7 @@ def _in_stepped_run() -> bool:
 
 
 class SteppedLock:
-    """As `threading.Lock`; those that wait get it in the order in which they came."""
+    """Like `threading.Lock`; waiting threads get it in order of arrival."""
 
     __slots__ = ("__weakref__", "_lock", "_waiters")
 
@@ -32,12 +32,12 @@ class SteppedLock:
         self._waiters: deque[Wakeup] = deque()
 
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
-        """Take the lock, waiting at most `timeout` s of virtual time; whether that was done."""
+        """Acquire the lock, waiting at most `timeout` s of virtual time; return whether that succeeded."""
         if self._lock.acquire(False):
             return True
         clock = local.waits_on
         if clock is None or not blocking or (timeout <= 0 and timeout != -1):
-            return self._lock.acquire(blocking, timeout)  # does not wait, or raises, or is of no run
+            return self._lock.acquire(blocking, timeout)  # does not wait, or raises, or belongs to no run
         return self._wait(clock.wakeup(), None if timeout == -1 else clock.steady_ns() + int(timeout * 1e9))
 
     def _wait(self, turn: Wakeup, deadline: int | None) -> bool:
@@ -62,13 +62,13 @@ class SteppedLock:
             self._waiters.remove(turn)
 
     def _give_up(self, turn: Wakeup) -> None:
-        """Pass a turn on that came together with what ended the wait."""
+        """Pass on a turn that came together with the exception that ended the wait."""
         self._withdraw(turn)
         if turn.is_set() and not self.locked():
             self._call_next()
 
     def release(self) -> None:
-        """Give the lock back. Raises `RuntimeError` where nobody has it."""
+        """Release the lock. Raises `RuntimeError` if it is not held."""
         self._lock.release()
         if self._waiters:
             self._call_next()
@@ -88,9 +88,10 @@ class SteppedLock:
 
 
 class SteppedRLock(SteppedLock):
-    """As `threading.RLock`, of a stepped run.
+    """Like `threading.RLock`, for a stepped run.
 
-    The built-in one inside takes it and notes the owner in one go: a finalizer of the same thread may come any time.
+    The inner built-in lock is acquired and records its owner atomically: a finalizer of the same thread may run at any
+    time.
     """
 
     __slots__ = ()
@@ -100,7 +101,7 @@ class SteppedRLock(SteppedLock):
         self._waiters = deque()
 
     def release(self) -> None:
-        """Give it back once. Raises `RuntimeError` where the calling thread does not have it."""
+        """Release it once. Raises `RuntimeError` if the calling thread does not hold it."""
         self._lock.release()
         if self._waiters and not self._is_owned():
             self._call_next()
@@ -112,7 +113,7 @@ class SteppedRLock(SteppedLock):
         self._lock.release()
         return False
 
-    # What `threading.Condition` asks of its lock.
+    # The methods that `threading.Condition` needs of its lock.
 
     def _is_owned(self) -> bool:
         return self._lock._is_owned()

@@ -1,7 +1,7 @@
-"""Keeps a stepped run on one processor: its threads only take turns, and a turn passes 2 to 3 times faster there.
+"""Keep a stepped run on one processor: its threads only take turns, and a turn passes 2 to 3 times faster there.
 
-Twice as fast again where the system lets a thread that wakes another one go on to its own wait: the woken one would
-else interrupt it, find the interpreter taken, and sleep again.
+It is twice as fast again if the system lets a thread that wakes another one go on to its own wait: otherwise the woken
+thread interrupts it, finds the GIL taken, and sleeps again.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ _processors: list[set[int]] = []
 
 
 def pin_thread() -> Callable[[], None]:
-    """Pin the calling thread, and the threads that it will start, to one processor where none interrupts another.
+    """Pin the calling thread, and threads it will start, to one processor where they do not interrupt each other.
 
-    Returns what undoes it. Without effect where the system does not offer it (only Linux does).
+    Returns a function that undoes it. Does nothing if the system does not support it (only Linux does).
     """
     if not hasattr(os, "sched_setaffinity"):
         return lambda: None
@@ -39,8 +39,8 @@ def pin_thread() -> Callable[[], None]:
 
 
 def _let_wakers_go_on() -> Callable[[], None]:
-    """Make the calling thread one that interrupts no other when it is woken; returns what undoes it."""
-    if os.sched_getscheduler(0) != os.SCHED_OTHER:  # somebody has chosen another policy
+    """Stop the calling thread from interrupting others when it is woken; returns a function that undoes it."""
+    if os.sched_getscheduler(0) != os.SCHED_OTHER:  # another policy was chosen
         return lambda: None
     try:
         os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
@@ -50,20 +50,20 @@ def _let_wakers_go_on() -> Callable[[], None]:
 
 
 def import_numpy() -> None:
-    """Import `numpy`, with its random numbers, without the threads that its linear algebra has for other processors.
+    """Import `numpy` and `numpy.random` without starting BLAS threads for other processors.
 
-    Each of them turns round for 30 to 100 ms before it sleeps for the first time, beside the imports that follow: a
-    third of what the start of a run takes. A number of threads that is asked for in the environment is kept.
+    Each of those spins for 30 to 100 ms before its first sleep, beside the imports that follow: a third of the time a
+    run takes to start. A number of threads set in the environment is kept.
     """
     asked = os.environ.get(BLAS_THREADS)
     os.environ.setdefault(BLAS_THREADS, "1")
     try:
         importlib.import_module("numpy.random")
     finally:
-        if asked is None:  # programs that a node starts have the environment that was given
+        if asked is None:  # programs started by a node get the original environment
             os.environ.pop(BLAS_THREADS, None)
 
 
 def sched_getaffinity(pid: int, /) -> set[int]:
-    """`os.sched_getaffinity`: what a node would have without the pin, because it sizes its thread pools by that."""
+    """`os.sched_getaffinity`: returns the processors without the pin, because nodes size their thread pools by them."""
     return set(_processors[-1]) if _processors and pid == 0 else _real(pid)

@@ -1,4 +1,4 @@
-"""Stepped time: a run in which exactly one thread at a time runs, and time jumps when all of them wait."""
+"""Stepped time: a run in which exactly one thread runs at a time, and time jumps when all of them wait."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ from .one_cpu import pin_thread
 from .wakeup import SteppedWakeup
 
 DEFAULT_START_NS = 1_700_000_000_000_000_000
-"""System time (ns since the epoch) at which a stepped run begins unless told otherwise."""
+"""Default system time (ns since the epoch) at which a stepped run begins."""
 FREE_READS = 10_000
-"""How many readings of the clock at one instant are free; each further one costs `READ_NS`, for loops that wait so."""
+"""Clock readings at one instant that are free; each further one costs `READ_NS`, for loops that busy-wait."""
 READ_NS = 1_000
 _SO = "so that others run beside it and the run is not deterministic"
 BLOCKS = f"waits for what the stepped run does not see, {_SO}. Wait with time.sleep, rclpy or threading instead"
@@ -32,10 +32,10 @@ COMPUTES = f"has computed for long without waiting, {_SO}. Let it spin, sleep or
 
 
 class SteppedTime:
-    """A clock source whose time only the run moves. The thread that makes it drives it, and has the first turn.
+    """A clock source whose time only the run advances. The thread that creates it is the driver and has the first turn.
 
-    Between two `run_*` calls nothing but the driver runs. While it waits in the run (`run_*`, a wakeup, a sleep) the
-    others take turns. `close` ends all threads of the run.
+    Between two `run_*` calls only the driver runs. While it waits in the run (`run_*`, a wakeup, a sleep) the others
+    take turns. `close` ends all threads of the run.
     """
 
     stepped = True
@@ -70,32 +70,32 @@ class SteppedTime:
         return baton.now + self._system_offset
 
     def wakeup(self) -> SteppedWakeup:
-        """A new, unset wakeup."""
+        """Return a new, unset wakeup."""
         return SteppedWakeup(self._baton)
 
     def sleep_until(self, deadline_ns: int) -> None:
-        """Let others run until virtual steady time reaches the deadline (ns)."""
+        """Let other threads run until virtual steady time reaches the deadline (ns)."""
         SteppedWakeup(self._baton).wait(deadline_ns)
 
     def seat(self, thread: WaitingThread | None) -> Seat:
-        """A place for a new thread, which is ready to run."""
+        """Return a seat for a new thread, which is ready to run."""
         self._watch.start()
         return self._baton.seat(thread)
 
     def run_until(self, steady_ns: int) -> None:
-        """Run everything that happens up to and at that steady time (ns). Raises `RuntimeError` outside of the run."""
+        """Run everything up to and including that steady time (ns). Raises `RuntimeError` outside the run."""
         seat = local.seat
         if not isinstance(seat, Seat) or seat.baton is not self._baton:
             raise RuntimeError("this thread takes no part in the stepped run: see SteppedTime.participate")
         self._baton.wait(seat, None, steady_ns)
 
     def run_for(self, seconds: float) -> None:
-        """Run everything that happens in the next `seconds` s of virtual time."""
+        """Run everything in the next `seconds` s of virtual time."""
         self.run_until(self._baton.now + round(seconds * 1e9))
 
     @contextmanager
     def participate(self) -> Generator[None]:
-        """Let the calling thread, which is not of the run, take turns in it for the length of the block."""
+        """Let the calling thread, which does not belong to the run, take turns in it within the block."""
         seat = self.seat(None)
         before = local.seat, local.waits_on
         local.seat, local.waits_on = seat, self
@@ -107,7 +107,7 @@ class SteppedTime:
             local.seat, local.waits_on = before
 
     def close(self) -> None:
-        """Kill what still runs, let it unwind, and leave the driver's thread as it was."""
+        """Kill what still runs, let it unwind, and restore the driver's thread."""
         for seat in tuple(self._baton.seats.values()):
             if isinstance(seat.state, ThreadState):
                 seat.state.process.die(-SIGKILL)
@@ -130,10 +130,12 @@ class SteppedTime:
 def stepped(
     start_system_ns: int = DEFAULT_START_NS, *, seed: int = 0, virtual_main: bool = True, stall_s: float = 1.0
 ) -> Generator[SteppedTime]:
-    """Stepped time for `MAIN` and the calling thread, which drives it; `random` and `numpy.random` start from `seed`.
+    """Run the block in stepped time, driven by the calling thread, with `random` and `numpy.random` started from
+    `seed`.
 
-    With `virtual_main` the calling thread is treated as a node's: its `time` module, its sleeps, waits and new threads
-    are of the run. Without, only what it asks the clock for is, as beside an asyncio loop or a user interface.
+    It applies to `MAIN` and the calling thread. With `virtual_main` the calling thread is treated like a node's: its
+    `time` module, sleeps, waits and new threads belong to the run. Without it only its clock queries do, which suits an
+    asyncio loop or a user interface.
     """
     clock = SteppedTime(start_system_ns, stall_s=stall_s)
     before = MAIN.clock, local.waits_on

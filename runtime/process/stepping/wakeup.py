@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class SteppedWakeup:
-    """As `threading.Event`, for threads that hand the baton on while they wait."""
+    """Like `threading.Event`, for threads that hand the baton on while they wait."""
 
     __slots__ = ("__weakref__", "_baton", "flag", "waiters")
 
@@ -22,12 +22,12 @@ class SteppedWakeup:
         self.waiters: list[Seat] = []
 
     def set(self) -> None:
-        """Wake the waiters; from any thread."""
+        """Wake the waiters; thread-safe."""
         if not self.flag:
             self._baton.rouse_all(self)
 
     def clear(self) -> None:
-        """Forget an earlier `set`."""
+        """Undo an earlier `set`."""
         self.flag = False
 
     def is_set(self) -> bool:
@@ -35,7 +35,7 @@ class SteppedWakeup:
         return self.flag
 
     def wait(self, deadline_ns: int | None = None) -> bool:
-        """Hand the baton on until set or until virtual time reaches the deadline (ns); whether it was set."""
+        """Hand the baton on until set or until virtual time reaches the deadline (ns); return whether it was set."""
         seat = local.seat
         if not isinstance(seat, Seat) or seat.baton is not self._baton:
             return self._baton.wait_outside(self, deadline_ns)

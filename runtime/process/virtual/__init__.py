@@ -1,1 +1,1 @@
-"""Per-node-process versions of what the interpreter has only once, by wrapping public functions."""
+"""Per-node-process versions of what an interpreter has only once, by wrapping public functions."""

@@ -1,4 +1,4 @@
-"""Threads that a node process starts belong to it: `Thread.start`, `join`, `is_alive` and the thread lists, wrapped."""
+"""Make threads started by a node process its own: wraps `Thread.start`, `join`, `is_alive` and the thread lists."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ def _state_of(thread: threading.Thread) -> ThreadState | None:
 
 
 def start_outside(thread: threading.Thread) -> None:
-    """Start a thread that belongs to the real process, whoever asks for it."""
-    before, local.waits_on = local.waits_on, None  # `Thread.start` waits for the new thread's first sign of life
+    """Start a thread that belongs to the real process, whichever process calls."""
+    before, local.waits_on = local.waits_on, None  # `Thread.start` waits until the new thread runs
     try:
         real.start_thread(thread)
     finally:
@@ -37,12 +37,12 @@ def start_inside(
 ) -> ThreadState:
     """Start a thread that belongs to a node process.
 
-    To the interpreter it is a daemon, so that an abandoned one does not hold up its exit.
+    To the interpreter it is a daemon, so that an abandoned thread does not block its exit.
     """
     state = ThreadState(process, clock, thread)
     inside = _Inside(state)
     thread.daemon = True
-    # On the object: `Thread.start` calls whatever `run` that has, were it of a subclass.
+    # Set on the object: `Thread.start` calls its `run`, even in a subclass.
     vars(thread)["run"] = inside
     vars(thread)[_STATE] = state
     if child:
@@ -50,10 +50,10 @@ def start_inside(
     else:
         process.main_state = state
         if state.seat is not None:
-            # An import takes wall time and no virtual time: without this others would run ahead of the start.
+            # An import takes wall time and no virtual time: others would run ahead of the start.
             state.seat.hold_clock()
     if not process.is_alive:
-        # Started by a process that has ended: it ends before its first line.
+        # Started by a process that has ended: it is to end before its first line.
         state.kill()
     try:
         start_outside(thread)
@@ -64,13 +64,13 @@ def start_inside(
 
 
 class VirtualThreading(VirtualModule):
-    """The class of `threading` while node processes run."""
+    """The class of the module `threading` while node processes run."""
 
     excepthook = process_variable("excepthook", lambda _process: threading.__excepthook__)
 
 
 class _Inside:
-    """`run` of a thread that belongs to a node process."""
+    """The `run` of a thread that belongs to a node process."""
 
     def __init__(self, state: ThreadState) -> None:
         self._state = state
@@ -94,7 +94,7 @@ class _Inside:
             self._run()
         except (SystemExit, ProcessKilled):
             pass
-        except BaseException as exception:  # the border of the thread
+        except BaseException as exception:  # the boundary of the thread
             trim(exception)
             trace = exception.__traceback__ = _below_bootstrap(exception.__traceback__)
             threading.excepthook(threading.ExceptHookArgs((type(exception), exception, trace, self._state.thread)))
@@ -106,20 +106,20 @@ class _Inside:
             own["run"] = self._own_run
 
     def give_up(self) -> None:
-        """The thread could not be started."""
+        """Clean up after a thread that could not be started."""
         self._restore()
         self._state.process.children.pop(self._state.thread, None)
         self._state.leave()
 
 
 def _below_bootstrap(trace: TracebackType | None) -> TracebackType:
-    """The traceback as `threading` would show it: its own frame that called `run` comes first."""
+    """Return the traceback as `threading` would show it, starting with its own frame that called `run`."""
     frame = sys._getframe(3)  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
     return TracebackType(trace, frame, frame.f_lasti, frame.f_lineno)
 
 
 def start(thread: threading.Thread) -> None:
-    """`Thread.start`: a thread that a node starts belongs to the node's process."""
+    """`Thread.start`: a thread started by a node belongs to the node's process."""
     clock = local.waits_on
     if clock is None or thread.ident is not None:
         real.start_thread(thread)
@@ -128,30 +128,30 @@ def start(thread: threading.Thread) -> None:
 
 
 def join(thread: threading.Thread, timeout: float | None = None) -> None:
-    """`Thread.join`, woken by a signal of the node process, with its clock's time."""
+    """`Thread.join`: woken by signals of the node process, in its clock's time."""
     clock, state = local.waits_on, _state_of(thread)
     if clock is not None and state is not None and state is not local.state:
         deadline = None if timeout is None else clock.steady_ns() + int(max(timeout, 0.0) * 1e9)
         if not state.finished.wait(deadline):
             return
-        timeout = None  # the little that is left of the thread is the interpreter's own
+        timeout = None  # what remains of the thread is the interpreter's own short work
     real.join_thread(thread, timeout)
 
 
 def is_alive(thread: threading.Thread) -> bool:
-    """`Thread.is_alive`: false as soon as the node's part of the thread is over."""
+    """`Thread.is_alive`: False once the node's part of the thread is over."""
     state = _state_of(thread)
     return (state is None or not state.finished.is_set()) and real.is_thread_alive(thread)
 
 
 def main_thread() -> threading.Thread:
-    """`threading.main_thread`: that of the calling node process."""
+    """`threading.main_thread`: the main thread of the calling node process."""
     state = local.process.main_state
     return real.main_thread() if state is None else state.thread
 
 
 def enumerate_threads() -> list[threading.Thread]:
-    """`threading.enumerate`: of the calling node process only."""
+    """`threading.enumerate`: only threads of the calling node process."""
     process = local.process
     if process.main_state is None:
         return real.enumerate_threads()
@@ -159,5 +159,5 @@ def enumerate_threads() -> list[threading.Thread]:
 
 
 def active_count() -> int:
-    """`threading.active_count`: of the calling node process only."""
+    """`threading.active_count`: only threads of the calling node process."""
     return len(enumerate_threads())

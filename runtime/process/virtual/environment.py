@@ -50,7 +50,7 @@ class RoutingEnvironment(MutableMapping[str, str]):
         return f"environ({dict(self)!r})"
 
     def copy(self) -> dict[str, str]:
-        """A plain dict of what is in it now."""
+        """Return the present content as a plain dict."""
         return dict(self._mapping())
 
     def __or__(self, other: MutableMapping[str, str]) -> dict[str, str]:

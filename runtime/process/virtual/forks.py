@@ -1,4 +1,4 @@
-"""A fork of a node (`multiprocessing`, `os.fork`): the child is a real process, set up as the node's process was."""
+"""Forks of a node (`multiprocessing`, `os.fork`): the child is a real process, set up like the node's process."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _DESCRIPTORS = {"stdout": 1, "stderr": 2}
 
 
 class Forks:
-    """Prepares forks of node threads; `make_real` takes all wraps away, in the child."""
+    """Prepares forks of node threads; in the child, `make_real` removes all wrappers."""
 
     def __init__(self, make_real: Callable[[], None]) -> None:
         self._make_real = make_real
@@ -32,7 +32,7 @@ class Forks:
         for name in _DESCRIPTORS:
             capture = getattr(local.process, name)
             if capture is not None:
-                capture.fileno()  # the child cannot reach the sink, but the pipe into it
+                capture.fileno()  # the child can reach the pipe into the sink, but not the sink itself
 
     def _in_child(self) -> None:
         process = local.process

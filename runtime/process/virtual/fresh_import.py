@@ -1,8 +1,8 @@
-"""Modules of a node's own, imported anew for each node process, so that two of them share no module state.
+"""A node's own modules, imported anew for each node process, so that two processes share no module state.
 
-`import` statements look up `__import__` among the builtins of their module (documented with `exec`). The modules of
-a node get builtins of their own, with an `__import__` that keeps what lies in the node's folders apart and leaves the
-rest to the interpreter.
+`import` statements look up `__import__` in the builtins of their module (documented with `exec`). A node's modules get
+their own builtins, whose `__import__` keeps modules from the node's folders separate and leaves all others to the
+interpreter.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ def _nothing(_name: str) -> bool:
 class FreshModules:
     """The modules that one node process has for itself.
 
-    Its own are those found in `folders` or in what the process adds to `sys.path`; further top-level names in
-    `packages`, wherever they are found. A name for which `shared` is true is never its own. A top-level package whose
-    loader has `stands_for`, another package's name, is that package.
+    These are the modules found in `folders` or in what the process adds to `sys.path`, and the top-level names in
+    `packages`, wherever they are found. A name for which `shared` is true is never among them. A top-level package
+    whose loader has `stands_for`, another package's name, is an alias of that package.
     """
 
     def __init__(
@@ -50,7 +50,7 @@ class FreshModules:
         self._lock = RLock()
         self._base_path = frozenset(sys.path)
         for folder in folders:
-            # A file that was written a moment ago may be missing in the listing that the interpreter keeps.
+            # A file written a moment ago may be missing in the interpreter's cached listing.
             _forget_listing(folder)
 
     def owns(self, name: str) -> bool:
@@ -58,13 +58,13 @@ class FreshModules:
         return self._top_spec(name.partition(".")[0]) is not None
 
     def load(self, name: str) -> ModuleType:
-        """The process's own module of that dotted name, imported if need be. Raises `ModuleNotFoundError`."""
+        """Return the own module of that dotted name, importing it if needed. Raises `ModuleNotFoundError`."""
         with self._lock:
             module = self._modules.get(name)
             return self._execute(name) if module is None else module
 
     def new_main(self) -> ModuleType:
-        """An empty `__main__` whose imports are the process's own."""
+        """Return an empty `__main__` whose imports are the process's own."""
         main = self._modules["__main__"] = ModuleType("__main__")
         vars(main)["__builtins__"] = self.builtins
         return main
@@ -80,7 +80,7 @@ class FreshModules:
 
     def _find_top(self, top: str) -> ModuleSpec | None:
         spec = PathFinder.find_spec(top, [*self.folders, *self._searched])
-        if spec is not None and spec.loader is None:  # a folder without __init__.py: any proper module goes before it
+        if spec is not None and spec.loader is None:  # a folder without __init__.py: regular modules take precedence
             other = _find_spec(top, None)
             spec = spec if other is None or other.loader is None else None
         return _find_spec(top, None) if spec is None and top in self._packages else spec
@@ -88,7 +88,7 @@ class FreshModules:
     def _execute(self, name: str) -> ModuleType:
         top, _, rest = name.partition(".")
         stands_for = getattr(getattr(self._top_spec(top), "loader", None), "stands_for", None)
-        if stands_for is not None:  # a second name of a package: the same modules
+        if stands_for is not None:  # an alias of a package: the same modules
             module = self._modules[name] = self.load(f"{stands_for}.{rest}" if rest else stands_for)
             return module
         parent_name, _, child = name.rpartition(".")
@@ -111,7 +111,7 @@ class FreshModules:
         vars(module)["__builtins__"] = self.builtins
         self._modules[spec.name] = module
         if parent is not None:
-            setattr(parent, child, module)  # before it runs: in a circle of imports the interpreter looks here first
+            setattr(parent, child, module)  # before it runs: on a circular import the interpreter looks here first
         try:
             if spec.loader is not None:
                 spec.loader.exec_module(module)
@@ -130,7 +130,7 @@ class FreshModules:
         fromlist: Sequence[str] | None = (),
         level: int = 0,
     ) -> ModuleType:
-        """`__import__` of the process's own modules."""
+        """The `__import__` of the process's own modules."""
         absolute = name if level == 0 else importlib.util.resolve_name("." * level + name, _package(globals))
         if not self.owns(absolute):
             return builtins.__import__(name, globals, locals, fromlist or (), level)
@@ -142,7 +142,7 @@ class FreshModules:
         return module
 
     def _load_submodules(self, module: ModuleType, names: Iterable[str]) -> None:
-        """What `from package import name` does: a name that the package lacks may be a module in it."""
+        """Do what `from package import name` does: a name that the package lacks may be a submodule."""
         for name in names:
             if name == "*":
                 self._load_submodules(module, (n for n in getattr(module, "__all__", ()) if n != "*"))
@@ -174,14 +174,14 @@ def _find_spec(name: str, path: Sequence[str] | None) -> ModuleSpec | None:
 
 
 def _forget_listing(folder: str) -> None:
-    """A file added a moment ago must be found: the interpreter remembers folders by their time stamp."""
+    """Invalidate the interpreter's cached listing of a folder, so that a file added a moment ago is found."""
     finder = sys.path_importer_cache.get(folder)
     if isinstance(finder, FileFinder):
         finder.invalidate_caches()
 
 
 def import_module(name: str, package: str | None = None) -> ModuleType:
-    """`importlib.import_module`: a node's own modules where the calling node process has such a one."""
+    """`importlib.import_module`: prefers the calling node process's own modules."""
     modules = local.process.modules
     if modules is not None:
         absolute = importlib.util.resolve_name(name, package) if name.startswith(".") else name

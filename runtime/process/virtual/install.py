@@ -1,4 +1,4 @@
-"""Installs everything that must be wrapped so that a thread can look like a process, and removes it again."""
+"""Install all wrappers that let a thread look like a process, and remove them again."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _SHARED_SIGNALS = ("alarm", "setitimer")
 
 
 def _wraps() -> list[tuple[Any, str, Any]]:
-    """Owner, name and replacement of each public call that is wrapped."""
+    """Return owner, name and replacement of each wrapped public call."""
     wraps: list[tuple[Any, str, Any]] = [
         (threading.Thread, "start", child_threads.start),
         (threading.Thread, "join", child_threads.join),
@@ -78,9 +78,9 @@ _guard = threading.Lock()
 
 
 def install_virtual_process() -> None:
-    """Wrap what node processes need; a second call does nothing. The first `NodeProcess.start` calls it.
+    """Wrap what node processes need; does nothing if already installed. The first `NodeProcess.start` calls it.
 
-    What runs in no node process notices nothing but one more look-up per call.
+    For code outside node processes the only effect is one more lookup per call.
     """
     with _guard:
         if _undo:
@@ -93,7 +93,7 @@ def install_virtual_process() -> None:
 
 
 def uninstall_virtual_process() -> None:
-    """Put everything back as it was; only when no node process runs."""
+    """Restore everything; only when no node process runs."""
     with _guard:
         while _undo:
             _undo.pop()()
@@ -109,6 +109,6 @@ def _replace(owner: Any, name: str, replacement: Any) -> Callable[[], None]:
 
 
 def reinstall_stdio() -> None:
-    """Put the routing standard streams back where code replaced them behind the back of `sys`."""
+    """Restore the routing standard streams after code has replaced them bypassing `sys`' properties."""
     if _undo:
         sys_module.reinstall()

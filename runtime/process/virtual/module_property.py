@@ -10,7 +10,10 @@ from ..node.thread_state import local
 
 
 def process_variable(name: str, of_process: Callable[[Any], Any]) -> property:
-    """The module's own variable for the real process; for a node process what it set, else `of_process(process)`."""
+    """Return a property: the module's own variable in the real process; in a node process its own value.
+
+    That is the value it has set, else `of_process(process)`.
+    """
 
     def get(module: ModuleType) -> Any:
         process = local.process
@@ -30,10 +33,10 @@ def process_variable(name: str, of_process: Callable[[Any], Any]) -> property:
 
 
 class _OfOneModule(type):
-    """What makes the class of one module's properties stand for `ModuleType` to everybody who takes `type(module)`.
+    """Metaclass that makes the class of one module's properties equal `ModuleType` for users of `type(module)`.
 
-    The interpreter itself makes all modules by `type(sys)(name)`: with the properties they would take that module's
-    variables for their own.
+    The interpreter itself creates modules by `type(sys)(name)`: with the properties they would use that module's
+    variables as their own.
     """
 
     def __new__(cls, name: str, bases: tuple[type, ...], members: dict[str, Any], **options: Any) -> Any:
@@ -53,11 +56,11 @@ class _OfOneModule(type):
 
 
 class VirtualModule(ModuleType, metaclass=_OfOneModule):
-    """Base of the class of a module that has such properties; no other module is ever of it."""
+    """Base class of modules with such properties; no other module is an instance."""
 
 
 def replace_class(module: Any, virtual: type[VirtualModule]) -> Callable[[], None]:
-    """Give a module a class with such properties; returns what undoes it."""
+    """Give a module a class with such properties; returns a function that undoes it."""
     before = module.__class__
     module.__class__ = virtual
 

@@ -8,7 +8,7 @@ from types import ModuleType
 
 
 class ModuleTable(MutableMapping[str, ModuleType]):
-    """The own modules and, below them, the real table; what is written goes to the real one unless it is own."""
+    """The process's own modules in front of the real table; writes go to the real one unless the name is own."""
 
     def __init__(self, own: dict[str, ModuleType]) -> None:
         self._own = own
@@ -38,5 +38,5 @@ class ModuleTable(MutableMapping[str, ModuleType]):
         return name in self._own or name in self._shared
 
     def copy(self) -> dict[str, ModuleType]:
-        """A plain dict of what is in it now."""
+        """Return the present content as a plain dict."""
         return {**self._shared, **self._own}

@@ -53,7 +53,7 @@ def getppid() -> int:
 
 
 def kill(pid: int, signum: int, /) -> None:
-    """`os.kill`, for synthetic pids too."""
+    """`os.kill`, including synthetic pids."""
     process = running_process(pid)
     if process is None:
         _kill(pid, signum)
@@ -84,7 +84,7 @@ def abort() -> NoReturn:
 
 
 def chdir(path: Any) -> None:
-    """`os.chdir`: has its effect, on all node processes, and is reported for that."""
+    """`os.chdir`: takes effect, for all node processes, and is therefore reported."""
     if _in_node():
         notify(
             local.process,
@@ -95,7 +95,7 @@ def chdir(path: Any) -> None:
 
 
 def system(command: str) -> int:
-    """`os.system`, with the environment and the output of the calling node process."""
+    """`os.system`, with the environment and output of the calling node process."""
     if not _in_node():
         return _system(command)
     status = subprocess.call(command, shell=True)
@@ -117,7 +117,7 @@ def execve(path: Any, arguments: Any, env: Any) -> NoReturn:
 
 
 def pause() -> None:
-    """`signal.pause`: until the node process has handled a signal."""
+    """`signal.pause`: waits until the node process has handled a signal."""
     if _in_node():
         local.process.signals.pause()
     elif _pause is not None:
@@ -150,7 +150,7 @@ def signal_handler(signum: int) -> Handler:
 
 
 def unavailable(name: str, call: Callable[..., Any]) -> Callable[..., Any]:
-    """A call that acts on the real process as a whole: reported, then made."""
+    """Wrap a call that acts on the whole real process: it is reported, then made."""
 
     def reported(*arguments: Any, **options: Any) -> Any:
         if _in_node():
@@ -164,7 +164,7 @@ def unavailable(name: str, call: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def register_exit(function: Callable[..., Any], *arguments: Any, **options: Any) -> Callable[..., Any]:
-    """`atexit.register`: at the end of the node process, where the node's own files ask for it."""
+    """`atexit.register`: calls from the node's own files register for the end of the node process."""
     if not _asked_by_node():
         return _register(function, *arguments, **options)
     local.process.exit_functions.append(partial(function, *arguments, **options))

@@ -16,13 +16,13 @@ _make = ThreadPoolExecutor.__init__
 
 @wraps(_make)
 def make(pool: ThreadPoolExecutor, *arguments: Any, **options: Any) -> None:
-    """`ThreadPoolExecutor(...)`: the node process remembers its pools."""
+    """`ThreadPoolExecutor(...)`: the node process records its pools."""
     _make(pool, *arguments, **options)
     if local.process.main_state is not None:
         local.process.end_with_main(pool)
 
 
 def shut_down(process: CurrentProcess) -> None:
-    """Let the threads of its pools end once they have done what was submitted."""
+    """Shut down the pools of a process: their threads end once they have finished the submitted work."""
     for pool in list(process.pools):
         pool.shutdown(wait=False)

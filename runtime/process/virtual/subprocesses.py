@@ -1,4 +1,4 @@
-"""Child processes of a node: its environment, directory and output, and never the console's keyboard."""
+"""Child processes of a node: they get its environment, directory and output, and never the console's keyboard."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _signature = inspect.signature(_start)
 
 @wraps(_start)
 def start(child: Any, *arguments: Any, **options: Any) -> None:
-    """`subprocess.Popen(...)`: what a node leaves open comes from its node process instead of from the real one."""
+    """`subprocess.Popen(...)`: defaults come from the node process instead of the real one."""
     process = local.process
     if process.main_state is None:
         _start(child, *arguments, **options)

@@ -1,6 +1,6 @@
-"""`sys.argv`, `sys.path` and the standard streams, each node process's own: properties of the class of `sys`.
+"""`sys.argv`, `sys.path` and the standard streams per node process, as properties of the class of `sys`.
 
-C code reads the streams from the module's dictionary, so a routing stream stands there. Python code gets properties.
+C code reads the streams from the module's dictionary, so it holds routing streams. Python code gets the properties.
 """
 
 from __future__ import annotations
@@ -15,19 +15,19 @@ from .module_property import VirtualModule, process_variable, replace_class
 
 
 class RoutingStream:
-    """A standard stream that leads each thread to that of its node process, all others to the real one."""
+    """A standard stream that routes each thread to the stream of its node process, all others to the real one."""
 
     def __init__(self, name: str) -> None:
         self._name = name
         self._original = sys.__dict__[name]
         self.real = self._original
-        """The stream outside of node processes."""
+        """The stream outside node processes."""
 
     def target(self) -> Any:
-        """The stream that the calling thread means."""
+        """Return the calling thread's stream."""
         process = local.process
         if process.main_state is not None:
-            # What the node has put into `sys.stdout` goes before its capture, as in a process of its own.
+            # What the node has assigned to `sys.stdout` precedes its capture, as in a separate process.
             stream = process.overrides.get(self._name) or getattr(process, self._name)
             if stream is not None:
                 return stream
@@ -48,13 +48,13 @@ class RoutingStream:
         return iter(self.target())
 
     def get(self) -> Any:
-        """What `sys.stdout` is to the calling thread: this stream, unless someone put another in its place."""
+        """Return the calling thread's `sys.stdout`: this stream, unless it was replaced."""
         if local.process.main_state is not None:
             return local.process.overrides.get(self._name, self)
         return self if self.real is self._original else self.real
 
     def replace(self, stream: Any) -> None:
-        """`sys.stdout = stream`, for the calling thread's process alone."""
+        """`sys.stdout = stream`, only for the calling thread's process."""
         if local.process.main_state is not None:
             local.process.overrides[self._name] = None if stream is self else stream
         else:
@@ -62,7 +62,7 @@ class RoutingStream:
 
 
 class VirtualSys(VirtualModule):
-    """The class of `sys` while node processes run."""
+    """The class of the module `sys` while node processes run."""
 
 
 def _stream(name: str) -> property:
@@ -95,7 +95,7 @@ _add_properties(VirtualSys)
 
 
 def install() -> Callable[[], None]:
-    """Make the variables of `sys` each process's own; returns what undoes it."""
+    """Make the variables of `sys` per process; returns a function that undoes it."""
     streams = {name: RoutingStream(name) for name in _STREAMS}
     sys.__dict__.update(streams)
     restore_class = replace_class(sys, VirtualSys)
@@ -110,7 +110,7 @@ def install() -> Callable[[], None]:
 
 
 def reinstall() -> None:
-    """Put the routing streams back where code has written past the properties into the module's dictionary."""
+    """Restore the routing streams after code has written to the module's dictionary, bypassing the properties."""
     for name in _STREAMS:
         stream = sys.__dict__[name]
         if not isinstance(stream, RoutingStream):

@@ -1,4 +1,4 @@
-"""`time.sleep`, `Condition.wait`, `queue.SimpleQueue` of node threads: signals end the wait, a stepped run sees it.
+"""`time.sleep`, `Condition.wait` and `queue.SimpleQueue` for node threads: signals end a wait, a stepped run sees it.
 
 `threading.Event`, `Semaphore`, `Barrier`, `Timer`, `queue.Queue` and `concurrent.futures` all wait in a `Condition`.
 """
@@ -33,7 +33,7 @@ def sleep(seconds: float, /) -> None:
 
 
 class _Waiter:
-    """Stands among a condition's waiters in place of a lock: `notify` releases it."""
+    """An entry in a condition's waiters that replaces the lock: `notify` releases it."""
 
     __slots__ = ("wakeup",)
 
@@ -47,7 +47,7 @@ class _Waiter:
 def condition_wait(condition: Any, timeout: float | None = None) -> bool:
     """`threading.Condition.wait` on the clock of the calling thread's node process."""
     clock = local.waits_on
-    if clock is None or (timeout is not None and timeout <= 0):  # what does not block needs no turn
+    if clock is None or (timeout is not None and timeout <= 0):  # a wait that does not block needs no turn
         return _condition_wait(condition, timeout)
     if not condition._is_owned():
         raise RuntimeError("cannot wait on un-acquired lock")
@@ -67,10 +67,10 @@ def condition_wait(condition: Any, timeout: float | None = None) -> bool:
 
 
 class SimpleQueue:
-    """`queue.SimpleQueue` in terms of a condition, because the built-in one blocks where nobody can wake it."""
+    """`queue.SimpleQueue` based on a condition, because the built-in one blocks where nobody can wake it."""
 
     def __new__(cls) -> Any:
-        """A queue for the calling thread: the built-in one outside of node processes."""
+        """Return a queue for the calling thread: the built-in one outside node processes."""
         return _RealSimpleQueue() if local.waits_on is None else super().__new__(cls)
 
     __class_getitem__: Any = classmethod(GenericAlias)  # pyright: ignore[reportUnknownVariableType] -- as typeshed has it
@@ -88,7 +88,7 @@ class SimpleQueue:
     put_nowait = put
 
     def get(self, block: bool = True, timeout: float | None = None) -> Any:
-        """Take the oldest item. Raises `queue.Empty` when there is none, in time (s) or at all."""
+        """Take the oldest item. Raises `queue.Empty` if there is none, or none within `timeout` (s)."""
         if timeout is not None and timeout < 0:
             raise ValueError("'timeout' must be a non-negative number")
         with self._filled:
@@ -97,13 +97,13 @@ class SimpleQueue:
             return self._items.popleft()
 
     def get_nowait(self) -> Any:
-        """Take the oldest item. Raises `queue.Empty` when there is none."""
+        """Take the oldest item. Raises `queue.Empty` if there is none."""
         return self.get(block=False)
 
     def empty(self) -> bool:
-        """Whether there is none now."""
+        """Whether the queue is empty now."""
         return not self._items
 
     def qsize(self) -> int:
-        """How many there are now."""
+        """Return the present number of items."""
         return len(self._items)

@@ -1,1 +1,1 @@
-"""Watchdogs for threads that compute without end or hang, and what the operating system tells about them."""
+"""Watchdogs for threads that compute endlessly or hang, and what the operating system reports about them."""

@@ -1,4 +1,4 @@
-"""Detects nodes that compute without ever waiting: they take the CPU from all others, and receive nothing."""
+"""Detect nodes that compute without ever waiting: they take the CPU from all others, and receive nothing."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ if TYPE_CHECKING:
     from ..roles import NodeThread, Watched
 
 PERIOD_S = 0.5
-"""Wall time (s) between two looks."""
+"""Wall time (s) between two checks."""
 BUSY_SHARE = 0.5
-"""The share of a processor from which a thread that never waits counts as computing."""
+"""Share of a processor from which a thread that never waits counts as computing."""
 TOLD_S = 1.0
-"""Processor time (s) after which such a thread is told."""
+"""Processor time (s) after which such a thread is reported."""
 
 
 class BusyWatch:
-    """Looks after the node processes of real time, from the first until the last."""
+    """Watches the node processes of real time, from the first until the last."""
 
     def __init__(self) -> None:
         self._guard = allocate_lock()
@@ -29,7 +29,7 @@ class BusyWatch:
         self._last: dict[NodeThread, tuple[int, float, float]] = {}
 
     def watch(self, process: Watched) -> None:
-        """Look after a process until it ends."""
+        """Watch a process until it ends."""
         with self._guard:
             first = not self._processes
             self._processes.add(process)
@@ -37,7 +37,7 @@ class BusyWatch:
             real.later(PERIOD_S, self._look)
 
     def process_of(self, ident: int) -> Watched | None:
-        """The process that a thread is of; None for one of nobody who is looked after."""
+        """Return the process of a thread; None if no watched process has it."""
         with self._guard:
             processes = tuple(self._processes)
         return next((each for each in processes if any(state.ident == ident for state in each.thread_states())), None)

@@ -1,4 +1,4 @@
-"""Whether a process hangs because C code holds the interpreter lock, and in which line; determined from outside."""
+"""Detect from outside that a process hangs because C code holds the GIL, and in which line."""
 
 from __future__ import annotations
 
@@ -9,14 +9,13 @@ from dataclasses import dataclass, field
 from .. import frames, real
 
 NAME = "interpreter-stacks"
-"""The file in memory that a watched process has."""
+"""Name of the in-memory file of a watched process."""
 LEAST_SWITCHES = 4
-"""How often a second a thread wakes that waits for the lock, at least: every 5 ms on a machine that has the time.
-
-One that only waits for a processor, or is frozen, does not wake.
+"""Minimum number of times per second that a thread waiting for the GIL wakes: every 5 ms unless the machine is busy. A
+thread that only waits for a processor, or is frozen, does not wake.
 """
 LOOKS_FOR_FILE = 20
-"""How many looks in a row may miss the file of a process that has just begun."""
+"""How many checks in a row may miss the file of a process that has just started."""
 
 _HEADER = re.compile(r"(\d+) (\d+) ([\d.]+)\n")
 _THREAD = re.compile(r"Thread 0x([0-9a-f]+)")
@@ -26,12 +25,12 @@ _ESCAPE = re.compile(r"\\(?:x[0-9a-f]{2}|u[0-9a-f]{4}|U[0-9a-f]{8})")
 
 @dataclass(frozen=True)
 class Held:
-    """Who holds the lock."""
+    """The holder of the GIL."""
 
     ident: int
-    """The thread, as `threading.get_ident` names it."""
+    """The thread, as in `threading.get_ident`."""
     line: str
-    """`/path/file.py:12, in function`; with ` or ` between two that cannot be told apart."""
+    """`/path/file.py:12, in function`; two that cannot be told apart are joined by ` or `."""
 
 
 @dataclass
@@ -42,7 +41,7 @@ class _Thread:
 
 
 def voluntary_switches(process: int | str, thread: int) -> int | None:
-    """How often a thread has gone to sleep by itself; None where the system does not tell."""
+    """Return a thread's number of voluntary context switches; None if the system does not tell."""
     try:
         with open(f"/proc/{process}/task/{thread}/status", "rb") as file:
             return int(file.read().partition(b"\nvoluntary_ctxt_switches:")[2].split(maxsplit=1)[0])
@@ -51,9 +50,9 @@ def voluntary_switches(process: int | str, thread: int) -> int | None:
 
 
 def held_in_stacks(text: str, switches: int, now: float) -> Held | None:
-    """What a watched process has in its file: who holds the lock, if anybody does.
+    """Determine from a watched process's file who holds the GIL, if anybody does.
 
-    `switches` of the thread that the file names, `now` on the monotonic clock in s.
+    `switches` are the voluntary switches of the thread named in the file; `now` is the monotonic time in s.
     """
     header = _HEADER.match(text)
     if header is None or header.end() == len(text):
@@ -87,7 +86,7 @@ def _line_of_user(thread: _Thread) -> tuple[str, str] | None:
 
 
 class HeldLock:
-    """One process, looked at again and again."""
+    """One process, checked repeatedly."""
 
     def __init__(self, pid: int) -> None:
         self._pid = pid
@@ -95,7 +94,7 @@ class HeldLock:
         self._looks = 0
 
     def held_in(self) -> str:
-        """The line in which its lock is held; empty while it is not, and where that is not known."""
+        """Return the line in which its GIL is held; empty if it is not held, or unknown."""
         if not self._path and self._looks < LOOKS_FOR_FILE:
             self._looks += 1
             self._path = _file_of(self._pid)

@@ -1,7 +1,7 @@
-"""Notices that code in C holds the interpreter's lock: no other thread of this process runs then, none of ours either.
+"""Detect that C code holds the GIL: then no other thread of this process runs, including ours.
 
-One thread of the interpreter's needs no lock (`faulthandler`): where the beat here stays away, it writes the stacks of
-all threads into a file in memory. The next beat reads that; until it comes, other processes can (`held_lock`).
+One thread of the interpreter (`faulthandler`) needs no GIL: when the beat here fails to come, it writes the stacks of
+all threads into an in-memory file. The next beat reads that; until then, other processes can (`held_lock`).
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from .held_lock import NAME, held_in_stacks, voluntary_switches
 PERIOD_S = 0.5
 """Wall time (s) between two beats."""
 WRITTEN_S = 1.25
-"""Wall time (s) after a beat at which, when no other has come, the stacks are written: the lock is held for 1 s."""
+"""Wall time (s) after a beat at which the stacks are written if no other beat has come: the GIL is held for 1 s."""
 FIRST_BEAT_S = 1.0
-"""Wall time (s) that the beginning waits for the first beat, at most: what holds the lock before it is never seen."""
+"""Maximum wall time (s) that `begin` waits for the first beat: a GIL held before that beat is never detected."""
 LEAST_DESCRIPTOR = 1000
-"""The file's descriptor, where so many are allowed: out of the way of programs that close all they know of."""
+"""Lowest number of the file's descriptor, if allowed: out of the way of programs that close all they know of."""
 TEXT = (
     "has held the interpreter's lock for 1 s, in {}. No other thread of its process runs meanwhile: do it in smaller "
     "pieces, by a library that releases the lock, or in a process of its own"
@@ -31,17 +31,17 @@ TEXT = (
 
 
 class LockWatch:
-    """Tells, when the lock is free again, which thread has held it and in which line."""
+    """Reports, when the GIL is free again, which thread held it and in which line."""
 
     def __init__(self, tell: Callable[[int, str], None]) -> None:
-        """`tell(ident, text)` is called in a thread of ours."""
+        """`tell(ident, text)` is called in a thread of the runtime."""
         self._tell = tell
         self._file = -1
         self._made: tuple[int, int] = (0, 0)
         self._write_later = faulthandler.dump_traceback_later
 
     def begin(self) -> None:
-        """Watch from now on, for as long as the process lives; does nothing where the system cannot tell enough."""
+        """Start watching until the process ends; does nothing if the system cannot tell enough."""
         if not hasattr(os, "memfd_create") or voluntary_switches("self", threading.get_native_id()) is None:
             return
         try:
@@ -61,7 +61,7 @@ class LockWatch:
         begun.acquire(True, FIRST_BEAT_S)
 
     def _for_the_program(self, *given: Any, **named: Any) -> None:
-        """There is one such thread: who asks for it gets it."""
+        """Leave the interpreter's only such thread to a program that asks for it."""
         self._file = -1
         self._write_later(*given, **named)
 
@@ -71,7 +71,7 @@ class LockWatch:
         faulthandler.cancel_dump_traceback_later()
         try:
             if _identity(self._file) != self._made:
-                return  # the program has closed it, and may have opened another under its number
+                return  # the program has closed it, and may have opened another file under its number
             text = os.pread(self._file, 1 << 20, 0).decode("ascii", "replace")
             me = threading.get_native_id()
             switches, now = voluntary_switches("self", me) or 0, real.monotonic()

@@ -1,4 +1,4 @@
-"""Detects that the main thread of this process computes without ever waiting: its node receives nothing meanwhile."""
+"""Detect that this process's main thread computes without ever waiting: its node receives nothing meanwhile."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from .. import frames, real
 from .processor_time import ran_and_waited
 
 PERIOD_S = 0.5
-"""Wall time (s) between two looks."""
+"""Wall time (s) between two checks."""
 WANTED_SHARE = 0.9
-"""The share of wall time from which a thread has run, or waited for a processor, and for nothing else."""
+"""Share of wall time, spent only running or waiting for a processor, from which a thread counts as computing."""
 TOLD_S = 1.0
-"""Processor time (s) of its own after which that is told: on a busy machine a start may take seconds."""
+"""Processor time (s) of its own after which that is reported: on a busy machine a start may take seconds."""
 
 
 class MainWatch:
-    """Tells once, each time it begins, in which line the main thread computes; where the system tells such times."""
+    """Reports in which line the main thread computes, once each time that begins, if the system tells such times."""
 
     def __init__(self, tell: Callable[[str], None]) -> None:
         self._tell = tell
@@ -26,7 +26,7 @@ class MainWatch:
         self._before = (0.0, 0.0, 0.0)
 
     def begin(self) -> None:
-        """Look from now on, for as long as the process lives; to be called in the main thread."""
+        """Start watching until the process ends; to be called in the main thread."""
         if self._times() is not None:
             self._before = (real.monotonic(), *(self._times() or (0.0, 0.0)))
             real.later(PERIOD_S, self._look)

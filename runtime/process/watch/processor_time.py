@@ -1,4 +1,4 @@
-"""The CPU time of threads, where the operating system tells it (Linux)."""
+"""The CPU time of threads, if the operating system tells it (Linux)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def state_and_seconds(task: str) -> tuple[str, float] | None:
-    """State (`R`, `S`, `D` ..., see proc(5)) and processor time (s) of what `/proc/<task>` is; None where not known."""
+    """Return state (`R`, `S`, `D` ..., see proc(5)) and processor time (s) of `/proc/<task>`; None if unknown."""
     try:
         with open(f"/proc/{task}/stat", "rb") as stat_file:
             fields = stat_file.read().rpartition(b")")[2].split()
@@ -21,19 +21,19 @@ def state_and_seconds(task: str) -> tuple[str, float] | None:
 
 
 def thread_seconds(native_id: int) -> float | None:
-    """Processor time (s) of a running thread of the real process; None where it is not known."""
+    """Return the processor time (s) of a running thread of the real process; None if unknown."""
     told = state_and_seconds(f"self/task/{native_id}")
     return None if told is None else told[1]
 
 
 def wanted_seconds(task: str) -> float | None:
-    """How long (s) a thread has run or waited for a processor, and for nothing else; None where it is not known."""
+    """Return how long (s) a thread has run or waited for a processor; None if unknown."""
     told = ran_and_waited(task)
     return None if told is None else sum(told)
 
 
 def ran_and_waited(task: str) -> tuple[float, float] | None:
-    """How long (s) a thread has run, and waited for a processor; None where it is not known."""
+    """Return how long (s) a thread has run, and how long it has waited for a processor; None if unknown."""
     try:
         with open(f"/proc/{task}/schedstat", "rb") as file:
             ran, waited = file.read().split()[:2]
@@ -43,7 +43,7 @@ def ran_and_waited(task: str) -> tuple[float, float] | None:
 
 
 def total_seconds(states: Iterable[NodeThread]) -> float | None:
-    """Processor time (s) of several running threads; None where it is not known."""
+    """Return the processor time (s) of several running threads; None if unknown."""
     times = [thread_seconds(state.thread.native_id) for state in states if state.thread.native_id is not None]
     known = [time for time in times if time is not None]
     return sum(known) if known or not times else None

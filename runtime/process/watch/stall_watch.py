@@ -1,6 +1,7 @@
 """The watchdog of a stepped run: a thread that hangs while it holds the baton must not stop all others for ever.
 
-It looks at intervals of wall time, but decides by what it finds then, never by the time in between: see `thread_work`.
+It checks at intervals of wall time, but decides by the state it finds, never by the time that has passed: see
+`thread_work`.
 """
 
 from __future__ import annotations
@@ -22,10 +23,10 @@ Report = Callable[["Seat", bool], Callable[[], None]]
 
 
 class StallWatch:
-    """Takes the baton from a thread that hangs, whether in a wait that the run does not see or in a computation."""
+    """Takes the baton from a thread that hangs, in a wait that the run does not see or in a computation."""
 
     def __init__(self, baton: Baton, stall_s: float, report: Report) -> None:
-        """`report(seat, busy)` is called before others go on, and what it returns when they can.
+        """`report(seat, busy)` is called before others go on; what it returns is called once they can.
 
         `stall_s`: how long (s) a thread must be blocked, and the unit of how long it may compute.
         """
@@ -38,11 +39,11 @@ class StallWatch:
         self._works: dict[Seat, ThreadWork] = {}
 
     def start(self) -> None:
-        """Watch from now on, until no thread but the driver is left."""
+        """Start watching, until no thread but the driver is left."""
         with self._guard:
             if not self._running:
                 self._running = True
-                # `threading.Thread` would make it one of the run that it watches.
+                # `threading.Thread` would make it a thread of the run that it watches.
                 _thread.start_new_thread(self._run, ())
 
     def _run(self) -> None:
@@ -70,7 +71,7 @@ class StallWatch:
             told()
 
     def _look_at_starting(self) -> None:
-        """All wait for nodes that hang in their start, and time stands still for these; not for ever."""
+        """Let time go on if all nodes for whose start it stands still hang."""
         works = [self._look(seat) for seat in tuple(self._baton.starting)]
         if all(
             work is not None and (work.is_blocked(START_PATIENCE) or work.is_busy(self._stall_s, START_PATIENCE))
@@ -79,7 +80,7 @@ class StallWatch:
             self._baton.stop_waiting_for_starts()
 
     def _look(self, seat: Seat) -> ThreadWork | None:
-        """What the thread has done since its turn began; None for the driver, and for one that has not begun."""
+        """Return the thread's work since its turn began; None for the driver, and for a thread that has not begun."""
         if seat.rank == LAST or not seat.ident:
             return None
         work = self._works.get(seat)

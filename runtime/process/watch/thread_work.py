@@ -1,4 +1,4 @@
-"""Whether a thread makes progress, computes without end, or waits for something outside the run.
+"""Determine whether a thread makes progress, computes endlessly, or waits for something outside the run.
 
 Elapsed time does not tell: on a busy machine a thread that merely imports a library stalls for seconds. The operating
 system does (Linux, proc(5)): CPU time, whether the thread sleeps, where, and whether it woke.
@@ -13,19 +13,19 @@ from .. import frames
 from .processor_time import state_and_seconds
 
 LOOKS_PER_STALL = 4
-"""How many looks in a row must find a thread blocked before it counts as such."""
+"""How many checks in a row must find a thread blocked before it counts as blocked."""
 PATIENT = 30
-"""How many times as long where the thread may be waiting for a slow disk, or the system tells too little."""
+"""Factor on that if the thread may be waiting for a slow disk, or if the system tells too little."""
 COMPUTING = 10
-"""How many stalls of processor time a thread may use between two waits."""
+"""Processor time that a thread may use between two waits, in stalls."""
 IMPORTING = 60
-"""How many more of them go by for the import of libraries."""
+"""Processor time that it may use for importing libraries, in stalls."""
 SLEEPING = "S"
 AT_WORK = ("R", "D")
 
 
 class ThreadWork:
-    """What one thread of the real process has done since the first look at it."""
+    """What one thread of the real process has done since the first check."""
 
     def __init__(self, native_id: int, ident: int) -> None:
         self._task = f"self/task/{native_id}"
@@ -39,7 +39,7 @@ class ThreadWork:
         self._patience = 1
 
     def look(self) -> None:
-        """Look again; the looks are to come at even distances."""
+        """Check again; to be called at even intervals."""
         importing = frames.is_importing(self._ident)
         told = state_and_seconds(self._task)
         state, seconds = told or (SLEEPING, time.process_time())
@@ -56,7 +56,7 @@ class ThreadWork:
         self._blocked = self._blocked + 1 if blocked else 0
 
     def is_blocked(self, patience: int = 1) -> bool:
-        """Whether it waits in the kernel, and has done so for that many stalls."""
+        """Whether it has been waiting in the kernel for that many stalls."""
         return self._blocked >= LOOKS_PER_STALL * self._patience * patience
 
     def is_busy(self, stall_s: float, patience: int = 1) -> bool:
@@ -65,10 +65,10 @@ class ThreadWork:
         return self._computed >= limit or self._imported >= IMPORTING / COMPUTING * limit
 
     def _is_blocked(self, importing: bool) -> bool:
-        """Whether a sleeping thread waits for what does not come from within the run.
+        """Whether a sleeping thread waits for something outside the run.
 
-        For the interpreter's own lock a thread wakes every few ms, so one that has not woken waits for something else.
-        One that wakes and sleeps again, as it polls a device, is known by where it sleeps: locks are futexes.
+        A thread that waits for the GIL wakes every few ms, so one that has not woken waits for something else. A thread
+        that wakes and sleeps again, polling a device, is recognised by where it sleeps: locks are futexes.
         """
         switches, place = self._read("status").partition("\nvoluntary_ctxt_switches:")[2], self._read("wchan")
         still, self._switches = switches == self._switches, switches
@@ -77,7 +77,7 @@ class ThreadWork:
         return (still or not (on_lock or importing)) and not self._family_works()
 
     def _family_works(self) -> bool:
-        """Whether a child process that it has started, or one of theirs, gets on: then it waits for that."""
+        """Whether a child process of the thread, or a descendant, makes progress: then the thread waits for that."""
         told = [each for each in map(state_and_seconds, _descendants(self._task)) if each]
         before, self._family = self._family, sum(seconds for _, seconds in told)
         return self._family != before or any(state in AT_WORK for state, _ in told)
