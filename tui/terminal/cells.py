@@ -19,7 +19,7 @@ NARROW = re.compile(r"[\x20-\x7e\xa0-\xac\xae-\u02ff\u2190-\u2199\u2500-\u25fc\u
 
 
 class Cells(NamedTuple):
-    """Letters and SGR codes, one of each for every cell; `uneven` where letters are not all one cell wide."""
+    """Letters and SGR codes, one of each per cell; `uneven` if not all letters are one cell wide."""
 
     letters: list[str]
     styles: list[str]
@@ -27,9 +27,9 @@ class Cells(NamedTuple):
 
 
 def cells_of(segments: Iterable[Segment], colours: ColorSystem, plain: bool = False) -> Cells:
-    """The cells of a piece of a line. A wide letter stands in its first cell, the other one is empty.
+    """The cells of a segment of a line. A wide letter occupies its first cell; the second one is empty.
 
-    `plain` is for terminals that show ASCII alone: what the console draws with gets letters that look alike.
+    `plain` is for terminals that show only ASCII: drawing characters are replaced by similar letters.
     """
     letters: list[str] = []
     styles: list[str] = []
@@ -55,7 +55,7 @@ def _spread(text: str, letters: list[str]) -> None:
             letters.append(letter)
             letters += [""] * (width - 1)
         elif letters:
-            # A letter without width joins the one before it, which is two cells back if it is a wide one.
+            # A zero-width letter joins the one before it, which is two cells back if that is wide.
             letters[-1 if letters[-1] or len(letters) == 1 else -2] += letter
 
 

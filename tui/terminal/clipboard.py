@@ -9,10 +9,10 @@ LARGEST = 32_768
 
 
 def osc52(text: str) -> str:
-    """The sequence that puts a text on the clipboard; in base64, so that nothing in the text acts on the terminal."""
+    """The OSC 52 sequence that copies a text to the clipboard; base64 keeps the text from acting on the terminal."""
     return f"\x1b]52;c;{base64.b64encode(text.encode('utf-8', 'replace')).decode()}\x07"
 
 
 def within(text: str) -> str:
-    """As much of a text as a clipboard is sent, without half a letter at its end."""
+    """Truncate a text to what is sent to a clipboard, without splitting the last letter."""
     return text.encode("utf-8", "replace")[:LARGEST].decode("utf-8", "ignore")

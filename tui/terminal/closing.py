@@ -19,7 +19,7 @@ GRACE = 1.0
 
 @contextlib.contextmanager
 def let_go(driver: Any) -> Generator[None]:
-    """Run a driver's closing; if its writer is still blocked after a while, its output is discarded.
+    """Wrap the closing of a driver; if its writer is still blocked after `GRACE` (s), its output is discarded.
 
     Textual waits for the writer without limit, so quitting would hang on a stalled terminal.
     """
@@ -42,10 +42,10 @@ def _watch(writer: threading.Thread, done: threading.Event) -> None:
     if done.wait(GRACE) or not writer.is_alive() or writer.ident is None:
         return
     descriptor: int = cast(Any, writer)._file.fileno()  # of Textual's WriterThread
-    # Kept for the last words, and to be put back: the descriptor itself leads nowhere in a moment.
+    # Kept for the last words, and to be restored: the descriptor itself is redirected to the null device.
     terminal = os.dup(descriptor)
     sink = os.open(os.devnull, os.O_WRONLY)
-    # A write that is interrupted is tried again on the same descriptor, which leads nowhere now.
+    # An interrupted write is retried on the same descriptor, which is the null device now.
     os.dup2(sink, descriptor)
     while writer.is_alive() and not done.wait(0.01):
         with contextlib.suppress(ProcessLookupError):
@@ -58,7 +58,7 @@ def _watch(writer: threading.Thread, done: threading.Event) -> None:
 
 def _last_words(terminal: int) -> None:
     with contextlib.suppress(OSError, termios.error):
-        # What waits in the terminal's queue would come first, and it takes nothing.
+        # The terminal's queue would be written first, but the terminal accepts nothing.
         termios.tcflush(terminal, termios.TCOFLUSH)
         os.set_blocking(terminal, False)
         try:
@@ -70,7 +70,7 @@ def _last_words(terminal: int) -> None:
 
 @contextlib.contextmanager
 def _interrupted_by(number: int) -> Generator[None]:
-    # A signal that is ignored interrupts nothing; one with a handler does.
+    # An ignored signal interrupts no system call; one with a handler does.
     def nothing(number: int, frame: FrameType | None) -> None: ...
 
     before = signal.signal(number, nothing)

@@ -28,18 +28,18 @@ class ShownScreen:
         self._strips: list[dict[int, list[Segment]]] = []
 
     def forget(self, width: int, height: int) -> None:
-        """Nobody knows what the terminal shows: it was resized, or others have written to it."""
+        """Forget what the terminal shows, because it was resized or others have written to it."""
         self._letters = [[UNKNOWN] * width for _ in range(height)]
         self._styles = [[""] * width for _ in range(height)]
         self._strips = [{} for _ in range(height)]
 
     @property
     def size(self) -> tuple[int, int]:
-        """Columns and lines."""
+        """The size in columns and lines."""
         return len(self._letters[0]) if self._letters else 0, len(self._letters)
 
     def update(self, lines: Iterable[tuple[int, Mapping[int, Strip | None]]], colours: ColorSystem) -> str:
-        """Take in new pieces of lines, by line and column; the text that shows them is empty when they are shown."""
+        """Apply new strips by line and column; returns the text that shows them, empty if they are shown already."""
         writer = Writer()
         for y, pieces in lines:
             if 0 <= y < len(self._letters):
@@ -48,10 +48,10 @@ class ShownScreen:
         return writer.text()
 
     def _changed(self, y: int, pieces: Mapping[int, Strip | None], colours: ColorSystem) -> Iterator[tuple[int, Cells]]:
-        """The pieces of a line that are not the same objects, or equal ones, as those of the last time."""
+        """The strips of a line that are neither identical nor equal to those of the last time."""
         known = self._strips[y]
         if known.keys() != pieces.keys():
-            # Pieces that begin elsewhere overwrite parts of the old ones, so these say nothing any more.
+            # Strips that begin elsewhere overwrite parts of the old ones, which are no longer comparable.
             known = self._strips[y] = {x: [] for x in pieces}
         for x, strip in pieces.items():
             if strip is None:
@@ -72,7 +72,7 @@ class ShownScreen:
         uneven = new.uneven or "" in letters[x:end]
         letters[x:end], styles[x:end] = new.letters[: end - x], new.styles[: end - x]
         if uneven:
-            # Terminals do not agree on how wide such letters are, so nothing after the first change is relied on.
+            # Terminals disagree on the width of such letters, so everything after the first change is rewritten.
             begin = differing[0]
             # The second half of a wide letter cannot be written without the first.
             while begin > x and not letters[begin]:
@@ -83,7 +83,7 @@ class ShownScreen:
 
 
 class Writer:
-    """Gathers cells into text with few moves of the cursor and few changes of style."""
+    """Collects cells into text with few cursor moves and style changes."""
 
     def __init__(self) -> None:
         self._parts: list[str] = []
@@ -109,7 +109,7 @@ class Writer:
         self._y = y
 
     def _across(self, letters: list[str], styles: list[str]) -> str:
-        """Over cells that stay as they are: by writing them again, or by a move, whichever is shorter."""
+        """Skip unchanged cells by rewriting them or by a cursor move, whichever is shorter."""
         text = "".join(letters)
         known = UNKNOWN not in letters and "" not in letters
         if known and len(text.encode()) <= JUMP and all(each == self._style for each in styles):
@@ -117,5 +117,5 @@ class Writer:
         return f"\x1b[{len(letters)}C"
 
     def text(self) -> str:
-        """All of it; the style is put back."""
+        """The collected text, with the style reset at its end."""
         return "".join([*self._parts, RESET]) if self._parts else ""

@@ -22,7 +22,7 @@ JUMPS = {
 
 
 def editing(file: str, line: int, environment: Mapping[str, str]) -> list[str]:
-    """The command that opens a file at a line; raises `ValueError` that says how to fix it."""
+    """The command that opens a file at a line; raises `ValueError`, which says how to fix it."""
     if not Path(file).is_file():
         raise ValueError(f"{file} is not on this machine")
     try:

@@ -30,7 +30,7 @@ NOTICEABLE = 10
 
 
 class AnswerGate:
-    """Counts frames that the terminal has not answered; a terminal that never answers is not waited for."""
+    """Counts frames that the terminal has not answered; never waits for a terminal that does not answer at all."""
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
@@ -47,7 +47,7 @@ class AnswerGate:
         while self._asked and now >= self._asked[0][1]:
             self._asked.popleft()
             self._disappointed += 1
-        # Held back only where it has ever answered: many terminals and recorders never do.
+        # Held back only if it has ever answered: many terminals and recorders never do.
         if self._answers and len(self._asked) >= self._allowed:
             return self._asked[0][1] - now
         if self.is_eager:
@@ -56,21 +56,21 @@ class AnswerGate:
 
     @property
     def is_eager(self) -> bool:
-        """Whether a key was pressed a moment ago."""
+        """Whether a key was pressed just now."""
         return self._clock() - self._pressed < EAGER
 
     def asked(self, size: int) -> None:
-        """A question was written, and so many bytes before it."""
+        """Record that a query was written, after that many bytes."""
         now = self._clock()
         patience = (PATIENCE + size / SLOWEST) * 2 ** min(self._disappointed, 10)
         self._asked.append((now, now + min(patience, LONGEST)))
 
     def drawn(self) -> None:
-        """A frame was written."""
+        """Record that a frame was written."""
         self._drawn = self._clock()
 
     def answered(self) -> None:
-        """The terminal has answered the oldest question."""
+        """Record that the terminal has answered the oldest query."""
         self._answers = True
         self._disappointed = 0
         if self._asked:
@@ -78,17 +78,17 @@ class AnswerGate:
             self._allowed = 1 if self._clock() - began > SLOW else IN_FLIGHT
 
     def pressed(self) -> None:
-        """A key was pressed: what comes of it is shown at once."""
+        """Record that a key was pressed: its effect is shown at once."""
         self._pressed = self._clock()
 
     def merged(self) -> None:
-        """A frame was held back, and merged into a later one."""
+        """Record that a frame was held back and merged into a later one."""
         if self._answers and len(self._asked) >= self._allowed:
             self._merged.append(self._clock())
 
     @property
     def held_back(self) -> int:
-        """Frames merged in the last seconds, at most 100; 0 while there are so few that nobody would notice."""
+        """The number of frames merged in the last seconds, at most 100; 0 while there are too few to notice."""
         since = self._clock() - RECENT
         count = sum(each >= since for each in self._merged)
         return count if count >= NOTICEABLE else 0

@@ -12,21 +12,21 @@ LOOK = 1.0
 
 
 class LastingFile:
-    """The file of a terminal, which goes on taking text when the terminal has gone, or was made not to block.
+    """The file of a terminal that accepts text even after the terminal has gone or was made non-blocking.
 
-    Textual's writer ends with the first error. Nobody empties its queue then, and whoever writes waits for ever, the
-    end of the app included. That a terminal does not block belongs to all who have it open: any program that was
-    started in the same one may set it, and a full terminal is an error then, though it is there.
+    Textual's writer ends with the first error. Nobody empties its queue then, and whoever writes waits forever, the
+    end of the app included. The non-blocking flag is shared by all who have the terminal open: any program
+    started in the same terminal may set it, and then a full terminal is an error, although it exists.
     """
 
     def __init__(self, file: TextIO) -> None:
         self._file = file
         self.gone = False
         with contextlib.suppress(OSError):
-            file.flush()  # what is written here goes past it
+            file.flush()  # writes here bypass it
 
     def write(self, text: str) -> int:
-        """Write text, if there is anybody who takes it; waits for a terminal that is full."""
+        """Write text, unless the terminal has gone; waits while the terminal is full."""
         left = memoryview(text.encode(errors="replace"))
         while left and not self.gone:
             try:
@@ -34,7 +34,7 @@ class LastingFile:
             except BlockingIOError:
                 self._wait()
             except (OSError, ValueError):
-                # The app learns of it otherwise: by the hang-up signal, or by the end of its input.
+                # The app learns of it in other ways: by the hang-up signal, or by the end of its input.
                 self.gone = True
         return len(text)
 
@@ -44,12 +44,12 @@ class LastingFile:
         room.poll(LOOK * 1000)
 
     def flush(self) -> None:
-        """Nothing is kept back."""
+        """Do nothing: writes are unbuffered."""
 
     def isatty(self) -> bool:
         """Whether it was a terminal."""
         return self._file.isatty()
 
     def fileno(self) -> int:
-        """The descriptor of the file."""
+        """The file descriptor."""
         return self._file.fileno()

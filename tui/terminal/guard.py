@@ -16,14 +16,14 @@ from textual.screen import Screen
 
 
 class GuardedApp(SparingApp, StyledOnceApp):
-    """An app that is asked about each fault before it ends."""
+    """An app that may contain an exception instead of ending with it."""
 
     def contain(self, error: Exception, culprits: list[DOMNode]) -> bool:
-        """Whether a fault was dealt with; `culprits` are those in whose code it happened, the innermost first."""
+        """Try to handle an exception; `culprits` are the widgets in whose code it was raised, innermost first."""
         raise NotImplementedError
 
     def last_words(self, error: BaseException) -> str:
-        """Called when a fault ends the app; gives the line that is said of it on the terminal."""
+        """Called when an exception ends the app; returns the line to print about it on the terminal."""
         raise NotImplementedError
 
     def get_default_screen(self) -> Screen[None]:
@@ -31,13 +31,13 @@ class GuardedApp(SparingApp, StyledOnceApp):
         return GuardedScreen() if SUPPORTED else super().get_default_screen()
 
     def contained(self, error: Exception) -> bool:
-        """Whether a fault was dealt with."""
+        """Whether an exception was handled."""
         return self.contain(error, culprits_of(error))
 
     async def _dispatch_message(self, message: Message) -> None:
         try:
             await super()._dispatch_message(message)
-        except Exception as error:  # the border of everything that is drawn or typed
+        except Exception as error:  # boundary of all drawing and input
             if not self.contained(error):
                 raise
 
@@ -53,21 +53,21 @@ class GuardedApp(SparingApp, StyledOnceApp):
 
 
 class GuardedScreen(HoldingScreen, SeenScreen, StyledOnceScreen):
-    """A screen that goes on drawing when one of its widgets cannot be drawn."""
+    """A screen that continues to draw when one of its widgets cannot be drawn."""
 
     async def _dispatch_message(self, message: Message) -> None:
         try:
             await super()._dispatch_message(message)
-        except Exception as error:  # the border of what is drawn
+        except Exception as error:  # boundary of drawing
             app = self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
             if not (isinstance(app, GuardedApp) and app.contained(error)):
                 raise
 
 
 def culprits_of(error: Exception) -> list[DOMNode]:
-    """The widgets in whose methods a fault happened, the innermost first.
+    """The widgets in whose methods an exception was raised, innermost first.
 
-    An action runs in the app's message pump and a drawing in the screen's, so that only the frames know whose it was.
+    Actions run in the app's message pump and drawing in the screen's, so only the stack frames name the widget.
     """
     found: list[DOMNode] = []
     trace = error.__traceback__

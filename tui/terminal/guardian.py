@@ -27,13 +27,13 @@ WELL = "."
 
 
 def settings_of(terminal: int) -> Settings:
-    """How a terminal is set; bytes as numbers, so that JSON can hold them."""
+    """The settings of a terminal, with bytes as numbers for JSON."""
     *numbers, characters = termios.tcgetattr(terminal)
     return [*numbers, [ord(each) if isinstance(each, bytes) else each for each in characters]]
 
 
 def set_again(terminal: int, settings: Settings) -> None:
-    """Set a terminal as it was."""
+    """Restore the settings of a terminal."""
     *numbers, characters = settings
     canonical = numbers[3] & termios.ICANON
     as_bytes = [
@@ -44,7 +44,7 @@ def set_again(terminal: int, settings: Settings) -> None:
 
 
 def main(terminal: int) -> None:
-    """Wait for the end, and put the terminal right if it was not a good one."""
+    """Wait for the end of the console, and restore the terminal unless it ended well."""
     for number in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGTSTP):
         signal.signal(number, signal.SIG_IGN)
     told: list[Settings] = []
@@ -52,10 +52,10 @@ def main(terminal: int) -> None:
         if line.strip() == WELL:
             return
         told.append(json.loads(line))
-    if len(told) < 2:  # it had not begun
+    if len(told) < 2:  # it had not started
         return
     with contextlib.suppress(OSError, termios.error):
-        # Whoever waited for the console, a shell as a rule, may have set the terminal for itself by now.
+        # Whoever waited for the console, usually a shell, may have set the terminal for itself by now.
         if settings_of(terminal) == told[1]:
             set_again(terminal, told[0])
         os.set_blocking(terminal, False)

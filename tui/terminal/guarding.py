@@ -16,7 +16,7 @@ from bot_console.tui.terminal import guardian
 
 
 class Watch(NamedTuple):
-    """What the guardian is to be told, by calling it."""
+    """The notices to the guardian; calling one sends it."""
 
     has_begun: Callable[[], None]
     """The terminal is set for us."""
@@ -26,13 +26,13 @@ class Watch(NamedTuple):
 
 @contextlib.contextmanager
 def guarded(terminal: int) -> Generator[Watch]:
-    """Have the terminal put right after the block, however this process ends, unless it is told to be right."""
+    """Have the terminal restored after the block, however this process ends, unless told that it is right."""
     try:
         process = subprocess.Popen(
             [sys.executable, "-I", "-S", str(Path(guardian.__file__)), str(terminal)], pass_fds=[terminal],
             stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
         )  # fmt: skip
-    except OSError:  # no process can be started: go on without
+    except OSError:  # no process can be started: continue without
         yield Watch(lambda: None, lambda: None)
         return
     assert process.stdin is not None

@@ -8,7 +8,7 @@ import re
 
 
 def installed_version(package: str) -> str:
-    """The version of a package that can be imported under its name; raises `PackageNotFoundError` where it has none.
+    """The version of an importable package with that name; raises `PackageNotFoundError` if it has none.
 
     Installers write it into the name of a folder beside the package (PEP 376 and 427).
     """
@@ -16,7 +16,7 @@ def installed_version(package: str) -> str:
     named = re.compile(rf"{re.escape(package)}-([^-]+)\.dist-info")
     try:
         beside = os.listdir(os.path.dirname(os.path.dirname(place)))
-    except OSError:  # as in an archive
+    except OSError:  # for example in an archive
         beside = []
     found = [match[1] for each in beside if (match := named.fullmatch(each))]
     if len(found) == 1:

@@ -28,7 +28,7 @@ class Leaving:
     """Leaves the terminal and comes back to it."""
 
     def __init__(self, app: App[None], console: Console, redraw: Callable[[], None], *, holds: bool = True) -> None:
-        """`holds` says whether the robot is held while the console sleeps: only who may release it may hold it."""
+        """`holds` says whether to hold the robot while the console sleeps: only who may release it may hold it."""
         self._app = app
         self._holds = holds
         self._console = console
@@ -36,7 +36,7 @@ class Leaving:
         self._going = False
 
     def edit(self, file: str, line: int) -> None:
-        """Open a file at a line in the person's editor. Nothing is steered meanwhile: a command is dead after 0.5 s."""
+        """Open a file at a line in the user's editor. Nothing is steered meanwhile: a command expires after 0.5 s."""
         try:
             command = editing(file, line, os.environ)
         except ValueError as error:
@@ -45,12 +45,12 @@ class Leaving:
         self.run(command)
 
     def run(self, command: Sequence[str]) -> int:
-        """Let another program have the terminal until it ends; its exit code. Nothing is steered meanwhile."""
+        """Hand the terminal to another program, and return its exit code. Nothing is steered meanwhile."""
         code = 0
         self._console.drive(0.0, 0.0)
         try:
             with self._app.suspend():
-                # Descriptors 0 to 2 lead to the log while the console runs; these are the terminal.
+                # While the console runs, descriptors 0 to 2 refer to the log; these are the terminal.
                 inward, outward, errors = sys.__stdin__, sys.__stdout__, sys.__stderr__
                 code = subprocess.run(command, stdin=inward, stdout=outward, stderr=errors, check=False).returncode
         except SuspendNotSupported:
@@ -82,10 +82,10 @@ class Leaving:
 
 
 def takes_up_again(driver: Any) -> None:
-    """Let a Linux driver of Textual go on after any stop, also one that it heard nothing of (SIGSTOP, a debugger).
+    """Let a Linux driver of Textual continue after any stop, even an unnoticed one (SIGSTOP, a debugger).
 
-    Textual sets the terminal up at each SIGCONT. Where it had not been left before, a second thread would read the
-    keys beside the first one: each takes some of them, and the end waits for ever for the one that got nothing.
+    Textual sets the terminal up at each SIGCONT. If it had not been left before, a second thread would read the
+    keys alongside the first one: each gets some of them, and the end waits forever for the one that got nothing.
     """
     set_up = driver.resume_application_mode
     wanted, at_it = False, False
@@ -93,7 +93,7 @@ def takes_up_again(driver: Any) -> None:
     def resume() -> None:
         nonlocal wanted, at_it
         wanted = True
-        if at_it:  # a SIGCONT in the midst of this one
+        if at_it:  # a SIGCONT during this one
             return
         at_it = True
         try:
@@ -109,9 +109,9 @@ def takes_up_again(driver: Any) -> None:
 
 
 def leaves_an_empty_screen(driver: Any) -> None:
-    """Let a Linux driver of Textual clear the alternate screen before it leaves it.
+    """Make a Linux driver of Textual clear the alternate screen before it leaves it.
 
-    tmux puts full rows of it into the shell's screen where the terminal was made larger meanwhile.
+    tmux moves full rows of it into the shell's screen if the terminal was enlarged meanwhile.
     """
     leave = driver.stop_application_mode
 

@@ -41,7 +41,7 @@ SUPPORTED = installed_version("textual").startswith("8.2.")
 
 
 class SparingApp(App[None]):
-    """An app that sends no more than the terminal needs and takes."""
+    """An app that sends only what the terminal needs, and no faster than it accepts it."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -60,18 +60,18 @@ class SparingApp(App[None]):
         return HoldingScreen() if SUPPORTED else Screen[Any](id="_default")
 
     def ask(self) -> None:
-        """Ask the terminal something before the first frame, to learn whether it answers."""
+        """Query the terminal before the first frame, to learn whether it answers."""
         if self._sparing():
             self._driver_or_none().write(QUESTION)
             self.gate.asked(0)
 
     def on_cursor_position(self, event: events.CursorPosition) -> None:
-        """The terminal has drawn what came before the question."""
+        """Note that the terminal has drawn what preceded the query."""
         self.gate.answered()
         self._draw_held()
 
     async def on_event(self, event: events.Event) -> None:
-        """Keys and clicks are answered at once; after a change of size nobody knows what the terminal shows."""
+        """Show the effect of keys and clicks at once; after a resize, forget what the terminal shows."""
         if isinstance(
             event, (events.Key, events.MouseDown, events.MouseUp, events.MouseScrollUp, events.MouseScrollDown)
         ):
@@ -81,7 +81,7 @@ class SparingApp(App[None]):
         await super().on_event(event)
 
     def copy_to_clipboard(self, text: str) -> None:
-        """Put a text on the clipboard of the terminal (OSC 52), as soon as what was written before has left."""
+        """Copy a text to the terminal's clipboard (OSC 52), as soon as earlier output has been written."""
         kept = within(text)
         self._clipboard = kept
         waiting, self._copied = self._copied, osc52(kept)
@@ -106,7 +106,7 @@ class SparingApp(App[None]):
         self.refresh(repaint=True, layout=True)
 
     def may_draw(self) -> bool:
-        """Whether a frame would be sent now; if not, it is as soon as that changes."""
+        """Whether a frame would be sent now; otherwise it is sent as soon as that changes."""
         if not self._sparing() or (self._waiting() <= 0 and not self._batch_count):
             return True
         self.gate.merged()
@@ -117,11 +117,11 @@ class SparingApp(App[None]):
 
     @property
     def holds_frames(self) -> bool:
-        """Whether a batch of changes is open, before whose end nothing is drawn."""
+        """Whether a batch of changes is open, until whose end nothing is drawn."""
         return bool(self._batch_count)
 
     def how_it_draws(self) -> str:
-        """What drawing depends on, on one line, for who looks for the reason why nothing is drawn."""
+        """The state on which drawing depends, on one line, to diagnose why nothing is drawn."""
         driver = self._driver_or_none()
         writer = getattr(driver, "_writer_thread", None)
         waiting = writer._queue.qsize() if writer is not None else "no"
@@ -133,9 +133,9 @@ class SparingApp(App[None]):
 
     def _build_driver(self, *args: Any, **kwargs: Any) -> Driver:
         driver: Any = super()._build_driver(*args, **kwargs)
-        # Drivers without a terminal, as for tests, have none.
+        # Drivers without a terminal, such as those for tests, have none.
         if hasattr(driver, "_file"):
-            # Else Textual draws for 80x24 until it has been told the size, which is a first frame to throw away.
+            # Otherwise Textual draws for 80x24 until it learns the size, which wastes the first frame.
             driver._size = driver._size or driver._get_terminal_size()
             driver._file = LastingFile(driver._file)
         if hasattr(driver, "_key_thread"):
@@ -166,7 +166,7 @@ class SparingApp(App[None]):
         asyncio.get_running_loop().call_later(wait, self.call_next, self._draw_held)
 
     def _draw_held(self) -> None:
-        """Draw what was held back, if it may be drawn now."""
+        """Draw what was held back, if drawing is allowed now."""
         if not self._held or not self.screen_stack:
             return
         if self._batch_count or self._waiting() > 0:
@@ -191,7 +191,7 @@ class SparingApp(App[None]):
         self.post_display_hook()
 
     def _difference(self, size: tuple[int, int], lines: Mapping[int, Mapping[int, Strip | None]]) -> str:
-        # A new writer means that the terminal was handed to somebody else meanwhile.
+        # A new writer means that the terminal was handed to another program meanwhile.
         writer = getattr(self._driver, "_writer_thread", None)
         if self._shown.size != tuple(size) or writer is not self._writer:
             self._writer = writer
@@ -204,7 +204,7 @@ class SparingApp(App[None]):
         text += f"\x1b[{y + 1};{x + 1}H"
         if self._sync_available:
             text = SYNC_BEGIN + text + SYNC_END
-        # One write and not five: each is an item in the writer's queue.
+        # One write instead of five: each is an item in the writer's queue.
         self._driver_or_none().write(text + QUESTION)
         self.gate.asked(len(text))
         self.gate.drawn()
@@ -215,7 +215,7 @@ class SparingApp(App[None]):
 
 
 class HoldingScreen(Screen[None]):
-    """A screen that composes nothing while nothing may be drawn; what is dirty stays so."""
+    """A screen that composes nothing while nothing may be drawn; dirty regions stay dirty."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -223,7 +223,7 @@ class HoldingScreen(Screen[None]):
         self._compositor = PartwiseCompositor()
 
     def _compositor_refresh(self) -> None:
-        # Textual forgets here which widgets are dirty, though those that came after its last look are not drawn.
+        # Textual clears its dirty widgets here, although those added since its last look are not drawn.
         self._compositor.update_widgets(self._dirty_widgets)
         app = self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
         if isinstance(app, SparingApp) and self is app.screen and not app.may_draw():
@@ -243,7 +243,7 @@ class HoldingScreen(Screen[None]):
 
 
 def _lines(update: ChopsUpdate | LayoutUpdate) -> dict[int, Mapping[int, Strip | None]]:
-    """The pieces of each line that may have changed; of the others nothing is known."""
+    """The strips of each line that may have changed; the others are unknown."""
     if isinstance(update, ChopsUpdate):
         return _pieces(update)
     lines: dict[int, Mapping[int, Strip | None]] = {}
@@ -258,7 +258,7 @@ def _lines(update: ChopsUpdate | LayoutUpdate) -> dict[int, Mapping[int, Strip |
 
 
 def _pieces(update: ChopsUpdate) -> dict[int, Mapping[int, Strip | None]]:
-    # Beside what was to be drawn a line holds what lies beneath: widgets that were not dirty are missing there.
+    # Besides what was to be drawn, a line holds what lies beneath: widgets that were not dirty are missing there.
     lines: dict[int, dict[int, Strip | None]] = {}
     for y, begin, end in update.spans:
         drawn = update.chops[y]
@@ -270,7 +270,7 @@ def _pieces(update: ChopsUpdate) -> dict[int, Mapping[int, Strip | None]]:
 
 
 def _regions(update: ChopsUpdate | LayoutUpdate) -> set[Region]:
-    """What an update that is not shown leaves to be drawn."""
+    """The regions that an update leaves to be drawn if it is not shown."""
     if isinstance(update, LayoutUpdate):
         return {update.region}
     return {Region(x1, y, x2 - x1, 1) for y, x1, x2 in update.spans}

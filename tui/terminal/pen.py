@@ -11,7 +11,7 @@ OFF = {"1": "22", "2": "22", "3": "23", "4": "24", "5": "25", "6": "25", "7": "2
 
 
 class Pen(NamedTuple):
-    """A style taken apart: attributes, foreground and background, each as SGR codes; empty for the default."""
+    """A parsed style: attributes, foreground and background, each as SGR codes; empty for the default."""
 
     attributes: frozenset[str]
     ground: str
@@ -20,7 +20,7 @@ class Pen(NamedTuple):
 
 @lru_cache(maxsize=4096)
 def parsed(codes: str) -> Pen:
-    """Take SGR codes such as `1;38;2;1;2;3` apart."""
+    """Parse SGR codes such as `1;38;2;1;2;3`."""
     attributes: set[str] = set()
     grounds = ["", ""]
     numbers = codes.split(";") if codes else []
@@ -45,7 +45,7 @@ def parsed(codes: str) -> Pen:
 
 @lru_cache(maxsize=4096)
 def change(before: str | None, after: str) -> str:
-    """The sequence that turns one style into another; `None` is a style that is not known."""
+    """The sequence that turns one style into another; `None` is an unknown style."""
     whole = f"\x1b[0;{after}m" if after else RESET
     if before is None:
         return whole
@@ -54,7 +54,7 @@ def change(before: str | None, after: str) -> str:
     if not ended <= OFF.keys():
         return whole
     stops = sorted({OFF[each] for each in ended})
-    # Bold and faint have one end in common, so that ending one of them ends both.
+    # Bold and faint share one end code, so that ending one of them ends both.
     kept = {each for each in old.attributes & new.attributes if OFF.get(each) not in stops}
     codes = [*stops, *sorted(new.attributes - kept)]
     if new.ground != old.ground:

@@ -55,7 +55,7 @@ DOTS = " .::::*###"
 
 @lru_cache(maxsize=65536)
 def plain_letter(letter: str) -> str:
-    """One letter of ASCII, or several where it takes several cells; `?` for what nothing looks like."""
+    """A similar letter in ASCII, or several if it takes several cells; `?` if there is none."""
     if letter.isascii():
         return letter
     code = ord(letter)
@@ -69,5 +69,5 @@ def plain_letter(letter: str) -> str:
 
 
 def plain_text(text: str) -> str:
-    """A text in ASCII that takes as many cells."""
+    """Convert a text to ASCII of the same width in cells."""
     return text if text.isascii() else "".join(map(plain_letter, text))

@@ -6,7 +6,7 @@ from textual.containers import Vertical
 
 
 class Box(Vertical):
-    """Stands out from what is below it, and so do its lists and lines; the screen gives it its size."""
+    """A box set off from what is below it, including its lists and lines; the screen sets its size."""
 
     DEFAULT_CSS = """
     Box { background: $panel; border: round $primary; padding: 0 1; }

@@ -26,7 +26,7 @@ class BrailleCanvas:
         return self.width * 2, self.height * 4
 
     def points(self, x: npt.ArrayLike, y: npt.ArrayLike) -> None:
-        """Set dots; those outside are left out."""
+        """Set dots; those outside are ignored."""
         column = np.round(np.asarray(x, float)).astype(np.int64)
         row = np.round(np.asarray(y, float)).astype(np.int64)
         inside = (column >= 0) & (column < self.width * 2) & (row >= 0) & (row < self.height * 4)

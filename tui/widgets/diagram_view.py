@@ -30,7 +30,7 @@ MARGIN = 2
 
 
 class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[reportIncompatibleMethodOverride] -- Textual's own
-    """The picture of a graph. Arrow keys select what stands in that direction, what is linked first."""
+    """Shows a graph. Arrow keys select an item in that direction, linked items first."""
 
     BINDINGS = keymap.bindings("diagram")
     DEFAULT_CSS = """
@@ -72,7 +72,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
     """The id of the selected item; empty when there is none."""
 
     class Resized(Message):
-        """There is another room for the picture."""
+        """The room for the picture has changed."""
 
     class Selected(Message):
         """Another item is selected."""
@@ -105,9 +105,9 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         faults: frozenset[tuple[str, str]] = frozenset(),
         faded: frozenset[str] = frozenset(),
     ) -> None:
-        """Draw a graph; items in `warned` and edges in `faults` stand out, items in `faded` step back.
+        """Draw a graph; items in `warned` and edges in `faults` are highlighted, items in `faded` are dimmed.
 
-        Selection and scrolling stay if they can.
+        Selection and scroll position are kept if possible.
         """
         self._warned, self._faults, self._faded = warned, faults, faded
         if graph != self._graph:
@@ -120,7 +120,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         self.refresh()
 
     async def _draw_beside(self, graph: Digraph) -> None:
-        """Lay a large graph out in a thread, in one direction only, while what was drawn before stays."""
+        """Lay out a large graph in a thread, in one direction only, while the previous drawing stays."""
         flow = self._flow or RIGHT
         drawing = await asyncio.to_thread(draw, graph, flow)
         if graph is self._graph:
@@ -128,7 +128,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
             self._choose()
 
     def _choose(self) -> None:
-        """Draw in the direction that was asked for, else in the one of which more is seen at once."""
+        """Draw in the requested direction, else in the one of which more is visible at once."""
         if len(self._graph.items) > LARGE:
             flows = tuple(self._drawings)
         else:
@@ -150,7 +150,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
 
     @property
     def excess(self) -> float:
-        """How many times larger the picture is than what is seen of it; 1 where all is seen."""
+        """The ratio of the picture's size to its visible part; 1 if all of it is visible."""
         return min((self._excess(each) for each in self._drawings), default=1.0)
 
     def _excess(self, flow: Flow) -> float:
@@ -159,13 +159,13 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         return max(1.0, drawing.width / width) * max(1.0, len(drawing.rows) / height)
 
     def choose(self, item: str) -> None:
-        """Select an item that is drawn; it stays selected while it is."""
+        """Select a drawn item; it remains selected as long as it is drawn."""
         if item in self.places:
             self._selecting = True
             self.selected = item
 
     def action_turn(self) -> None:
-        """Arrows to the right, down, or as it fits."""
+        """Switch between arrows to the right, down, and as it fits."""
         order: tuple[Flow | None, ...] = (None, RIGHT, DOWN)
         self._flow = order[(order.index(self._flow) + 1) % 3]
         if len(self._graph.items) > LARGE:
@@ -203,7 +203,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         return self._with_map(strip, y, width)
 
     def _with_map(self, strip: Strip, y: int, width: int) -> Strip:
-        """Lay the map of the whole picture over the lower right corner, where not all of it is seen."""
+        """Draw the overview map over the lower right corner, unless the whole picture is visible."""
         window = Window(self.scroll_offset.x, self.scroll_offset.y, width, self.size.height)
         extent = (self.drawing.width, len(self.drawing.rows))
         size = map_size(*extent, window)
@@ -228,7 +228,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
 
     @property
     def _indent(self) -> int:
-        """The cells by which a picture narrower than the widget is moved into its middle."""
+        """The indent in cells that centres a picture narrower than the widget."""
         return max(0, (self.size.width - self.drawing.width) // 2)
 
     def _style(self, run: Run) -> Style:
@@ -252,20 +252,20 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         return "box" if boxed else "chip"
 
     def watch_selected(self, before: str, after: str) -> None:
-        """Draw anew, keep the item in view, and tell."""
+        """Redraw, scroll to the item, and post `Selected`."""
         self.refresh()
         self.show_selected()
         self.post_message(self.Selected(self, after))
 
     def show_selected(self) -> None:
-        """Scroll so that the selected item is seen."""
+        """Scroll the selected item into view."""
         place = self.places.get(self.selected)
         if place is not None:
             region = Region(place.x - MARGIN, place.y - 1, place.width + 2 * MARGIN, place.height + 2)
             self.scroll_to_region(region, animate=False, force=True)
 
     def action_select(self, across: int, down: int) -> None:
-        """Select the nearest item in a direction; one that is linked counts as nearer."""
+        """Select the nearest item in a direction; a linked one counts as nearer."""
         self._selecting = True
         here = self.places.get(self.selected)
         if here is None:
@@ -275,7 +275,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         self.selected = min(beyond, key=lambda each: self._distance(here, each, across, down), default=self.selected)
 
     def find(self, wanted: Callable[[str], bool], step: int) -> bool:
-        """Select the next item that is wanted (`step` 1) or the one before (-1), by line, around the end."""
+        """Select the next (`step` 1) or previous (-1) matching item, line by line, wrapping around."""
         order = sorted(self.places, key=lambda each: (self.places[each].y, self.places[each].x))
         at = order.index(self.selected) if self.selected in order else -1
         found = next(
@@ -288,7 +288,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
 
     def _distance(self, here: Place, item: str, across: int, down: int) -> tuple[int, str]:
         place = self.places[item]
-        # A cell is about twice as high as it is wide.
+        # A cell is about twice as high as wide.
         dx = _apart(here.x, here.width, place.x, place.width)
         dy = 2 * _apart(here.y, here.height, place.y, place.height)
         ends = (self.selected, item) if across + down > 0 else (item, self.selected)
@@ -296,7 +296,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         return straight + 3 * aside - (60 if ends in self._links else 0), item
 
     def action_scroll_picture(self, across: int, down: int) -> None:
-        """Scroll by half of what is seen."""
+        """Scroll by half of the visible part."""
         self.scroll_relative(
             x=across * max(1, self.size.width // 2), y=down * max(1, self.size.height // 2), animate=False, force=True
         )
@@ -310,16 +310,16 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
                 self.selected = each
 
     def on_resize(self) -> None:
-        """Choose the direction anew, and keep the selected item in view."""
+        """Choose the direction again, and keep the selected item in view."""
         self._choose()
         self.show_selected()
-        if self.outer_size != self._room:  # without its scroll bars, which come and go with what is drawn
+        if self.outer_size != self._room:  # without the scroll bars, which come and go with what is drawn
             self._room = self.outer_size
             self.post_message(self.Resized())
 
 
 def _apart(begin: int, length: int, other: int, other_length: int) -> int:
-    """The free cells between two stretches; 0 where they overlap."""
+    """The number of free cells between two intervals; 0 if they overlap."""
     return max(0, other - begin - length, begin - other - other_length)
 
 

@@ -11,18 +11,18 @@ T = TypeVar("T")
 
 
 class ItemList(RowList, Generic[T]):
-    """One item a row. A subclass gives `row`, and `key` where an item can change and still be the same."""
+    """A list with one item per row. Subclasses define `row`, and `key` if an item can change and still be the same."""
 
     def __init__(self, rows: Sequence[T] = ()) -> None:
         super().__init__()
         self.rows: Sequence[T] = rows
 
     def key(self, item: T) -> object:
-        """What makes an item the same as one before."""
+        """The identity of an item across changes."""
         return item
 
     def row_count(self) -> int:
-        """How many items there are."""
+        """The number of items."""
         return len(self.rows)
 
     @property
@@ -31,7 +31,7 @@ class ItemList(RowList, Generic[T]):
         return self.rows[self.cursor] if self.cursor < len(self.rows) else None
 
     def exchange(self, rows: Sequence[T], *, stay: bool = True) -> None:
-        """Show other items. With `stay` the cursor goes along with its item, silently, or stays near where it was."""
+        """Show other items. With `stay` the cursor silently follows its item, or stays near its position."""
         before, at, place = self.rows, self.current, self.cursor
         self.rows = rows
         if at is not None and stay:

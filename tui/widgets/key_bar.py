@@ -24,7 +24,7 @@ Shown: TypeAlias = "tuple[str, str, str]"
 
 
 class KeyBar(Static):
-    """Keys and what they do; those of the pane give way where there is little room. A click presses the key."""
+    """Shows keys and what they do, dropping those of the pane first if room is short. A click presses the key."""
 
     DEFAULT_CSS = "KeyBar { height: 1; padding: 0 1; background: $panel; color: $text; text-wrap: nowrap; }"
 
@@ -37,10 +37,10 @@ class KeyBar(Static):
     def show(
         self, scopes: Sequence[str], typing: bool, colour: str, columns: int, words: Mapping[str, str] = NO_OTHERS
     ) -> None:
-        """Show the keys of scopes of the key table; while typing, those of a text field.
+        """Show the keys of some scopes of the key table; while typing, those of a text field.
 
-        `columns` is how wide the bar is where it has not been laid out yet; `words` are said of keys, by their ids,
-        in place of those of the table, and a key whose word is empty is left out.
+        `columns` is the width of the bar if it has not been laid out yet; `words` replace those of the table, by the
+        ids of the keys, and a key whose word is empty is omitted.
         """
         self._asked = (scopes, typing, colour, columns, words)
         width = (self.size.width or columns) - 2

@@ -13,9 +13,9 @@ from textual.widget import Widget
 
 
 class LateParts(Container):
-    """Composes itself as any container does, unless `come_late` was called before it is mounted.
+    """A container that composes itself as usual, unless `come_late` was called before it is mounted.
 
-    Whoever asks for one of its parts gets it: they are made then at the latest.
+    A query for its parts creates them at the latest.
     """
 
     _late = False
@@ -28,20 +28,20 @@ class LateParts(Container):
 
     @property
     def has_parts(self) -> bool:
-        """Whether the parts are there; false before they are made, and at the end, when the screen is taken apart."""
+        """Whether the parts exist: not before they are made, nor at the end, when the screen is dismantled."""
         return bool(self.children)
 
     @property
     def is_ending(self) -> bool:
-        """Whether the screen is taken apart, and this with it."""
+        """Whether the screen, and this with it, is being dismantled."""
         return not (self.is_attached if self._missing else self.children)
 
     def come_late(self) -> None:
-        """Make no parts yet. They are not composed by the mount, but by `make_parts`."""
+        """Defer the parts: they are composed by `make_parts` instead of the mount."""
         self._late = self._missing = True
 
     def make_parts(self) -> None:
-        """Make the parts now, if they are not there yet: what is asked of them next finds all of them in place."""
+        """Make the parts now, unless they exist; the next query finds all of them."""
         private = cast(Any, self)
         if self._missing and self.is_attached and not (private._closing or private._pruning):
             self._missing = False
@@ -51,23 +51,23 @@ class LateParts(Container):
         if not self._late:
             await super()._compose()
 
-    if not TYPE_CHECKING:  # the parent's many signatures are those that count
+    if not TYPE_CHECKING:  # the parent's overloads are the types that count
 
         def query(self, *what: Any, **how: Any) -> Any:
-            """The parts that match, made if need be."""
+            """The matching parts, made if necessary."""
             self.make_parts()
             return super().query(*what, **how)
 
         def query_one(self, *what: Any, **how: Any) -> Any:
-            """The first part that matches, made if need be."""
+            """The first matching part, made if necessary."""
             self.make_parts()
             return super().query_one(*what, **how)
 
 
 def put(parent: Widget, widgets: Sequence[Widget]) -> None:
-    """Put widgets into a parent that is not displayed yet, with what was given to them; nothing is laid out for it.
+    """Mount widgets and their children in a parent that is not displayed yet, without a layout.
 
-    Textual's own mount lays the screen out a second time, and lets the parts within parts come a little later.
+    Textual's own mount lays the screen out a second time, and mounts nested parts a little later.
     """
     if not widgets:
         return

@@ -11,7 +11,7 @@ FIGURE = re.compile(r" *[-+]?\d+(?:\.\d+)?")
 
 
 class LiveWords(Words):
-    """Shows changed words at once, changed figures at most every `EVERY` seconds, and the newest ones in any case."""
+    """Shows changed words at once, and changed figures at most every `EVERY` beats, always the newest in the end."""
 
     EVERY = 5
     """Beats of the app, of which there are ten a second, for which figures stand before others take their place."""
@@ -25,13 +25,13 @@ class LiveWords(Words):
         """Whether there are beats; without them, nothing would ever show what waits."""
 
     def say_live(self, text: str) -> None:
-        """Show a text whose figures may wait."""
+        """Show a text whose figures may be delayed."""
         self._newest = text
         if not (self._wait and _words(text) == _words(self._live)):
             self._say_newest()
 
     def beat(self) -> None:
-        """Ten times a second: show what has been waiting."""
+        """Show delayed figures when they are due; called ten times a second."""
         self._beats = True
         self._wait = max(0, self._wait - 1)
         if not self._wait:

@@ -14,7 +14,7 @@ from textual.widget import Widget
 
 
 class TreeLayout(Layout):
-    """Puts the children whose ids are in a tree where it says."""
+    """Places the children whose ids are in a tree."""
 
     name = "tree"
 
@@ -22,7 +22,7 @@ class TreeLayout(Layout):
         self.tree: Tree = ""
 
     def arrange(self, parent: Widget, children: list[Widget], size: Size, greedy: bool = True) -> ArrangeResult:
-        """A place for each child that the tree has."""
+        """The placements of the children that are in the tree."""
         places = boxes(self.tree, Box(0, 0, size.width, size.height))
         named = [(child.stands_for if isinstance(child, ComingPane) else child.id, child) for child in children]
         return [
@@ -36,7 +36,7 @@ class PaneArea(Container):
     """Shows the panes of a tree."""
 
     class Dragged(Message):
-        """A border was moved: the tree that comes of it, and whether it is the first of this drag."""
+        """A border was moved: the resulting tree, and whether this is the first move of the drag."""
 
         def __init__(self, tree: Tree, first: bool) -> None:
             super().__init__()
@@ -51,24 +51,24 @@ class PaneArea(Container):
 
     @property
     def layout(self) -> Layout:
-        """The tree's, which no style names."""
+        """The tree layout, which has no name in styles."""
         return self._places
 
     @property
     def shown(self) -> Tree:
-        """What is shown."""
+        """The tree that is shown."""
         return self._places.tree
 
     def place(self, tree: Tree) -> None:
-        """Show a tree; the children that it has must be displayed, and no others."""
+        """Show a tree; exactly its children must be displayed."""
         if tree != self._places.tree:
             self._places.tree = tree
             for child in self.children:
-                # Textual keeps an arrangement until a child wants another one.
+                # Textual caches an arrangement until a child requests another one.
                 child.refresh(layout=True)
 
     def on_mouse_down(self, event: MouseDown) -> None:
-        """Take hold of a border."""
+        """Grab a border."""
         x, y = event.screen_x - self.region.x, event.screen_y - self.region.y
         for border in borders(self.shown, Box(0, 0, *self.size)):
             if (
@@ -97,7 +97,7 @@ class PaneArea(Container):
         self.post_message(self.Dragged(change_at(tree, border.path, moved), first))
 
     def on_mouse_up(self, event: MouseUp) -> None:
-        """Let go."""
+        """Release the border."""
         if self._dragged is not None:
             self._dragged = None
             self.release_mouse()

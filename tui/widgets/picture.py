@@ -27,7 +27,7 @@ CLOSE = 10
 
 
 class Picture(StyledByPart):
-    """Shows lines; `Picture.STYLES` are the names that pieces may use."""
+    """Shows styled lines; `Picture.STYLES` are the style names that their pieces may use."""
 
     STYLES: ClassVar[tuple[str, ...]] = (
         "dim", "strong", "good", "warn", "error", "accent", "robot",
@@ -52,14 +52,14 @@ class Picture(StyledByPart):
     COMPONENT_CLASSES: ClassVar[set[str]] = {f"picture--{each}" for each in STYLES}
 
     class Resized(Message):
-        """There is another size to draw for."""
+        """The size to draw for has changed."""
 
     def __init__(self, *, id: str | None = None) -> None:
         super().__init__(id=id)
         self.lines: Sequence[Line] = ()
 
     def set_lines(self, lines: Sequence[Line]) -> None:
-        """Show these lines; of a line that has changed only the cells that have are drawn."""
+        """Show these lines, redrawing only the cells that have changed."""
         old, self.lines = self.lines, lines
         if len(old) != len(lines):
             self.refresh()
@@ -74,7 +74,7 @@ class Picture(StyledByPart):
             self.refresh(*changed)
 
     def render_line(self, y: int) -> Strip:
-        """One line."""
+        """Render one line."""
         base = self.own_style
         pieces = self.lines[y] if y < len(self.lines) else ()
         segments = [Segment(text, base + self._style(name) if name else base) for text, name in pieces]
@@ -84,7 +84,7 @@ class Picture(StyledByPart):
         return _colors(name) if "#" in name else self.part_style(f"picture--{name}")
 
     def on_resize(self) -> None:
-        """Tell, so that lines for this size are made."""
+        """Post `Resized`, so that lines of the new size are made."""
         self.post_message(self.Resized())
 
 
@@ -94,7 +94,7 @@ def _colors(name: str) -> Style:
 
 
 def changes(before: Line, after: Line, width: int) -> list[tuple[int, int]]:
-    """Where two lines differ, as stretches of cells; stretches that are close together are one."""
+    """The cells in which two lines differ, as intervals; nearby intervals are merged."""
     old, new = _cells(before, width), _cells(after, width)
     if old is None or new is None:
         return [(0, width)]
@@ -109,7 +109,7 @@ def changes(before: Line, after: Line, width: int) -> list[tuple[int, int]]:
 
 
 def _cells(line: Line, width: int) -> list[Piece] | None:
-    """Letter and style of each cell; None where a letter takes more cells than one, or none."""
+    """Letter and style of each cell; None if any letter is not exactly one cell wide."""
     if any(cell_len(text) != len(text) for text, _ in line):
         return None
     cells = [(letter, style) for text, style in line for letter in text][:width]

@@ -23,7 +23,7 @@ UNCUT = 1000
 
 
 class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[reportIncompatibleMethodOverride] -- Textual's own
-    """Rows with a cursor. A subclass gives `row_count` and `row(index, width)`."""
+    """Rows with a cursor. Subclasses define `row_count` and `row(index, width)`."""
 
     BINDINGS = keymap.bindings("list")
     DEFAULT_CSS = """
@@ -39,7 +39,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
     """The row that keys act on."""
 
     class Moved(Message):
-        """The cursor stands on another row."""
+        """The cursor has moved to another row."""
 
         def __init__(self, rows: RowList, index: int) -> None:
             super().__init__()
@@ -52,20 +52,20 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
             return self.rows
 
     def row_count(self) -> int:
-        """How many rows there are."""
+        """The number of rows."""
         raise NotImplementedError
 
     def row(self, index: int, width: int) -> list[Segment]:
-        """The segments of a row; they are padded to the width (cells), or end there in an ellipsis."""
+        """The segments of a row; the list pads them to the width (cells) or truncates them with an ellipsis."""
         raise NotImplementedError
 
     @property
     def across(self) -> int:
-        """The cells that a row has: those beside the scroll bar."""
+        """The width of a row in cells, without the scroll bar."""
         return self.scrollable_content_region.width
 
     def rows_changed(self) -> None:
-        """Rows came, went or moved: draw anew."""
+        """Redraw after rows were added, removed or moved."""
         count = self.row_count()
         size = Size(self.size.width, count)
         if size != self.virtual_size:
@@ -75,9 +75,9 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         self.refresh()
 
     def _extend(self, size: Size) -> None:
-        """Take the size of all rows; the screen is laid out anew only where the scroll bar comes or goes with it.
+        """Set the size of all rows, with a layout of the screen only if the scroll bar appears or disappears.
 
-        Textual does that for each line of a log, which takes a tenth of the thread that draws.
+        Textual lays it out for each new line of a log, which takes a tenth of the drawing thread's time.
         """
         stays = self.show_vertical_scrollbar and min(size.height, self.virtual_size.height) > self.size.height
         if not stays or size.width != self.virtual_size.width:
@@ -88,13 +88,13 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         self.scroll_y = self.validate_scroll_y(self.scroll_y)
 
     def row_changed(self, index: int) -> None:
-        """One row has other content: draw it alone."""
+        """Redraw a single row whose content has changed."""
         y = index - self.scroll_offset.y
         if 0 <= y < self.size.height:
             self.refresh(Region(0, y, self.size.width, 1))
 
     def render_line(self, y: int) -> Strip:
-        """One line of what is seen."""
+        """Render one visible line."""
         index = y + self.scroll_offset.y
         width = self.across
         base = self.own_style
@@ -107,19 +107,19 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         return _on(_fitted(Strip(self.row(index, width)), width, base), base)
 
     def _chosen(self, style: Style | None, cursor: Style) -> Style:
-        """The cursor's style; what warns keeps its colour under it."""
+        """The cursor's style for a segment; warnings keep their colour."""
         loud = (self.part_style(f"row-list--{each}").color for each in LOUD)
         return cursor + Style(color=style.color) if style and style.color and style.color in loud else cursor
 
     def watch_cursor(self, before: int, after: int) -> None:
-        """Redraw the two rows, keep the cursor in view, and tell."""
+        """Redraw both rows, scroll to the cursor, and post `Moved`."""
         self.row_changed(before)
         self.row_changed(after)
         self.show_cursor()
         self.post_message(self.Moved(self, after))
 
     def show_cursor(self) -> None:
-        """Scroll so that the cursor is seen."""
+        """Scroll the cursor into view."""
         top, height = self.scroll_offset.y, max(1, self.size.height)
         if self.cursor < top:
             self.scroll_to(y=self.cursor, animate=False, force=True)
@@ -127,26 +127,26 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
             self.scroll_to(y=self.cursor - height + 1, animate=False, force=True)
 
     def action_cursor(self, step: int) -> None:
-        """Move the cursor by some rows."""
+        """Move the cursor by a number of rows."""
         self.cursor = min(max(0, self.cursor + step), max(0, self.row_count() - 1))
 
     def action_page(self, step: int) -> None:
-        """Move the cursor by some pages."""
+        """Move the cursor by a number of pages."""
         self.action_cursor(step * max(1, self.size.height - 1))
 
     def action_end(self, end: int) -> None:
-        """The first row, or the last; told also where the cursor stands there already."""
+        """Move to the first or last row; posts `Moved` even if the cursor is there already."""
         before = self.cursor
         self.action_cursor(end * self.row_count())
         if self.cursor == before:
             self.post_message(self.Moved(self, before))
 
     def matches(self, index: int, query: Query) -> bool:
-        """Whether a row matches a filter; here by what is drawn."""
+        """Whether a row matches a filter; by default judged by its drawn text."""
         return query.matches("".join(each.text for each in self.row(index, UNCUT)))
 
     def find(self, query: Query, step: int) -> bool:
-        """Move the cursor to the next match (`step` 1) or the previous (-1), around the end; whether there is any."""
+        """Move to the next (`step` 1) or previous (-1) match, wrapping around; returns whether one exists."""
         count = self.row_count()
         places = ((self.cursor + step * away) % count for away in range(1, count + 1))
         place = next((each for each in places if self.matches(each, query)), None)
@@ -155,7 +155,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         return place is not None
 
     def on_click(self, event: Click) -> None:
-        """A click moves the cursor, a second one at once does what Enter does."""
+        """Move the cursor; a double click does what Enter does."""
         y = event.y + self.scroll_offset.y
         if y >= self.row_count():
             return
@@ -179,7 +179,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
 
 
 def _fitted(strip: Strip, width: int, style: Style) -> Strip:
-    """A row of exactly so many cells; one that is longer ends in an ellipsis."""
+    """A row padded or truncated to a width in cells; a truncated one ends with an ellipsis."""
     if strip.cell_length <= width or width < 1:
         return strip.adjust_cell_length(width, style)
     kept = strip.crop(0, width - 1)
@@ -188,5 +188,5 @@ def _fitted(strip: Strip, width: int, style: Style) -> Strip:
 
 
 def _on(strip: Strip, base: Style) -> Strip:
-    """Segments on the list's background where they have none of their own."""
+    """Put segments without a background on the list's."""
     return Strip([Segment(text, base + style if style else base) for text, style, _ in strip], strip.cell_length)

@@ -25,25 +25,25 @@ class StatusBar(LiveWords):
     """The names of the alarms that hold."""
 
     def show(self, snapshot: ConsoleSnapshot, held_back: int = 0) -> None:
-        """Say how things are."""
-        self._acknowledged = min(self._acknowledged, errors_of(snapshot))  # a log that was emptied counts anew
+        """Show the state of a snapshot."""
+        self._acknowledged = min(self._acknowledged, errors_of(snapshot))  # a cleared log starts counting again
         self.say_live(status_text(snapshot, held_back, self._acknowledged, self.alarms))
         self.set_class(snapshot.drive.stopped or bool(snapshot.link.silent_s), "stopped")
 
     def acknowledge(self, snapshot: ConsoleSnapshot) -> None:
-        """Count only the errors that come from now on."""
+        """Count only errors that arrive from now on."""
         self._acknowledged = errors_of(snapshot)
 
 
 def errors_of(snapshot: ConsoleSnapshot) -> int:
-    """How many errors the log holds."""
+    """The number of errors in the log."""
     return sum(snapshot.logs.counts.get(each, 0) for each in (Severity.ERROR, Severity.FATAL))
 
 
 def status_text(
     snapshot: ConsoleSnapshot, held_back: int = 0, acknowledged: int = 0, alarms: Sequence[str] = ()
 ) -> str:
-    """The line; `acknowledged` errors are not told any more, `alarms` are the names of those that hold."""
+    """The text of the line, without `acknowledged` errors; `alarms` are the names of the active ones."""
     if snapshot.problem:
         return harmless(snapshot.problem)
     parts = [link_text(snapshot.link)] if snapshot.link.silent_s else []
@@ -73,7 +73,7 @@ def status_text(
 
 
 def link_text(link: LinkInfo) -> str:
-    """How the link to a robot is: silent, or how long an answer takes, and what was lost on it."""
+    """The state of the link to a robot: silent, or its delay and the number of lost messages."""
     if link.silent_s:
         return f"✗ NO ANSWER from {harmless(link.to)} for {link.silent_s} s: all that is shown is that old"
     delay = "" if link.delay_ms is None else f" {link.delay_ms} ms"
@@ -81,13 +81,13 @@ def link_text(link: LinkInfo) -> str:
 
 
 def reason_first(problem: str) -> str:
-    """A problem that begins with the path of a file, as its reason with the file's name behind it."""
+    """A problem that begins with a file path, rephrased as the reason followed by the file's name."""
     path, colon, why = problem.partition(": ")
     return f"{why} ({path.rpartition('/')[2]})" if colon and path.startswith("/") else problem
 
 
 def drive_text(drive: DriveInfo) -> str:
-    """The command chain: asked, what limited it, final, actual speed."""
+    """The command chain: requested speed, what limited it, final and actual speed."""
     if drive.final is None and drive.actual is None and not drive.limited_by and not drive.silent_s:
         return "no robot yet" if drive.nothing_to_stop else "no command and no odometry yet"
     parts: list[str] = []

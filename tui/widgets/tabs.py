@@ -35,7 +35,7 @@ class Tabs(Static):
         parts = tab_texts(marks, width, colour)
         end = 0
         self._ends = []
-        for part, mark in zip(parts, marks, strict=False):  # none where there is no room at all
+        for part, mark in zip(parts, marks, strict=False):  # none if there is no room at all
             end += part.cell_len + 1
             self._ends.append((end, mark[3]))
         self.update(Text(" ", no_wrap=True).join(parts), layout=False)
@@ -49,7 +49,7 @@ class Tabs(Static):
 
 
 def tab_texts(marks: Sequence[Mark], width: int, colour: str) -> list[Text]:
-    """Digits and titles of the panes; where there is little room short titles, the last ones first without any."""
+    """Digits and titles of the panes; if room is short, with short titles, and the last ones without any first."""
     for titled, long in ((len(marks), True), *((most, False) for most in range(len(marks), -1, -1))):
         parts: list[Text] = []
         for at, (digit, title, brief, _, shown) in enumerate(marks):

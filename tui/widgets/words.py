@@ -15,7 +15,7 @@ W = TypeVar("W", bound="Words")
 
 
 class Words(Static):
-    """One line, or as many as its style allows. Control characters are shown; a longer line ends in an ellipsis."""
+    """One line, or as many as its style allows. Control characters are shown; long lines end with an ellipsis."""
 
     DEFAULT_CSS = """
     Words { height: 1; padding: 0 1; color: $text-muted; background: $surface;
@@ -30,7 +30,7 @@ class Words(Static):
         """What alone is drawn next."""
 
     def say(self, what: str | Text) -> None:
-        """Show a text: nothing is laid out again, and of several lines only changed ones are drawn."""
+        """Show a text without a layout, redrawing only changed lines."""
         said = harmless(what) if isinstance(what, str) else what
         if said != self._said or (isinstance(said, Text) and said.spans != getattr(self._said, "spans", None)):
             self._said = said
@@ -41,7 +41,7 @@ class Words(Static):
                 self._other = ()
 
     def say_whole(self, what: str, most: int) -> None:
-        """Show a text in as many lines as it needs, `most` at most; the style of such words wraps."""
+        """Show a text in as many lines as it needs, up to `most`; the widget's style must wrap."""
         width = self.content_size.width
         console = self.app.console  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
         need = len(Text(harmless(what)).wrap(console, width)) if width else 1
@@ -51,7 +51,7 @@ class Words(Static):
         self.say(what)
 
     def _differing(self, said: str | Text) -> Sequence[Region]:
-        """The lines that are not those of the last time; none where that is not known."""
+        """The regions of the lines that have changed; none if that is unknown."""
         width, height = self.size
         before, self._lines = self._lines, ()
         if isinstance(said, Text) and height > 1 and self.styles.text_wrap == "nowrap":
@@ -62,7 +62,7 @@ class Words(Static):
         return [Region(0, y, width, 1) for y, (old, new) in both if old is None or new is None or not _same(old, new)]
 
     def refresh(self: W, *regions: Region, repaint: bool = True, layout: bool = False, recompose: bool = False) -> W:
-        """As of Textual, which draws all of a text that has changed."""
+        """Refresh like Textual, but by default only the lines that have changed."""
         return super().refresh(*(regions or self._other), repaint=repaint, layout=layout, recompose=recompose)
 
 

@@ -21,7 +21,7 @@ ANSWERS = 32
 
 
 def limit_cut_cache() -> None:
-    """Let Rich keep no more than `CUTS`; nothing is done where it keeps them in another way."""
+    """Limit Rich's cache of split segments to `CUTS` entries; does nothing if Rich caches them differently."""
     kept = cast(Any, vars(Segment).get("_split_cells"))
     cut = getattr(getattr(kept, "__func__", None), "__wrapped__", None)
     if cut is not None and kept.__func__.cache_parameters()["maxsize"] > CUTS:
@@ -29,7 +29,7 @@ def limit_cut_cache() -> None:
 
 
 def limit_query_cache(node: DOMNode) -> None:
-    """Let a widget keep no more than `ANSWERS`, to be called before it is asked; likewise."""
+    """Limit a widget's query cache to `ANSWERS` entries, before its first query; does nothing if there is none."""
     answers = getattr(node, "_query_one_cache", None)
     if answers is not None:
         answers.maxsize = ANSWERS

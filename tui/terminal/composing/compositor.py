@@ -20,10 +20,10 @@ Pieces = dict[int, dict[int, int]]
 
 
 class PartwiseCompositor(Compositor):
-    """Composes the changed parts of lines, and of widgets what is seen of them there."""
+    """Composes only the changed parts of lines, from the visible parts of the widgets there."""
 
     def render_partial_update(self) -> ChopsUpdate | None:
-        """What has changed since the last time; None where nothing has."""
+        """The update with what has changed since the last one; None if nothing has."""
         regions = [*self._dirty_regions]
         self._dirty_regions.clear()
         if not regions:
@@ -32,7 +32,7 @@ class PartwiseCompositor(Compositor):
         return ChopsUpdate(self._chops(spans), spans, [cuts[1:] for cuts in self.cuts])
 
     def render_full_update(self, simplify: bool = False) -> LayoutUpdate:
-        """All that is seen; simplified, for a picture of the screen, as Textual does it."""
+        """The update of the whole screen; simplified, for a screenshot, as Textual does it."""
         if simplify:
             return super().render_full_update(simplify)
         self._dirty_regions.clear()
@@ -42,18 +42,18 @@ class PartwiseCompositor(Compositor):
         return LayoutUpdate(lines, self.size.region)
 
     def lines(self, rows: range) -> list[Strip]:
-        """Whole lines as they are now; those below the last one are empty."""
+        """Complete lines in their current state; those below the last one are blank."""
         width, height = self.size
         chops = self._chops([(y, 0, width) for y in rows if y < height])
         return [Strip.join(chops[y].values()) if y < height else Strip.blank(width) for y in rows]
 
     def _chops(self, spans: Sequence[tuple[int, int, int]]) -> list[dict[int, Strip | None]]:
-        """Pieces of lines by their columns; those of lines that are in no span are missing."""
+        """The strips of each line by column; lines outside all spans have none."""
         chops: list[dict[int, Strip | None]] = [{} for _ in self.cuts]
         wanted = self._pieces(spans)
         for y in wanted:
             chops[y] = dict.fromkeys(self.cuts[y][:-1])
-        for widget, (region, clip) in self.visible_widgets.items():  # the foremost first
+        for widget, (region, clip) in self.visible_widgets.items():  # front to back
             if not wanted:
                 break
             shown = region.intersection(clip)
@@ -74,7 +74,7 @@ class PartwiseCompositor(Compositor):
 
 
 def _lines(widget: Widget, region: Region, shown: Region, wanted: Pieces) -> Iterator[tuple[int, Strip]]:
-    """The lines of a widget that are wanted and that nothing in front of it has covered yet."""
+    """The wanted lines of a widget that nothing in front of it has covered yet."""
     rows = [
         y for y, line in wanted.items()
         if shown.y <= y < shown.bottom and any(shown.x <= x < shown.right for x in line)

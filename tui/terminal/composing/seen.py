@@ -15,10 +15,10 @@ from textual.widget import Widget
 
 
 class SeenScreen(Screen[Any]):
-    """A screen that is laid out and drawn for what is displayed; when it is displayed, it is laid out anew anyway."""
+    """A screen that ignores layouts and updates of hidden widgets, as showing one lays the screen out anyway."""
 
     def on_layout(self, message: messages.Layout) -> None:
-        """Take no notice of what is hidden, unless that is what has just happened to it."""
+        """Ignore a hidden widget, unless it has just been hidden."""
         widget = message.widget
         hidden = widget.styles.display == "none" and widget not in self._compositor.widgets
         if hidden or _is_within_hidden(widget):
@@ -26,7 +26,7 @@ class SeenScreen(Screen[Any]):
             message.prevent_default()
 
     def on_update(self, message: messages.Update) -> None:
-        """Draw nothing that is hidden."""
+        """Ignore updates of widgets in hidden ones."""
         if _is_within_hidden(message.widget):
             message.stop()
             message.prevent_default()
@@ -37,12 +37,12 @@ def _is_within_hidden(widget: Widget) -> bool:
 
 
 async def mount_unseen(parent: Widget, widget: Widget, before: Widget | None) -> None:
-    """Mount a widget that is not displayed, and wait until it is; what is displayed is not laid out anew for it."""
+    """Mount a widget that is not displayed, and wait until it is mounted, without laying the screen out for it."""
     if not SUPPORTED:
         await parent.mount(widget, before=before)
         return
     private = cast(Any, parent)
     if parent.is_attached and not (private._closing or private._pruning):
         place = None if before is None else parent.children.index(before)
-        for each in private.app._register(parent, widget, before=place):  # none where the app is ending
+        for each in private.app._register(parent, widget, before=place):  # none if the app is ending
             await each._mounted_event.wait()

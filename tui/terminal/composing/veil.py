@@ -22,7 +22,7 @@ from textual.strip import Strip
 
 
 class VeilScreen(ModalScreen[None]):
-    """Composes what has changed, and takes what is below as lines."""
+    """A modal screen that composes only changes, and takes the screen below as lines."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -30,7 +30,7 @@ class VeilScreen(ModalScreen[None]):
             self._compositor = PartwiseCompositor()
 
     def render_lines(self, crop: Region) -> list[Strip]:
-        """The lines in a region, without what the screen shows itself."""
+        """The lines of a region of the screen's background, without its widgets."""
         below = self._below()
         if below is None:
             return super().render_lines(crop)
@@ -45,7 +45,7 @@ class VeilScreen(ModalScreen[None]):
         return found
 
     def _below(self) -> PartwiseCompositor | None:
-        """What has composed the screen below; None where that is not seen, or is composed by Textual."""
+        """The compositor of the screen below; None if that is invisible or composed by Textual."""
         stack: list[Any] = cast(Any, self.app).screen_stack  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
         at = stack.index(self) if self in stack else 0
         if at < 1 or self.styles.background.a == 1:
@@ -55,7 +55,7 @@ class VeilScreen(ModalScreen[None]):
 
 
 def veil(strip: Strip, color: Color, base: Style) -> Strip:
-    """A line behind a colour that is seen through, without links, in a style where it has none."""
+    """A line behind a translucent colour, without links; `base` is the style of segments without one."""
     segments = [Segment(text, _veiled(style, color, base)) for text, style, control in strip if not control]
     return Strip(segments, strip.cell_length)
 

@@ -19,13 +19,13 @@ from textual.widget import Widget
 
 
 class Rules(RuleSet):
-    """A rule set that is found in a set by what it is; Textual says so in Python, a hundred times for each widget."""
+    """A rule set hashed by identity in C; Textual does that in Python, a hundred times for each widget."""
 
     __hash__ = object.__hash__
 
 
 class PartwiseStylesheet(Stylesheet):
-    """Leaves the parts of a `StyledByPart` to it."""
+    """A style sheet that leaves the parts of a `StyledByPart` to the widget."""
 
     def _parse_rules(self, *css: Any, **how: Any) -> list[RuleSet]:
         rules: list[RuleSet] = super()._parse_rules(*css, **how)
@@ -51,7 +51,7 @@ class StyledByPart(Widget):
 
     @property
     def own_style(self) -> Style:
-        """Textual's `rich_style`, which asks all ancestors for it: twenty times what else a line costs."""
+        """A cached `rich_style`: Textual's asks all ancestors, at twenty times the cost of the rest of a line."""
         return self.rich_style if self._own_style is None else self._own_style
 
     def render_lines(self, crop: Region) -> list[Strip]:
@@ -63,16 +63,16 @@ class StyledByPart(Widget):
             self._own_style = None
 
     def get_component_styles(self, *names: str) -> RenderStyles:
-        """The styles of parts; raises `KeyError` for a name that is none of `COMPONENT_CLASSES`."""
+        """The styles of parts; raises `KeyError` for a name that is not in `COMPONENT_CLASSES`."""
         for name in names:
             if name not in self._component_styles and name in self._get_component_classes():
                 self._style_part(self.app.stylesheet, name)  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
         return super().get_component_styles(*names)
 
     def part_style(self, name: str) -> Style:
-        """What the rules say of a part, without the widget around it; kept until they are matched anew.
+        """The style of a part by the rules alone, without the widget's own; cached until they are matched again.
 
-        Textual forgets it with everything that is drawn anew, be it a letter. Raises `KeyError` as above.
+        Textual drops it with every redraw, even of a single letter. Raises `KeyError` as above.
         """
         style = self._drawn_parts.get(name)
         if style is None:
@@ -80,9 +80,9 @@ class StyledByPart(Widget):
         return style
 
     def style_parts_again(self, sheet: Stylesheet) -> None:
-        """Match the rules anew for those parts that were drawn, and draw again if one has changed.
+        """Match the rules again for the parts that were drawn, and redraw if one has changed.
 
-        A part stays the node that it was: a new one each time would stay in memory until garbage is looked for.
+        Parts keep their nodes: a new one each time would stay in memory until the next garbage collection.
         """
         changed = False
         for styles in self._component_styles.values():

@@ -13,7 +13,7 @@ from textual.screen import Screen
 
 
 class StyledOnceApp(App[None]):
-    """An app that reads its style sheets again only for other colours."""
+    """An app that reparses its style sheets only for other colours."""
 
     _colours: dict[str, str] | None = None
 
@@ -22,14 +22,14 @@ class StyledOnceApp(App[None]):
         self.stylesheet = PartwiseStylesheet(variables=self.get_css_variables())
 
     def refresh_css(self, animate: bool = True) -> None:
-        """Read and apply the style sheets for the theme's colours, unless they are those in use."""
+        """Parse and apply the style sheets for the theme's colours, unless those are in use already."""
         colours = self.get_css_variables()
         if colours != self._colours:
             super().refresh_css(animate)
         self._colours = colours
 
     def use_colours(self) -> None:
-        """Let the first reading of the style sheets have the colours of the theme that was chosen."""
+        """Make the first parsing of the style sheets use the colours of the chosen theme."""
         self._colours = self.get_css_variables()
         self.stylesheet.set_variables(self._colours)
 
@@ -40,7 +40,7 @@ class StyledOnceScreen(Screen[Any]):
     _was_shown = False
 
     def update_node_styles(self, animate: bool = True) -> None:
-        """Match the rules again, for this screen and all in it; they have just been when it is shown first."""
+        """Match the rules again for this screen and its widgets, except when it is first shown, as they just were."""
         is_shown = self.stack_updates > 0
         if self._was_shown or not is_shown:
             super().update_node_styles(animate)

@@ -19,7 +19,7 @@ ATTEMPTS = 6
 
 
 class Run(NamedTuple):
-    """A piece of a row: its column, its text, and the item it belongs to or the edges whose line it is."""
+    """A segment of a row: its column, its text, and the item it belongs to or the edges it draws."""
 
     x: int
     text: str
@@ -29,7 +29,7 @@ class Run(NamedTuple):
 
 @dataclass(frozen=True)
 class Place:
-    """Where an item stands, in cells; `boxed` says whether it has a frame."""
+    """The position of an item in cells; `boxed` says whether it has a frame."""
 
     x: int
     y: int
@@ -40,7 +40,7 @@ class Place:
 
 @dataclass(frozen=True)
 class Drawing:
-    """A drawn graph: rows of runs from the left, without overlap, and the place of each item."""
+    """A drawn graph: rows of runs from left to right, without overlap, and the place of each item."""
 
     rows: Sequence[tuple[Run, ...]] = ()
     places: Mapping[str, Place] | None = None
@@ -74,7 +74,7 @@ def draw(graph: Digraph, flow: Flow = RIGHT) -> Drawing:
         blocked = {key for each in plan.channels for key in each.blocked}
         if not blocked:
             break
-        # Two arrows would lie on one row: one item moves a row down.
+        # Two arrows would share a row: one item moves a row down.
         for key in blocked:
             pushed[key] = pushed.get(key, 0) + 1
         plan = _Plan(items, found, columns, placed(columns, items, arrows_in, pushed, flow), flow)
@@ -99,7 +99,7 @@ class _Plan:
         self.channels: list[Channel] = [channel(each) for each in self.trunks]
 
     def _lanes(self) -> dict[str, int]:
-        """The row below the picture on which each item's way back runs; short ways run inside long ones."""
+        """The row below the picture for each item's backward edges; short ones run inside long ones."""
         column = self.found.column
         spans = {a: (min(column[b] for b in ends), column[a] + 1) for a, ends in self.back.items()}
         lanes: list[list[tuple[int, int]]] = []
@@ -113,7 +113,7 @@ class _Plan:
         return rows
 
     def _ports(self) -> dict[Edge, int]:
-        """The row on which each edge ends: from above in the order in which the arrows come."""
+        """The row on which each edge ends, from top to bottom in the order in which the arrows arrive."""
         coming: dict[str, list[tuple[float, str]]] = {}
         for key, targets in self.columns.steps.items():
             for target in (each for each in targets if each[1] == ITEM):
@@ -270,7 +270,7 @@ def _centred(text: str, width: int) -> str:
 
 
 class _Rows(Sequence[tuple[Run, ...]]):
-    """Rows that are assembled when they are looked at: few rows of a large picture ever are."""
+    """Rows that are assembled on access: of a large picture only few are ever shown."""
 
     def __init__(self, count: int, lines: Lines, boxes: Mapping[int, list[Run]]) -> None:
         self._count = count

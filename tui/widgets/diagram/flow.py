@@ -13,7 +13,7 @@ from rich.cells import cell_len
 
 @dataclass(frozen=True)
 class Flow:
-    """A direction of arrows and the distances that look right in it, in cells."""
+    """A direction of arrows with suitable distances for it, in cells."""
 
     downward: bool
     track: int
@@ -28,22 +28,22 @@ class Flow:
     """The length of an arrow that runs straight."""
 
     def along(self, item: Item) -> int:
-        """The cells of an item in the direction of the arrows."""
+        """The size of an item in cells in the direction of the arrows."""
         return (3 if item.boxed else 1) if self.downward else self._label(item)
 
     def across(self, item: Item, arrows_in: int) -> int:
-        """The cells of an item across the arrows; each arrow that ends at it has a place of its own."""
+        """The size of an item in cells across the arrows; each incoming arrow has its own port."""
         ports = max(1, arrows_in)
         if self.downward:
             return max(self._label(item), self.port * (ports - 1) + 1 + (4 if item.boxed else 2))
         return ports + (2 if item.boxed else 0)
 
     def first_port(self, top: int, size: int, arrows_in: int) -> int:
-        """Where the first of the arrows into an item ends."""
+        """The position at which the first arrow into an item ends."""
         return top + (size - (self.port * (arrows_in - 1) + 1)) // 2
 
     def room(self, tracks: int) -> int:
-        """The cells of a channel with so many tracks."""
+        """The width in cells of a channel with a number of tracks."""
         return max(self.shortest, 2 + self.track * tracks)
 
     @staticmethod

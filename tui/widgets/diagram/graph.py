@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Item:
-    """A thing to draw: a box with a frame, or (`boxed` false) a chip, which is a name standing on its line.
+    """A node to draw: a box with a frame, or (`boxed` false) a chip, which is a name on its line.
 
-    `least` is the leftmost column it may stand in.
+    `least` is the leftmost column allowed for it.
     """
 
     id: str
@@ -20,7 +20,7 @@ class Item:
 
 @dataclass(frozen=True)
 class Digraph:
-    """Items, and edges as pairs of ids; an edge whose ends are not both among the items is left out."""
+    """Items, and edges as pairs of ids; an edge with an end that is not among the items is ignored."""
 
     items: tuple[Item, ...] = ()
     edges: tuple[tuple[str, str], ...] = ()

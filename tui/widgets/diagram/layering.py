@@ -20,7 +20,7 @@ class Layers:
 
 
 def layers(graph: Digraph) -> Layers:
-    """Break the cycles, then give each item the leftmost column right of all that lead to it."""
+    """Break the cycles, then give each item the leftmost column to the right of its predecessors."""
     items = {item.id: item for item in graph.items}
     edges = sorted({(a, b) for a, b in graph.edges if a in items and b in items and a != b})
     loops = tuple((a, b) for a, b in dict.fromkeys(graph.edges) if a == b and a in items)
@@ -31,7 +31,7 @@ def layers(graph: Digraph) -> Layers:
 
 
 def _ranks(items: Mapping[str, Item], edges: list[Edge]) -> dict[str, float]:
-    """An order in which few edges run backwards: boxes by their own order, chips right after what leads to them."""
+    """An order with few backward edges: boxes by their own order, chips right after their predecessors."""
     after: dict[str, set[str]] = {each: set() for each in items}
     before: dict[str, set[str]] = {each: set() for each in items}
     for a, b in edges:
@@ -49,7 +49,7 @@ def _ranks(items: Mapping[str, Item], edges: list[Edge]) -> dict[str, float]:
 
 
 def _boxes_reached(start: str, after: Mapping[str, set[str]], items: Mapping[str, Item]) -> set[str]:
-    """The boxes that an item leads to, directly or through one chip."""
+    """The boxes that an item has edges to, directly or through one chip."""
     found: set[str] = set()
     for each in after[start]:
         found |= {each} if items[each].boxed else {one for one in after[each] if items[one].boxed}
@@ -57,9 +57,9 @@ def _boxes_reached(start: str, after: Mapping[str, set[str]], items: Mapping[str
 
 
 def _greedy_order(nodes: Iterable[str], after: Mapping[str, set[str]], gives: Mapping[str, int]) -> list[str]:
-    """The order of Eades, Lin and Smyth: sources first, sinks last, else what leads to most more than it is led to.
+    """The order of Eades, Lin and Smyth: sources first, sinks last, else by the largest out-degree minus in-degree.
 
-    `gives` decides between equals: the surplus of arrows that leave over arrows that come.
+    `gives` breaks ties: the number of outgoing minus incoming arrows.
     """
     left = set(nodes)
     ahead = {each: {one for one in after[each] if one in left} for each in left}
@@ -105,7 +105,7 @@ def _columns(items: Mapping[str, Item], forward: Iterable[Edge], rank: Mapping[s
         for target in after[each]:
             column[target] = max(column[target], column[each] + 1)
     for each in reversed(order):
-        # What nothing leads to moves up to what it leads to: shorter arrows.
+        # Items without predecessors move next to their successors, for shorter arrows.
         if each not in has_cause and after[each]:
             column[each] = max(items[each].least, min(column[target] for target in after[each]) - 1)
     return column

@@ -76,7 +76,7 @@ class Lines:
         key = (a, b)
         found = self._unions.get(key)
         if found is None:
-            united = a | b  # one of the two where it holds all: equal sets are to be one object
+            united = a | b  # one of the two if it contains all: equal sets shall be one object
             found = self._unions[key] = next((each for each in key if len(each) == len(united)), united)
         return found
 
@@ -102,7 +102,7 @@ class Lines:
         self._add(x, bottom, UP, owner, edges)
 
     def branches(self, x: int, origin: int, ends: Iterable[tuple[int, frozenset[Edge]]]) -> None:
-        """Vertical lines from one row to many, of one item: each piece belongs to the edges that go on beyond it."""
+        """Vertical lines of one item from one row to many: each piece belongs to the edges that continue beyond it."""
         above = sorted((each for each in ends if each[0] < origin), key=lambda each: each[0])
         below = sorted((each for each in ends if each[0] > origin), key=lambda each: -each[0])
         for side in (above, below):
@@ -113,19 +113,19 @@ class Lines:
                 self.down(x, row, nearer, beyond)
 
     def lane(self, owner: str, y: int, x: int, edges: frozenset[Edge]) -> None:
-        """One more trunk on the way back of an item: draw the line from those before it to this one."""
+        """Extend the backward line of an item by one trunk, from those before it."""
         known = self._lanes.get(owner)
         if known is not None:
             self.across(y, min(known[1], x), max(known[1], x), edges)
         self._lanes[owner] = (y, x, x)
 
     def arrow(self, x: int, y: int, edges: frozenset[Edge]) -> None:
-        """The head of an arrow."""
+        """An arrow head."""
         if edges:
             self._add(x, y, HEAD, next(iter(edges))[0], edges)
 
     def row(self, y: int) -> Iterator[tuple[int, str, frozenset[Edge]]]:
-        """The pieces of one row: where each starts, its text, and the edges it belongs to."""
+        """The segments of one row: the start, the text and the edges of each."""
         cells = self._cells.get(y)
         if not cells:
             return

@@ -18,14 +18,14 @@ ITEM = -1
 
 @dataclass(frozen=True)
 class Columns:
-    """What stands in each column, from above, and the steps from each key to keys of the next column."""
+    """The keys of each column from top to bottom, and the steps from each key to keys of the next column."""
 
     columns: tuple[tuple[Key, ...], ...]
     steps: Mapping[Key, tuple[Key, ...]]
 
 
 def ordered(layers: Layers) -> Columns:
-    """Put crossings of columns in, then sort every column by the middle of its neighbours, there and back."""
+    """Insert pass-through keys, then sort every column by the mean place of its neighbours, forwards and backwards."""
     count = max(layers.column.values(), default=-1) + 1
     columns: list[list[Key]] = [[] for _ in range(count)]
     for each, column in sorted(layers.column.items()):
@@ -47,7 +47,7 @@ def ordered(layers: Layers) -> Columns:
 
 
 def _steps(layers: Layers, columns: list[list[Key]]) -> dict[Key, list[Key]]:
-    """One shared path for all arrows of an item: it splits as late as it can."""
+    """One shared path for all arrows of an item, which splits as late as possible."""
     targets: dict[str, list[str]] = {}
     for a, b in layers.forward:
         targets.setdefault(a, []).append(b)

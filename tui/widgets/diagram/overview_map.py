@@ -17,7 +17,7 @@ SMALLEST = (8, 3)
 
 @dataclass(frozen=True)
 class Window:
-    """What is seen of a picture: from which cell on, and how many."""
+    """The visible part of a picture: its first cell and its size."""
 
     x: int
     y: int
@@ -35,7 +35,7 @@ def map_size(width: int, height: int, window: Window) -> tuple[int, int]:
 
 
 def map_lines(places: Mapping[str, Place], extent: tuple[int, int], size: tuple[int, int], selected: str) -> list[str]:
-    """The map: a letter for each of its cells."""
+    """The lines of the map, one letter per cell."""
     columns, lines = size
     cells = [[EMPTY] * columns for _ in range(lines)]
     order = (EMPTY, LINK, BOX, CHOSEN)
@@ -48,7 +48,7 @@ def map_lines(places: Mapping[str, Place], extent: tuple[int, int], size: tuple[
 
 
 def seen(extent: tuple[int, int], size: tuple[int, int], window: Window) -> tuple[range, range]:
-    """The columns and lines of the map that stand for what is seen."""
+    """The columns and lines of the map that represent the visible part."""
     columns, lines = size
     first = window.x * columns // max(1, extent[0])
     last = -(-(window.x + window.width) * columns // max(1, extent[0]))

@@ -22,13 +22,13 @@ BEND = 6
 
 @dataclass
 class Placed:
-    """The first row and the height of each key; `middle` is the row where its arrow leaves."""
+    """The first row and the height of each key; `middle` is the row of its outgoing arrow."""
 
     top: dict[Key, int] = field(default_factory=lambda: {})
     height: dict[Key, int] = field(default_factory=lambda: {})
 
     def middle(self, key: Key) -> int:
-        """The row on which an item's name stands and its arrow leaves."""
+        """The row of an item's name and of its outgoing arrow."""
         return self.top[key] + (self.height[key] - 1) // 2
 
     @property
@@ -40,7 +40,7 @@ class Placed:
 def placed(
     columns: Columns, items: Mapping[str, Item], arrows_in: Mapping[str, int], pushed: Mapping[Key, int], flow: Flow
 ) -> Placed:
-    """Rows for everything; `arrows_in` is how many arrows end at an item, `pushed` adds free rows above a key."""
+    """Assign rows; `arrows_in` is the number of arrows into an item, `pushed` adds free rows above a key."""
     result = Placed()
     for column in columns.columns:
         for key in column:
@@ -89,7 +89,7 @@ def _settle(
 def _straighten(
     columns: Sequence[Sequence[Key]], neighbours: Mapping[Key, Sequence[Key]], result: Placed, gap: int
 ) -> None:
-    """Take out small bends: what has one neighbour only stands on its line, where there is room."""
+    """Remove small bends: a key with a single neighbour moves to its row, if there is room."""
     for column in columns:
         for at, key in enumerate(column):
             near = neighbours.get(key, ())
@@ -103,7 +103,7 @@ def _straighten(
 
 
 def _monotone(wanted: Sequence[float], weights: Sequence[float]) -> list[float]:
-    """The non-decreasing sequence nearest to what is wanted (pooling neighbours that want to overtake)."""
+    """The non-decreasing sequence nearest to the wanted one (pooling adjacent violators)."""
     pools: list[tuple[float, float, int]] = []
     for each, heft in zip(wanted, weights, strict=True):
         mean, weight, count = each, heft, 1

@@ -30,7 +30,7 @@ class Trunk:
 
     @cached_property
     def span(self) -> tuple[int, int]:
-        """The first and the last row on which it has an end or a branch."""
+        """The first and the last row with an end or a branch."""
         rows = [row for row, _ in self.leaves]
         rows += [row for row in (self.enters, self.down) if row is not None]
         return min(rows), max(rows)
@@ -43,7 +43,7 @@ class Trunk:
 
 @dataclass(frozen=True)
 class Channel:
-    """The track of each trunk, counted from the left, how many tracks there are, and keys that stand in the way."""
+    """The track of each trunk, counted from the left, the number of tracks, and the keys that are in the way."""
 
     track: Mapping[str, int]
     tracks: int
@@ -51,7 +51,7 @@ class Channel:
 
 
 def channel(trunks: Sequence[Trunk]) -> Channel:
-    """Put the trunks that need a vertical line on tracks."""
+    """Assign tracks to the trunks that need a vertical line."""
     bent = [each for each in trunks if not each.straight]
     left_of = _left_of(bent)
     blocked: list[Key] = []
@@ -69,13 +69,13 @@ def channel(trunks: Sequence[Trunk]) -> Channel:
 
 
 def _left_of(trunks: Sequence[Trunk]) -> dict[str, set[str]]:
-    """For each trunk those that must stand left of it: they enter on a row on which it leaves, and would lie on it."""
+    """For each trunk those that must be left of it: they enter on a row on which it leaves, and would overlap it."""
     entering = {each.enters: each.owner for each in trunks if each.enters is not None}
     return {each.owner: {entering[row] for row, _ in each.leaves if row in entering} - {each.owner} for each in trunks}
 
 
 def _order(trunks: Sequence[Trunk], left_of: Mapping[str, set[str]], blocked: list[Key]) -> list[Trunk]:
-    """From the left; `blocked` receives the keys that stand in the way where trunks wait for each other."""
+    """Order the trunks from the left; `blocked` receives the keys in the way if trunks wait for each other."""
     left = {
         each.owner: each
         for each in sorted(
@@ -98,12 +98,12 @@ def _order(trunks: Sequence[Trunk], left_of: Mapping[str, set[str]], blocked: li
 
 
 def _costs(trunks: Sequence[Trunk]) -> dict[tuple[str, str], int]:
-    """How many crossings it saves or costs to put the first of a pair on the left."""
+    """The number of crossings saved or caused by putting the first of a pair on the left."""
     return {(a.owner, b.owner): _crossings(a, b) - _crossings(b, a) for a in trunks for b in trunks if a is not b}
 
 
 def _crossings(left: Trunk, right: Trunk) -> int:
-    """How often the lines of two trunks cross when the one stands left of the other."""
+    """The number of crossings of two trunks if the first is left of the second."""
     low, high = right.span
     total = sum(1 for row, _ in left.leaves if low < row < high)
     if right.enters is not None and left.span[0] < right.enters < left.span[1]:

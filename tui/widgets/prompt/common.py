@@ -10,7 +10,7 @@ from bot_console.tui.widgets.prompt.question import Line
 
 
 def wrong_filter(text: str) -> str:
-    """What is wrong with the words of a filter; empty when nothing is."""
+    """Why a filter is invalid; empty if it is valid."""
     try:
         parse(text)
     except ValueError as error:
@@ -19,7 +19,7 @@ def wrong_filter(text: str) -> str:
 
 
 def filter_line(words: str, apply: Callable[[str], object], then: Callable[[str], object] | None = None) -> Line:
-    """Ask for a filter that is applied while it is typed, `then` called with the last one; giving up takes it away."""
+    """Ask for a filter, applied while it is typed; `then` gets the last one; giving up removes it."""
     return Line("filter", then or apply, given_up=lambda: apply(""), text=words, check=wrong_filter, typed=apply)
 
 
@@ -29,7 +29,7 @@ def file_line(label: str, name: str, then: Callable[[str], object]) -> Line:
 
 
 def wrong_path(text: str) -> str:
-    """Why a text cannot be the path of a file; empty when it can."""
+    """Why a text cannot be a file path; empty if it can."""
     try:
         typed_path(text)
     except NotSaved as error:

@@ -12,7 +12,7 @@ from textual.widget import Widget
 
 
 class Findable(Widget):
-    """Words are looked for in it: `/` asks for them, n and N go on to the next and the previous match."""
+    """A widget with a search: `/` asks for words, n and N go to the next and the previous match."""
 
     BINDINGS: ClassVar[list[BindingType]] = keymap.bindings("find")
 
@@ -27,19 +27,19 @@ class Findable(Widget):
         raise NotImplementedError
 
     def filter_is(self, words: str) -> None:
-        """Take a filter that parses into account; empty: there is none any more."""
+        """Apply a valid filter; an empty one removes it."""
         raise NotImplementedError
 
     def find(self, words: str, step: int) -> bool:
-        """Go `step` matches on, the last one being followed by the first; whether there is any."""
+        """Go `step` matches further, wrapping around; returns whether there is any match."""
         raise NotImplementedError
 
     def stands_on_match(self, words: str) -> bool:
-        """Whether the cursor stands on a match already."""
+        """Whether the cursor is on a match already."""
         raise NotImplementedError
 
     def set_filter(self, words: str) -> None:
-        """Filter by these words from now on."""
+        """Set the filter."""
         self.words = words
         self._sought = words or self._sought
         self.filter_is(words)
@@ -50,11 +50,11 @@ class Findable(Widget):
             self.find(words, 1)
 
     def action_filter(self) -> None:
-        """Ask for a filter, which acts while it is typed; the cursor then stands on a match."""
+        """Ask for a filter, applied while it is typed; afterwards the cursor is on a match."""
         self.ask_words(filter_line(self.words, self.set_filter, self._taken))
 
     def action_find(self, step: int) -> None:
-        """The next match, or the previous one."""
+        """Go to the next or the previous match."""
         if not self._sought:
             self.notify("Nothing was looked for yet; / asks for words.")
         elif not self.find(self._sought, step):
@@ -62,7 +62,7 @@ class Findable(Widget):
 
 
 class Narrowed(Findable):
-    """What is shown is what passes the filter; Escape shows everything again."""
+    """Shows only what passes the filter; Escape shows everything again."""
 
     BINDINGS: ClassVar[list[BindingType]] = keymap.bindings("narrowed")
 

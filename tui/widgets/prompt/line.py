@@ -19,9 +19,9 @@ AROUND = 5
 
 
 class Prompt(Asker[str], Horizontal):
-    """A label, a text field, and room for what is wrong with the text; made when something is first asked.
+    """A label, a text field, and an error message; made when first used.
 
-    Every pane has a prompt, and few are ever used: their parts would be a third of all that is mounted at the start.
+    Every pane has a prompt, but few are ever used: their parts would be a third of all widgets mounted at the start.
     """
 
     DEFAULT_CSS = """
@@ -44,7 +44,7 @@ class Prompt(Asker[str], Horizontal):
         self.mount(self._label, self._field, self._wrong)
 
     def ask(self, line: Line) -> None:
-        """Ask; a question that is open already is given up."""
+        """Ask for a line, giving up a question that is already open."""
         self.give_up()
         if not self.children:
             self._make()
@@ -59,7 +59,7 @@ class Prompt(Asker[str], Horizontal):
         self._complain(line.text)
         self.add_class("open")
         self._before = self.screen.focused
-        # At once, not by `focus`, which comes after the keys that are already on their way.
+        # At once, instead of by `focus`, which takes effect after keys that are already queued.
         self.screen.set_focus(field)
 
     def _complain(self, text: str) -> str:
@@ -70,27 +70,27 @@ class Prompt(Asker[str], Horizontal):
         return wrong
 
     def _room_beside(self, text: str) -> int:
-        """Columns for what is said of the text: what it and the label leave, and a third of the line at least."""
+        """The width for the message about the text: what text and label leave, but at least a third of the line."""
         width = self.parent.content_size.width if isinstance(self.parent, Widget) else 0
         taken = cell_len(self._line.label if self._line else "") + cell_len(text) + AROUND
         return max(width - taken, width // 3, 1)
 
     def on_input_changed(self, event: Input.Changed) -> None:
-        """Check while typing."""
+        """Check the text while it is typed."""
         event.stop()
         if self.is_open and self._line and not self._complain(event.value):
             self._line.typed(event.value)
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
-        """Answer."""
+        """Answer with the text, if it is valid."""
         event.stop()
         if self.is_open and not self._complain(event.value):
             self.answer(event.value)
 
     def on_descendant_blur(self) -> None:
-        """Keep the focus when the mouse goes elsewhere in the pane; give up when it goes to another pane."""
+        """Keep the focus if it moves elsewhere in the pane; give up if it moves to another pane."""
         focused, field = self.screen.focused, self._field
-        if not self.is_open or focused is None or focused is field:  # nobody has it when the terminal loses it
+        if not self.is_open or focused is None or focused is field:  # None when the terminal itself loses the focus
             return
         if self.parent in focused.ancestors:
             self.screen.set_focus(field)
@@ -102,17 +102,17 @@ class Prompt(Asker[str], Horizontal):
         self.give_up()
 
     def close(self) -> None:
-        """Hide, and give the focus back."""
+        """Hide, and restore the focus."""
         self.remove_class("open")
         if self.screen.focused is self._field:
             self.screen.set_focus(self._before)
         self._before = None
 
     def tell(self, why: str) -> None:
-        """Say why it closes."""
+        """Notify the user why the prompt closes."""
         self.notify(why, severity="warning", markup=False)
 
 
 def asks(widget: Widget) -> bool:
-    """Whether a prompt is open in a widget: all keys are for the text then."""
+    """Whether a prompt is open in a widget, so that all keys belong to its text."""
     return any(each.is_open for each in widget.query(Prompt))

@@ -13,7 +13,7 @@ A = TypeVar("A")
 
 
 def _nothing(*_: object) -> None:
-    """For those who do not want to know."""
+    """Ignore the end of a question."""
 
 
 def _all_well(*_: str) -> str:
@@ -26,7 +26,7 @@ def _none(_: str) -> Sequence[Option]:
 
 @dataclass(frozen=True)
 class Question(Generic[A]):
-    """What is asked, bound to its subject: nobody has to look up afterwards what was meant."""
+    """A question bound to its subject, so that the answer needs no look-up."""
 
     label: str
     then: Callable[[A], object]
@@ -59,7 +59,7 @@ class Line(Question[str]):
 
 @dataclass(frozen=True)
 class Confirmation(Question[None]):
-    """Whether to do something; only yes is an answer."""
+    """A request for confirmation; the only answer is yes."""
 
     reasons: str = ""
     """Why it is asked, line by line."""
@@ -108,7 +108,7 @@ class Elements(Question[Value]):
 
 @dataclass(frozen=True, kw_only=True)
 class Fill(Question[None]):
-    """A message, request or goal to fill in and send, as often as the person wants."""
+    """A message, request or goal to fill in and send, any number of times."""
 
     payload: Payload
     name: str
@@ -128,7 +128,7 @@ class Asker(Generic[A]):
         raise NotImplementedError
 
     def tell(self, why: str) -> None:
-        """Say why the question closes by itself."""
+        """Notify the user why the question closes by itself."""
         raise NotImplementedError
 
     @property
@@ -137,7 +137,7 @@ class Asker(Generic[A]):
         return self._question is not None
 
     def answer(self, answer: A) -> None:
-        """Close, and act on the answer."""
+        """Close, and pass the answer on."""
         if self.look() and self._question is not None:
             question, self._question = self._question, None
             self.close()
@@ -151,7 +151,7 @@ class Asker(Generic[A]):
             question.given_up()
 
     def look(self) -> bool:
-        """Whether the question still makes sense; if its subject is gone, it closes and says so."""
+        """Whether the question still makes sense; if its subject is gone, close and notify the user."""
         why = self._question.gone() if self._question else ""
         if why:
             self.give_up()

@@ -27,7 +27,7 @@ class StreamPanel(Static):
     can_focus: ClassVar[bool] = False  # pyright: ignore[reportIncompatibleVariableOverride] -- as Textual's widgets do
 
     class Closed(Message):
-        """Its title was clicked."""
+        """The title was clicked."""
 
         def __init__(self, panel: StreamPanel) -> None:
             super().__init__()
@@ -42,35 +42,35 @@ class StreamPanel(Static):
 
     @property
     def state(self) -> str:
-        """Whether more can come, in words."""
+        """The state of the stream in words."""
         return "has ended" if self._stream.ended else "runs"
 
     @property
     def has_ended(self) -> bool:
-        """Whether nothing more comes."""
+        """Whether the stream has ended."""
         return self._stream.ended
 
     def call(self, number: int, key: str) -> None:
-        """Write line and state over it; `number` tells it from others, 0 where there are none."""
+        """Set the title: line and state; `number` distinguishes it from other panels, 0 if there are none."""
         named = self.line.removeprefix("ros2 ") if number else self.line
         title = f"{number} {named}" if number else f"{named} · {self.state} · {key} closes"
-        self.border_title = Text(harmless(title))  # Textual reads a str as markup; a bracket in a line is none
-        # Beside others there is no room for both above.
+        self.border_title = Text(harmless(title))  # Textual parses a str as markup, but brackets in a line are literal
+        # Next to other panels there is no room for both in the title.
         self.border_subtitle = f"{self.state} · {key} closes one" if number else ""
 
     def look(self, rows: int) -> None:
-        """Show what has come, as far as these rows have room for it."""
+        """Show the newest lines that fit in a number of rows."""
         lines = self._stream.lines()
         if lines is not self._shown or rows != self._rows:
             self._shown, self._rows = lines, rows
             self.update(Text("\n".join(harmless(each) for each in lines[-max(1, rows - BORDER) :])))
 
     def stop(self) -> None:
-        """End the line."""
+        """End the stream."""
         self._stream.stop()
 
     def on_click(self, event: Click) -> None:
-        """A click on its title closes it."""
+        """Close the panel on a click on its title."""
         event.stop()
         if event.y == 0:
             self.post_message(self.Closed(self))

@@ -33,12 +33,12 @@ def _down(size: Size) -> int:
 
 
 def room(size: Size) -> int:
-    """How many lines have room in a terminal."""
+    """The number of panels that fit in a terminal of a size."""
     return min(MOST, _across(size) * (_down(size) // LOWEST))
 
 
 class StreamPanels(Container):
-    """Holds the panels of the lines, the oldest first; hidden while there is none."""
+    """Holds the panels of streams, oldest first; hidden while there is none."""
 
     DEFAULT_CSS = """
     StreamPanels { display: none; layout: grid; height: 8; grid-gutter: 0; }
@@ -55,7 +55,7 @@ class StreamPanels(Container):
 
     @property
     def panels(self) -> Sequence[StreamPanel]:
-        """The lines that are shown, the oldest first."""
+        """The panels, oldest first."""
         return self._panels
 
     @property
@@ -63,7 +63,7 @@ class StreamPanels(Container):
         return self.app.size  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, its type not told
 
     def problem(self, words: Sequence[str]) -> str:
-        """Why a line of `ros2`, without that word, cannot be begun; empty when it can."""
+        """Why a `ros2` command, given without that word, cannot be started; empty if it can."""
         if not goes_on(words) or any(each.has_ended for each in self._panels):
             return ""
         has = room(self._terminal)
@@ -73,7 +73,7 @@ class StreamPanels(Container):
         return f"no room: {len(self._panels)} run below the panes already; {self._key} ends one{larger}"
 
     def begin(self, line: str, stream: Stream) -> None:
-        """Show a stream; without room for it, the oldest that has ended makes way."""
+        """Show a stream; if there is no room for it, the oldest ended one is removed."""
         if len(self._panels) >= room(self._terminal):
             ended = [each for each in self._panels if each.has_ended]
             for each in ended[:1]:
@@ -92,7 +92,7 @@ class StreamPanels(Container):
             self.look()
 
     def look(self) -> None:
-        """Show what has come, and lay out anew where the terminal or the lines are others."""
+        """Show new lines, after a layout if the terminal's size or the panels have changed."""
         now = (self._terminal, *((each, each.state) for each in self._panels))
         if now != self._laid_out:
             self._laid_out = now
@@ -102,7 +102,7 @@ class StreamPanels(Container):
 
     def _lay_out(self, size: Size) -> None:
         self.set_class(bool(self._panels), "open")
-        # In a terminal that was made smaller the newest are seen; the others go on.
+        # In a terminal that was made smaller only the newest are visible; the others continue.
         seen = self._panels[-room(size) :]
         for number, each in enumerate(self._panels, 1):
             each.display = each in seen
@@ -120,6 +120,6 @@ class StreamPanels(Container):
             seen[-1].border_subtitle = f"{len(self._panels) - len(seen)} more not seen · {self._key} closes one"
 
     def on_stream_panel_closed(self, event: StreamPanel.Closed) -> None:
-        """The title of a panel was clicked."""
+        """End the stream of a panel whose title was clicked."""
         event.stop()
         self.end(event.panel)
