@@ -20,21 +20,21 @@ class Action(LaunchDescriptionEntity):
     def __init__(self, *, condition: Condition | None = None) -> None:
         self.__condition = condition
         self.origin = origin_of_caller()
-        """Where it was made, as `file:line`."""
+        """Where the action was created, as `file:line`."""
 
     @property
     def condition(self) -> Condition | None:
-        """The condition, if there is one."""
+        """The condition, or None."""
         return self.__condition
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
-        """Class and keyword arguments of an action in XML or YAML."""
+        """Return class and keyword arguments of an action in XML or YAML."""
         condition = parser.parse_condition(entity) if hasattr(parser, "parse_condition") else None
         return cls, {"condition": condition} if condition is not None else {}
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Execute, if the condition holds."""
+        """Execute the action if its condition holds, and emit `ExecutionComplete` when it is done."""
         if self.__condition is not None and not self.__condition.evaluate(context):
             return None
         try:
@@ -51,19 +51,19 @@ class Action(LaunchDescriptionEntity):
                     context.emit_event_sync(event)
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Entities below the action."""
+        """Return the entities below the action."""
         return []
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """The same, where there is no condition."""
+        """Return the entities below the action if it has no condition."""
         return self.get_sub_entities() if self.__condition is None else []
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, list[LaunchDescriptionEntity]]]:
-        """The same, where there is a condition."""
+        """Return the entities below the action, with a text, if it has a condition."""
         if self.__condition is None:
             return []
         return [(f"Conditionally included by {self.describe()}", self.get_sub_entities())]
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Do it."""
+        """Perform the action; returns entities to visit next."""
         return None

@@ -1,4 +1,4 @@
-"""Finds the arguments declared in a tree of entities, includes and conditional branches included, as upstream does."""
+"""Find the arguments declared in a tree of entities, including includes and conditional branches, as upstream does."""
 
 from __future__ import annotations
 
@@ -9,22 +9,22 @@ Includes = list[Any] | None
 
 
 class DeclaresArgument:
-    """Base of the action that declares a launch argument. The actions know this module, not it them."""
+    """Base class of the action that declares a launch argument; here so that this module does not import it."""
 
 
 class IncludesDescription:
-    """Base of the action that includes a launch description."""
+    """Base class of the action that includes a launch description."""
 
 
 class ResetsConfigurations:
-    """Base of the action that resets all launch configurations."""
+    """Base class of the action that resets all launch configurations."""
 
 
 def discover(entities: Iterable[Any], conditional: bool) -> list[tuple[Any, Includes]]:
-    """Arguments, each with the includes that may give it a value; None for those of the description itself.
+    """Return the arguments, each with the includes that may give it a value; None for the description's own.
 
-    An action that resets all configurations ends the list that it is in, not the lists around that. An argument is
-    conditional only where itself, or the list that it stands in, is: what lies deeper in a branch is not.
+    An action that resets all configurations ends its own list of entities, not the enclosing ones. An argument is
+    conditional only if itself or the list it is in is conditional: deeper levels of a branch are not.
     """
     walk = _Walk()
     walk.entities(entities, None, conditional)

@@ -17,10 +17,10 @@ class Condition:
         self.__last: bool | None = None
 
     def describe(self) -> str:
-        """A short text for people."""
+        """Return a short description."""
         return repr(self)
 
     def evaluate(self, context: LaunchContext) -> bool:
-        """Whether it holds now."""
+        """Evaluate the condition in a context."""
         self.__last = self._predicate(context) if self._predicate is not None else True
         return self.__last

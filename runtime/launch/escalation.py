@@ -1,4 +1,4 @@
-"""Ending a process: SIGINT, SIGTERM when that does not help, SIGKILL when that does not either."""
+"""End a process: SIGINT, then SIGTERM, then SIGKILL if it does not end."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Escalation:
         self._emit("SIGINT")
 
     def cancel(self) -> None:
-        """It has ended."""
+        """Stop the timers, once the process has ended."""
         for timer in self._timers:
             timer.cancel()
 

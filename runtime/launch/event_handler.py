@@ -12,12 +12,12 @@ if TYPE_CHECKING:
 
 
 class BaseEventHandler:
-    """Decides whether it handles an event, and what entities come of it."""
+    """Decides whether it handles an event, and which entities are visited for it."""
 
     kind_of_events: type[Any] | None = None
-    """The class of all events that may match; None: any."""
+    """The class that all matching events have; None: any."""
     target_of_events: Any = None
-    """The action whose events alone may match; None: any."""
+    """The only action whose events match; None: any."""
 
     def __init__(self, *, matcher: Callable[[Any], bool], handle_once: bool = False) -> None:
         self.__matcher = matcher
@@ -25,30 +25,30 @@ class BaseEventHandler:
 
     @property
     def handle_once(self) -> bool:
-        """Whether the handler goes after its first event."""
+        """Whether the handler is removed after its first event."""
         return self.__handle_once
 
     @property
     def handler_description(self) -> str:
-        """What it does."""
+        """A description of the handler's effect."""
         return "{}"
 
     @property
     def matcher_description(self) -> str:
-        """What it waits for."""
+        """A description of the matching events."""
         return "{}"
 
     def matches(self, event: Any) -> bool:
-        """Whether it handles the event."""
+        """Whether the handler handles the event."""
         return self.__matcher(event)
 
     def describe(self) -> tuple[str, list[Any]]:
-        """A text and the entities below."""
+        """Return a description and the entities below."""
         what = f"matcher='{self.matcher_description}', handler='{self.handler_description}'"
         return f"{type(self).__name__}({what}, handle_once={self.handle_once})", []
 
     def handle(self, event: Any, context: LaunchContext) -> SomeEntitiesType | None:
-        """Entities to visit for the event."""
+        """Handle the event and return entities to visit."""
         context.extend_locals({"event": event})
         if self.handle_once:
             context.unregister_event_handler(self)
@@ -56,7 +56,7 @@ class BaseEventHandler:
 
 
 class EventHandler(BaseEventHandler):
-    """Visits given entities for each event that matches."""
+    """Visits given entities for each matching event."""
 
     def __init__(
         self, *, matcher: Callable[[Any], bool], entities: SomeEntitiesType | None = None, handle_once: bool = False
@@ -66,7 +66,7 @@ class EventHandler(BaseEventHandler):
 
     @property
     def entities(self) -> SomeEntitiesType | None:
-        """The entities."""
+        """The entities to visit."""
         return self.__entities
 
     def describe(self) -> tuple[str, list[Any]]:
@@ -74,6 +74,6 @@ class EventHandler(BaseEventHandler):
         return super().describe()[0], check_entities(self.__entities)
 
     def handle(self, event: Any, context: LaunchContext) -> SomeEntitiesType | None:
-        """The entities."""
+        """Return the entities to visit."""
         super().handle(event, context)
         return self.__entities

@@ -8,7 +8,7 @@ from typing import Any
 
 
 class EventQueue:
-    """Events that wait to be handled; says so when there is one."""
+    """Events to be handled; `on_event` is called for each new one."""
 
     def __init__(self) -> None:
         self._events: deque[Any] = deque()
@@ -20,13 +20,13 @@ class EventQueue:
         self.on_event()
 
     def get_nowait(self) -> Any:
-        """Take the oldest event out; raises `IndexError` when there is none."""
+        """Remove and return the oldest event; raises `IndexError` if there is none."""
         return self._events.popleft()
 
     def empty(self) -> bool:
-        """Whether nothing waits."""
+        """Whether the queue is empty."""
         return not self._events
 
     def qsize(self) -> int:
-        """How many wait."""
+        """The number of queued events."""
         return len(self._events)

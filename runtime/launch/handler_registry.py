@@ -1,4 +1,4 @@
-"""Event handlers in the order in which they are asked; fast even when hundreds each wait for their own action."""
+"""Event handlers in the order in which they are called; fast even if hundreds each wait for their own action."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ Key = tuple[Any, int]
 
 
 class HandlerRegistry:
-    """Handlers, newest first; found by the class of events and the action that they say they wait for."""
+    """Handlers, newest first, indexed by the event class and the action that they declare."""
 
     def __init__(self) -> None:
         self._ranks: dict[int, tuple[int, Any]] = {}
@@ -28,13 +28,13 @@ class HandlerRegistry:
         return id(handler) in self._ranks
 
     def add(self, handler: Any, *, append: bool = False) -> None:
-        """Put a handler before all others, or behind them."""
+        """Add a handler before all others, or after them."""
         rank = next(self._after if append else self._before)
         self._ranks[id(handler)] = (rank, handler)
         self._buckets.setdefault(_key(handler), {})[id(handler)] = handler
 
     def remove(self, handler: Any) -> None:
-        """Take a handler out; raises `ValueError` when it is not there."""
+        """Remove a handler; raises `ValueError` if it is not registered."""
         if id(handler) not in self._ranks:
             raise ValueError(f"{handler!r} is not registered")
         del self._ranks[id(handler)]
@@ -44,7 +44,7 @@ class HandlerRegistry:
             del self._buckets[_key(handler)]
 
     def matching(self, event: Any) -> list[Any]:
-        """The handlers that match, in order."""
+        """Return the matching handlers, in order."""
         actions = {0, id(getattr(event, "action", None))}
         kinds = (None, *(event.__mro__ if isinstance(event, type) else type(event).__mro__))
         buckets = [self._buckets.get((kind, action)) for kind in kinds for action in actions]

@@ -6,17 +6,17 @@ from collections.abc import Iterable
 
 
 class InvalidLaunchFileError(Exception):
-    """A launch file cannot be read; the causes are what each parser that tried it has said."""
+    """A launch file cannot be read; the causes are the errors of each parser that tried it."""
 
     def __init__(self, extension: str = "", *, likely_errors: Iterable[BaseException] = ()) -> None:
         super().__init__(extension)
         self._extension = extension
         self._likely_errors = list(likely_errors)
         if self._likely_errors:
-            self.__cause__ = self._likely_errors[0]  # what the reader for files of that ending has said
+            self.__cause__ = self._likely_errors[0]  # the error of the parser for files of that extension
 
     def __str__(self) -> str:
-        """The causes, one below the other."""
+        """Return the causes, one per line."""
         if self._extension == "" or not self._likely_errors:
             return "The launch file may have a syntax error, or its format is unknown"
         lines = [f"Caught multiple exceptions when trying to load file of format [{self._extension}]:"]

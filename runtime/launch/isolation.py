@@ -1,4 +1,4 @@
-"""Whether a Python program of a launch runs as a thread of this process or in a process of its own."""
+"""Whether a Python program of a launch runs as a thread of this process or in a separate process."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ _default = [THREAD]
 
 
 def isolate_by_default(kind: str) -> None:
-    """What holds where no configuration says otherwise; with `process` only a user's programs get one, ours not."""
+    """Set the default without that configuration; `process` applies only to users' programs, not to ours."""
     _default[:] = [kind]
 
 
 def has_own_process(context: LaunchContext, program: PythonProgram) -> bool:
-    """Whether a program is to have a process of its own; raises `RuntimeError` for a word that is none of the two.
+    """Whether a program gets a separate process; raises `RuntimeError` for an invalid configuration.
 
-    In a stepped run nothing has: exactly one thread runs at a time there.
+    Never in a stepped run, where exactly one thread runs at a time.
     """
     wanted = context.launch_configurations.get(CONFIGURATION, "")
     if wanted not in ("", PROCESS, THREAD):

@@ -31,7 +31,7 @@ class LaunchContext:
         self.read_configurations: set[str] = set()
         self.names_without_namespace: dict[str, str] = {}
         self.resolving = False
-        """Whether nothing is started: the launch file is only evaluated."""
+        """Whether the launch file is only evaluated and nothing is started."""
         self.__is_shutdown = False
         self.__asyncio_loop: asyncio.AbstractEventLoop | None = None
         self.__logger = launch.logging.get_logger(__name__)
@@ -55,11 +55,11 @@ class LaunchContext:
 
     @property
     def asyncio_loop(self) -> Any:
-        """The loop that the launch runs in; None while it does not run, which actions need not look for."""
+        """The launch's event loop; None unless it runs, which actions need not check."""
         return self.__asyncio_loop
 
     def add_completion_future(self, future: asyncio.Future[None]) -> None:
-        """Let the launch not be idle before a future is done."""
+        """Keep the launch from being idle until a future is done."""
         self._completion_futures.append(future)
 
     def _push_locals(self) -> None:
@@ -71,7 +71,7 @@ class LaunchContext:
         self.__locals = self.__locals_stack.pop()
 
     def get_locals_as_dict(self) -> dict[str, Any]:
-        """Globals and locals together."""
+        """Return globals and locals merged."""
         return {**self.__globals, **self.__locals}
 
     @property
@@ -80,11 +80,11 @@ class LaunchContext:
         return _Locals(self.get_locals_as_dict())
 
     def extend_globals(self, extensions: dict[str, Any]) -> None:
-        """Add to what every entity sees."""
+        """Add globals, visible to every entity."""
         self.__globals.update(extensions)
 
     def extend_locals(self, extensions: dict[str, Any]) -> None:
-        """Add to what entities see from here on."""
+        """Add locals, visible to entities visited from here on."""
         self.__locals.update(extensions)
 
     @property
@@ -103,7 +103,7 @@ class LaunchContext:
 
     @property
     def environment(self) -> Any:
-        """The environment: that of the launching process itself."""
+        """The environment of the launching process itself."""
         return os.environ
 
     def _push_environment(self) -> None:
@@ -118,11 +118,11 @@ class LaunchContext:
         _replace_environment(self.__environment_reset)
 
     def register_event_handler(self, event_handler: Any, append: bool = False) -> None:
-        """Let a handler be asked, before those that are there unless told otherwise."""
+        """Register a handler, before the existing ones or, with `append`, after them."""
         self._event_handlers.add(event_handler, append=append)
 
     def unregister_event_handler(self, event_handler: Any) -> None:
-        """Let a handler be asked no more; raises `ValueError` when it is not there."""
+        """Unregister a handler; raises `ValueError` if it is not registered."""
         self._event_handlers.remove(event_handler)
 
     def would_handle_event(self, event: Any) -> bool:
@@ -140,7 +140,7 @@ class LaunchContext:
         self._event_queue.put_nowait(event)
 
     def perform_substitution(self, sub: Any) -> str:
-        """The text of a substitution."""
+        """Evaluate a substitution."""
         return sub.perform(self)
 
 

@@ -29,12 +29,12 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     @property
     def deprecated(self) -> bool:
-        """Whether the description should not be used any more."""
+        """Whether the description is deprecated."""
         return self.__deprecated_reason is not None
 
     @property
     def deprecated_reason(self) -> str | None:
-        """Why not."""
+        """Why the description is deprecated; None if it is not."""
         return self.__deprecated_reason
 
     def add_entity(self, entity: LaunchDescriptionEntity) -> None:
@@ -46,7 +46,7 @@ class LaunchDescription(LaunchDescriptionEntity):
         self.add_entity(action)
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """The entities, after a warning for a deprecated description."""
+        """Return the entities, after a warning if the description is deprecated."""
         if self.__deprecated_reason is not None:
             path = context.get_locals_as_dict().get("current_launch_file_path", "")
             where = f"launch file [{path}]" if path else "launch description"
@@ -55,16 +55,16 @@ class LaunchDescription(LaunchDescriptionEntity):
         return self.__entities
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """The entities."""
+        """Return the entities."""
         return self.__entities
 
     def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[Any]:
-        """The arguments that are declared in the description and in what it includes; the first of a name counts."""
+        """Return the arguments declared in the description and its includes; of equal names, the first counts."""
         pairs = self.get_launch_arguments_with_include_launch_description_actions(conditional_inclusion)
         return [argument for argument, _ in pairs]
 
     def get_launch_arguments_with_include_launch_description_actions(
         self, conditional_inclusion: bool = False
     ) -> list[tuple[Any, list[Any] | None]]:
-        """The arguments, each with the includes through which it was found; None where there is none on the way."""
+        """Return the arguments, each with the includes through which it was found; None for the description's own."""
         return discover(self.__entities, conditional_inclusion)

@@ -1,4 +1,4 @@
-"""What a launch description is made of."""
+"""Base class of what launch descriptions consist of."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ class LaunchDescriptionEntity:
     """Something that can be visited with a context."""
 
     def describe(self) -> str:
-        """A short text for people."""
+        """Return a short description."""
         return self.__repr__()
 
     def describe_sub_entities(self) -> list[Any]:
-        """Entities below this one that are always visited with it."""
+        """Return the entities below that are always visited with this one."""
         return []
 
     def describe_conditional_sub_entities(self) -> list[Any]:
-        """Texts with the entities that are visited when what the text says comes about."""
+        """Return pairs of a condition, as text, and the entities visited if it occurs."""
         return []
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Do what the entity is for; gives entities to visit next."""
+        """Perform the entity's function; returns entities to visit next."""
         return None
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
-        """A future that is done when the entity is, or None."""
+        """Return a future that is done when the entity is, or None."""
         return None

@@ -23,32 +23,32 @@ class LaunchDescriptionSource:
 
     @property
     def method(self) -> str:
-        """How the description is made."""
+        """How the description is obtained."""
         return self.__method
 
     @property
     def location(self) -> str:
-        """Where it is; substitutions are described until it was read."""
+        """The location; as described substitutions until the description was read."""
         if self.__expanded_location is not None:
             return self.__expanded_location
         return " + ".join(each.describe() for each in self.__location)
 
     def try_get_launch_description_without_context(self) -> Any:
-        """The description where it can be read without a context, else None."""
+        """Return the description if it can be read without a context, else None."""
         from launch.launch_context import LaunchContext
 
         if self.__launch_description is not None:
             return self.__launch_description
         try:
             location = perform_substitutions(LaunchContext(), self.__location)
-        except Exception:  # whatever a substitution needs that only a running launch has
+        except Exception:  # a substitution may need what only a running launch has
             return None
         self.__launch_description = self._get_launch_description(location)
         self.__expanded_location = location
         return self.__launch_description
 
     def get_launch_description(self, context: LaunchContext) -> Any:
-        """The description; reads the file the first time."""
+        """Return the description, reading the file the first time."""
         location = perform_substitutions(context, self.__location)
         if self.__launch_description is None or self.__expanded_location != location:
             self.__expanded_location = location
@@ -56,7 +56,7 @@ class LaunchDescriptionSource:
         return self.__launch_description
 
     def _get_launch_description(self, location: str) -> Any:
-        """Read the description; this class has only one that it was given, and raises `RuntimeError` without it."""
+        """Read the description; this base class has only a given one, and raises `RuntimeError` without it."""
         if self.__launch_description is None:
             raise RuntimeError(
                 "LaunchDescriptionSource.get_launch_description(): called without launch description being set"

@@ -12,10 +12,10 @@ from launch.utilities.type_utils import is_normalized_substitution
 
 
 class LaunchIntrospector:
-    """Writes a launch description as `ros2 launch --print` does: what needs a context is not evaluated."""
+    """Formats a launch description as `ros2 launch --print` does: what needs a context is not evaluated."""
 
     def format_launch_description(self, launch_description: LaunchDescription) -> str:
-        """The tree, one line per entity."""
+        """Return the tree, one line per entity."""
         return "\n".join([f"{launch_description!r}", *_tree(launch_description.entities)])
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 ATTRIBUTE = "launch_place"
-"""The attribute of an exception that holds its `LaunchPlace`, where launch has told one."""
+"""The attribute of an exception that holds its `LaunchPlace`, if known."""
 
 
 @dataclass(frozen=True)
@@ -14,21 +14,21 @@ class LaunchPlace:
     """What was being read or visited when an exception was raised."""
 
     file: str
-    """The launch file; empty where it is not known."""
+    """The launch file; empty if unknown."""
     line: int | None
-    """The line in it, from 1; None where it is not known."""
+    """Its line, from 1; None if unknown."""
     entity: Any
-    """What was being visited; None while a file was read."""
+    """The entity being visited; None while reading a file."""
 
 
 def tell_place(error: BaseException, file: str, line: int | None = None, entity: Any = None) -> None:
-    """Attach to an exception where it was raised; what was told nearer to its origin stays."""
-    # not setattr: an exception of the user's may be a frozen dataclass
+    """Attach to an exception where it was raised; a place attached earlier, nearer to its origin, is kept."""
+    # not setattr: a user's exception may be a frozen dataclass
     error.__dict__.setdefault(ATTRIBUTE, LaunchPlace(file, line, entity))
 
 
 def tell_visited(error: BaseException, entity: Any) -> None:
-    """Attach to an exception that it was raised by visiting an entity, and where that was made if it says so."""
+    """Attach to an exception the entity whose visit raised it, and the entity's origin if known."""
     origin = str(getattr(entity, "origin", ""))
     file, _, line = origin.rpartition(":")
     if line.isdigit():

@@ -1,7 +1,6 @@
 """Runs launch descriptions."""
 
-# pyright: reportPrivateUsage=false
-# The service drives the context, and its users are not to: underscores as upstream.
+# The service uses the context's private methods, as upstream; its users should not.
 
 from __future__ import annotations
 
@@ -51,37 +50,37 @@ class LaunchService:
 
     @property
     def context(self) -> LaunchContext:
-        """The context of what runs."""
+        """The launch context."""
         return self.__context
 
     @property
     def event_loop(self) -> asyncio.AbstractEventLoop | None:
-        """The loop that it runs in, None while it does not run."""
+        """The event loop it runs in; None while not running."""
         return self.__loop
 
     @property
     def task(self) -> asyncio.Task[int] | None:
-        """The task that it runs as, None while it does not run."""
+        """The task it runs as; None while not running."""
         return self.__task
 
     @property
     def failure(self) -> Exception | None:
-        """What was caught and has ended the launch, with its traceback; None where nothing has (not upstream)."""
+        """The exception that has ended the launch, with its traceback, or None (not upstream)."""
         return self.__failure
 
     @property
     def pending(self) -> list[Any]:
-        """The entities that have begun and are not done, processes and timers among them (not upstream)."""
+        """The entities that were started and are not done, including processes and timers (not upstream)."""
         return self.__pending.entities
 
     def include_launch_description(self, launch_description: Any) -> None:
-        """Let a description run; before the service runs, or while it does."""
+        """Include a description, before the service runs or while it does."""
         self.emit_event(IncludeLaunchDescription(launch_description))
 
     def emit_event(self, event: Any) -> None:
-        """Put an event into the queue; while the service runs, block until its loop has taken it.
+        """Queue an event; while the service runs, block until its loop has taken it.
 
-        Raises `RuntimeError` in the thread of that loop, where upstream waits for itself for ever.
+        Raises `RuntimeError` in the thread of that loop, where upstream blocks for ever.
         """
         with self.__guard:
             loop = self.__loop
@@ -106,7 +105,7 @@ class LaunchService:
             taken.set_result(None)
 
     def __stop_taking(self) -> None:
-        """The loop ends; what is still on its way is for the next run."""
+        """Clear the loop at its end; events still under way are queued for the next run."""
         with self.__guard:
             self.__loop = self.__task = None
             left = list(self.__on_their_way)
@@ -114,7 +113,7 @@ class LaunchService:
             self.__take(taken)
 
     def run(self, *, shutdown_when_idle: bool = True) -> int:
-        """Run in a loop of its own until the end; 1 when any exception came up to here, else 0."""
+        """Run in a new event loop until the end; return 1 if an exception was caught, else 0."""
         loop = new_event_loop()
         loop.set_debug(self.__debug)
         try:
@@ -124,7 +123,7 @@ class LaunchService:
             loop.close()
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
-        """Run in the loop that awaits this; raises `RuntimeError` when it runs already."""
+        """Run in the current event loop; raises `RuntimeError` if already running."""
         if not self.__running.acquire(blocking=False):
             raise RuntimeError("LaunchService cannot be run multiple times concurrently.")
         try:
@@ -154,7 +153,7 @@ class LaunchService:
         return self.__return_code
 
     async def __step(self) -> None:
-        """Handle the events that are there, or wait until there is one or an entity is done."""
+        """Handle the queued events, or wait until there is one or an entity is done."""
         try:
             self.__pending.raise_failures()
             if not self.__context._event_queue.empty():
@@ -225,9 +224,9 @@ class LaunchService:
         self.__context.emit_event_sync(Shutdown(reason=reason, due_to_sigint=due_to_sigint))
 
     def shutdown(self, force_sync: bool = False) -> asyncio.Future[None] | None:
-        """End what runs, from any thread; before it runs, it ends as soon as it does.
+        """Shut down, from any thread; before the service runs, this ends it as soon as it starts.
 
-        Within a coroutine, and unless `force_sync`, there is something to await; the request is made either way.
+        Returns an awaitable within a coroutine unless `force_sync` is set; the request is made either way.
         """
         reason = "LaunchService.shutdown() called"
         with self.__guard:
@@ -243,7 +242,7 @@ class LaunchService:
 
 
 def _done() -> asyncio.Future[None] | None:
-    """Something to await that is there already; None outside coroutines."""
+    """Return a completed future; None outside coroutines."""
     loop = _running_loop()
     if loop is None:
         return None

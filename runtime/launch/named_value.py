@@ -1,4 +1,4 @@
-"""What actions share that set a named value: an environment variable, or a launch configuration."""
+"""Base class of actions that set a named value: an environment variable or a launch configuration."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class NamedValue(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[NamedValue], dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
         kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
@@ -31,10 +31,10 @@ class NamedValue(Action):
 
     @property
     def name(self) -> list[Substitution]:
-        """What gets it."""
+        """The name of the variable or configuration."""
         return self.__name
 
     @property
     def value(self) -> list[Substitution]:
-        """What it gets."""
+        """The value to set."""
         return self.__value

@@ -1,4 +1,4 @@
-"""What a process prints, as lines for its loggers."""
+"""Split a process's output into lines for its loggers."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ class OutputLines:
         self._unfinished = ""
 
     def feed(self, data: bytes) -> None:
-        """Take bytes."""
+        """Take in bytes and log the completed lines."""
         *lines, self._unfinished = (self._unfinished + self._decode(data)).split("\n")
         for line in lines:
             self._log(line)
 
     def flush(self) -> None:
-        """Log the last line even though it has no end."""
+        """Log an unterminated last line."""
         rest, self._unfinished = self._unfinished, ""
         if rest:
             self._log(rest)

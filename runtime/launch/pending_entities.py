@@ -1,4 +1,4 @@
-"""What a launch is still waiting for."""
+"""The entities that a launch is waiting for."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from launch.launch_place import tell_visited
 
 
 class PendingEntities:
-    """Futures of entities that are not done, and a way to wait until anything changes, at a cost that is flat."""
+    """Futures of entities that are not done, and a wait for any change, at constant cost."""
 
     def __init__(self) -> None:
         self._futures: dict[asyncio.Future[Any], Any] = {}
@@ -23,11 +23,11 @@ class PendingEntities:
 
     @property
     def entities(self) -> list[Any]:
-        """Those that are not done; may be read in any thread."""
+        """The entities that are not done; may be read in any thread."""
         return list(self._futures.values())
 
     def add(self, future: asyncio.Future[Any], entity: Any) -> None:
-        """Wait for the future of an entity, too."""
+        """Add the future of an entity."""
         if future not in self._futures:
             self._futures[future] = entity
             future.add_done_callback(lambda done: self._done(done, entity))
@@ -38,7 +38,7 @@ class PendingEntities:
             raise self._failures.popleft()
 
     def wake(self) -> None:
-        """Something has changed."""
+        """Wake the waiter: something has changed."""
         self._woken = True
         if self._waiter is not None and not self._waiter.done():
             self._waiter.set_result(None)

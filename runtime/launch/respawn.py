@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Respawn:
-    """Starts again after any exit, until the launch ends or the retries are used up (-1: as often as need be)."""
+    """Respawns after any exit, until the launch ends or the retries are used up (-1: no limit)."""
 
     def __init__(self, wanted: Any, delay: float | None, max_retries: Any) -> None:
         self._wanted = wanted
@@ -22,11 +22,11 @@ class Respawn:
         self.is_wanted = False
 
     def evaluate(self, context: LaunchContext) -> None:
-        """Find out whether it is wanted at all."""
+        """Evaluate whether respawning is wanted at all."""
         self.is_wanted = bool(perform_typed_substitution(context, self._wanted, bool))
 
     async def wanted(self, context: LaunchContext, shutdown: asyncio.Future[None] | None) -> bool:
-        """Wait for the delay (s), or for the end of the launch; whether to start again."""
+        """Wait for the delay (s) or the end of the launch; return whether to respawn."""
         if not self.is_wanted or context.is_shutdown or shutdown is None or shutdown.done():
             return False
         if 0 <= self._max_retries <= self._retries:

@@ -1,4 +1,4 @@
-"""`ros2 ...` as a command of a launch file: answered by this runtime's own verbs, which see the nodes of the launch."""
+"""`ros2 ...` as a command of a launch file: run by this runtime's own verbs, which see the launch's nodes."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from collections.abc import Callable, Sequence
 from launch.child import PythonProgram
 
 NEEDS_SHELL = re.compile(r"[;&|<>()`$*?#~\n]|\[[^\]]*\]")
-"""What a shell would do something with, outside of quotes."""
+"""Characters outside quotes that a shell would interpret."""
 APART = ("bag", "daemon", "doctor", "wtf")
-"""Commands of `ros2` that are programs of their own, and no verbs of this runtime's."""
+"""`ros2` commands that are separate programs, not verbs of this runtime."""
 QUOTED = re.compile(r"'[^']*'|\"[^\"`$\\]*\"")
 
 
 def ros2_program(command: Sequence[str], shell: bool) -> PythonProgram | None:
-    """A command that is nothing but a `ros2` command line, as a program; None for all others."""
+    """Return a command that consists only of a `ros2` command line as a program; None for all others."""
     words = ros2_words(command, shell)
     return None if words is None else PythonProgram("launch.ros2_commands:verb", (words,), is_ours=True)
 
 
 def ros2_words(command: Sequence[str], shell: bool) -> list[str] | None:
-    """The words behind `ros2` of a command that is nothing but a `ros2` command line; None for all others.
+    """Return the arguments of a command that consists only of a `ros2` command line; None for all others.
 
-    Also None where the command is a program of its own, such as `ros2 bag`: that is started as any other.
+    Also None for a command that is a separate program, such as `ros2 bag`, which is started like any other.
     """
     words = list(command)
     if shell:
@@ -34,7 +34,7 @@ def ros2_words(command: Sequence[str], shell: bool) -> list[str] | None:
             return None
         try:
             words = shlex.split(line)
-        except ValueError:  # the shell says better what is wrong with it
+        except ValueError:  # the shell gives a better error message
             return None
     if not words or os.path.basename(words[0]) != "ros2" or (words[1:2] and words[1] in APART):
         return None
@@ -42,7 +42,7 @@ def ros2_words(command: Sequence[str], shell: bool) -> list[str] | None:
 
 
 def verb(words: Sequence[str]) -> Callable[[], object]:
-    """A callable that runs a `ros2` command line and ends with its exit code."""
+    """Return a callable that runs a `ros2` command line and exits with its exit code."""
 
     def run() -> object:
         import sys

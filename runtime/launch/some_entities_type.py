@@ -13,7 +13,7 @@ SomeEntitiesType_types_tuple = (LaunchDescriptionEntity, Iterable)
 
 
 def check_entities(entities: Any) -> list[LaunchDescriptionEntity]:
-    """A list of entities from one, several or none."""
+    """Return a list of entities from one, several or None."""
     if entities is None:
         return []
     return [entities] if isinstance(entities, LaunchDescriptionEntity) else list(entities)

@@ -9,12 +9,12 @@ if TYPE_CHECKING:
 
 
 class Substitution:
-    """A text that is known only when the launch runs."""
+    """A text known only when the launch runs."""
 
     def describe(self) -> str:
-        """A short text for people."""
+        """Return a short description."""
         return self.__repr__()
 
     def perform(self, context: LaunchContext) -> str:
-        """The text."""
+        """Evaluate to the text."""
         return ""

@@ -33,7 +33,7 @@ def main(*, threads: int | None = 1) -> None:
 
 
 class ComponentContainer:
-    """The services of a container, and the nodes that it has loaded."""
+    """The services of a container, and the nodes it has loaded."""
 
     def __init__(self, node: Any, executor: Any) -> None:
         from composition_interfaces.srv import ListNodes, LoadNode, UnloadNode
@@ -88,7 +88,7 @@ class ComponentContainer:
 
 
 def make_component(request: Any) -> Any:
-    """The node that a request describes; raises `LookupError` for a class that is not Python, and what it raises."""
+    """Create the requested node; raises `LookupError` for a class that is not Python, and whatever the class raises."""
     from rclpy.parameter import Parameter
 
     arguments = ["--ros-args"]
@@ -105,7 +105,7 @@ def make_component(request: Any) -> Any:
 
 
 def _with_options(component: type[Any], options: dict[str, Any]) -> type[Any]:
-    """A class whose nodes get options that the component itself does not know of."""
+    """Return a subclass whose nodes get options that the component itself does not handle."""
     base: Any = next((each for each in component.__mro__ if each.__module__.split(".")[0] == "rclpy"), object)
 
     class Configured(base):
@@ -116,7 +116,7 @@ def _with_options(component: type[Any], options: dict[str, Any]) -> type[Any]:
 
 
 def find_component(package: str, plugin: str) -> type[Any]:
-    """A component's class: an entry point, `package::Class` or `package.module::Class`; raises `LookupError`."""
+    """Find a component's class: an entry point, `package::Class` or `package.module::Class`; raises `LookupError`."""
     from importlib.metadata import entry_points  # takes 20 ms, and most launches have no container
 
     for each in entry_points(group=ENTRY_POINTS):

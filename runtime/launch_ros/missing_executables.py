@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
 ALLOWED = "allow_missing"
-"""The local, or launch configuration, that says whether a launch goes on without them."""
+"""The local, or launch configuration, that determines whether a launch goes on without them."""
 
 
 def allow_missing(service: Any) -> None:
-    """Let a launch service leave out nodes whose executables are not here."""
+    """Make a launch service skip nodes whose executables are missing."""
     service.context.extend_globals({ALLOWED: True})
 
 
@@ -31,7 +31,7 @@ def _allowed(context: LaunchContext) -> bool:
 
 
 def may_start(context: LaunchContext, action: Any, package: str | None) -> bool:
-    """Whether a node's executable is here; where it is not, False if it may be left out, else the look-up's error."""
+    """Whether a node's executable exists; if not, return False if it may be skipped, else raise the look-up's error."""
     logger = launch.logging.get_logger("launch")
     try:
         perform_substitutions(context, action.process_description.cmd[0])
@@ -58,7 +58,7 @@ def may_start(context: LaunchContext, action: Any, package: str | None) -> bool:
 
 
 def _what_it_has(package: str, executable: str) -> str:
-    """The executables of a package that is here, and how it gets this one; nothing where neither is known."""
+    """Describe the executables of an installed package and how it gets this one; empty if neither is known."""
     try:
         names = sorted(executables(package))
     except PackageNotFoundError:

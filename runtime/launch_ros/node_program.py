@@ -24,7 +24,7 @@ from launch_ros.component_container import EXECUTABLES
 
 
 def program_of(package: str | None, path: str) -> PythonProgram | None:
-    """The program behind an executable's path; None where it is not Python."""
+    """Return the program behind an executable's path; None if it is not Python."""
     if _is_container(package, path):
         threads = 1 if os.path.basename(path) == EXECUTABLES[0] else None
         return _program(container, False, threads)
@@ -56,7 +56,7 @@ def container(workspace_folders: Sequence[str], threads: int | None) -> Program:
 
 
 def is_this_python(words: Sequence[str]) -> bool:
-    """Whether words before a program ask for nothing but the Python that runs here."""
+    """Whether the words before a program only ask for the Python that runs here."""
     return len(words) == 1 and words[0] in ("python3", "python", sys.executable)
 
 
@@ -65,7 +65,7 @@ def _is_interpreter(word: str) -> bool:
 
 
 def container_path(package: str, executable: str) -> str | None:
-    """The path by which our own container stands for one that is not installed; None for other executables."""
+    """Return the path that represents our own container if none is installed; None for other executables."""
     place = os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib", package, executable)
     return place if _is_container(package, place) else None
 
@@ -76,9 +76,10 @@ def _is_container(package: str | None, path: str) -> bool:
 
 
 def os_command(package: str | None, command: list[str], at: int) -> list[str]:
-    """A command whose word `at` is the executable; where that is Python, with the embedded runtime behind it.
+    """Return the command with a Python executable `command[at]` run by the embedded runtime; others are unchanged.
 
-    A file that Python is to run, as in `python3 -m pdb FILE`, stays: its process finds the runtime by its environment.
+    A file given to Python itself, as in `python3 -m pdb FILE`, is left: its process finds the runtime by its
+    environment.
     """
     executable = _known(package, command[at])
     if executable is not None and executable.entry_point is not None:
@@ -100,7 +101,7 @@ def _known(package: str | None, path: str) -> Executable | None:
 
 
 def _above_packages(path: str) -> list[str]:
-    """The folder from which the Python package that a file lies in is imported, so that the file finds its own."""
+    """Return the folder from which a file's Python package is imported, so that the file finds its own modules."""
     folder = Path(path).resolve().parent
     inside = folder
     while (folder / "__init__.py").is_file():
@@ -109,7 +110,7 @@ def _above_packages(path: str) -> list[str]:
 
 
 def _prefix_folders(package: str | None) -> list[str]:
-    """Folders from which the modules of an installed package are imported."""
+    """Return the folders from which an installed package's modules are imported."""
     if package is None:
         return []
     try:

@@ -18,7 +18,7 @@ ParameterArgument = tuple[str, bool]
 
 
 def global_parameter_arguments(global_params: Iterable[Any]) -> list[ParameterArgument]:
-    """What `SetParameter` and `SetParametersFromFile` have set; raises `AssertionError` for a missing file."""
+    """Return what `SetParameter` and `SetParametersFromFile` have set; raises `AssertionError` for a missing file."""
     found: list[ParameterArgument] = []
     for each in global_params:
         if isinstance(each, tuple):
@@ -36,7 +36,7 @@ def global_parameter_arguments(global_params: Iterable[Any]) -> list[ParameterAr
 def own_parameter_arguments(
     context: LaunchContext, parameters: Sequence[Any], node_name: str | None, logger: Any
 ) -> list[ParameterArgument]:
-    """A node's own parameters; a dict becomes a file for the node's full name, or for any node where that is None."""
+    """Return a node's own parameters; a dict becomes a file for the node's full name, or for any node if None."""
     found: list[ParameterArgument] = []
     for each in parameters:
         if isinstance(each, Mapping):
@@ -59,7 +59,7 @@ def _rule(name: str, value: Any) -> str:
 
 
 def write_parameters(parameters: Mapping[str, Any], node_name: str | None) -> str:
-    """A new parameter file; its path. Lists carry a tag that parameter parsers ignore, as upstream writes them."""
+    """Write a new parameter file and return its path. Lists get a tag that parameter parsers ignore, as upstream."""
     import yaml
 
     content = {node_name or "/**": {"ros__parameters": dict(parameters)}}

@@ -1,4 +1,4 @@
-"""Which part of a launch file sets each of a node's parameters: a launch argument, or a line of the file."""
+"""Which part of a launch file sets each parameter of a node: a launch argument, or a line of the file."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def tell_given(context: LaunchContext, node: str, parameters: Sequence[Any], origin: str) -> None:
-    """Tell what a launch file gives a node by name; files name their own values. `origin` is the line of the action."""
+    """Report which parameters a launch file gives a node; files report their own. `origin` is the action's line."""
     given = {
         name: source
         for entry in parameters
@@ -36,7 +36,7 @@ def _sources(context: LaunchContext, entry: Any, origin: str) -> Iterator[tuple[
 
 
 def _arguments(context: LaunchContext, value: Any) -> Iterator[str]:
-    """The launch configurations that a value is made of, however deep."""
+    """Return the launch configurations that a value is composed of, at any depth."""
     if isinstance(value, LaunchConfiguration):
         yield perform_substitutions(context, value.variable_name)
     elif isinstance(value, ParameterValue):

@@ -1,4 +1,4 @@
-"""Warnings about parameters that differ from what a launch file seems to say; the outcome is that of ROS 2."""
+"""Warnings about parameters whose values differ from what a launch file seems to say; the outcome is ROS 2's."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ PARAMETERS_KEY = "ros__parameters"
 
 
 def warn_of_files(files: Iterable[str], node_name: str, origin: str) -> None:
-    """Warn of each file none of whose keys means the node."""
+    """Warn of each file that has no key for the node."""
     for path in files:
         keys = _keys_of(path, os.path.getmtime(path)) if os.path.isfile(path) else ()
         if keys and not any(key_matches(key, node_name) for key, _ in keys):
@@ -32,12 +32,12 @@ def warn_of_files(files: Iterable[str], node_name: str, origin: str) -> None:
 
 @lru_cache(maxsize=64)
 def _keys_of(path: str, _changed: float) -> tuple[tuple[str, int], ...]:
-    """Node keys of a file with their lines; none where it cannot be read, because the node says that better."""
+    """Return a file's node keys with their lines; none if it cannot be read, which the node reports better."""
     import yaml
 
     try:
         with open(path, encoding="utf-8") as file:
-            untyped: Any = yaml  # the stubs say nothing of what `compose` gives
+            untyped: Any = yaml  # the stubs leave `compose` untyped
             root = untyped.compose(file, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
     except (OSError, UnicodeDecodeError, yaml.YAMLError):
         return ()
@@ -83,7 +83,7 @@ def _warn_of_scalar(name: str, value: Any, origin: str) -> None:
 
 
 def warn_of_argument(name: str, value: Any, origin: str) -> None:
-    """Warn of a value for all nodes, which travels as plain text."""
+    """Warn of a value for all nodes, which is passed as plain text."""
     if isinstance(value, (list, tuple)):
         _warn(origin, f"{name}: a list set for all nodes arrives as the string '{value}'")
     elif isinstance(value, str) and not isinstance(scalar_value(value), str):
@@ -92,7 +92,7 @@ def warn_of_argument(name: str, value: Any, origin: str) -> None:
 
 
 def changes_in_yaml(text: str, found: Any) -> bool:
-    """Whether YAML made something else of a text than a reader would."""
+    """Whether YAML reads a text differently from a human reader."""
     plain = text.strip()
     if isinstance(found, bool):
         return plain.lower() not in ("true", "false")
@@ -102,7 +102,7 @@ def changes_in_yaml(text: str, found: Any) -> bool:
 
 
 def changes_in_file(text: str) -> bool:
-    """Whether a string that YAML writes without quotes is no string to rcl."""
+    """Whether a string written without quotes in YAML is no string to rcl."""
     import yaml
 
     return not isinstance(scalar_value(text), str) and yaml.dump(text).splitlines()[0] == text

@@ -1,4 +1,4 @@
-"""Types of what a node's `parameters` may be."""
+"""Types of a node's `parameters`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Types of what remap rules may be."""
+"""Types of remap rules."""
 
 from __future__ import annotations
 

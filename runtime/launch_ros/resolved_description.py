@@ -1,7 +1,6 @@
 """A launch file fully evaluated, with nothing started: the output of `--print --resolved`."""
 
-# pyright: reportPrivateUsage=false
-# Discovery is shared within launch, and not for its users: underscores as upstream.
+# Discovery is internal to launch and not for its users: underscores as upstream.
 
 from __future__ import annotations
 
@@ -31,7 +30,7 @@ STEP = "  "
 
 
 def resolve_description(path: str, arguments: Mapping[str, str]) -> Iterator[str]:
-    """Lines of the tree of a launch file with these arguments; raises what the launch would end with."""
+    """Return the lines of a launch file's tree with these arguments; raises what would end the launch."""
     context = LaunchContext(noninteractive=True)
     context.resolving = True
     loop = asyncio.new_event_loop()
@@ -49,7 +48,7 @@ def resolve_description(path: str, arguments: Mapping[str, str]) -> Iterator[str
 
 
 def _problems_only() -> logging.Handler:
-    """Warnings and errors go to stderr; what the launch file logs is in the tree."""
+    """Send only warnings and errors to stderr; what the launch file logs is in the tree."""
     handler = logging.StreamHandler(sys.stderr)
     handler.setLevel(logging.WARNING)
     return handler
@@ -61,7 +60,7 @@ class _Resolver:
         self._given = given
 
     def lines(self, entity: Any, depth: int) -> Iterator[str]:
-        """An entity's own lines, then those of what comes of it."""
+        """Return an entity's own lines, then those of the entities it leads to."""
         if isinstance(entity, LaunchDescription):
             yield from self._below(entity.visit(self._context), depth)
             return

@@ -1,4 +1,4 @@
-"""The parameters that a node will start with: value, type, and which part of the launch file each comes from."""
+"""The parameters with which a node will start: value, type, and the part of the launch file each comes from."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from launch_ros.parameter_arguments import ParameterArgument
 
 @dataclass(frozen=True)
 class ResolvedParameter:
-    """A parameter's value, the word for its type, and where it comes from."""
+    """A parameter's value, the name of its type, and its source."""
 
     name: str
     value: Any
@@ -24,7 +24,7 @@ class ResolvedParameter:
 
 
 def resolve_parameters(arguments: Iterable[ParameterArgument], node_name: str) -> list[ResolvedParameter]:
-    """The overrides of a node, by rcl's rules; raises `ParameterYamlError` for what the node would refuse."""
+    """Return a node's overrides by rcl's rules; raises `ParameterYamlError` for what the node would refuse."""
     together = ParameterTable()
     sources: dict[str, list[tuple[str, Any]]] = {}
     for argument, is_file in arguments:
@@ -41,7 +41,7 @@ def resolve_parameters(arguments: Iterable[ParameterArgument], node_name: str) -
 
 
 def problem_of(arguments: Iterable[ParameterArgument], node_name: str) -> str:
-    """Why the node would refuse its parameters; empty when it would not."""
+    """Say why the node would refuse its parameters; empty if it would not."""
     try:
         resolve_parameters(arguments, node_name)
     except ParameterYamlError as error:
@@ -64,7 +64,7 @@ def _source(argument: str, is_file: bool) -> str:
 
 
 def _source_of(given: list[tuple[str, Any]], value: Any) -> str:
-    """The last source that gave the value which counts."""
+    """Return the last source of the effective value."""
     return next((source for source, each in reversed(given) if each == value), given[-1][0])
 
 

@@ -1,4 +1,4 @@
-"""The launch's own node, for actions that speak ROS."""
+"""The launch's own node, for actions that use ROS."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ KEY = "ros_adapter"
 
 
 class ROSAdapter:
-    """A node in a context of its own, spun by a thread of its own while the launch runs."""
+    """A node in its own context, spun in a separate thread while the launch runs."""
 
     def __init__(self, *, argv: list[str] | None = None) -> None:
         import rclpy
@@ -68,7 +68,7 @@ class ROSAdapter:
 
 
 def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
-    """The adapter of a launch, made when it is first asked for."""
+    """Return a launch's adapter, created on first use."""
     found = context.get_locals_as_dict().get(KEY)
     if found is None:
         found = ROSAdapter(argv=context.argv)
@@ -83,5 +83,5 @@ def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
 
 
 def get_ros_node(context: LaunchContext) -> Any:
-    """The node of a launch."""
+    """Return a launch's node."""
     return get_ros_adapter(context).ros_node

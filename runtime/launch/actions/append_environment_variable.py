@@ -28,7 +28,7 @@ class AppendEnvironmentVariable(NamedValue):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[AppendEnvironmentVariable], dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         prepend = entity.get_attr("prepend", optional=True, data_type=bool, can_be_str=True)
         if prepend is not None:
@@ -40,16 +40,16 @@ class AppendEnvironmentVariable(NamedValue):
 
     @property
     def prepend(self) -> Any:
-        """Whether it goes before what is there."""
+        """Whether the value is prepended."""
         return self.__prepend
 
     @property
     def separator(self) -> list[Substitution]:
-        """What goes between."""
+        """The separator between old and new value."""
         return self.__separator
 
     def execute(self, context: LaunchContext) -> None:
-        """Add it."""
+        """Append or prepend the value."""
         name = perform_substitutions(context, self.name)
         value = perform_substitutions(context, self.value)
         before = perform_typed_substitution(context, self.__prepend, bool)

@@ -43,7 +43,7 @@ class DeclareLaunchArgument(Action, DeclaresArgument):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[DeclareLaunchArgument], dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.escape_characters(entity.get_attr("name"))
         default = entity.get_attr("default", optional=True)
@@ -79,26 +79,26 @@ class DeclareLaunchArgument(Action, DeclaresArgument):
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The argument's name."""
         return self.__name
 
     @property
     def default_value(self) -> list[Substitution] | None:
-        """The default; None: it must be given."""
+        """The default; None if the argument is required."""
         return self.__default
 
     @property
     def description(self) -> str:
-        """What it is for."""
+        """The description, with the valid choices."""
         return self.__description
 
     @property
     def choices(self) -> list[str] | None:
-        """The values that it may have; None: any."""
+        """The valid values; None: any."""
         return self.__choices
 
     def execute(self, context: LaunchContext) -> None:
-        """Set the default where it is needed; raises `RuntimeError` for a missing or wrong value."""
+        """Set the default if needed; raises `RuntimeError` for a missing or invalid value."""
         context.declared_arguments.add(self.name)
         if self.name not in context.launch_configurations:
             if self.default_value is None:

@@ -22,9 +22,9 @@ class EmitEvent(Action):
 
     @property
     def event(self) -> Event:
-        """The event."""
+        """The event to emit."""
         return self.__event
 
     def execute(self, context: LaunchContext) -> None:
-        """Emit it."""
+        """Emit the event."""
         context.emit_event_sync(self.__event)

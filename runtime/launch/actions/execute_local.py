@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 
 class ExecuteLocal(Action):
-    """Runs an executable, logs its output, ends it with the launch, and respawns it if asked to."""
+    """Runs an executable, logs its output, ends it with the launch, and respawns it if requested."""
 
     def __init__(
         self,
@@ -90,17 +90,17 @@ class ExecuteLocal(Action):
 
     @property
     def process_description(self) -> Executable:
-        """What is run."""
+        """The executable's description."""
         return self.__process_description
 
     @property
     def shell(self) -> bool:
-        """Whether a shell runs it."""
+        """Whether the command is run by a shell."""
         return self.__shell
 
     @property
     def emulate_tty(self) -> bool:
-        """Whether it prints to a terminal of its own."""
+        """Whether the process prints to its own pseudo terminal."""
         return self.__emulate_tty
 
     @property
@@ -115,40 +115,40 @@ class ExecuteLocal(Action):
 
     @property
     def output(self) -> Any:
-        """Where its lines go."""
+        """The output setting: where its lines are logged."""
         return self.__output
 
     @property
     def process_details(self) -> dict[str, Any] | None:
-        """Name, command, directory and environment, since it was prepared; and pid, since it was started."""
+        """Name, command, directory and environment, available once prepared, and the pid, once started."""
         return self.__details
 
     @property
     def return_code(self) -> int | None:
-        """The exit code of its last run, None before that."""
+        """The exit code of the last run; None before."""
         return self.__return_code
 
     @property
     def on_exit(self) -> Any:
-        """What happens when it has ended."""
+        """The actions or callable for the process's exit."""
         return self.__on_exit
 
     @property
     def respawn(self) -> bool:
-        """Whether it is started again when it has ended, since it was executed (not upstream)."""
+        """Whether the process is respawned after an exit; known once executed (not upstream)."""
         return self.__respawn.is_wanted
 
     @property
     def respawn_delay(self) -> float | None:
-        """Seconds before it is started again (not upstream)."""
+        """Delay before a respawn, in seconds (not upstream)."""
         return self.__respawn.delay
 
     def get_stdout(self) -> str:
-        """What it has printed; raises `RuntimeError` unless `cached_output` was asked for."""
+        """Return its standard output; raises `RuntimeError` unless `cached_output` was set."""
         return self.__cached(1)
 
     def get_stderr(self) -> str:
-        """What it has printed as errors; raises `RuntimeError` unless `cached_output` was asked for."""
+        """Return its standard error; raises `RuntimeError` unless `cached_output` was set."""
         return self.__cached(2)
 
     def __cached(self, stream: int) -> str:
@@ -160,14 +160,14 @@ class ExecuteLocal(Action):
         return b"".join(self.__cache[stream]).decode("utf-8", "replace")
 
     def get_sub_entities(self) -> list[Any]:
-        """What happens when it has ended."""
+        """Return the actions for the process's exit."""
         on_exit: Any = self.__on_exit
         if isinstance(on_exit, (list, tuple)):
             return [*on_exit]
         return [self.__on_exit] if isinstance(self.__on_exit, Action) else []
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
-        """Done when it has ended for good."""
+        """Return a future that is done when the process has ended and is not respawned."""
         return self.__completed
 
     def prepare(self, context: LaunchContext) -> None:
@@ -185,17 +185,17 @@ class ExecuteLocal(Action):
         }
 
     def python_program(self, command: list[str]) -> PythonProgram | None:
-        """The command as a Python program of this runtime; None: it is a process of the system."""
+        """Return the command as a Python program of this runtime; None if it runs as an operating system process."""
         from launch.ros2_commands import ros2_program
 
         return ros2_program(command, self.__shell)
 
     def words_for(self, program: PythonProgram | None, command: list[str]) -> list[str]:
-        """The command as the program is given it; where there is none, as the system is."""
+        """Return the argument list for the program, or for the system if there is none."""
         return command
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
-        """Start it as soon as the loop goes on."""
+        """Schedule the start of the process in the event loop."""
         self.prepare(context)
         name = self.__process_description.final_name
         if self.__executed:
@@ -221,7 +221,7 @@ class ExecuteLocal(Action):
 
     def __handlers(self) -> list[Any]:
         return [
-            self.__when(ProcessExited, self.__told),  # the first to be registered hears last
+            self.__when(ProcessExited, self.__told),  # handlers run newest first, so this one runs last
             OnTargetedProcess(ShutdownProcess, self, lambda event, context: self._shutdown_process(context, True)),
             OnTargetedProcess(SignalProcess, self, self.__on_signal),
             self.__when(ProcessIO, self.__on_io),
@@ -231,7 +231,7 @@ class ExecuteLocal(Action):
         ]
 
     def __when(self, kind: type[Any], what: Any) -> OnActionEventBase:
-        """As `OnProcessExit` and its like, which know this class."""
+        """Return a handler like `OnProcessExit`, which cannot be imported here as it depends on this class."""
         return OnActionEventBase(action_matcher=self, on_event=what, target_event_cls=kind, target_action_cls=Action)
 
     def __on_io(self, event: Any, context: LaunchContext) -> None:
@@ -259,7 +259,7 @@ class ExecuteLocal(Action):
         self.__retire(context)
 
     def __retire(self, context: LaunchContext) -> None:
-        """Listen no more: it has ended for good, and its last exit is told. A long launch would keep every process."""
+        """Unregister the handlers after the last exit is handled; a long launch would otherwise keep every process."""
         if self.__exits_to_tell or self.__completed is None or not self.__completed.done():
             return
         for handler in self.__registered:
@@ -283,7 +283,7 @@ class ExecuteLocal(Action):
         self._shutdown_process(context, not event.due_to_sigint or context.noninteractive)
 
     def _shutdown_process(self, context: LaunchContext, send_sigint: bool) -> None:
-        """Begin to end it, once; where the terminal has already sent SIGINT, none is sent."""
+        """Begin to shut the process down, once; without SIGINT if the terminal has already sent it."""
         if self.__shutdown is None or self.__shutdown.done():
             return
         self.__shutdown.set_result(None)
@@ -297,7 +297,7 @@ class ExecuteLocal(Action):
             child.send_signal(2)
 
     async def __run(self, context: LaunchContext) -> None:
-        """Start it, and again while that is wanted."""
+        """Run the process, and respawn it while wanted."""
         while not self.__over:
             try:
                 code = await self.__run_once(context)
@@ -380,10 +380,10 @@ class ExecuteLocal(Action):
 
 
 def _kill_by_name(signal_number: Any) -> Any:
-    """SIGKILL may be given by its name; other names are refused by the system call, as upstream has it."""
+    """Convert SIGKILL given by name; other names fail in the system call, as upstream."""
     return 9 if signal_number == "SIGKILL" else signal_number
 
 
 def _by_stream(output: Any) -> bool:
-    """Whether it says for each stream where its lines go, and is no text."""
+    """Whether the output setting is per stream (a dict) and not a text."""
     return isinstance(output, dict)

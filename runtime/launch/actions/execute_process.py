@@ -35,7 +35,7 @@ class ExecuteProcess(ExecuteLocal):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] | None = None) -> tuple[Any, dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         from launch.frontend.process_attributes import parse_process
 
         _, kwargs = super().parse(entity, parser)
@@ -43,36 +43,36 @@ class ExecuteProcess(ExecuteLocal):
 
     @classmethod
     def _parse_cmdline(cls, cmd: str, parser: Any) -> list[list[Substitution]]:
-        """Words of a command line, for classes of others that parse one."""
+        """Split a command line into words, for third-party subclasses that need it."""
         from launch.frontend.process_attributes import parse_command_line
 
         return parse_command_line(cmd, parser)
 
     @property
     def name(self) -> Any:
-        """The label: without its number until it was prepared."""
+        """The label; without its number until prepared."""
         description = self.process_description
         return description.name if description.final_name is None else description.final_name
 
     @property
     def cmd(self) -> Any:
-        """The command: as substitutions until it was prepared."""
+        """The command; as substitutions until prepared."""
         description = self.process_description
         return description.cmd if description.final_cmd is None else description.final_cmd
 
     @property
     def cwd(self) -> list[Substitution] | str | None:
-        """The working directory: as substitutions until it was prepared."""
+        """The working directory; as substitutions until prepared."""
         description = self.process_description
         return description.cwd if description.final_cwd is None else description.final_cwd
 
     @property
     def env(self) -> Any:
-        """The environment: as substitutions until it was prepared."""
+        """The environment; as substitutions until prepared."""
         description = self.process_description
         return description.env if description.final_env is None else description.final_env
 
     @property
     def additional_env(self) -> Any:
-        """What is added to the environment."""
+        """Variables added to the environment."""
         return self.process_description.additional_env

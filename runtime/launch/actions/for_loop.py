@@ -1,4 +1,4 @@
-"""Repeating actions for each of several values."""
+"""Actions that repeat entities for each of several values."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @expose_action("for_each")
 class ForEach(Action):
-    """Visits what a function returns for each iteration; the values are YAML maps separated by `;`."""
+    """Visits the entities that a function returns for each iteration; values are YAML maps separated by `;`."""
 
     SEPARATOR = ";"
 
@@ -42,16 +42,16 @@ class ForEach(Action):
 
     @property
     def input_values(self) -> list[Any]:
-        """The values as a text."""
+        """The values, as a text."""
         return self._input_values
 
     @property
     def function(self) -> Callable[..., Any]:
-        """What is called with the values of each iteration."""
+        """The function called with the values of each iteration."""
         return self._function
 
     def execute(self, context: LaunchContext) -> list[Any]:
-        """Call the function for each iteration; raises `SyntaxError` for values that are no YAML map."""
+        """Call the function for each iteration; raises `SyntaxError` for values that are not a YAML map."""
         import yaml
 
         texts = [
@@ -72,7 +72,7 @@ class ForEach(Action):
 
 @expose_action("for")
 class ForLoop(Action):
-    """Visits what a function of `i` returns for each number below a length."""
+    """Visits the entities that a function of `i` returns, for each number from 0 below a length."""
 
     def __init__(self, length: Any, *, function: Callable[..., Any], name: str | None = None, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -97,21 +97,21 @@ class ForLoop(Action):
 
     @property
     def length(self) -> list[Any]:
-        """How often, as a text."""
+        """The number of iterations, as a text."""
         return self._length
 
     @property
     def function(self) -> Callable[..., Any]:
-        """What is called with each number."""
+        """The function called with each number."""
         return self._function
 
     @property
     def name(self) -> str | None:
-        """The name by which `$(index name)` knows the number."""
+        """The name that `$(index name)` uses for the number."""
         return self._name
 
     def execute(self, context: LaunchContext) -> list[Any]:
-        """Call the function for each number; raises `ValueError` for a length that is none."""
+        """Call the function for each number; raises `ValueError` for a length that is not an integer."""
         length = int(perform_substitutions(context, self._length))
         found: list[Any] = []
         for number in range(length):
@@ -120,7 +120,7 @@ class ForLoop(Action):
 
 
 class _WithLocals(Action):
-    """Sets locals for the entities that are visited next."""
+    """Sets locals for the entities visited next, or drops them."""
 
     def __init__(self, values: dict[str, Any] | None) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""Actions with a scope of their own."""
+"""A group of actions with its own scope."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class GroupAction(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[GroupAction], dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         for name in ("scoped", "forwarding"):
             value = entity.get_attr(name, data_type=bool, optional=True)
@@ -56,7 +56,7 @@ class GroupAction(Action):
         return cls, kwargs
 
     def get_sub_entities(self) -> list[Any]:
-        """The actions, with what makes the scope around them."""
+        """Return the actions, enclosed by those that create and end the scope."""
         if self.__to_return is None:
             self.__to_return = self._with_scope(list(self.__actions))
         return self.__to_return
@@ -73,5 +73,5 @@ class GroupAction(Action):
         return [*begin, *actions, *end]
 
     def execute(self, context: LaunchContext) -> list[Any]:
-        """Visit the actions."""
+        """Return the actions to visit."""
         return self.get_sub_entities()

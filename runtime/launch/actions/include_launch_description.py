@@ -40,7 +40,7 @@ class IncludeLaunchDescription(Action, IncludesDescription):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[IncludeLaunchDescription], dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["launch_description_source"] = parser.parse_substitution(entity.get_attr("file"))
         arguments: list[Pair] = []
@@ -54,7 +54,7 @@ class IncludeLaunchDescription(Action, IncludesDescription):
 
     @property
     def launch_description_source(self) -> LaunchDescriptionSource:
-        """Where the launch file is."""
+        """The source of the launch file."""
         return self.__source
 
     @property
@@ -63,26 +63,26 @@ class IncludeLaunchDescription(Action, IncludesDescription):
         return self.__arguments
 
     def describe(self) -> str:
-        """A short text for people."""
+        """Return a short description."""
         return f"IncludeLaunchDescription({self.__source.location})"
 
     def get_sub_entities(self) -> list[Any]:
-        """The description, where it can be read without a context."""
+        """Return the description if it can be read without a context."""
         try:
             description = self.__source.try_get_launch_description_without_context()
-        except Exception:  # a file that cannot be read declares nothing; its errors come when it is visited
+        except Exception:  # an unreadable file declares nothing; it fails when visited
             return []
         return [] if description is None else [description]
 
     def execute(self, context: LaunchContext) -> list[Any]:
-        """Read the file, check its required arguments, and visit it."""
+        """Read the file, check its required arguments, and return its entities to visit."""
         description = self.__source.get_launch_description(context)
         self._set_locals(context)
         self._check_required(description, self._given_names(context))
         return [*(SetLaunchConfiguration(name, value) for name, value in self.__arguments), description]
 
     def _check_required(self, description: Any, given: list[str]) -> None:
-        """Raise `RuntimeError` for a required argument that nobody gives; names of includes below add up on the way."""
+        """Raise `RuntimeError` for a required argument not given; names given by nested includes accumulate."""
         for argument, below in description.get_launch_arguments_with_include_launch_description_actions():
             if argument._conditionally_included or argument.default_value is not None:
                 continue
@@ -104,7 +104,7 @@ class IncludeLaunchDescription(Action, IncludesDescription):
 
         try:
             return self._given_names(LaunchContext())
-        except Exception:  # a name that only the running launch knows cannot be counted
+        except Exception:  # a name only known in the running launch cannot be counted
             return []
 
     def _set_locals(self, context: LaunchContext) -> None:

@@ -28,11 +28,11 @@ class Log(Message):
 
     @property
     def level(self) -> list[Substitution]:
-        """The level."""
+        """The name of the level."""
         return self.__level
 
     def execute(self, context: LaunchContext) -> None:
-        """Log it; raises `KeyError` for a level that there is not."""
+        """Log the message; raises `KeyError` for an unknown level."""
         level = perform_substitutions(context, self.__level).upper()
         if level not in LEVELS:
             raise KeyError(f"Invalid log level '{level}', expected: {LEVELS.keys()}")
@@ -42,7 +42,7 @@ class Log(Message):
 
 @expose_action("log_debug")
 class LogDebug(Log):
-    """Logs a message that only `--debug` shows."""
+    """Logs a message shown only with `--debug`."""
 
     def __init__(self, *, msg: Any, **kwargs: Any) -> None:
         super().__init__(msg=msg, level="DEBUG", **kwargs)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Message(Action):
-    """The base of actions that log a message."""
+    """Base class of actions that log a message."""
 
     def __init__(self, *, msg: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -25,14 +25,14 @@ class Message(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Message], dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["msg"] = parser.parse_substitution(entity.get_attr("message"))
         return cls, kwargs
 
     @property
     def msg(self) -> list[Substitution]:
-        """The text."""
+        """The message."""
         return self.__msg
 
 
@@ -46,5 +46,5 @@ class LogInfo(Message):
         self.__logger = launch.logging.get_logger("launch.user")
 
     def execute(self, context: LaunchContext) -> None:
-        """Log it."""
+        """Log the message."""
         self.__logger.info("%s", perform_substitutions(context, self.msg))

@@ -35,11 +35,11 @@ class OpaqueCoroutine(Action):
         self.__future: asyncio.Future[Any] | None = None
 
     def get_asyncio_future(self) -> asyncio.Future[Any] | None:
-        """Done when the coroutine is."""
+        """Return a future that is done when the coroutine is."""
         return self.__future
 
     def execute(self, context: LaunchContext) -> None:
-        """Start it."""
+        """Start the coroutine."""
         args = self.__args if self.__ignore_context else [context, *self.__args]
         self.__future = context.asyncio_loop.create_task(self.__coroutine(*args, **self.__kwargs))
         context.register_event_handler(OnShutdown(on_shutdown=self.__cancel))

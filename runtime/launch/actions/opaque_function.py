@@ -28,5 +28,5 @@ class OpaqueFunction(Action):
         self.__kwargs = {} if kwargs is None else kwargs
 
     def execute(self, context: LaunchContext) -> Any:
-        """Call it."""
+        """Call the function and return its entities."""
         return self.__function(context, *self.__args, **self.__kwargs)

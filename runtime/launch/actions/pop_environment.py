@@ -14,5 +14,5 @@ class PopEnvironment(Action):
     """Restores the environment that was saved last."""
 
     def execute(self, context: LaunchContext) -> None:
-        """Take it back."""
+        """Restore the environment."""
         context._pop_environment()  # pyright: ignore[reportPrivateUsage] -- there for this action, as upstream

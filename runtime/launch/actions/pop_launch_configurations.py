@@ -14,5 +14,5 @@ class PopLaunchConfigurations(Action):
     """Restores the launch configurations that were saved last."""
 
     def execute(self, context: LaunchContext) -> None:
-        """Take them back."""
+        """Restore the configurations."""
         context._pop_launch_configurations()  # pyright: ignore[reportPrivateUsage] -- there for this action, as upstream

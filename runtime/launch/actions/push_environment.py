@@ -14,5 +14,5 @@ class PushEnvironment(Action):
     """Saves the environment, for a later `PopEnvironment`."""
 
     def execute(self, context: LaunchContext) -> None:
-        """Save it."""
+        """Save the environment."""
         context._push_environment()  # pyright: ignore[reportPrivateUsage] -- there for this action, as upstream

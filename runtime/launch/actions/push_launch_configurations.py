@@ -14,5 +14,5 @@ class PushLaunchConfigurations(Action):
     """Saves the launch configurations, for a later `PopLaunchConfigurations`."""
 
     def execute(self, context: LaunchContext) -> None:
-        """Save them."""
+        """Save the configurations."""
         context._push_launch_configurations()  # pyright: ignore[reportPrivateUsage] -- there for this action, as upstream

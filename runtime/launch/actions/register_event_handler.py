@@ -23,10 +23,10 @@ class RegisterEventHandler(Action):
         return self.__event_handler
 
     def execute(self, context: LaunchContext) -> None:
-        """Register it."""
+        """Register the handler."""
         context.register_event_handler(self.__event_handler)
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, list[Any]]]:
-        """What the handler does."""
+        """Return the handler's description and entities."""
         _, entities = self.__event_handler.describe()
         return [(f"{self.__event_handler}", entities)] if entities else []

@@ -19,10 +19,10 @@ class ResetEnvironment(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[ResetEnvironment], dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
-        """Put it back."""
+        """Reset the environment."""
         context._reset_environment()  # pyright: ignore[reportPrivateUsage] -- there for this action, as upstream

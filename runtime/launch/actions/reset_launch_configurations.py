@@ -26,13 +26,13 @@ class ResetLaunchConfigurations(Action, ResetsConfigurations):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[ResetLaunchConfigurations], dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["launch_configurations"] = parse_kept(entity, parser)
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
-        """Clear them."""
+        """Clear the configurations that are not kept."""
         kept = {
             perform_substitutions(context, normalize_to_list_of_substitutions(name)): perform_substitutions(
                 context, normalize_to_list_of_substitutions(value)
@@ -44,7 +44,7 @@ class ResetLaunchConfigurations(Action, ResetsConfigurations):
 
 
 def parse_kept(entity: Entity, parser: Parser) -> dict[Any, Any]:
-    """Names and values of `keep` elements."""
+    """Parse the names and values of `keep` elements."""
     kept: dict[Any, Any] = {}
     for each in entity.get_attr("keep", data_type=list, optional=True) or ():
         name = tuple(parser.parse_substitution(each.get_attr("name")))

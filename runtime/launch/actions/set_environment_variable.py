@@ -14,9 +14,9 @@ if TYPE_CHECKING:
 
 @expose_action("set_env")
 class SetEnvironmentVariable(NamedValue):
-    """Sets an environment variable for processes that are visited later."""
+    """Sets an environment variable for processes visited later."""
 
     def execute(self, context: LaunchContext) -> None:
-        """Set it."""
+        """Set the variable."""
         name = perform_substitutions(context, self.name)
         context.environment[name] = perform_substitutions(context, self.value)

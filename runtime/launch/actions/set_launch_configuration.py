@@ -17,6 +17,6 @@ class SetLaunchConfiguration(NamedValue):
     """Sets a launch configuration."""
 
     def execute(self, context: LaunchContext) -> None:
-        """Set it."""
+        """Set the configuration."""
         name = perform_substitutions(context, self.name)
         context.launch_configurations[name] = perform_substitutions(context, self.value)

@@ -27,7 +27,7 @@ class Shutdown(EmitEvent):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Shutdown], dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         from launch.action import Action
 
         _, kwargs = Action.parse.__func__(cls, entity, parser)  # type: ignore[attr-defined] -- the base's parser, past the class between
@@ -37,7 +37,7 @@ class Shutdown(EmitEvent):
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
-        """End it."""
+        """Shut the launch down."""
         event = context.get_locals_as_dict().get("event")
         if isinstance(event, ProcessExited):
             launch.logging.get_logger("launch").info(

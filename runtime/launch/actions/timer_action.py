@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @expose_action("timer")
 class TimerAction(Action):
-    """Visits actions after a period (s), with the locals of its start and the configurations of its end."""
+    """Visits actions after a period (s), with the locals from its start and the configurations at its end."""
 
     def __init__(
         self, *, period: Any, actions: Iterable[Action], cancel_on_shutdown: Any = True, **kwargs: Any
@@ -46,7 +46,7 @@ class TimerAction(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[TimerAction], dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["period"] = parser.parse_if_substitutions(entity.get_attr("period", data_type=float, can_be_str=True))
         cancel = entity.get_attr("cancel_on_shutdown", optional=True, data_type=bool, can_be_str=True)
@@ -66,24 +66,24 @@ class TimerAction(Action):
         return self.__actions
 
     def describe(self) -> str:
-        """A short text for people."""
+        """Return a short description."""
         return f"TimerAction(period={self.__period}, actions=<actions>)"
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, list[Any]]]:
-        """The actions."""
+        """Return the actions, with their condition."""
         return [(f"{self.__period} seconds pass without being canceled", list(self.__actions))]
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
-        """Done when the actions were visited, or never will be."""
+        """Return a future that is done when the actions were visited or the timer was cancelled."""
         return self._completed_future
 
     def execute(self, context: LaunchContext) -> None:
-        """Start to wait."""
+        """Start the timer."""
         self.__locals = dict(context.get_locals_as_dict())
         period = perform_typed_substitution(context, self.__period, float)
         self._completed_future = create_future(context.asyncio_loop)
         cancel_on_shutdown = perform_typed_substitution(context, self.__cancel_on_shutdown, bool)
-        if self.__canceled or (cancel_on_shutdown and context.is_shutdown):  # upstream waits for the latter
+        if self.__canceled or (cancel_on_shutdown and context.is_shutdown):  # upstream lets it run in the latter case
             self._completed_future.set_result(None)
             return
         self._handler = EventHandler(
@@ -114,12 +114,12 @@ class TimerAction(Action):
         return list(self.__actions)
 
     def handle(self, context: LaunchContext) -> Any:
-        """The actions, in the locals of when the timer was started."""
+        """Return the actions, in the locals of the timer's start."""
         context.extend_locals(self.__locals)
         return self.__actions
 
     def cancel(self) -> None:
-        """Visit no actions any more."""
+        """Cancel the timer."""
         self.__canceled = True
         if self._handle is not None:
             self._handle.cancel()

@@ -23,5 +23,5 @@ class UnregisterEventHandler(Action):
         return self.__event_handler
 
     def execute(self, context: LaunchContext) -> None:
-        """Unregister it."""
+        """Unregister the handler."""
         context.unregister_event_handler(self.__event_handler)

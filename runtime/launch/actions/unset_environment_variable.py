@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @expose_action("unset_env")
 class UnsetEnvironmentVariable(Action):
-    """Unsets an environment variable for processes that are visited later."""
+    """Unsets an environment variable for processes visited later."""
 
     def __init__(self, name: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -25,16 +25,16 @@ class UnsetEnvironmentVariable(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[UnsetEnvironmentVariable], dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
         return cls, kwargs
 
     @property
     def name(self) -> list[Substitution]:
-        """Its name."""
+        """The variable's name."""
         return self.__name
 
     def execute(self, context: LaunchContext) -> None:
-        """Unset it, if it is set."""
+        """Unset the variable, if it is set."""
         context.environment.pop(perform_substitutions(context, self.__name), None)

@@ -21,9 +21,9 @@ class UnsetLaunchConfiguration(Action):
 
     @property
     def name(self) -> list[Substitution]:
-        """Its name."""
+        """The configuration's name."""
         return self.__name
 
     def execute(self, context: LaunchContext) -> None:
-        """Unset it."""
+        """Unset the configuration, if it is set."""
         context.launch_configurations.pop(perform_substitutions(context, self.__name), None)

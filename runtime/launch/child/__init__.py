@@ -1,7 +1,7 @@
 """The process behind an action that executes something.
 
-It is a process of the operating system (`os_child`), a node process, which is a thread of this one (`node_child`), or a
-process of its own for a Python program (`forked_child`).
+This is a process of the operating system (`os_child`), a node process, i.e. a thread of this process (`node_child`), or
+a separate process for a Python program (`forked_child`).
 """
 
 from bot_console.runtime.own_processes import CAN_FORK, begin_children_with, close_fork_server, fork_server

@@ -1,4 +1,4 @@
-"""What a launch knows of a process that it has started."""
+"""A launch's interface to a process that it has started."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 Output = Callable[[int, bytes], None]
-"""Called in the launch's loop with 1 (stdout) or 2 (stderr) and the bytes that came."""
+"""Called in the launch's event loop with 1 (stdout) or 2 (stderr) and the received bytes."""
 
 
 class Child(Protocol):
@@ -15,18 +15,18 @@ class Child(Protocol):
 
     pid: int
     exited: asyncio.Future[int]
-    """The exit code, when it has ended and all it has printed was handed on."""
+    """The exit code; set when the process has ended and all of its output has been passed on."""
     gets_signals_of_terminal: bool
-    """Whether Ctrl-C reaches it without the launch."""
+    """Whether Ctrl-C in the terminal reaches it without the launch."""
 
     def send_signal(self, signum: int) -> None:
         """Deliver a signal; raises `TypeError` for anything but a number."""
         ...
 
     def write(self, data: bytes) -> None:
-        """Hand bytes to its standard input."""
+        """Write bytes to its standard input."""
         ...
 
     def close(self) -> None:
-        """Let go of everything that belongs to it."""
+        """Release all its resources."""
         ...

@@ -1,4 +1,4 @@
-"""A process of its own for a Python program, forked from a server that has imported everything."""
+"""A separate process for a Python program, forked from a server that has imported everything."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from launch.child.python_program import PythonProgram
 from launch.child.streamed_child import StreamedChild, read_stream
 
 UNKNOWN = 255
-"""The exit code of a process whose fork server was killed: nobody could ask the system for the real one."""
+"""Exit code of a process whose fork server was killed: nobody can get the real one from the system."""
 UNKNOWN_TEXT = b"the fork server was killed, so the exit code of this process is not known\n"
 
 DATA = 3
-"""Its data pipe, among its streams: what it has to tell of its end is waited for."""
+"""The data pipe as one of the open streams: what it reports about its end is waited for."""
 
 
 class ForkedChild(StreamedChild):
-    """A real process; it is in a session of its own, out of reach of the terminal's Ctrl-C."""
+    """A real process, in its own session, out of reach of the terminal's Ctrl-C."""
 
     gets_signals_of_terminal = False
 
@@ -39,16 +39,16 @@ class ForkedChild(StreamedChild):
         self.input: asyncio.WriteTransport | None = None
 
     def news_end(self) -> None:
-        """It tells no more."""
+        """Handle the end of the data pipe."""
         self.news.close()
         self.pipe_connection_lost(DATA, None)
 
     def _unheard(self, text: str) -> None:
-        """Nobody listens to news: a person may read it."""
+        """Print news that no hook takes, so that a person may read it."""
         self.pipe_data_received(2, text.encode())
 
     def told(self, data: bytes) -> None:
-        """The fork server tells of it."""
+        """Take in a report of the fork server."""
         self.report.feed(data)
         if self.report.pid is not None and not self.started.done():
             self.pid = self.news.pid = self.report.pid
@@ -57,7 +57,7 @@ class ForkedChild(StreamedChild):
             self.has_ended(self.report.exit_code)
 
     def told_all(self) -> None:
-        """The fork server has said its last word, of whatever kind."""
+        """Handle the end of the fork server's report, for whatever reason."""
         if not self.started.done():
             text = self.report.problem or "the fork server has ended"
             self.started.set_exception(OSError(f"cannot start a process: {text}"))
@@ -66,7 +66,7 @@ class ForkedChild(StreamedChild):
             self._loop.create_task(self._outlive_server())
 
     async def _outlive_server(self) -> None:
-        """Without its server a process goes on; only that it holds its streams says so."""
+        """Wait for the end of a process without its server; only its open streams show that it still runs."""
         while self.open_streams:
             await asyncio.sleep(0.2)
         self.has_ended(UNKNOWN)
@@ -76,7 +76,7 @@ class ForkedChild(StreamedChild):
         os.kill(self.pid, operator.index(signum))
 
     def write(self, data: bytes) -> None:
-        """Hand bytes to its standard input."""
+        """Write bytes to its standard input."""
         if self.input is not None:
             self.input.write(data)
 
@@ -88,7 +88,7 @@ class ForkedChild(StreamedChild):
 
 
 class _Feed(asyncio.Protocol):
-    """Hands on what comes from a descriptor, and its end."""
+    """Passes on what is read from a descriptor, and its end."""
 
     def __init__(self, take: Callable[[bytes], None], end: Callable[[], None]) -> None:
         self._take = take
@@ -111,7 +111,7 @@ async def start_forked_child(
     emulate_tty: bool,
     output: Output,
 ) -> ForkedChild:
-    """Run a program in a process of its own; raises `OSError` where it cannot be started."""
+    """Run a program in a separate process; raises `OSError` if it cannot be started."""
     from launch.child.terminals import open_pipes, open_terminals
 
     loop = asyncio.get_running_loop()
@@ -130,7 +130,7 @@ async def start_forked_child(
         report = fork_server().start(
             job, stdin=child_input, stdout=out.child_end, stderr=error.child_end, data=child_data
         )
-        kept.pop_all()  # they belong to the transports now
+        kept.pop_all()  # the transports own them now
     await _feed(child, report, child.told, child.told_all)
     await _feed(child, own_data, child.news.feed, child.news_end)
     for fd, end in ((1, out.own_end), (2, error.own_end)):

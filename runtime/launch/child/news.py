@@ -1,4 +1,4 @@
-"""What only a process knows about itself, reported through the pipe that it inherited from the launch."""
+"""Facts that only a process knows about itself, reported through the pipe inherited from the launch."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from typing import Any
 
 @dataclass(frozen=True)
 class News:
-    """One fact of a process of a launch, as plain data."""
+    """One fact about a process of a launch, as plain data."""
 
     pid: int
     process: str
-    """Its label, as `talker-1`."""
+    """The process's label, such as `talker-1`."""
     kind: str
     """`notice` (a text), `uncaught` (an exception: text, frames), `crash` (in C code: text), `declared` and `given`
     (parameters of a node and where their values come from), ..."""
@@ -26,13 +26,13 @@ _hooks: list[Hook] = []
 
 
 def on_news(hook: Hook) -> Callable[[], None]:
-    """Have news given to `hook(news)`, in the thread of the launch; it must not block. Returns what ends that."""
+    """Register `hook(news)`, called in the launch's thread; it must not block. Returns a function that removes it."""
     _hooks.append(hook)
     return lambda: _hooks.remove(hook) if hook in _hooks else None
 
 
 def tell_news(news: News) -> None:
-    """Give news to whoever wants them."""
+    """Pass news to all hooks."""
     for hook in tuple(_hooks):
         hook(news)
 
@@ -41,7 +41,7 @@ class NewsReader:
     """Reads the data pipe of one process."""
 
     def __init__(self, process: str, unheard: Callable[[str], None] = lambda text: None) -> None:
-        """`unheard` is given, as text for people, what no hook is there for; an exception's traceback was printed."""
+        """`unheard` is called with a text for news that no hook takes; tracebacks are omitted, as already printed."""
         self._process = process
         self._unheard = unheard
         self._rest = b""
@@ -49,13 +49,13 @@ class NewsReader:
         self.pid = 0
 
     def feed(self, data: bytes) -> None:
-        """Take the next bytes."""
+        """Parse the next bytes."""
         *lines, self._rest = (self._rest + data).split(b"\n")
         for line in lines:
             self._line(line)
 
     def close(self) -> None:
-        """It has ended: what is no data is what a crash has left."""
+        """Handle the end of the pipe: what was not data is the output of a crash."""
         text = "\n".join(self._crash).strip()
         self._crash = []
         if text:

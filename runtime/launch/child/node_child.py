@@ -1,4 +1,4 @@
-"""A node process, a thread of this process, as a child of a launch."""
+"""A node process, i.e. a thread of this process, as a child of a launch."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from launch.child.child import Output
 
 
 class NodeChild:
-    """A thread that looks to its code like a process."""
+    """A thread that looks like a process to its code."""
 
     gets_signals_of_terminal = False
 
@@ -26,10 +26,10 @@ class NodeChild:
         self.process.send_signal(operator.index(signum))
 
     def write(self, data: bytes) -> None:
-        """Nothing: the input of a node process is at its end."""
+        """Do nothing: the input of a node process is at its end."""
 
     def close(self) -> None:
-        """Nothing is held."""
+        """Do nothing: there are no resources to release."""
 
 
 def start_node_child(
@@ -64,7 +64,7 @@ def start_node_child(
 def _in_loop(loop: asyncio.AbstractEventLoop, callback: Callable[[], None]) -> None:
     try:
         loop.call_soon_threadsafe(callback)
-    except RuntimeError:  # the launch is over, and nobody wants to know any more
+    except RuntimeError:  # the launch is over, so nobody needs the callback
         return
 
 

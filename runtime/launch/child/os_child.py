@@ -1,4 +1,4 @@
-"""A process of the operating system as a child of a launch."""
+"""An operating system process as a child of a launch."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from launch.child.streamed_child import StreamedChild, read_stream
 
 
 class OsChild(StreamedChild, asyncio.SubprocessProtocol):
-    """A process of the system, its output by pipes or by terminals of its own."""
+    """An operating system process whose output is read from pipes or its own pseudo terminals."""
 
     gets_signals_of_terminal = True
 
@@ -23,13 +23,13 @@ class OsChild(StreamedChild, asyncio.SubprocessProtocol):
         self.pid = 0
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """It runs."""
+        """Record the started process."""
         assert isinstance(transport, asyncio.SubprocessTransport)
         self._transport = transport
         self.pid = transport.get_pid()
 
     def process_exited(self) -> None:
-        """It has ended."""
+        """Handle the process's exit."""
         self.has_ended(self._transport.get_returncode() or 0)
 
     def send_signal(self, signum: int) -> None:
@@ -37,7 +37,7 @@ class OsChild(StreamedChild, asyncio.SubprocessProtocol):
         self._transport.send_signal(signum)
 
     def write(self, data: bytes) -> None:
-        """Hand bytes to its standard input."""
+        """Write bytes to its standard input."""
         pipe: Any = self._transport.get_pipe_transport(0)
         if pipe is not None:
             pipe.write(data)
@@ -58,7 +58,7 @@ async def start_os_child(
     cwd: str | None,
     output: Output,
 ) -> OsChild:
-    """Run a command; raises what starting it raises, above all `OSError`."""
+    """Run a command; raises whatever starting it raises, mostly `OSError`."""
     loop = asyncio.get_running_loop()
     child = OsChild(output, loop)
     if not emulate_tty or os.name == "nt":

@@ -1,4 +1,4 @@
-"""A Python program as plain data: it can run as a node process here, or in a process of its own."""
+"""A Python program as plain data: it can run as a node process here, or in a separate process."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from bot_console.runtime.process.fork_server import function_named
 
 @dataclass(frozen=True)
 class PythonProgram:
-    """The name of a function and what it is called with to get the program."""
+    """The name of a function that returns the program, and its arguments."""
 
     function: str
     """`package.module:function`"""
     arguments: tuple[Any, ...]
-    """Numbers, texts, lists, None."""
+    """Numbers, strings, lists, None."""
     is_ours: bool = False
-    """Whether it comes with the runtime or its robot, rather than from a user."""
+    """Whether it is part of the runtime or its robot, rather than a user's."""
 
     def load(self) -> Callable[[], object]:
-        """The program."""
+        """Import the function and return the program."""
         return function_named(self.function)(*self.arguments)

@@ -1,4 +1,4 @@
-"""Starting a command in whichever way fits it."""
+"""Start a command in the way that suits it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ async def start_child(
     cwd: str | None,
     output: Output,
 ) -> Child:
-    """Run a command, or the Python program that it is; raises what starting it raises, above all `OSError`."""
+    """Run a command, or the Python program it stands for; raises whatever starting it raises, mostly `OSError`."""
     if program is None or own_process:
         env = child_environment(env)
     if program is None:

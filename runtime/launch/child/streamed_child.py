@@ -1,4 +1,4 @@
-"""A process whose output arrives through pipes or terminals: it has ended once exit code and all output are here."""
+"""A process whose output is read from pipes or terminals; it counts as ended once exit code and all output are in."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ import os
 from launch.child.child import Output
 
 DRAIN_S = 0.2
-"""How long (s) output may still come after the end: a grandchild can hold the pipes open for ever."""
+"""How long (s) output is awaited after the exit: a grandchild may hold the pipes open for ever."""
 
 
 class StreamedChild:
-    """Collects what a process prints and how it ended."""
+    """Collects a process's output and exit code."""
 
     def __init__(self, output: Output, loop: asyncio.AbstractEventLoop) -> None:
         self._output = output
@@ -22,16 +22,16 @@ class StreamedChild:
         self._code: int | None = None
 
     def pipe_data_received(self, fd: int, data: bytes) -> None:
-        """It has printed."""
+        """Pass on output."""
         self._output(fd, bytes(data))
 
     def pipe_connection_lost(self, fd: int, exc: Exception | None) -> None:
-        """It prints no more."""
+        """Handle the end of a stream."""
         self.open_streams.discard(fd)
         self._finish_if_drained()
 
     def has_ended(self, code: int) -> None:
-        """It has ended with this exit code; its output may still come."""
+        """Record the exit code; output may still arrive."""
         self._code = code
         self._finish_if_drained()
         if not self.exited.done():
@@ -47,23 +47,23 @@ class StreamedChild:
 
 
 class StreamReader(asyncio.Protocol):
-    """Hands what comes from a descriptor to a child, as its stdout (1) or stderr (2)."""
+    """Passes data read from a descriptor to a child, as its stdout (1) or stderr (2)."""
 
     def __init__(self, child: StreamedChild, fd: int) -> None:
         self._child = child
         self._fd = fd
 
     def data_received(self, data: bytes) -> None:
-        """It has printed."""
+        """Pass on output."""
         self._child.pipe_data_received(self._fd, data)
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """It prints no more."""
+        """Handle the end of the stream."""
         self._child.pipe_connection_lost(self._fd, exc)
 
 
 async def read_stream(child: StreamedChild, fd: int, own_end: int) -> asyncio.ReadTransport:
-    """Let a child have what comes from our end of a pipe or terminal, which belongs to the transport from now on."""
+    """Read a child's output from our end of a pipe or terminal, which the returned transport owns from now on."""
     pipe = os.fdopen(own_end, "rb", buffering=0)
     transport, _ = await asyncio.get_running_loop().connect_read_pipe(lambda: StreamReader(child, fd), pipe)
     return transport

@@ -1,4 +1,4 @@
-"""Terminals for a child's output, so that it behaves as if a person were watching."""
+"""Pseudo terminals for a child's output, so that it behaves as in front of a user."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ class Stream:
 
 
 def open_terminals() -> tuple[Stream, Stream]:
-    """One for stdout, one for stderr; they leave line ends as they are."""
+    """Open a terminal each for stdout and stderr; they leave line ends unchanged."""
     return _terminal(), _terminal()
 
 
 def open_pipes() -> tuple[Stream, Stream]:
-    """The same without a terminal."""
+    """Open a pipe each for stdout and stderr."""
     return Stream(*os.pipe()), Stream(*os.pipe())
 
 

@@ -1,4 +1,4 @@
-"""The truth value of a text."""
+"""Evaluate a condition expression."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ VALID_FALSE_EXPRESSIONS = ["false", "0"]
 
 
 def evaluate_condition_expression(context: LaunchContext, expression: list[Any]) -> bool:
-    """Whether a text says true; raises `InvalidConditionExpressionError` unless it is true, 1, false or 0."""
+    """Return the value of an expression; raises `InvalidConditionExpressionError` unless it is true, 1, false or 0."""
     expanded = perform_substitutions(context, expression).strip().lower()
     if expanded in VALID_TRUE_EXPRESSIONS:
         return True

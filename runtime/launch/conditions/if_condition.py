@@ -20,9 +20,9 @@ class IfCondition(Condition):
         super().__init__(predicate=self._predicate_func)
 
     def _predicate_func(self, context: LaunchContext) -> bool:
-        """Whether the text says true now; public launch files call it by this name."""
+        """Whether the expression is true now; public launch files call it by this name."""
         return evaluate_condition_expression(context, self.__expression)
 
     def describe(self) -> str:
-        """A short text for people."""
+        """Return a short description."""
         return f"IfCondition({' + '.join(each.describe() for each in self.__expression)})"

@@ -21,7 +21,7 @@ _numbers: ProcessLocal[Iterator[int]] = ProcessLocal(lambda: itertools.count(1))
 
 
 class Executable:
-    """A program to run; its final command and label are known when it was prepared."""
+    """A program to run; its final command and label are known once prepared."""
 
     def __init__(
         self,
@@ -60,12 +60,12 @@ class Executable:
 
     @property
     def prefix(self) -> list[Substitution]:
-        """What goes before the command."""
+        """The prefix of the command."""
         return self.__prefix
 
     @property
     def cmd(self) -> list[list[Substitution]]:
-        """The command, each word a list of substitutions."""
+        """The command, each word as a list of substitutions."""
         return self.__cmd
 
     @property
@@ -80,12 +80,12 @@ class Executable:
 
     @property
     def additional_env(self) -> list[tuple[list[Substitution], list[Substitution]]] | None:
-        """What is added to the environment."""
+        """Variables added to the environment."""
         return self.__additional_env
 
     @property
     def final_name(self) -> str | None:
-        """The label, as `talker-1`."""
+        """The label with its number, such as `talker-1`."""
         return self.__final_name
 
     @property
@@ -95,21 +95,21 @@ class Executable:
 
     @property
     def final_cwd(self) -> str | None:
-        """The working directory; None: that of the launch."""
+        """The working directory; None for the launch's own."""
         return self.__final_cwd
 
     @property
     def final_env(self) -> dict[str, str] | None:
-        """The whole environment; None before it was prepared."""
+        """The whole environment; None until prepared."""
         return self.__final_env
 
     @property
     def words_of_prefix(self) -> list[str]:
-        """How the final command begins where a prefix was put before it."""
+        """The words of the prefix at the start of the final command."""
         return self.__words_of_prefix
 
     def prepare(self, context: LaunchContext, action: Any) -> None:
-        """Evaluate everything, and take the next number for the label."""
+        """Evaluate all substitutions, and take the next number for the label."""
         cmd = [perform_substitutions(context, each) for each in self.__cmd]
         self.__words_of_prefix = self._prefix_for(context, cmd)
         self.__final_cmd = [*self.__words_of_prefix, *cmd]

@@ -7,5 +7,5 @@ from typing import Any
 
 
 def event_named(name: str) -> Callable[[Any], bool]:
-    """A predicate: whether an event has this name."""
+    """Return a predicate: whether an event has this name."""
     return lambda event: event.name == name

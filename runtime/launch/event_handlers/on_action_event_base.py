@@ -1,4 +1,4 @@
-"""Base of handlers for the events of one action, of some, or of all."""
+"""Base class of handlers for the events of one action, of several, or of all."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class OnActionEventBase(BaseEventHandler):
-    """Visits entities, or what a callable gives, when an event of an action comes."""
+    """Visits entities, or what a callable returns, on an event of an action."""
 
     def __init__(
         self,
@@ -50,7 +50,7 @@ class OnActionEventBase(BaseEventHandler):
         return self.target_of_events is None and bool(wanted(event.action))
 
     def handle(self, event: Any, context: LaunchContext) -> Any:
-        """The entities, or what the callable gives."""
+        """Return the entities, or the callable's result."""
         super().handle(event, context)
         if self.__entities is not None:
             return self.__entities
@@ -61,19 +61,19 @@ class OnActionEventBase(BaseEventHandler):
         return callback(event, context)
 
     def describe(self) -> tuple[str, list[Any]]:
-        """A text and the entities."""
+        """Return a description and the entities."""
         if self.__entities is not None:
             return super().describe()[0], list(self.__entities)
         return super().describe()
 
     @property
     def handler_description(self) -> str:
-        """What it does."""
+        """A description of the handler's effect."""
         return f"{self.__callback}" if self.__callback is not None else "<actions>"
 
     @property
     def matcher_description(self) -> str:
-        """What it waits for."""
+        """A description of the matching events."""
         name = self.__target_event_cls.__name__
         if self.__action_matcher is None:
             return f"event == {name}"

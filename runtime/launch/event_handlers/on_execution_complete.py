@@ -9,7 +9,7 @@ from launch.events.execution_complete import ExecutionComplete
 
 
 class OnExecutionComplete(OnActionEventBase):
-    """An action is done: what then."""
+    """Handles the completion of an action."""
 
     def __init__(self, *, target_action: Any = None, on_completion: Any, **kwargs: Any) -> None:
         from launch.action import Action

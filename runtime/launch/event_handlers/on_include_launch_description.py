@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class OnIncludeLaunchDescription(BaseEventHandler):
-    """Visits the description that shall run."""
+    """Visits a launch description whose inclusion is requested."""
 
     kind_of_events = IncludeLaunchDescription
 
@@ -21,11 +21,11 @@ class OnIncludeLaunchDescription(BaseEventHandler):
         super().__init__(matcher=lambda event: is_a_subclass(event, IncludeLaunchDescription), **kwargs)
 
     def handle(self, event: Any, context: LaunchContext) -> Any:
-        """The description."""
+        """Return the description to visit."""
         super().handle(event, context)
         return event.launch_description
 
     @property
     def matcher_description(self) -> str:
-        """What it waits for."""
+        """A description of the matching events."""
         return "event issubclass of launch.events.IncludeLaunchDescription"

@@ -9,7 +9,7 @@ from launch.events.process import ProcessExited
 
 
 class OnProcessExit(OnActionEventBase):
-    """A process has ended: what then."""
+    """Handles the exit of a process."""
 
     def __init__(self, *, target_action: Any = None, on_exit: Any, **kwargs: Any) -> None:
         from launch.actions.execute_local import ExecuteLocal

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class OnProcessIO(OnActionEventBase):
-    """A process has printed: what then; each callable gets the event."""
+    """Handles the input and output of a process; each callable gets the event."""
 
     def __init__(
         self,

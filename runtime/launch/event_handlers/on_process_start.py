@@ -9,7 +9,7 @@ from launch.events.process import ProcessStarted
 
 
 class OnProcessStart(OnActionEventBase):
-    """A process runs: what then."""
+    """Handles the start of a process."""
 
     def __init__(self, *, target_action: Any = None, on_start: Any, **kwargs: Any) -> None:
         from launch.actions.execute_local import ExecuteLocal

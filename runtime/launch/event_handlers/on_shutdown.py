@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class OnShutdown(BaseEventHandler):
-    """The launch ends: entities, or a callable `(event, context)` that may give some."""
+    """Handles the shutdown of the launch: entities, or a callable `(event, context)` that may return some."""
 
     kind_of_events = Shutdown
 
@@ -23,7 +23,7 @@ class OnShutdown(BaseEventHandler):
         self.__on_shutdown = on_shutdown
 
     def handle(self, event: Any, context: LaunchContext) -> Any:
-        """The entities."""
+        """Return the entities to visit."""
         super().handle(event, context)
         if callable(self.__on_shutdown) and not isinstance(self.__on_shutdown, LaunchDescriptionEntity):
             return self.__on_shutdown(event, context)
@@ -31,10 +31,10 @@ class OnShutdown(BaseEventHandler):
 
     @property
     def handler_description(self) -> str:
-        """What it does."""
+        """A description of the handler's effect."""
         return f"{self.__on_shutdown}"
 
     @property
     def matcher_description(self) -> str:
-        """What it waits for."""
+        """A description of the matching events."""
         return "event issubclass of launch.events.Shutdown"

@@ -1,4 +1,4 @@
-"""Base of handlers for events addressed to a process."""
+"""A handler for events addressed to a process."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class OnTargetedProcess(BaseEventHandler):
-    """Calls back when an event's own predicate chooses the action."""
+    """Calls back if an event's own predicate selects the action."""
 
     def __init__(self, kind: type[ProcessTargetedEvent], action: Any, callback: Callable[[Any, Any], Any]) -> None:
         self.kind_of_events = kind
@@ -21,6 +21,6 @@ class OnTargetedProcess(BaseEventHandler):
         super().__init__(matcher=lambda event: isinstance(event, kind) and event.process_matcher(action))
 
     def handle(self, event: Any, context: LaunchContext) -> Any:
-        """What the callback gives."""
+        """Return the callback's result."""
         super().handle(event, context)
         return self._callback(event, context)

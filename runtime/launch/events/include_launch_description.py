@@ -8,7 +8,7 @@ from launch.event import Event
 
 
 class IncludeLaunchDescription(Event):
-    """A launch description shall run in the launch."""
+    """Requests that a launch description be included."""
 
     name = "launch.events.IncludeLaunchDescription"
 

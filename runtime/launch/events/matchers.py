@@ -7,7 +7,7 @@ from typing import Any
 
 
 def matches_action(target_action: Any) -> Callable[[Any], bool]:
-    """A predicate: whether an action is this one."""
+    """Return a predicate: whether an action is this one."""
 
     def matches(action: Any) -> bool:
         return action is target_action

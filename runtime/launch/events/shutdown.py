@@ -16,7 +16,7 @@ class Shutdown(Event):
 
     @property
     def reason(self) -> str:
-        """Why."""
+        """The reason for the shutdown."""
         return self.__reason
 
     @property

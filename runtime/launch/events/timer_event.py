@@ -8,7 +8,7 @@ from launch.event import Event
 
 
 class TimerEvent(Event):
-    """A timer action has run down."""
+    """A timer action has expired."""
 
     name = "launch.events.TimerEvent"
 
@@ -17,5 +17,5 @@ class TimerEvent(Event):
 
     @property
     def timer_action(self) -> Any:
-        """The timer."""
+        """The timer action."""
         return self.__timer_action

@@ -1,4 +1,4 @@
-"""Launch files in XML and YAML: what their parsers share."""
+"""Launch files in XML and YAML: the common part of their parsers."""
 
 from launch.frontend.entity import Entity
 from launch.frontend.expose import expose_action, expose_substitution

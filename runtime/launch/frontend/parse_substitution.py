@@ -1,4 +1,4 @@
-"""Texts with `$(name argument ...)` in them."""
+"""Parse texts that contain `$(name argument ...)`."""
 
 from __future__ import annotations
 
@@ -9,32 +9,32 @@ from launch.frontend.expose import substitution_parse_methods
 
 NAME = re.compile(r"[a-zA-Z0-9_\-]+")
 
-# From this depth on, a stack that runs out is blamed on the text; the usual stack takes about 200.
+# From this nesting depth on, a stack overflow is blamed on the text; the usual stack allows about 200.
 MANY_IN_ONE_ANOTHER = 20
 
 
 class UnexpectedCharacters(ValueError):
-    """A character that cannot stand where it does."""
+    """A character is not allowed where it stands."""
 
 
 class UnexpectedEOF(ValueError):
-    """A text that ends too early."""
+    """A text ends too early."""
 
 
 class VisitError(ValueError):
-    """A substitution with an unknown name, or arguments that it cannot take."""
+    """A substitution has an unknown name, or arguments it does not accept."""
 
     def __init__(self, cause: Exception) -> None:
         super().__init__(f'Error trying to process rule "substitution":\n{cause}')
 
 
 def replace_escaped_characters(data: str) -> str:
-    """The text without the backslashes that protect the character behind them."""
+    """Remove the backslashes that escape the following character."""
     return re.sub(r"\\(.)", r"\1", data)
 
 
 def parse_substitution(string_value: str) -> list[Any]:
-    """The substitutions of a text; raises `ValueError` where it is malformed."""
+    """Parse a text into substitutions; raises `ValueError` if it is malformed."""
     from launch.substitutions.text_substitution import TextSubstitution
 
     if not string_value:
@@ -44,14 +44,15 @@ def parse_substitution(string_value: str) -> list[Any]:
         return reader.pieces("")
     except RecursionError:
         if reader.deepest < MANY_IN_ONE_ANOTHER:
-            raise  # it was the callers who had left no stack: a launch file that includes itself, as an example
+            raise  # the callers used up the stack, e.g. a launch file that includes itself
         raise ValueError(f"{string_value[:40]!r}... has too many substitutions in one another") from None
 
 
 def parse_if_substitutions(value: Any) -> Any:
-    """The same for a text, or each text of a list, that has any; without them it stays a text, and others as they are.
+    """Parse a text, or each text of a list, that contains substitutions; other texts and values are returned as they
+    are.
 
-    Raises `ValueError` for a list whose plain values are not of one type.
+    Raises `ValueError` for a list whose plain values differ in type.
     """
     if not isinstance(value, list):
         return _parsed_if_needed(value)
@@ -86,10 +87,10 @@ class _Reader:
         self._at = 0
         self._depth = 0
         self.deepest = 0
-        """How many substitutions have been read in one another, so far."""
+        """The deepest nesting of substitutions read so far."""
 
     def pieces(self, ends: str, quote: str = "") -> list[Any]:
-        """Texts and substitutions up to one of the characters, or to the end; `quote` is the one around them."""
+        """Read texts and substitutions up to one of the characters, or to the end; `quote` is the enclosing quote."""
         from launch.substitutions.text_substitution import TextSubstitution
 
         found: list[Any] = []
@@ -124,7 +125,7 @@ class _Reader:
         self._depth -= 1
         try:
             return _substitution(name[0], arguments)
-        except Exception as error:  # a substitution's own words, under the heading that upstream gives them
+        except Exception as error:  # a substitution's own message, under upstream's heading
             raise VisitError(error) from error
 
     def _quoted_argument(self) -> list[Any]:
@@ -139,7 +140,7 @@ class _Reader:
         return self._plain_argument("\"'")
 
     def _plain_argument(self, quotes: str) -> list[Any]:
-        """An argument up to a space or parenthesis; quotes other than those that stand around it are plain text."""
+        """Read an argument up to a space or parenthesis; quotes other than the enclosing ones are plain text."""
         found = self.pieces(f" (){quotes}", quotes if len(quotes) == 1 else "")
         if not found:
             raise self._unexpected("an argument (exactly one space stands before each)")

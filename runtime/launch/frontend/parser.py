@@ -24,43 +24,43 @@ EXTENSION_GROUP = "launch.frontend.launch_extension"
 
 
 class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
-    """A launch file is neither good XML nor good YAML."""
+    """A launch file is neither valid XML nor valid YAML."""
 
 
 class Parser:
-    """Makes actions of the elements of a launch file."""
+    """Creates actions from the elements of a launch file."""
 
     path = ""
-    """Where the file is."""
+    """The path of the file."""
 
     @classmethod
     def load_launch_extensions(cls) -> None:
-        """Import the packages whose actions and substitutions launch files may name."""
+        """Import the packages whose actions and substitutions launch files may use."""
         _load_extensions()
 
     @classmethod
     def load_parser_implementations(cls) -> dict[str, type[Parser]]:
-        """The parsers by name."""
+        """Return the parsers by name."""
         return {name.removeprefix("launch_"): importlib.import_module(name).Parser for name in PARSERS}
 
     @classmethod
     def get_file_extensions(cls) -> set[str]:
-        """Endings of files that the parser reads."""
+        """Return the file extensions that the parser reads."""
         return set()
 
     @classmethod
     def get_available_extensions(cls) -> list[str]:
-        """Endings of files that any parser reads."""
+        """Return the file extensions that any parser reads."""
         return [each for parser in cls.load_parser_implementations().values() for each in parser.get_file_extensions()]
 
     @classmethod
     def is_extension_valid(cls, extension: str) -> bool:
-        """Whether a parser reads files of this ending."""
+        """Whether any parser reads files of this extension."""
         return extension in cls.get_available_extensions()
 
     @classmethod
     def load(cls, file: str | TextIO) -> tuple[Entity, Parser]:
-        """The root element, with its parser; raises `InvalidFrontendLaunchFileError` where no parser can read it."""
+        """Return the root element and its parser; raises `InvalidFrontendLaunchFileError` if none can read it."""
         cls.load_launch_extensions()
         path = file if isinstance(file, str) else getattr(file, "name", "")
         extension = os.path.splitext(path)[1].removeprefix(".")
@@ -75,7 +75,7 @@ class Parser:
                 root, found = parser.load(io.StringIO(text))
                 found.path = path
                 return root, found
-            except Exception as error:  # each library has its own errors; all are told
+            except Exception as error:  # each library has its own errors; all are reported
                 tell_place(error, path, _line_of_parse_error(error))
                 errors.append(error)
         known = extension if cls.is_extension_valid(extension) else ""
@@ -83,7 +83,7 @@ class Parser:
 
     @classmethod
     def _parsers_for(cls, path: str) -> list[type[Parser]]:
-        """All parsers, those first that know the ending."""
+        """Return all parsers, those for the file's extension first."""
         name = os.path.basename(path)
 
         def knows(parser: type[Parser]) -> bool:
@@ -92,7 +92,7 @@ class Parser:
         return sorted(cls.load_parser_implementations().values(), key=lambda parser: not knows(parser))
 
     def parse_action(self, entity: Entity) -> Any:
-        """The action of an element; raises what is wrong with it."""
+        """Create the action of an element; raises whatever is wrong with it."""
         try:
             return self._parse_action(entity)
         except Exception as error:
@@ -110,15 +110,15 @@ class Parser:
         return action
 
     def parse_substitution(self, value: str) -> Any:
-        """The substitutions of a text."""
+        """Parse a text into substitutions."""
         return parse_substitution(value)
 
     def parse_if_substitutions(self, value: Any) -> Any:
-        """The substitutions of a text or of texts in a list; other values as they are."""
+        """Parse a text, or texts in a list, into substitutions; other values are returned as they are."""
         return parse_if_substitutions(value)
 
     def parse_condition(self, entity: Entity) -> Any:
-        """The condition of an element, if it has one."""
+        """Parse the condition of an element; None if it has none."""
         from launch.conditions import IfCondition, UnlessCondition
 
         if_text = entity.get_attr("if", optional=True)
@@ -130,24 +130,24 @@ class Parser:
         return None if unless_text is None else UnlessCondition(self.parse_substitution(unless_text))
 
     def parse_description(self, entity: Entity) -> Any:
-        """The launch description of a root element."""
+        """Create the launch description of a root element."""
         from launch.launch_description import LaunchDescription
 
         if entity.type_name != "launch":
             raise RuntimeError("Expected 'launch' as root tag")
         deprecated = entity.get_attr("deprecated", optional=True)
-        entity.get_attr("version", optional=True)  # public files have it; it means nothing upstream either
+        entity.get_attr("version", optional=True)  # used in public files; ignored, as upstream
         actions = [self.parse_action(each) for each in entity.children]
         entity.assert_entity_completely_parsed()
         return LaunchDescription(actions, deprecated_reason=deprecated)
 
     def escape_characters(self, value: str) -> str:
-        """A text without its protecting backslashes."""
+        """Remove escaping backslashes from a text."""
         return replace_escaped_characters(value)
 
 
 def _line_of_parse_error(error: Any) -> int | None:
-    """Where the library that reads XML or YAML has stopped."""
+    """The line where the XML or YAML library stopped."""
     mark = getattr(error, "problem_mark", None)
     if mark is not None:
         return mark.line + 1

@@ -1,4 +1,4 @@
-"""Attributes that all elements which run a process share."""
+"""Attributes shared by all elements that run a process."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ DURATIONS = {"sigkill_timeout": str, "sigterm_timeout": str, "respawn_delay": fl
 
 
 def parse_process(entity: Entity, parser: Parser, kwargs: dict[str, Any], ignore: frozenset[str]) -> dict[str, Any]:
-    """Add keyword arguments of `ExecuteProcess`; those to be ignored are the caller's to parse."""
+    """Add keyword arguments of `ExecuteProcess`, except the ignored ones, which the caller parses."""
     if "cmd" not in ignore:
         kwargs["cmd"] = parse_command_line(entity.get_attr("cmd"), parser)
     for name in TEXTS:
@@ -38,7 +38,7 @@ def parse_process(entity: Entity, parser: Parser, kwargs: dict[str, Any], ignore
 
 
 def _parse_duration(entity: Any, name: str, form: Callable[[float], Any], kwargs: dict[str, Any]) -> None:
-    """A number of seconds; a text with substitutions cannot be compared, so that it raises `TypeError`."""
+    """Parse a number of seconds; a text with substitutions cannot be compared and raises `TypeError`."""
     value = entity.get_attr(name, data_type=float, optional=True)
     if value is None:
         return
@@ -84,9 +84,9 @@ def _parse_env(entity: Entity, parser: Parser, kwargs: dict[str, Any]) -> None:
 
 
 def parse_command_line(text: str, parser: Any) -> list[list[Any]]:
-    """Words of a command line, split as a shell does; what a substitution gives is not split.
+    """Split a command line into words as a shell does; the values of substitutions are not split.
 
-    A text of nothing but space ends a word, were it empty: no text at all is one empty word.
+    A piece of only whitespace ends a word, even an empty one; an empty text is one empty word.
     """
     from launch.substitutions.text_substitution import TextSubstitution
 

@@ -11,7 +11,7 @@ from launch.launch_place import tell_place
 
 
 def get_launch_description_from_frontend_launch_file(launch_file_path: str, *, parser: Any = None) -> Any:
-    """The description in an XML or YAML launch file."""
+    """Return the description in an XML or YAML launch file."""
     from launch.frontend import Parser
 
     root = None
@@ -24,7 +24,7 @@ def get_launch_description_from_frontend_launch_file(launch_file_path: str, *, p
 
 
 def get_launch_description_from_any_launch_file(launch_file_path: str, *, parser: Any = None) -> Any:
-    """The description in a launch file; raises `InvalidLaunchFileError` with what each kind of reader has said."""
+    """Return the description in a launch file; raises `InvalidLaunchFileError` with the error of each reader."""
     from launch.launch_description_sources.python_launch_file_utilities import (
         get_launch_description_from_python_launch_file,
     )
@@ -40,6 +40,6 @@ def get_launch_description_from_any_launch_file(launch_file_path: str, *, parser
     for read in readers:
         try:
             return read(launch_file_path)
-        except Exception as error:  # a launch file is a program; what every reader says is told
+        except Exception as error:  # a launch file may raise anything; every reader's error is reported
             errors.append(error)
     raise InvalidLaunchFileError(extension, likely_errors=errors)

@@ -1,4 +1,4 @@
-"""Logging of a launch: records of launch itself, and what its processes print, to the screen and to files."""
+"""Logging of a launch: its own records and its processes' output, to the screen and to files."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _get_logging_directory = get_logging_directory
 
 
 def reset() -> None:
-    """Forget every setting, handler and file."""
+    """Discard all settings, handlers and files."""
     reset_loggers()
     launch_config.reset()
 

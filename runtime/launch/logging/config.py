@@ -1,4 +1,4 @@
-"""What is logged where: the level, the formats, the screen, the main log file and files of processes."""
+"""Logging settings: the level, the formats, the screen, the main log file and files of processes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LOG_FORMAT = "OVERRIDE_LAUNCH_LOG_FORMAT"
 
 
 class ScreenHandler(logging.StreamHandler):  # pyright: ignore[reportMissingTypeArgument] -- generic for checkers only
-    """Writes to whatever `sys.stdout` is at that moment."""
+    """Writes to the current `sys.stdout`."""
 
     def __init__(self) -> None:
         logging.Handler.__init__(self)
@@ -36,15 +36,15 @@ class ScreenHandler(logging.StreamHandler):  # pyright: ignore[reportMissingType
 
 
 class LaunchConfig:
-    """The settings; files and folders are made when the first line goes there."""
+    """The settings; files and folders are created when the first line is written to them."""
 
     def __init__(self) -> None:
         self.level_hooks: list[Callable[[int], None]] = []
-        """Told of a new level: the loggers know the settings, not these them."""
+        """Called with a new level: the loggers depend on the settings, not the settings on them."""
         self.reset()
 
     def reset(self) -> None:
-        """Start anew, with a folder of a new run."""
+        """Restore the defaults, with a new folder for this run."""
         for handler in getattr(self, "_files", {}).values():
             handler.close()
         self._level = logging.INFO
@@ -54,7 +54,7 @@ class LaunchConfig:
         self._screen_format = Format("default")
         self._log_format = Format("default")
         self.log_handler_factory: Callable[..., logging.Handler] = logging.FileHandler
-        """Makes the handler of a log file, from its path and `encoding=`."""
+        """Creates the handler of a log file, from its path and `encoding=`."""
 
     @property
     def level(self) -> int:
@@ -81,30 +81,30 @@ class LaunchConfig:
         self._log_dir = value
 
     def get_log_file_path(self, file_name: str = "launch.log") -> str:
-        """Where a log file of this run is."""
+        """Return the path of a log file of this run."""
         return os.path.join(self.log_dir, file_name)
 
     def set_screen_format(self, screen_format: str, *, screen_style: str | None = None) -> None:
-        """Choose how records look on the screen: a name such as `default_with_timestamp`, or a format.
+        """Set the format of records on the screen: a name such as `default_with_timestamp`, or a format.
 
-        Raises `ValueError` for a style that there is not, and for the style of a name.
+        Raises `ValueError` for an unknown style, and for a style given with a name.
         """
         self._screen_format = Format.checked(screen_format, screen_style, formats.SCREEN)
         self._screen = None if self._screen is None else self._with_screen_format(self._screen)
 
     def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
-        """Choose how records look in the main log file; raises `ValueError` for the style of a name or none at all."""
+        """Set the format of records in the main log file; raises `ValueError` as `set_screen_format` does."""
         self._log_format = Format.checked(log_format, log_style, formats.LOG)
 
     def get_screen_handler(self) -> logging.Handler:
-        """What writes to the screen."""
+        """Return the handler that writes to the screen."""
         if self._screen is None:
             self._screen = self._with_screen_format(ScreenHandler())
         return self._screen
 
     @property
     def screen_handler(self) -> logging.Handler:
-        """What writes to the screen."""
+        """The handler that writes to the screen."""
         return self.get_screen_handler()
 
     @screen_handler.setter
@@ -112,11 +112,11 @@ class LaunchConfig:
         self.set_screen_handler(handler)
 
     def set_screen_handler(self, handler: logging.Handler) -> None:
-        """Let something else than the standard output be the screen: a console that draws it itself."""
+        """Replace the standard output as the screen: for a console that draws it itself."""
         self._screen = self._with_screen_format(handler)
 
     def get_log_file_handler(self, file_name: str = "launch.log") -> logging.Handler:
-        """What writes to a log file of this run; the file is made with its first line."""
+        """Return the handler of a log file of this run; the file is created with its first line."""
         if file_name not in self._files:
             path = self.get_log_file_path(file_name)
             if self.log_handler_factory is logging.FileHandler:

@@ -1,4 +1,4 @@
-"""How a record looks on the screen and in a file."""
+"""Formats of records on the screen and in files."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ OUTPUT_IN_LOG = "{created:.7f} {message}"
 
 @dataclass(frozen=True)
 class Format:
-    """A format of records by its text or a name, with the style of its fields (`{`, `%` or `$`)."""
+    """A record format, by its text or name, with the style of its fields (`{`, `%` or `$`)."""
 
     text: str
     style: str = "{"
 
     @classmethod
     def checked(cls, text: str, style: str | None, names: Mapping[str, str]) -> Format:
-        """A format; raises `ValueError` for the style of a named one, and for a style that there is not."""
+        """Return a format; raises `ValueError` for a style given with a name, and for an unknown style."""
         if style is None:
             return cls(text)
         if text in names:
@@ -36,24 +36,24 @@ class Format:
 
     @classmethod
     def overridden(cls, variable: str, own: Format) -> Format:
-        """The format that an environment variable gives, else the own one."""
+        """Return the format from an environment variable, else `own`."""
         given = os.environ.get(variable)
         return cls(given) if given else own
 
     def formatter(self, names: Mapping[str, str], output_format: str) -> logging.Formatter:
-        """What writes records in this format, and lines of processes in another."""
+        """Return a formatter with this format for records, and another for output of processes."""
         return OutputAwareFormatter(names.get(self.text, self.text), output_format, self.style)
 
 
 class OutputAwareFormatter(logging.Formatter):
-    """Writes records of launch in one format, and lines that a process has printed in another."""
+    """Formats launch's own records one way, and output of processes another."""
 
     def __init__(self, launch_format: str, output_format: str, style: str = "{") -> None:
         super().__init__(launch_format.replace("{msg}", "{message}"), style=style, validate=False)  # type: ignore -- a word that the caller has checked
         self._output = logging.Formatter(output_format, style="{")
 
     def format(self, record: logging.LogRecord) -> str:
-        """The text of a record."""
+        """Format a record."""
         if getattr(record, "is_process_output", False):
             return self._output.format(record)
         return super().format(record)

@@ -1,4 +1,4 @@
-"""Handlers of the records of a launch, and those of the standard library by the same names."""
+"""Handlers of a launch's records, and the standard library's under the same names."""
 
 from logging import FileHandler, Handler, StreamHandler
 from logging.handlers import (

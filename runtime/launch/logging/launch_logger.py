@@ -1,4 +1,4 @@
-"""Loggers of launch, in a tree of their own: what nodes in this process log with `logging` stays theirs."""
+"""Loggers of launch, in a separate tree: records that nodes in this process log with `logging` are not affected."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from launch.logging.config import launch_config
 
 
 class LaunchLogger(logging.Logger):
-    """A logger whose records go to the screen and to `launch.log`, each found when the first record comes."""
+    """A logger whose records go to the screen and to `launch.log`, which are opened on the first record."""
 
     def callHandlers(self, record: logging.LogRecord) -> None:
-        """Hand the record to handlers of its own, then to the screen and the log file."""
+        """Pass the record to the logger's own handlers, then to the screen and the log file."""
         for handler in self.handlers:
             if record.levelno >= handler.level:
                 handler.handle(record)
@@ -21,12 +21,12 @@ class LaunchLogger(logging.Logger):
                     handler.handle(record)
 
     def hasHandlers(self) -> bool:
-        """True."""
+        """Return True."""
         return True
 
 
 def get_logger(name: str | None = None) -> LaunchLogger:
-    """The logger of a name; without a name the root of all."""
+    """Return the logger of a name; without a name, the root logger."""
     if name is None:
         return _root
     logger = _manager.getLogger(name)
@@ -35,13 +35,13 @@ def get_logger(name: str | None = None) -> LaunchLogger:
 
 
 def set_level(level: int) -> None:
-    """Drop records below a level, in all loggers that have none of their own."""
+    """Drop records below a level, in all loggers without a level of their own."""
     _root.setLevel(level)
     _manager._clear_cache()  # type: ignore[attr-defined] -- the standard library itself calls it so
 
 
 def reset_loggers() -> None:
-    """Forget all loggers."""
+    """Discard all loggers."""
     _manager.loggerDict.clear()
     set_level(logging.INFO)
 

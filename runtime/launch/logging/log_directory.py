@@ -1,4 +1,4 @@
-"""Where log files are: `$ROS_LOG_DIR`, else `$ROS_HOME/log`, else `~/.ros/log`, and in it a folder for each run."""
+"""The location of log files: `$ROS_LOG_DIR`, else `$ROS_HOME/log`, else `~/.ros/log`, with a folder for each run."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bot_console.runtime.process.scratch import scratch
 
 
 def get_logging_directory() -> str:
-    """The folder that holds the folders of all runs."""
+    """Return the folder that holds the folders of all runs."""
     given = os.environ.get("ROS_LOG_DIR")
     if given:
         return os.path.expanduser(given)
@@ -21,9 +21,9 @@ def get_logging_directory() -> str:
 
 
 def new_run_directory() -> str:
-    """A folder for this run that no other run has; `latest` beside it leads to it.
+    """Create a unique folder for this run and point the link `latest` at it.
 
-    Where none can be made it is a temporary one, and a line on stderr says so.
+    If that fails, use a temporary folder and say so on stderr.
     """
     base = get_logging_directory()
     try:
@@ -57,5 +57,5 @@ def _point_latest_at(base: str, path: str) -> None:
             os.unlink(link)
         if not os.path.exists(link):
             os.symlink(path, link, target_is_directory=True)
-    except OSError:  # no links here, or another run was quicker; the link is a convenience
+    except OSError:  # links are unsupported, or another run was faster; the link is only a convenience
         return

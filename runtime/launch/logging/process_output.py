@@ -1,4 +1,4 @@
-"""Where the lines go that a process prints: the words `screen`, `log`, `both`, `own_log`, `full`, or a dict of them."""
+"""Where the output of processes goes: `screen`, `log`, `both`, `own_log`, `full`, or a dict of them."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ WORDS: Mapping[str, Mapping[str, frozenset[str]]] = {
 def get_output_loggers(
     process_name: str, output_config: Any, main_log_file_name: str = "launch.log"
 ) -> tuple[Any, Any]:
-    """Loggers for lines of a process's stdout and stderr; raises `ValueError` for settings that mean nothing."""
+    """Return the loggers for a process's stdout and stderr; raises `ValueError` for invalid settings."""
     places = _normalized(os.environ.get(OVERRIDE) or output_config)
     loggers: list[_OutputLogger] = []
     for source in ("stdout", "stderr"):
@@ -41,7 +41,7 @@ def get_output_loggers(
 
 
 class _OutputLogger:
-    """Logs lines that a process has printed, as they are."""
+    """Logs lines printed by a process, unchanged."""
 
     def __init__(self, logger: LaunchLogger) -> None:
         self._logger = logger
@@ -71,7 +71,7 @@ def _handlers(
 
 
 def _own(file_name: str) -> logging.Handler:
-    """A file with the lines of one process, without the times that the main log has."""
+    """Return the handler of a file for the lines of one process, without the main log's timestamps."""
     handler = launch_config.get_log_file_handler(file_name)
     handler.setFormatter(logging.Formatter())
     return handler

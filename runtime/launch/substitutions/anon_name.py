@@ -27,22 +27,22 @@ class AnonName(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[AnonName], dict[str, Any]]:
-        """From `$(anon name)`."""
+        """Parse `$(anon name)`."""
         if len(data) != 1:
             raise TypeError("anon substitution expects 1 argument")
         return cls, {"name": data[0]}
 
     @property
     def name(self) -> list[Substitution]:
-        """How it begins."""
+        """The prefix."""
         return self.__name
 
     def describe(self) -> str:
-        """As `AnonName('rviz')`."""
+        """Return a description such as `AnonName('rviz')`."""
         return f"AnonName({described(self.__name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The name."""
+        """Return the name."""
         name = perform_substitutions(context, self.__name)
         key = f"anon{name}"
         if key not in context.launch_configurations:
@@ -50,6 +50,6 @@ class AnonName(Substitution):
         return context.launch_configurations[key]
 
     def compute_name(self, id_value: str) -> str:
-        """A new name."""
+        """Create a new name."""
         full = f"{id_value}_{socket.gethostname()}_{os.getpid()}_{random.randint(0, 2**63)}"
         return re.sub(r"[.\-:]", "_", full)

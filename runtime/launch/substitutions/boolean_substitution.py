@@ -1,4 +1,4 @@
-"""Not, and, or, any, all."""
+"""Boolean substitutions: not, and, or, any, all."""
 
 from __future__ import annotations
 
@@ -23,27 +23,27 @@ class NotSubstitution(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[NotSubstitution], dict[str, Any]]:
-        """From `$(not value)`."""
+        """Parse `$(not value)`."""
         if len(data) != 1:
             raise TypeError("not substitution expects 1 argument")
         return cls, {"value": data[0]}
 
     @property
     def value(self) -> list[Substitution]:
-        """What is turned round."""
+        """The value to negate."""
         return self.__value
 
     def describe(self) -> str:
-        """As `NotSubstitution('true')`."""
+        """Return a description such as `NotSubstitution('true')`."""
         return f"NotSubstitution({described(self.__value)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """`true` or `false`."""
+        """Evaluate to `true` or `false`."""
         return word(not bool_of(context, self.__value))
 
 
 class _TwoSided(Substitution):
-    """Two sides, both always evaluated."""
+    """Base class with two operands, both always evaluated."""
 
     _name = ""
 
@@ -54,27 +54,27 @@ class _TwoSided(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[_TwoSided], dict[str, Any]]:
-        """From two words."""
+        """Parse two arguments."""
         if len(data) != 2:
             raise TypeError(f"{cls._name} substitution expects 2 arguments")
         return cls, {"left": data[0], "right": data[1]}
 
     @property
     def left(self) -> list[Substitution]:
-        """The first side."""
+        """The first operand."""
         return self.__left
 
     @property
     def right(self) -> list[Substitution]:
-        """The second side."""
+        """The second operand."""
         return self.__right
 
     def describe(self) -> str:
-        """As `AndSubstitution('true' 'false')`."""
+        """Return a description such as `AndSubstitution('true' 'false')`."""
         return f"{type(self).__name__}({described(self.__left)} {described(self.__right)})"
 
     def sides(self, context: LaunchContext) -> tuple[bool, bool]:
-        """Truth values of both sides."""
+        """Evaluate both operands."""
         return bool_of(context, self.__left), bool_of(context, self.__right)
 
 
@@ -85,7 +85,7 @@ class AndSubstitution(_TwoSided):
     _name = "and"
 
     def perform(self, context: LaunchContext) -> str:
-        """`true` or `false`."""
+        """Evaluate to `true` or `false`."""
         return word(all(self.sides(context)))
 
 
@@ -96,7 +96,7 @@ class OrSubstitution(_TwoSided):
     _name = "or"
 
     def perform(self, context: LaunchContext) -> str:
-        """`true` or `false`."""
+        """Evaluate to `true` or `false`."""
         return word(any(self.sides(context)))
 
 
@@ -107,7 +107,7 @@ class _ManySided(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[Any, dict[str, Any]]:
-        """From any number of words."""
+        """Parse any number of arguments."""
 
         def made(args: Any) -> Any:
             return cls(*args)
@@ -116,15 +116,15 @@ class _ManySided(Substitution):
 
     @property
     def args(self) -> list[list[Substitution]]:
-        """The sides."""
+        """The operands."""
         return self.__args
 
     def describe(self) -> str:
-        """As `AnySubstitution('true' 'false')`."""
+        """Return a description such as `AnySubstitution('true' 'false')`."""
         return f"{type(self).__name__}({' '.join(described(each) for each in self.__args)})"
 
     def sides(self, context: LaunchContext) -> list[bool]:
-        """Truth values of all sides."""
+        """Evaluate all operands."""
         return [bool_of(context, each) for each in self.__args]
 
 
@@ -133,7 +133,7 @@ class AnySubstitution(_ManySided):
     """Whether at least one of several operands is true."""
 
     def perform(self, context: LaunchContext) -> str:
-        """`true` or `false`."""
+        """Evaluate to `true` or `false`."""
         return word(any(self.sides(context)))
 
 
@@ -142,5 +142,5 @@ class AllSubstitution(_ManySided):
     """Whether all of several operands are true."""
 
     def perform(self, context: LaunchContext) -> str:
-        """`true` or `false`."""
+        """Evaluate to `true` or `false`."""
         return word(all(self.sides(context)))

@@ -31,7 +31,7 @@ class Command(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[Command], dict[str, Any]]:
-        """From `$(command 'words' on_stderr)`."""
+        """Parse `$(command 'words' on_stderr)`."""
         if not 1 <= len(data) <= 2:
             raise ValueError("command substitution expects 1 or 2 arguments")
         return cls, {"command": data[0], **({"on_stderr": data[1]} if len(data) > 1 else {})}
@@ -43,15 +43,15 @@ class Command(Substitution):
 
     @property
     def on_stderr(self) -> list[Substitution]:
-        """What happens when it prints to its standard error."""
+        """How output on its standard error is handled."""
         return self.__on_stderr
 
     def describe(self) -> str:
-        """As `Command('date')`."""
+        """Return a description such as `Command('date')`."""
         return f"Command({described(self.__command)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The output with its last newline; raises `SubstitutionFailure` where the command fails."""
+        """Return the output with its last newline; raises `SubstitutionFailure` if the command fails."""
         text = perform_substitutions(context, self.__command)
         command = text if os.name == "nt" else shlex.split(text)
         on_stderr = perform_substitutions(context, self.__on_stderr)

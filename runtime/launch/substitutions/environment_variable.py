@@ -25,14 +25,14 @@ class EnvironmentVariable(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[EnvironmentVariable], dict[str, Any]]:
-        """From `$(env NAME default)`."""
+        """Parse `$(env NAME default)`."""
         if not 1 <= len(data) <= 2:
             raise TypeError("env substitution expects 1 or 2 arguments")
         return cls, {"name": data[0], **({"default_value": data[1]} if len(data) > 1 else {})}
 
     @property
     def name(self) -> list[Substitution]:
-        """Its name."""
+        """The name."""
         return self.__name
 
     @property
@@ -41,11 +41,11 @@ class EnvironmentVariable(Substitution):
         return self.__default
 
     def describe(self) -> str:
-        """As `EnvVar('HOME')`."""
+        """Return a description such as `EnvVar('HOME')`."""
         return f"EnvVar({described(self.__name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The value; raises `SubstitutionFailure` where there is neither value nor default."""
+        """Return the value; raises `SubstitutionFailure` if there is neither value nor default."""
         name = perform_substitutions(context, self.__name)
         default = None if self.__default is None else perform_substitutions(context, self.__default)
         value = context.environment.get(name, default)

@@ -17,7 +17,7 @@ TRUTH = {"true": True, "1": True, "false": False, "0": False}
 
 
 def _pieces(value: Any) -> list[Substitution]:
-    """Substitutions from any value; None is the empty text."""
+    """Normalize any value to substitutions; None becomes the empty text."""
     if value is None:
         return normalize_to_list_of_substitutions("")
     if isinstance(value, (bool, int, float)):
@@ -55,7 +55,7 @@ class EqualsSubstitution(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[EqualsSubstitution], dict[str, Any]]:
-        """From `$(equals a b)`."""
+        """Parse `$(equals a b)`."""
         if len(data) != 2:
             raise TypeError(f"{cls._name} substitution expects 2 arguments")
         return cls, {"left": data[0], "right": data[1]}
@@ -71,13 +71,13 @@ class EqualsSubstitution(Substitution):
         return self.__right
 
     def describe(self) -> str:
-        """As `EqualsSubstitution('a' 'b')`."""
+        """Return a description such as `EqualsSubstitution('a' 'b')`."""
         return f"{type(self).__name__}({described(self.__left)} {described(self.__right)})"
 
     def equal(self, context: LaunchContext) -> bool:
-        """Whether they are equal now."""
+        """Whether the values are equal now."""
         return _equal(perform_substitutions(context, self.__left), perform_substitutions(context, self.__right))
 
     def perform(self, context: LaunchContext) -> str:
-        """`true` or `false`."""
+        """Evaluate to `true` or `false`."""
         return word(self.equal(context))

@@ -27,22 +27,22 @@ class FileContent(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[FileContent], dict[str, Any]]:
-        """From `$(file-content path)`."""
+        """Parse `$(file-content path)`."""
         if len(data) != 1:
             raise AttributeError("file-content substitution expects 1 argument")
         return cls, {"path": data[0]}
 
     @property
     def path(self) -> list[Substitution]:
-        """Where it is."""
+        """The path of the file."""
         return self.__path
 
     def describe(self) -> str:
-        """As `FileContent('x')`."""
+        """Return a description such as `FileContent('x')`."""
         return f"{self.name}({described(self.__path)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The text; raises `SubstitutionFailure` where there is no such file."""
+        """Return the text; raises `SubstitutionFailure` if there is no such file."""
         path = os.path.abspath(perform_substitutions(context, self.__path))
         try:
             with open(path, encoding="utf-8") as file:

@@ -26,22 +26,22 @@ class FindExecutable(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[FindExecutable], dict[str, Any]]:
-        """From `$(find-exec name)`."""
+        """Parse `$(find-exec name)`."""
         if len(data) != 1:
             raise AttributeError("find-exec substitution expects 1 argument")
         return cls, {"name": data[0]}
 
     @property
     def name(self) -> list[Substitution]:
-        """Its name."""
+        """The name."""
         return self.__name
 
     def describe(self) -> str:
-        """As `FindExec('x')`."""
+        """Return a description such as `FindExec('x')`."""
         return f"FindExec({described(self.__name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The path; raises `SubstitutionFailure` where there is none."""
+        """Return the path; raises `SubstitutionFailure` if there is none."""
         name = perform_substitutions(context, self.__name)
         found = shutil.which(name, path=context.environment.get("PATH", os.defpath))
         if found is not None:

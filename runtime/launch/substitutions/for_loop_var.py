@@ -25,22 +25,22 @@ class ForEachVar(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[ForEachVar], dict[str, Any]]:
-        """From `$(for-var name default)`."""
+        """Parse `$(for-var name default)`."""
         if not 1 <= len(data) <= 2:
             raise ValueError(f"{cls.__name__} substitution expects 1 or 2 arguments")
         return cls, {"name": data[0], **({"default_value": data[1]} if len(data) > 1 else {})}
 
     @property
     def name(self) -> list[Substitution]:
-        """Its name."""
+        """The name."""
         return self._name
 
     def describe(self) -> str:
-        """As `ForEachVar('x')`."""
+        """Return a description such as `ForEachVar('x')`."""
         return f"{type(self).__name__}({described(self._name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The value; raises `SubstitutionFailure` outside of a loop that has it."""
+        """Return the value; raises `SubstitutionFailure` outside of a loop that has it."""
         name = perform_substitutions(context, self._name)
         values = context.get_locals_as_dict()
         if name in values:
@@ -56,7 +56,7 @@ class ForLoopIndex(ForEachVar):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[ForLoopIndex], dict[str, Any]]:
-        """From `$(index name)`."""
+        """Parse `$(index name)`."""
         if len(data) != 1:
             raise ValueError(f"{cls.__name__} substitution expects 1 argument")
         return cls, {"name": data[0]}

@@ -27,7 +27,7 @@ class IfElseSubstitution(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[IfElseSubstitution], dict[str, Any]]:
-        """From `$(if condition value other)`."""
+        """Parse `$(if condition value other)`."""
         if not 2 <= len(data) <= 3:
             raise TypeError("if substitution expects from 2 or 3 arguments")
         return cls, dict(zip(("condition", "if_value", "else_value"), data, strict=False))
@@ -39,20 +39,20 @@ class IfElseSubstitution(Substitution):
 
     @property
     def if_value(self) -> list[Substitution]:
-        """The value when it holds."""
+        """The value if the condition holds."""
         return self._if_value
 
     @property
     def else_value(self) -> list[Substitution]:
-        """The value when it does not."""
+        """The value if the condition does not hold."""
         return self._else_value
 
     def describe(self) -> str:
-        """As `IfElseSubstitution('true', 'a', 'b')`."""
+        """Return a description such as `IfElseSubstitution('true', 'a', 'b')`."""
         parts = (self._condition, self._if_value, self._else_value)
         return f"IfElseSubstitution({', '.join(described(each) for each in parts)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The value."""
+        """Return the value."""
         chosen = self._if_value if bool_of(context, self._condition) else self._else_value
         return perform_substitutions(context, chosen)

@@ -12,12 +12,12 @@ if TYPE_CHECKING:
 
 
 def described(subs: Iterable[Any]) -> str:
-    """Short texts of substitutions, joined by plus signs."""
+    """Return the descriptions of substitutions, joined by plus signs."""
     return " + ".join(each.describe() for each in subs)
 
 
 def bool_of(context: LaunchContext, subs: Iterable[Any]) -> bool:
-    """The truth value of a text by YAML's rules; raises `SubstitutionFailure` where it has none."""
+    """Return the boolean value of a text by YAML's rules; raises `SubstitutionFailure` if it has none."""
     from launch.substitutions.substitution_failure import SubstitutionFailure
     from launch.utilities.type_utils import perform_typed_substitution
 
@@ -28,7 +28,7 @@ def bool_of(context: LaunchContext, subs: Iterable[Any]) -> bool:
 
 
 def word(value: bool) -> str:
-    """`true` or `false`."""
+    """Return `true` or `false`."""
     return "true" if value else "false"
 
 

@@ -25,22 +25,22 @@ class LaunchConfiguration(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[LaunchConfiguration], dict[str, Any]]:
-        """From `$(var name default)`."""
+        """Parse `$(var name default)`."""
         if not 1 <= len(data) <= 2:
             raise TypeError("var substitution expects 1 or 2 arguments")
         return cls, {"variable_name": data[0], **({"default": data[1]} if len(data) > 1 else {})}
 
     @property
     def variable_name(self) -> list[Substitution]:
-        """Its name."""
+        """The name."""
         return self.__variable_name
 
     def describe(self) -> str:
-        """As `LaunchConfig('x')`."""
+        """Return a description such as `LaunchConfig('x')`."""
         return f"LaunchConfig({' + '.join(each.describe() for each in self.__variable_name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The value; raises `SubstitutionFailure` where there is neither value nor default."""
+        """Return the value; raises `SubstitutionFailure` if there is neither value nor default."""
         name = _joined(context, self.__variable_name)
         context.read_configurations.add(name)
         if name in context.launch_configurations:

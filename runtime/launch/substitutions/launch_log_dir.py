@@ -19,15 +19,15 @@ class LaunchLogDir(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[LaunchLogDir], dict[str, Any]]:
-        """From `$(log_dir)`."""
+        """Parse `$(log_dir)`."""
         if len(data) != 0:
             raise TypeError("launch_log_dir/log_dir substitution doesn't expect arguments")
         return cls, {}
 
     def describe(self) -> str:
-        """As `LaunchLogDir()`."""
+        """Return a description such as `LaunchLogDir()`."""
         return "LaunchLogDir()"
 
     def perform(self, context: LaunchContext) -> str:
-        """The folder."""
+        """Return the folder."""
         return launch.logging.launch_config.log_dir

@@ -24,9 +24,9 @@ class LocalSubstitution(Substitution):
         return self.__expression
 
     def describe(self) -> str:
-        """As `LocalVar('node name')`."""
+        """Return a description such as `LocalVar('node name')`."""
         return f"LocalVar('{self.__expression if self.__description is None else self.__description}')"
 
     def perform(self, context: LaunchContext) -> str:
-        """The value; raises `AttributeError` where it is missing."""
+        """Return the value; raises `AttributeError` if it is missing."""
         return str(eval(f"context.locals.{self.__expression}", {}, {"context": context}))

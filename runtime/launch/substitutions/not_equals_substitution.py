@@ -19,5 +19,5 @@ class NotEqualsSubstitution(EqualsSubstitution):
     _name = "not-equals"
 
     def perform(self, context: LaunchContext) -> str:
-        """`true` or `false`."""
+        """Evaluate to `true` or `false`."""
         return word(not self.equal(context))

@@ -24,7 +24,7 @@ class PathJoinSubstitution(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[Substitution], dict[str, Any]]:
-        """From `$(path-join a b c)`."""
+        """Parse `$(path-join a b c)`."""
         if len(data) == 0:
             raise TypeError("path-join substitution expects at least 1 argument")
         return PathJoinSubstitution, {"substitutions": list(data)}
@@ -35,18 +35,18 @@ class PathJoinSubstitution(Substitution):
         return [each[0] if len(each) == 1 else each for each in self.__pieces]
 
     def __truediv__(self, additional_path: Any) -> PathJoinSubstitution:
-        """A path below."""
+        """Return a path below."""
         return PathJoinSubstitution([*self.__pieces, additional_path])
 
     def __repr__(self) -> str:
         return self.describe()
 
     def describe(self) -> str:
-        """As `PathJoin('<a> + <b>')`."""
+        """Return a description such as `PathJoin('<a> + <b>')`."""
         return f"PathJoin('{' + '.join(described(each) for each in self.__pieces)}')"
 
     def perform(self, context: LaunchContext) -> str:
-        """The path."""
+        """Return the path."""
         return os.path.join(*(perform_substitutions(context, each) for each in self.__pieces))
 
 

@@ -26,7 +26,7 @@ class PythonExpression(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[PythonExpression], dict[str, Any]]:
-        """From `$(eval 'expression' 'module, module')`."""
+        """Parse `$(eval 'expression' 'module, module')`."""
         if not 1 <= len(data) <= 2:
             raise TypeError("eval substitution expects 1 or 2 arguments")
         kwargs: dict[str, Any] = {"expression": data[0]}
@@ -46,12 +46,12 @@ class PythonExpression(Substitution):
         return self.__modules
 
     def describe(self) -> str:
-        """As `PythonExpr('1 + 1', ['math'])`."""
+        """Return a description such as `PythonExpr('1 + 1', ['math'])`."""
         modules = ", ".join(described(each) for each in self.__modules)
         return f"PythonExpr({described(self.__expression)}, [{modules}])"
 
     def perform(self, context: LaunchContext) -> str:
-        """The value as text; raises what the expression raises."""
+        """Return the value as text; raises what the expression raises."""
         modules = [importlib.import_module(perform_substitutions(context, each)) for each in self.__modules]
         names: dict[str, Any] = {}
         for module in modules:

@@ -24,7 +24,7 @@ class StringJoinSubstitution(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[StringJoinSubstitution], dict[str, Any]]:
-        """From `$(string-join delimiter a b c)`."""
+        """Parse `$(string-join delimiter a b c)`."""
         if len(data) < 2:
             raise TypeError("string-join substitution expects at least 2 arguments")
         return cls, {"delimiter": data[0], "substitutions": list(data[1:])}
@@ -36,14 +36,14 @@ class StringJoinSubstitution(Substitution):
 
     @property
     def delimiter(self) -> list[Substitution]:
-        """What stands between them."""
+        """The delimiter."""
         return self.__delimiter
 
     def describe(self) -> str:
-        """As `StringJoin('a' + 'b')`."""
+        """Return a description such as `StringJoin('a' + 'b')`."""
         return f"StringJoin('{' + '.join(described(each) for each in self.__parts)}')"
 
     def perform(self, context: LaunchContext) -> str:
-        """The text."""
+        """Return the text."""
         delimiter = perform_substitutions(context, self.__delimiter)
         return delimiter.join(perform_substitutions(context, each) for each in self.__parts)

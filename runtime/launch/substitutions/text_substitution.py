@@ -24,9 +24,9 @@ class TextSubstitution(Substitution):
         return self.__text
 
     def describe(self) -> str:
-        """The text in quotes."""
+        """Return the text in quotes."""
         return f"'{self.__text}'"
 
     def perform(self, context: LaunchContext) -> str:
-        """The text."""
+        """Return the text."""
         return self.__text

@@ -18,17 +18,17 @@ class ThisLaunchFile(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[ThisLaunchFile], dict[str, Any]]:
-        """From `$(filename)`."""
+        """Parse `$(filename)`."""
         if len(data) != 0:
             raise TypeError("filename substitution doesn't expect arguments")
         return cls, {}
 
     def describe(self) -> str:
-        """As `ThisLaunchFile()`."""
+        """Return a description such as `ThisLaunchFile()`."""
         return "ThisLaunchFile()"
 
     def perform(self, context: LaunchContext) -> str:
-        """The path; raises `SubstitutionFailure` where there is no file."""
+        """Return the path; raises `SubstitutionFailure` if there is no file."""
         path = context.get_locals_as_dict().get("current_launch_file_path")
         if path is None:
             raise SubstitutionFailure("ThisLaunchFile used outside of a launch file (in a script)")

@@ -18,23 +18,23 @@ class ThisLaunchFileDir(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[ThisLaunchFileDir], dict[str, Any]]:
-        """From `$(dirname)`."""
+        """Parse `$(dirname)`."""
         if len(data) != 0:
             raise TypeError("dirname substitution doesn't expect arguments")
         return cls, {}
 
     def __truediv__(self, additional_path: Any) -> Any:
-        """A path below."""
+        """Return a path below."""
         from launch.substitutions.path_join_substitution import PathJoinSubstitution
 
         return PathJoinSubstitution([self, additional_path])
 
     def describe(self) -> str:
-        """As `ThisLaunchFileDir()`."""
+        """Return a description such as `ThisLaunchFileDir()`."""
         return "ThisLaunchFileDir()"
 
     def perform(self, context: LaunchContext) -> str:
-        """The folder; raises `SubstitutionFailure` where there is no file."""
+        """Return the folder; raises `SubstitutionFailure` if there is no file."""
         folder = context.get_locals_as_dict().get("current_launch_file_directory")
         if folder is None:
             raise SubstitutionFailure("ThisLaunchFileDir used outside of a launch file (in a script)")

@@ -7,15 +7,15 @@ from typing import Any
 
 
 def isclassinstance(obj: object) -> bool:
-    """Whether something is an object with attributes of its own, and neither a class nor a function."""
+    """Whether an object has attributes of its own, and is neither a class nor a function."""
     return hasattr(obj, "__dict__") and not inspect.isclass(obj) and not inspect.isroutine(obj)
 
 
 def is_a(obj: object, entity_type: Any) -> bool:
-    """Whether an object is of a class."""
+    """Whether an object is an instance of a class."""
     return isinstance(obj, entity_type)
 
 
 def is_a_subclass(obj: object, entity_type: Any) -> bool:
-    """Whether an object is of a class, or a class below it."""
+    """Whether an object is an instance of a class, or itself a subclass of it."""
     return isinstance(obj, entity_type) or (inspect.isclass(obj) and issubclass(obj, entity_type))

@@ -7,5 +7,5 @@ from typing import Any
 
 
 def create_future(loop: asyncio.AbstractEventLoop | None) -> asyncio.Future[Any]:
-    """A new future; raises `RuntimeError` where no loop runs."""
+    """Return a new future; raises `RuntimeError` if no loop is running."""
     return (asyncio.get_running_loop() if loop is None else loop).create_future()

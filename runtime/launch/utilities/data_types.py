@@ -1,4 +1,4 @@
-"""Types that values in launch files may have: scalars, and lists of one of them."""
+"""The types of values in launch files: scalars, and lists of one scalar type."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ SCALARS: tuple[type, ...] = (int, float, bool, str)
 
 
 def is_typing_list(data_type: Any) -> bool:
-    """Whether it is `List` or `List[...]`."""
+    """Whether a type is `List` or `List[...]`."""
     return data_type is list or get_origin(data_type) is list
 
 
 def extract_type(data_type: Any) -> tuple[Any, bool]:
-    """The scalar type, and whether it is a list of them; raises `ValueError` for other types."""
+    """Return the scalar type and whether it is a list of them; raises `ValueError` for other types."""
     scalar, is_list = data_type, False
     arguments = get_args(data_type) if is_typing_list(data_type) else ()
     if arguments:
@@ -24,7 +24,7 @@ def extract_type(data_type: Any) -> tuple[Any, bool]:
 
 
 def is_instance_of_valid_type(value: Any, can_be_str: bool = False) -> bool:
-    """Whether a value is a scalar or a list of one type; texts may stand between others where that is allowed."""
+    """Whether a value is a scalar or a list of one type, with `can_be_str` also mixed with strings."""
     if not isinstance(value, list):
         return isinstance(value, SCALARS)
     items = cast("list[Any]", value)
@@ -35,7 +35,7 @@ def is_instance_of_valid_type(value: Any, can_be_str: bool = False) -> bool:
 
 
 def is_instance_of(value: Any, data_type: Any, can_be_str: bool = False) -> bool:
-    """Whether a value is of a type; an int is no float, but a bool is an int. Raises `ValueError` for other types."""
+    """Whether a value has a type; an int is no float, but a bool is an int. Raises `ValueError` for other types."""
     if data_type is None:
         return is_instance_of_valid_type(value, can_be_str=can_be_str)
     scalar, is_list = extract_type(data_type)

@@ -7,7 +7,7 @@ from typing import Any
 
 
 def ensure_argument_type(argument: Any, types: Any, argument_name: str, caller: str | None = None) -> None:
-    """Raise `TypeError` unless an argument is of one of the types."""
+    """Raise `TypeError` unless an argument has one of the types."""
     expected: list[Any] = [*types] if isinstance(types, Iterable) else [types]
     if not all(isinstance(each, type) for each in expected):
         raise TypeError(f"'types' should be a type or a list of types, but got '{types}'")

@@ -1,4 +1,4 @@
-"""Entities as a list."""
+"""Normalize entities to a list."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from launch.launch_description_entity import LaunchDescriptionEntity
 
 
 def normalize_to_list_of_entities(entities: Any) -> list[Any]:
-    """A flat list from an entity or nested iterables of them; raises `TypeError` for anything else."""
+    """Return a flat list from an entity or nested iterables of them; raises `TypeError` for anything else."""
     found: list[Any] = []
     given = cast("Iterable[Any]", entities if isinstance(entities, Iterable) else (entities,))
     for each in given:

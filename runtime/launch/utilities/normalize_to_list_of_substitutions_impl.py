@@ -1,4 +1,4 @@
-"""Texts and substitutions as a list of substitutions."""
+"""Normalize texts and substitutions to a list of substitutions."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from launch.substitution import Substitution
 
 
 def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
-    """A list of substitutions; raises `TypeError` for anything that is neither text nor substitution."""
+    """Return a list of substitutions; raises `TypeError` for anything but texts and substitutions."""
     from launch.substitutions.text_substitution import TextSubstitution
 
     def one(item: Any) -> Substitution:

@@ -1,4 +1,4 @@
-"""A list of substitutions as one text."""
+"""Evaluate a list of substitutions."""
 
 from __future__ import annotations
 
@@ -10,5 +10,5 @@ if TYPE_CHECKING:
 
 
 def perform_substitutions(context: LaunchContext, subs: Iterable[Any]) -> str:
-    """The texts of all, one after the other."""
+    """Return the concatenated texts of all substitutions."""
     return "".join(context.perform_substitution(each) for each in subs)

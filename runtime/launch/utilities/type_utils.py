@@ -1,4 +1,4 @@
-"""Typed values from texts and substitutions."""
+"""Convert texts and substitutions to typed values."""
 
 from __future__ import annotations
 
@@ -55,9 +55,9 @@ __all__ = [
 
 
 def coerce_to_type(value: str, data_type: Any = None, can_be_str: bool = False) -> Any:
-    """A scalar or list from a text, which may stay a text where that is allowed.
+    """Convert a text to a scalar or list; with `can_be_str` it may stay a text.
 
-    Raises `ValueError` for a text that is none of the type, `TypeError` for what is no text.
+    Raises `ValueError` for a text not of the type, `TypeError` for anything but a text.
     """
     ensure_argument_type(value, str, "value", "coerce_to_type")
     if data_type is None:
@@ -78,7 +78,7 @@ def coerce_to_type(value: str, data_type: Any = None, can_be_str: bool = False) 
 
 
 def coerce_list(value: list[str], data_type: Any = None, can_be_str: bool = False) -> list[Any]:
-    """A list from texts; raises `ValueError` where they are not of one type, `TypeError` for what is no list."""
+    """Convert texts to a list; raises `ValueError` if their types differ, `TypeError` for anything but a list."""
     ensure_argument_type(value, list, "value", "coerce_list")
     found = [coerce_to_type(each, data_type, can_be_str=can_be_str) for each in value]
     if not is_instance_of_valid_type(found, can_be_str=can_be_str):
@@ -87,7 +87,7 @@ def coerce_list(value: list[str], data_type: Any = None, can_be_str: bool = Fals
 
 
 def get_typed_value(value: Any, data_type: Any, can_be_str: bool = False) -> Any:
-    """A value of a type from a text or a list of texts; raises `ValueError`, and `TypeError` for a list as a scalar."""
+    """Convert a text or a list of texts to a type; raises `ValueError`, and `TypeError` for a list as a scalar."""
     if not isinstance(value, list):
         return coerce_to_type(value, data_type, can_be_str=can_be_str)
     texts = cast("list[Any]", value)
@@ -121,7 +121,7 @@ def _list_from(value: str, scalar: Any, can_be_str: bool) -> list[Any]:
 
 
 def _by_yaml(value: str, problem: str, can_be_str: bool) -> Any:
-    """What YAML makes of a text; an empty one stays, and one that is no YAML may."""
+    """Parse a text as YAML; an empty text is returned as it is, with `can_be_str` also one that is not YAML."""
     import yaml
 
     if not value:
@@ -138,12 +138,12 @@ def _by_yaml(value: str, problem: str, can_be_str: bool) -> Any:
 
 
 def is_valid_scalar_type(data_type: Any) -> bool:
-    """Whether a type is one that a single value may have."""
+    """Whether a type is a scalar type."""
     return data_type in ScalarTypesTuple
 
 
 def is_substitution(value: Any) -> bool:
-    """Whether something is a substitution, or an iterable with at least one and otherwise texts."""
+    """Whether a value is a substitution, or an iterable of texts and at least one substitution."""
     if isinstance(value, Substitution):
         return True
     if isinstance(value, str) or not isinstance(value, Iterable):
@@ -155,7 +155,7 @@ def is_substitution(value: Any) -> bool:
 
 
 def is_normalized_substitution(value: Any) -> bool:
-    """Whether something is a list of substitutions."""
+    """Whether a value is a non-empty list of substitutions."""
     if not isinstance(value, list):
         return False
     items = cast("list[Any]", value)
@@ -163,7 +163,7 @@ def is_normalized_substitution(value: Any) -> bool:
 
 
 def normalize_typed_substitution(value: Any, data_type: Any = None) -> Any:
-    """A scalar as it is, substitutions as a list, and a list as a list of either; `TypeError` for any other type."""
+    """Normalize a value: scalars as they are, substitutions as a list, lists as a list of either; else `TypeError`."""
     if isinstance(value, ScalarTypesTuple):
         if not is_instance_of(value, data_type):
             raise TypeError(f"value='{value}' is not an instance of {data_type}")
@@ -197,7 +197,7 @@ def _type_of_items(value: Any, data_type: Any) -> Any:
 
 
 def _common_type(value: Any, items: list[Any]) -> type | None:
-    """The type of the items that are no substitutions, None where all are; ints between floats are floats."""
+    """Return the common type of the items that are not substitutions, None if all are; ints among floats are floats."""
     kinds: set[type] = set()
     for each in items:
         if isinstance(each, ScalarTypesTuple):
@@ -218,7 +218,7 @@ def _common_type(value: Any, items: list[Any]) -> type | None:
 
 
 def perform_typed_substitution(context: LaunchContext, value: Any, data_type: Any = None) -> Any:
-    """The value of what `normalize_typed_substitution` gave; raises `ValueError` for a text not of the type."""
+    """Evaluate the result of `normalize_typed_substitution`; raises `ValueError` for a text not of the type."""
     if isinstance(value, ScalarTypesTuple):
         if data_type is not None and not is_instance_of(value, data_type):
             raise TypeError(f"value=`{value}` is a scalar and not an instance of `{data_type}`")

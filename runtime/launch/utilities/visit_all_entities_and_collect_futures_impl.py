@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 def visit_all_entities_and_collect_futures(
     entity: Any, context: LaunchContext
 ) -> list[tuple[Any, asyncio.Future[Any]]]:
-    """Visit an entity, then all that come of it, depth first; each that is not done at once comes with its future."""
+    """Visit an entity and those it returns, depth first; return those not done at once, with their futures."""
     try:
         below = entity.visit(context)
     except Exception as error:

@@ -1,4 +1,4 @@
-"""Actions over nodes."""
+"""Actions on nodes."""
 
 from launch_ros.actions.composable_node_container import ComposableNodeContainer
 from launch_ros.actions.lifecycle_node import LifecycleNode

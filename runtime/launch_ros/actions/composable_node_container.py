@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @expose_action("node_container")
 class ComposableNodeContainer(Node):
-    """Runs a container, and lets it load nodes."""
+    """Runs a container and has it load nodes."""
 
     def __init__(self, *, name: Any, namespace: Any, composable_node_descriptions: Any = None, **kwargs: Any) -> None:
         super().__init__(name=name, namespace=namespace, **kwargs)
@@ -23,7 +23,7 @@ class ComposableNodeContainer(Node):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser, ignore: Any = None) -> tuple[Any, dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         from launch_ros.actions.load_composable_nodes import parse_composable_nodes
 
         _, kwargs = super().parse(entity, parser, ignore)
@@ -34,7 +34,7 @@ class ComposableNodeContainer(Node):
         return cls, kwargs
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
-        """Start it, then load the nodes whose conditions hold."""
+        """Start the container, then load the nodes whose conditions hold."""
         from launch_ros.actions.load_composable_nodes import LoadComposableNodes, holds
 
         wanted = [each for each in self.__descriptions or () if holds(each, context)]

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @expose_action("lifecycle_node")
 class LifecycleNode(Node):
-    """Runs a node whose state the launch sees (`StateTransition`) and steers (`ChangeState`)."""
+    """Runs a node whose state the launch observes (`StateTransition`) and controls (`ChangeState`)."""
 
     def __init__(self, *, name: Any, namespace: Any, autostart: Any = False, **kwargs: Any) -> None:
         super().__init__(name=name, namespace=namespace, **kwargs)
@@ -27,7 +27,7 @@ class LifecycleNode(Node):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser, ignore: Any = None) -> tuple[Any, dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser, ignore)
         autostart = entity.get_attr("autostart", data_type=bool, optional=True)
         if autostart is not None:
@@ -36,11 +36,11 @@ class LifecycleNode(Node):
 
     @property
     def node_autostart(self) -> Any:
-        """Whether the node is made active as soon as it runs."""
+        """Whether the node is activated as soon as it runs."""
         return self.__autostart
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
-        """Listen to the node, then start it."""
+        """Subscribe to the node's transitions, then start it."""
         self._perform_substitutions(context)
         self.__manager = LifecycleEventManager(self)
         self.__manager.setup_lifecycle_manager(context)

@@ -1,4 +1,4 @@
-"""Taking lifecycle nodes through transitions."""
+"""Drive lifecycle nodes through transitions."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
 GOALS = {1: "inactive", 2: "unconfigured", 3: "active", 4: "inactive", 5: "finalized", 6: "finalized", 7: "finalized"}
-"""The state in which each public transition ends, by its number in `lifecycle_msgs/msg/Transition`."""
+"""The final state of each public transition, by its number in `lifecycle_msgs/msg/Transition`."""
 
 
 class LifecycleTransition(Action):
-    """Leads each of some lifecycle nodes through some transitions, one after the other."""
+    """Drives each of several lifecycle nodes through a sequence of transitions."""
 
     def __init__(self, *, lifecycle_node_names: Iterable[Any], transition_ids: Iterable[Any], **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -33,7 +33,7 @@ class LifecycleTransition(Action):
             raise RuntimeError("transition_ids must provide at least one lifecycle node transition id")
 
     def execute(self, context: LaunchContext) -> list[Any]:
-        """Ask for the first transition of each node, and for the others when it is their turn."""
+        """Request the first transition of each node, and each further one when the previous has finished."""
         numbers = [_number(context, each) for each in self.__transitions]
         entities: list[Any] = []
         for subs in self.__names:

@@ -44,7 +44,7 @@ WAIT_S = 1.0
 
 @expose_action("load_composable_node")
 class LoadComposableNodes(Action):
-    """Lets a running container load nodes, one after the other."""
+    """Has a running container load nodes, one after the other."""
 
     def __init__(self, *, composable_node_descriptions: Any, target_container: Any, **kwargs: Any) -> None:
         ensure_argument_type(
@@ -58,18 +58,18 @@ class LoadComposableNodes(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["target_container"] = parser.parse_substitution(entity.get_attr("target"))
         kwargs["composable_node_descriptions"] = parse_composable_nodes(entity, parser)
         return cls, kwargs
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
-        """Done when all were loaded, or cannot be."""
+        """Return a future that is done when all nodes were loaded, or cannot be."""
         return self.__done
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
-        """Ask the container for each node whose condition holds."""
+        """Request from the container each node whose condition holds."""
         from composition_interfaces.srv import LoadNode
 
         target = self._container_name(context)
@@ -85,7 +85,7 @@ class LoadComposableNodes(Action):
         return [each for each in started if each is not None] or None
 
     def _autostart(self, description: Any, request: Any, context: LaunchContext) -> Action | None:
-        """What makes a loaded lifecycle node active, where it shall be."""
+        """Return the action that activates a loaded lifecycle node; None if it is not to be activated."""
         if not isinstance(description, ComposableLifecycleNode):
             return None
         namespace = request.node_namespace.strip("/")
@@ -97,7 +97,7 @@ class LoadComposableNodes(Action):
         return make_active(name)
 
     def _container_name(self, context: LaunchContext) -> str:
-        """The container's full name, or the text as it is: no pushed namespace goes before it."""
+        """Return the container's full name, or the given text unchanged: pushed namespaces are not applied to it."""
         if isinstance(self.__target, Node):
             return self.__target.node_name
         return perform_substitutions(context, normalize_to_list_of_substitutions(self.__target))
@@ -157,7 +157,7 @@ def _count(name: str, target: str, context: LaunchContext) -> None:
 
 
 def parse_composable_nodes(entity: Entity, parser: Parser, *, optional: bool = False) -> list[ComposableNode]:
-    """The `composable_node` elements."""
+    """Parse the `composable_node` elements."""
     found: list[ComposableNode] = []
     for each in entity.get_attr("composable_node", data_type=list, optional=optional) or ():
         kind, kwargs = ComposableNode.parse(parser, each)
@@ -172,7 +172,7 @@ def holds(description: ComposableNode, context: LaunchContext) -> bool:
 
 
 def request_for(description: ComposableNode, context: LaunchContext) -> Any:
-    """The request that loads a node, with what the launch file has set for all nodes."""
+    """Return the request that loads a node, including what the launch file has set for all nodes."""
     from composition_interfaces.srv import LoadNode
 
     request = LoadNode.Request()
@@ -200,7 +200,7 @@ def request_for(description: ComposableNode, context: LaunchContext) -> Any:
 
 
 def _of_all_nodes(given: Any) -> Any:
-    """What `SetParameter` or `SetParametersFromFile` has set, as an entry of a node's parameters."""
+    """Return what `SetParameter` or `SetParametersFromFile` has set, as an entry of a node's parameters."""
     if isinstance(given, tuple):
         return normalize_parameter_dict({given[0]: given[1]})
     path = Path(given).resolve()
@@ -215,7 +215,7 @@ def _messages(context: LaunchContext, names: tuple[str, str], parameters: Sequen
 
 
 def get_composable_node_load_request(composable_node_description: ComposableNode, context: LaunchContext) -> Any:
-    """The request that loads a node; None where its condition does not hold."""
+    """Return the request that loads a node; None if its condition does not hold."""
     if not holds(composable_node_description, context):
         return None
     return request_for(composable_node_description, context)

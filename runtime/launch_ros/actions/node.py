@@ -93,7 +93,7 @@ class Node(ExecuteProcess):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] | None = None) -> tuple[Any, dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         from launch_ros.actions.parse_node import parse_node
 
         _, kwargs = super().parse(entity, parser, ignore=("cmd", "name", *(ignore or ())))
@@ -101,41 +101,41 @@ class Node(ExecuteProcess):
 
     @staticmethod
     def parse_nested_parameters(params: Any, parser: Any) -> list[Any]:
-        """`param` elements as the `parameters` of a node, for classes of others that parse them."""
+        """Parse `param` elements as a node's `parameters`, for third-party subclasses that need it."""
         from launch_ros.actions.parse_parameters import parse_nested_parameters
 
         return parse_nested_parameters(params, parser)
 
     @property
     def node_package(self) -> Any:
-        """The package."""
+        """The package of the executable."""
         return self.__package
 
     @property
     def node_executable(self) -> Any:
-        """The executable."""
+        """The executable's name."""
         return self.__executable
 
     @property
     def node_name(self) -> str:
-        """The full name; raises `RuntimeError` before the node was visited."""
+        """The node's full name; raises `RuntimeError` before the node was visited."""
         if self.__final_name is None:
             raise RuntimeError("cannot access 'node_name' before executing action")
         return self.__final_name
 
     @property
     def expanded_node_name(self) -> str:
-        """The name without the namespace."""
+        """The node's name without its namespace."""
         return self.__expanded_name
 
     @property
     def expanded_node_namespace(self) -> str:
-        """The namespace."""
+        """The node's namespace."""
         return self.__expanded_namespace
 
     @property
     def expanded_parameter_arguments(self) -> list[ParameterArgument] | None:
-        """Each parameter argument, with whether it is a file."""
+        """The parameter arguments, each with whether it is a file."""
         return self.__expanded_parameters
 
     @property
@@ -145,7 +145,7 @@ class Node(ExecuteProcess):
 
     @property
     def parameters(self) -> list[Any]:
-        """The parameters as they were given, in normal form."""
+        """The given parameters, normalized."""
         return self.__parameters
 
     def is_node_name_fully_specified(self) -> bool:
@@ -155,7 +155,7 @@ class Node(ExecuteProcess):
         )
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
-        """Evaluate names, parameters and rules, then start."""
+        """Evaluate names, parameters and rules, then start the node."""
         self._perform_substitutions(context)
         if self.__package is not None and not may_start(context, self, self.__package_text):
             return None
@@ -179,7 +179,7 @@ class Node(ExecuteProcess):
 
     def _perform_substitutions(self, context: LaunchContext) -> None:
         if self.__substitutions_performed:
-            return  # a second run of the same action fails in a moment, with its own message
+            return  # a second run of the same action fails shortly, with its own message
         self.__substitutions_performed = True
         if self.__package is not None:
             package = normalize_to_list_of_substitutions(self.__package)
@@ -228,7 +228,7 @@ class Node(ExecuteProcess):
             self._add_words("--params-file" if is_file else "-p", argument)
 
     def _likely_name(self) -> str:
-        """The full name, with the root as namespace where none is known: few programs choose another."""
+        """Return the full name, assuming the root namespace if none is known: few programs choose another."""
         return self.node_name.replace(self.UNSPECIFIED_NODE_NAMESPACE, "")
 
     def _expand_remappings(self, context: LaunchContext) -> None:
@@ -243,14 +243,14 @@ class Node(ExecuteProcess):
         self.process_description.cmd.extend([TextSubstitution(text=each)] for each in words)
 
     def python_program(self, command: list[str]) -> PythonProgram | None:
-        """The node's program, where it is Python and nothing but Python itself is put before it."""
+        """Return the node's program if it is a Python program and its prefix, if any, is only Python itself."""
         prefix = self.process_description.words_of_prefix
         if self.shell or (prefix and not is_this_python(prefix)):
             return None
         return program_of(self.__package_text, command[len(prefix)])
 
     def words_for(self, program: PythonProgram | None, command: list[str]) -> list[str]:
-        """The command as its program is given it, or as the system can run it."""
+        """Return the command as its program expects it, or as the system can run it."""
         prefix = len(self.process_description.words_of_prefix)
         return os_command(self.__package_text, command, prefix) if program is None else command[prefix:]
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def parse_node(entity: Entity, parser: Parser, kwargs: dict[str, Any]) -> dict[str, Any]:
-    """Add what belongs to a node to the keyword arguments of its process."""
+    """Add a node's attributes to the keyword arguments of its process."""
     for attribute, keyword in (("args", "arguments"), ("ros_args", "ros_arguments")):
         text = entity.get_attr(attribute, optional=True)
         if text is not None:

@@ -26,7 +26,7 @@ TYPES: dict[str, Any] = {
 
 
 def parse_nested_parameters(params: Any, parser: Any) -> list[Any]:
-    """Each `param` element as a dict, or as a `ParameterFile`."""
+    """Parse each `param` element as a dict or a `ParameterFile`."""
     return [_parameter(each, parser) for each in params]
 
 
@@ -79,7 +79,7 @@ def _kind(name: str | None) -> Any:
 
 
 def parse_remappings(entity: Entity, parser: Parser) -> list[tuple[Any, Any]] | None:
-    """The `remap` elements."""
+    """Parse the `remap` elements."""
     elements = entity.get_attr("remap", data_type=list, optional=True)
     if elements is None:
         return None

@@ -1,4 +1,4 @@
-"""A namespace for all nodes that follow in the scope."""
+"""A namespace for all subsequent nodes in the scope."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 @expose_action("push_ros_namespace")
 @expose_action("push-ros-namespace")
 class PushROSNamespace(Action):
-    """Puts a namespace before those of all nodes that follow, to the end of the group."""
+    """Prepends a namespace to those of all subsequent nodes, until the end of the group."""
 
     def __init__(self, namespace: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -28,7 +28,7 @@ class PushROSNamespace(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[PushROSNamespace], dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["namespace"] = parser.parse_substitution(entity.get_attr("namespace"))
         return cls, kwargs
@@ -39,7 +39,7 @@ class PushROSNamespace(Action):
         return self.__namespace
 
     def execute(self, context: LaunchContext) -> None:
-        """Push it; raises `SubstitutionFailure` for an invalid one."""
+        """Push the namespace; raises `SubstitutionFailure` if it is invalid."""
         from rclpy.exceptions import InvalidNamespaceException
         from rclpy.validate_namespace import validate_namespace
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @expose_action("ros_timer")
 class ROSTimer(TimerAction):
-    """Visits actions after a period (s) of ROS time, which is `/clock` where `SetUseSimTime` says so."""
+    """Visits actions after a period (s) of ROS time, which follows `/clock` if `SetUseSimTime` requests that."""
 
     def __init__(self, *, period: Any, actions: Any, **kwargs: Any) -> None:
         super().__init__(period=period, actions=actions, **kwargs)
@@ -34,7 +34,7 @@ class ROSTimer(TimerAction):
         self.__timer = node.create_timer(period, fired, clock=node.get_clock())
 
     def cancel(self) -> None:
-        """Visit no actions any more."""
+        """Cancel the timer."""
         if self.__timer is not None:
             self.__timer.cancel()
         super().cancel()

@@ -1,4 +1,4 @@
-"""Parameters for all nodes that follow."""
+"""Parameters for all subsequent nodes."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ KEY = "global_params"
 
 @expose_action("set_parameter")
 class SetParameter(Action):
-    """Sets a parameter of all nodes that follow."""
+    """Sets a parameter of all subsequent nodes."""
 
     def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -45,7 +45,7 @@ class SetParameter(Action):
         return next(iter(self.__param_dict.values()))
 
     def execute(self, context: LaunchContext) -> None:
-        """Set it."""
+        """Set the parameter."""
         evaluated = evaluate_parameter_dict(context, self.__param_dict)
         for name, value in evaluated.items():
             warn_of_argument(name, value, self.origin)
@@ -55,7 +55,7 @@ class SetParameter(Action):
 
 @expose_action("set_parameters_from_file")
 class SetParametersFromFile(Action):
-    """Gives a parameter file to all nodes that follow."""
+    """Passes a parameter file to all subsequent nodes."""
 
     def __init__(self, filename: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -70,11 +70,11 @@ class SetParametersFromFile(Action):
 
     @property
     def filename(self) -> Any:
-        """Where it is."""
+        """The path of the file."""
         return self.__file
 
     def execute(self, context: LaunchContext) -> None:
-        """Give it."""
+        """Add the file."""
         context.launch_configurations.setdefault(KEY, [])
         context.launch_configurations[KEY].append(perform_substitutions(context, self.__file))
 

@@ -1,4 +1,4 @@
-"""Remap rules for all nodes that follow."""
+"""Remap rules for all subsequent nodes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @expose_action("set_remap")
 class SetRemap(Action):
-    """Gives a remap rule to all nodes that follow."""
+    """Passes a remap rule to all subsequent nodes."""
 
     def __init__(self, src: Any, dst: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -25,7 +25,7 @@ class SetRemap(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetRemap], dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["src"] = parser.parse_substitution(entity.get_attr("from"))
         kwargs["dst"] = parser.parse_substitution(entity.get_attr("to"))
@@ -38,11 +38,11 @@ class SetRemap(Action):
 
     @property
     def dst(self) -> Any:
-        """The name that it becomes."""
+        """The name that replaces it."""
         return self.__target
 
     def execute(self, context: LaunchContext) -> None:
-        """Give it."""
+        """Add the rule."""
         rule = (perform_substitutions(context, self.__source), perform_substitutions(context, self.__target))
         context.launch_configurations.setdefault("ros_remaps", [])
         context.launch_configurations["ros_remaps"].append(rule)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @expose_action("set_ros_log_dir")
 class SetROSLogDir(Action):
-    """Lets nodes that follow log to another folder; a relative one is below where they log now."""
+    """Makes subsequent nodes log to another folder; a relative one is below their current log folder."""
 
     def __init__(self, new_log_dir: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -25,7 +25,7 @@ class SetROSLogDir(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetROSLogDir], dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["new_log_dir"] = parser.parse_substitution(entity.get_attr("new_log_dir"))
         return cls, kwargs
@@ -36,7 +36,7 @@ class SetROSLogDir(Action):
         return self.__log_dir
 
     def execute(self, context: LaunchContext) -> None:
-        """Set it."""
+        """Set the folder."""
         from rclpy.logging import get_logging_directory
 
         before = context.environment.get("ROS_LOG_DIR") or os.fspath(get_logging_directory())

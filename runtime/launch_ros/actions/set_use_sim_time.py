@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @expose_action("set_use_sim_time")
 class SetUseSimTime(Action):
-    """Lets the launch's own node follow `/clock`, as `ROSTimer` needs it; nodes that are started do not."""
+    """Makes the launch's own node follow `/clock`, as needed by `ROSTimer`; started nodes are not affected."""
 
     def __init__(self, value: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -24,18 +24,18 @@ class SetUseSimTime(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetUseSimTime], dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
         return cls, kwargs
 
     @property
     def value(self) -> Any:
-        """Whether it does."""
+        """Whether simulated time is used."""
         return self.__value
 
     def execute(self, context: LaunchContext) -> None:
-        """Set it."""
+        """Set the parameter."""
         from launch_ros.ros_adapters import get_ros_node
         from rclpy.parameter import Parameter
 

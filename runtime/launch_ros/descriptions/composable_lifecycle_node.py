@@ -1,4 +1,4 @@
-"""A lifecycle node that a container loads: newer than Jazzy's first release, but public launch files have it."""
+"""A lifecycle node loaded by a container: newer than Jazzy's first release, but used in public launch files."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class ComposableLifecycleNode(ComposableNode):
-    """A node as a class that a running container loads, and whose state the launch sees and steers."""
+    """A node class that a running container loads, and whose state the launch observes and controls."""
 
     def __init__(self, *, autostart: Any = False, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -21,16 +21,16 @@ class ComposableLifecycleNode(ComposableNode):
 
     @property
     def node_autostart(self) -> Any:
-        """Whether the node is made active as soon as it is loaded."""
+        """Whether the node is activated as soon as it is loaded."""
         return self.__autostart
 
     @property
     def node_name(self) -> Any:
-        """The node's name; its full name once the launch knows it."""
+        """The node's name; the full name once the launch knows it."""
         return super().node_name if self.__full_name is None else self.__full_name
 
     def init_lifecycle_event_manager(self, context: LaunchContext, full_name: str) -> None:
-        """Hear and steer the node of this full name."""
+        """Observe and control the node of this full name."""
         from launch_ros.utilities.lifecycle_event_manager import LifecycleEventManager
 
         self.__full_name = full_name

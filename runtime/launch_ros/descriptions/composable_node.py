@@ -1,4 +1,4 @@
-"""A node that a container loads."""
+"""A node loaded by a container."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from launch.utilities import normalize_to_list_of_substitutions
 
 
 class ComposableNode:
-    """A node as a class that a running container loads."""
+    """A node class that a running container loads."""
 
     def __init__(
         self,
@@ -36,7 +36,7 @@ class ComposableNode:
 
     @classmethod
     def parse(cls, parser: Any, entity: Any) -> tuple[type[ComposableNode], dict[str, Any]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         from launch_ros.actions.parse_parameters import parse_nested_parameters, parse_remappings
 
         kwargs: dict[str, Any] = {
@@ -72,7 +72,7 @@ class ComposableNode:
 
     @property
     def package(self) -> list[Any]:
-        """The package that has the class."""
+        """The package of the class."""
         return self.__package
 
     @property
@@ -102,9 +102,9 @@ class ComposableNode:
 
     @property
     def extra_arguments(self) -> Any:
-        """What the container is told besides."""
+        """Extra arguments for the container."""
         return self.__extra_arguments
 
     def condition(self) -> Any:
-        """The condition under which it is loaded."""
+        """The condition for loading it."""
         return self.__condition

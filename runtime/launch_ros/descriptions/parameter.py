@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Parameter:
-    """A parameter; it travels as `-p name:=value`."""
+    """A parameter, passed as `-p name:=value`."""
 
     def __init__(self, name: Any, value: Any, *, value_type: Any = None) -> None:
         self.__name = normalize_to_list_of_substitutions(name)
@@ -21,12 +21,12 @@ class Parameter:
 
     @property
     def name(self) -> Any:
-        """The name: evaluated once the launch runs."""
+        """The name; evaluated once the launch runs."""
         return self.__name if self.__evaluated_name is None else self.__evaluated_name
 
     @property
     def value(self) -> Any:
-        """The value: evaluated once the launch runs."""
+        """The value; evaluated once the launch runs."""
         return self.__value.value
 
     @property
@@ -38,7 +38,7 @@ class Parameter:
         return f"launch_ros.description.Parameter(name={self.name}, value={self.value}, value_type={self.value_type})"
 
     def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
-        """Name and value, of the first time."""
+        """Return name and value, evaluated on the first call."""
         if self.__evaluated_name is None:
             self.__evaluated_name = perform_substitutions(context, self.__name)
         return self.__evaluated_name, self.__value.evaluate(context)

@@ -18,7 +18,7 @@ PREFIX = "launch_params_"
 
 
 class ParameterFile:
-    """A parameter file; its own text may have substitutions where that is allowed."""
+    """A parameter file, whose text may contain substitutions if `allow_substs` is set."""
 
     def __init__(self, param_file: Any, *, allow_substs: Any = False) -> None:
         self.__param_file = normalize_to_list_of_substitutions(param_file)
@@ -27,7 +27,7 @@ class ParameterFile:
 
     @property
     def param_file(self) -> Any:
-        """Where it is: a path once the launch runs."""
+        """The path; evaluated once the launch runs."""
         return self.__param_file if self.__evaluated is None else self.__evaluated
 
     @property
@@ -39,11 +39,11 @@ class ParameterFile:
         return f"launch_ros.description.ParameterFile(param_file={self.param_file}, allow_substs={self.allow_substs})"
 
     def evaluate(self, context: LaunchContext) -> Path:
-        """The path; of a file with substitutions, that of a copy in which they are evaluated. The first time counts.
+        """Return the path, or that of a copy with its substitutions evaluated. The first result is kept.
 
-        Of a file on a server it is the path of the copy that was fetched. Raises `OSError` for a file on a server that
-        cannot be had, and for one with substitutions that cannot be read, `SubstitutionFailure` for one that is no
-        YAML any more.
+        For a file on a server, it is the path of the fetched copy. Raises `OSError` for a file that cannot be fetched
+        from its server or, with substitutions, cannot be read; `SubstitutionFailure` for one that is not valid YAML
+        after substitution.
         """
         if self.__evaluated is None:
             place = perform_substitutions(context, self.__param_file)
@@ -60,7 +60,7 @@ class ParameterFile:
 
 
 _copies: WeakKeyDictionary[LaunchContext, dict[str, Path]] = WeakKeyDictionary()
-"""What each launch has fetched: all its nodes start with the same text, and a silent server is waited for once."""
+"""Files fetched by each launch: all its nodes start with the same text, and a silent server is waited for only once."""
 
 
 def _fetched(context: LaunchContext, address: str) -> Path:

@@ -10,7 +10,7 @@ from launch_ros.events.lifecycle import StateTransition
 
 
 class OnStateTransition(EventHandler):
-    """Visits entities when a lifecycle node has made a transition; names that are not given match any."""
+    """Visits entities on a transition of a lifecycle node; names that are not given match any."""
 
     kind_of_events = StateTransition
 

@@ -7,6 +7,6 @@ from typing import Any
 
 
 def matches_node_name(node_name: str) -> Callable[[Any], bool]:
-    """A predicate: whether an action's node has this full name."""
+    """Return a predicate: whether an action's node has this full name."""
     name = node_name if node_name.startswith("/") else f"/{node_name}"
     return lambda action: getattr(action, "node_name", None) == name

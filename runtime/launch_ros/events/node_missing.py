@@ -8,7 +8,7 @@ from launch.event import Event
 
 
 class NodeMissing(Event):
-    """The action that was not started, its package and executable, and what brings them; ROS 2 has no such event."""
+    """The action that was not started, its package and executable, and how to get them; ROS 2 has no such event."""
 
     name = "launch_ros.events.NodeMissing"
 

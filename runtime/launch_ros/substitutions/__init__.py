@@ -1,4 +1,4 @@
-"""Substitutions over packages and parameters."""
+"""Substitutions for packages and parameters."""
 
 from launch_ros.substitutions.executable_in_package import ExecutableInPackage
 from launch_ros.substitutions.find_package import FindPackage, FindPackagePrefix, FindPackageShare

@@ -1,4 +1,4 @@
-"""Where an executable of a package is."""
+"""The path of a package's executable."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @expose_substitution("exec-in-pkg")
 class ExecutableInPackage(Substitution):
-    """The path of an executable of a package; of one that was never built, where its build would put it."""
+    """The path of a package's executable; if it was never built, where its build would install it."""
 
     def __init__(self, executable: Any, package: Any) -> None:
         super().__init__()

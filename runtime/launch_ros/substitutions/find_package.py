@@ -1,4 +1,4 @@
-"""Where a package is."""
+"""The folders of a package."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class FindPackage(Substitution):
-    """A folder of a package; `/` goes on below it."""
+    """A folder of a package; `/` appends a path."""
 
     def __init__(self, package: Any) -> None:
         super().__init__()
@@ -36,7 +36,7 @@ class FindPackage(Substitution):
         return self.__package
 
     def __truediv__(self, additional_path: Any) -> PathJoinSubstitution:
-        """A path below."""
+        """Return a path below."""
         return PathJoinSubstitution([self, additional_path])
 
     def describe(self) -> str:
@@ -44,11 +44,11 @@ class FindPackage(Substitution):
         return f"{type(self).__name__}(pkg={described(self.__package)})"
 
     def find(self, package_name: str) -> str:
-        """The folder; raises `PackageNotFoundError`."""
+        """Return the folder; raises `PackageNotFoundError`."""
         raise NotImplementedError
 
     def perform(self, context: LaunchContext) -> str:
-        """The folder."""
+        """Return the folder."""
         return str(Path(self.find(perform_substitutions(context, self.__package))))
 
 
@@ -57,7 +57,7 @@ class FindPackagePrefix(FindPackage):
     """The prefix of a package."""
 
     def find(self, package_name: str) -> str:
-        """The prefix."""
+        """Return the prefix."""
         return get_package_prefix(package_name)
 
 
@@ -66,5 +66,5 @@ class FindPackageShare(FindPackage):
     """The share folder of a package."""
 
     def find(self, package_name: str) -> str:
-        """The share folder."""
+        """Return the share folder."""
         return get_package_share_directory(package_name)

@@ -1,4 +1,4 @@
-"""Parameters that the launch file has set for all nodes."""
+"""Parameters set by the launch file for all nodes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @expose_substitution("param")
 class Parameter(Substitution):
-    """The value that `SetParameter` has set, or a default."""
+    """The value set by `SetParameter`, or a default."""
 
     def __init__(self, name: Any, *, default: Any = None) -> None:
         super().__init__()
@@ -40,7 +40,7 @@ class Parameter(Substitution):
         return f"Parameter({described(self.__name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The value; raises `SubstitutionFailure` where nobody has set it."""
+        """Return the value; raises `SubstitutionFailure` if it is not set and has no default."""
         name = perform_substitutions(context, self.__name)
         for each in context.launch_configurations.get("global_params", ()):
             pair: Any = each

@@ -1,4 +1,4 @@
-"""Evaluates the `parameters` of a node when it starts."""
+"""Evaluate the `parameters` of a node when it starts."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ITEM_SCALARS = (bool, int, float, str)
 
 
 def evaluate_parameters(context: LaunchContext, parameters: Sequence[Any]) -> tuple[Any, ...]:
-    """Each entry as a dict of plain values, a path, or a `Parameter`; raises `TypeError` for values of no ROS type."""
+    """Return each entry as a dict of plain values, a path, or a `Parameter`; raises `TypeError` for non-ROS types."""
     found: list[Any] = []
     for entry in parameters:
         if isinstance(entry, ParameterFile):
@@ -31,7 +31,7 @@ def evaluate_parameters(context: LaunchContext, parameters: Sequence[Any]) -> tu
 
 
 def evaluate_parameter_dict(context: LaunchContext, parameters: Mapping[Any, Any]) -> dict[str, Any]:
-    """Names and values."""
+    """Return names and values."""
     found: dict[str, Any] = {}
     for key, value in parameters.items():
         name = perform_substitutions(context, key)
@@ -56,7 +56,7 @@ def _evaluate(context: LaunchContext, name: str, value: Any) -> Any:
 
 
 def yaml_value(name: str, text: str) -> Any:
-    """What YAML makes of a text; an empty one stays."""
+    """Parse a text as YAML; an empty one is returned unchanged."""
     import yaml
 
     if not text:
@@ -71,7 +71,7 @@ def yaml_value(name: str, text: str) -> Any:
 
 
 def check_value(name: str, value: Any) -> Any:
-    """The value, lists as tuples; raises `TypeError` where no ROS parameter can have it."""
+    """Return the value, lists as tuples; raises `TypeError` if no ROS parameter can have it."""
     if isinstance(value, SCALARS):
         return value
     if isinstance(value, Sequence):

@@ -1,4 +1,4 @@
-"""A launch's link to a lifecycle node: receives its transitions, and requests others."""
+"""A launch's connection to a lifecycle node: receives its transitions and requests others."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ WAIT_S = 1.0
 
 
 class LifecycleEventManager:
-    """Turns transitions of a node into events, and `ChangeState` events that choose it into calls of its service."""
+    """Converts a node's transitions to events, and `ChangeState` events that select it to service calls."""
 
     def __init__(self, lifecycle_node: Any) -> None:
         self._node = lifecycle_node
@@ -31,7 +31,7 @@ class LifecycleEventManager:
         return self._node.node_name
 
     def setup_lifecycle_manager(self, context: LaunchContext) -> None:
-        """Begin, before the node starts."""
+        """Set up the connection, before the node starts."""
         from lifecycle_msgs.msg import TransitionEvent
         from lifecycle_msgs.srv import ChangeState as ChangeStateService
 

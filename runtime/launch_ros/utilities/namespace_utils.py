@@ -4,22 +4,22 @@ from __future__ import annotations
 
 
 def is_root_namespace(ns: str | None) -> bool:
-    """Whether it is `/`."""
+    """Whether a namespace is `/`."""
     return ns == "/"
 
 
 def is_namespace_absolute(ns: str | None) -> bool:
-    """Whether it begins with a slash."""
+    """Whether a namespace begins with a slash."""
     return ns is not None and ns.startswith("/")
 
 
 def make_namespace_absolute(ns: str | None) -> str | None:
-    """The same with a slash before it."""
+    """Return the namespace with a leading slash."""
     return ns if ns is None or ns.startswith("/") else f"/{ns}"
 
 
 def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
-    """A namespace or name below another one; an absolute one stays what it is."""
+    """Return a namespace or name below another namespace; an absolute one is returned unchanged."""
     if base_ns is None and ns is None:
         return None
     if ns is None:

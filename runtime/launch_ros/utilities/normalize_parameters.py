@@ -1,4 +1,4 @@
-"""Brings the `parameters` of a node into the form that is kept until the launch runs."""
+"""Normalize a node's `parameters` to the form that is kept until the launch runs."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ SCALARS = (bool, int, float, str, bytes)
 
 
 def normalize_parameters(parameters: Any) -> list[Any]:
-    """Each entry as a dict with normal keys and values, a `ParameterFile`, or a `Parameter`; raises `TypeError`."""
+    """Return each entry as a normalized dict, a `ParameterFile`, or a `Parameter`; raises `TypeError`."""
     if isinstance(parameters, str) or not isinstance(parameters, Sequence):
         raise TypeError("Expecting list of parameters, got {parameters}")
     given = cast("Sequence[Any]", parameters)

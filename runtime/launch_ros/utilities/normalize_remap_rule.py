@@ -12,7 +12,7 @@ Rule = tuple[tuple[Substitution, ...], tuple[Substitution, ...]]
 
 
 def normalize_remap_rule(remap_rule: Any) -> Rule:
-    """Both sides as substitutions; raises `TypeError` for anything but a tuple of two."""
+    """Return both sides as substitutions; raises `TypeError` for anything but a tuple of two."""
     ensure_argument_type(remap_rule, (tuple,), "remap_rule")
     if len(remap_rule) != 2:
         raise TypeError(f"remap_rule must be a tuple of length 2, got length {len(remap_rule)}")
@@ -21,6 +21,6 @@ def normalize_remap_rule(remap_rule: Any) -> Rule:
 
 
 def normalize_remap_rules(remap_rules: Iterable[Any]) -> Iterable[Rule]:
-    """Each of some rules."""
+    """Normalize several rules."""
     for each in remap_rules:
         yield normalize_remap_rule(each)

@@ -1,4 +1,4 @@
-"""Converts parameters for a service request."""
+"""Convert parameters for a service request."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ PARAMETERS_KEY = "ros__parameters"
 def to_parameters_list(
     context: LaunchContext, node_name: str, namespace: str | None, evaluated_parameters: Any
 ) -> list[Any]:
-    """The `rclpy` parameters of a node from what `evaluate_parameters` gave; of files, what is meant for the node.
+    """Return a node's `rclpy` parameters from the result of `evaluate_parameters`; of files, those for the node.
 
-    A `UserWarning` says that a file has nothing for the node. Raises `OSError`, `yaml.YAMLError`, `RuntimeError` for a
-    file whose keys cannot be matched, and `TypeError` for values that no parameter can have.
+    Issues a `UserWarning` for a file without parameters for the node. Raises `OSError`, `yaml.YAMLError`,
+    `RuntimeError` for a file whose keys cannot be matched, and `TypeError` for invalid parameter values.
     """
     from rclpy.parameter import Parameter
 
@@ -54,7 +54,7 @@ def _full_name(node_name: str, namespace: str | None) -> str:
 
 
 def _values_of_file(context: LaunchContext, path: Path, full_name: str) -> dict[str, Any]:
-    """Values of the keys that mean the node, later ones over earlier ones; a file without node keys is all values."""
+    """Return the values under matching keys, later ones over earlier ones; a file without node keys is all values."""
     import yaml
     from launch_ros.utilities.evaluate_parameters import evaluate_parameter_dict
     from launch_ros.utilities.normalize_parameters import normalize_parameter_dict
@@ -81,7 +81,7 @@ def _values_of_file(context: LaunchContext, path: Path, full_name: str) -> dict[
 
 
 def _sections(content: Mapping[Any, Any], above: list[str]) -> Iterator[tuple[str, Any]]:
-    """Node keys, those of nested namespaces joined, each with its parameters."""
+    """Yield node keys, nested namespaces joined, each with its parameters."""
     for key, value in content.items():
         if key == PARAMETERS_KEY:
             yield "/".join(above), value
@@ -92,7 +92,7 @@ def _sections(content: Mapping[Any, Any], above: list[str]) -> Iterator[tuple[st
 
 
 def _means(key: str, full_name: str, path: Path) -> bool:
-    """Whether a key means the node: `*` is one part of a name, `**` is any number of them."""
+    """Whether a key matches the node: `*` is one part of a name, `**` any number of parts."""
     pattern = (key if key.startswith("/") else f"/{key}").replace("/*", r"(/\w+)")
     try:
         return re.fullmatch(pattern, full_name) is not None

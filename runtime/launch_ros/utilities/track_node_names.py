@@ -1,4 +1,4 @@
-"""Which node names a launch has started, and how often each."""
+"""The node names that a launch has started, and how often each."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ def add_node_name(context: LaunchContext, node_name: str) -> None:
 
 
 def get_node_name_count(context: LaunchContext, node_name: str) -> int:
-    """How often a name was counted."""
+    """Return how often a name was counted."""
     return context.get_locals_as_dict().get(KEY, {}).get(node_name, 0)
 
 
 def warn_of_same_name(context: LaunchContext, node_name: str, origin: str) -> None:
-    """Warn where a node, though its namespace is not given, will most likely have the name of another one."""
+    """Warn if a node will most likely have the same name as another, though its namespace is not given."""
     import launch.logging
 
     names = context.names_without_namespace

@@ -18,5 +18,5 @@ class ProcessExited(RunningProcessEvent):
 
     @property
     def returncode(self) -> int:
-        """Its exit code; of one that a signal ended, the signal's number with a minus."""
+        """Its exit code; negative for a process ended by that signal."""
         return self.__returncode

@@ -24,15 +24,15 @@ class ProcessIO(RunningProcessEvent):
 
     @property
     def from_stdin(self) -> bool:
-        """Whether they are for its input."""
+        """Whether the bytes are input."""
         return self.__fd == 0
 
     @property
     def from_stdout(self) -> bool:
-        """Whether it has printed them as output."""
+        """Whether the bytes are standard output."""
         return self.__fd == 1
 
     @property
     def from_stderr(self) -> bool:
-        """Whether it has printed them as errors."""
+        """Whether the bytes are standard error."""
         return self.__fd == 2

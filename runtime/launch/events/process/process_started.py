@@ -6,6 +6,6 @@ from launch.events.process.running_process_event import RunningProcessEvent
 
 
 class ProcessStarted(RunningProcessEvent):
-    """A process runs."""
+    """A process has been started."""
 
     name = "launch.events.process.ProcessStarted"

@@ -8,7 +8,7 @@ from launch.events.process.process_io import ProcessIO
 
 
 class ProcessStderr(ProcessIO):
-    """Bytes that a process has printed as errors."""
+    """Bytes that a process has written to its standard error."""
 
     name = "launch.events.process.ProcessStderr"
 

@@ -8,7 +8,7 @@ from launch.events.process.process_io import ProcessIO
 
 
 class ProcessStdin(ProcessIO):
-    """Bytes for a process's input."""
+    """Bytes for a process's standard input."""
 
     name = "launch.events.process.ProcessStdin"
 

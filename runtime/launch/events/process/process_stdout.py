@@ -8,7 +8,7 @@ from launch.events.process.process_io import ProcessIO
 
 
 class ProcessStdout(ProcessIO):
-    """Bytes that a process has printed as output."""
+    """Bytes that a process has written to its standard output."""
 
     name = "launch.events.process.ProcessStdout"
 

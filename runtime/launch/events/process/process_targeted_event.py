@@ -1,4 +1,4 @@
-"""Base of events addressed to processes."""
+"""Base class of events addressed to processes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from launch.event import Event
 
 
 class ProcessTargetedEvent(Event):
-    """An event for the processes whose actions a predicate chooses."""
+    """An event for the processes whose actions a predicate selects."""
 
     name = "launch.events.process.ProcessTargetedEvent"
 

@@ -1,4 +1,4 @@
-"""Base of events that come from a process."""
+"""Base class of events of a process."""
 
 from __future__ import annotations
 
@@ -37,12 +37,12 @@ class RunningProcessEvent(Event):
 
     @property
     def execute_process_action(self) -> Any:
-        """The same, by its old name."""
+        """The action, by its old name."""
         return self.__action
 
     @property
     def process_name(self) -> str:
-        """Its label, as `talker-1`."""
+        """The process's label, such as `talker-1`."""
         return self.__name
 
     @property
@@ -52,15 +52,15 @@ class RunningProcessEvent(Event):
 
     @property
     def cwd(self) -> str | None:
-        """Its working directory; None: that of the launch."""
+        """Its working directory; None for the launch's own."""
         return self.__cwd
 
     @property
     def env(self) -> dict[str, str] | None:
-        """Its environment; None: that of the launch."""
+        """Its environment; None for the launch's own."""
         return self.__env
 
     @property
     def pid(self) -> int:
-        """Its number."""
+        """Its process id."""
         return self.__pid

@@ -6,6 +6,6 @@ from launch.events.process.process_targeted_event import ProcessTargetedEvent
 
 
 class ShutdownProcess(ProcessTargetedEvent):
-    """A process shall end: SIGINT first, stronger signals when that does not help."""
+    """Requests that a process end: by SIGINT, then by stronger signals if it does not."""
 
     name = "launch.events.process.ShutdownProcess"

@@ -9,7 +9,7 @@ from launch.events.process.process_targeted_event import ProcessTargetedEvent
 
 
 class SignalProcess(ProcessTargetedEvent):
-    """A process shall get a signal."""
+    """Requests that a process be sent a signal."""
 
     name = "launch.events.process.SignalProcess"
 
@@ -19,10 +19,10 @@ class SignalProcess(ProcessTargetedEvent):
 
     @property
     def signal(self) -> Any:
-        """The signal as it was given."""
+        """The signal as given."""
         return self.__signal
 
     @property
     def signal_name(self) -> str:
-        """Its name, as `SIGINT`."""
+        """The signal's name, such as `SIGINT`."""
         return self.__signal if isinstance(self.__signal, str) else signal.Signals(self.__signal).name

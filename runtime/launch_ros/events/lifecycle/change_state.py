@@ -29,11 +29,11 @@ STATES = (
 
 
 class ChangeState(Event):
-    """The lifecycle nodes that a predicate chooses shall make a transition."""
+    """Requests a transition of the lifecycle nodes that a predicate selects."""
 
     name = "launch_ros.events.lifecycle.ChangeState"
     valid_transitions: ClassVar[dict[int, str]] = {getattr(Transition, name): name for name in TRANSITIONS}
-    """Names of the transitions that can be asked for, by number."""
+    """Names of the requestable transitions, by number."""
     valid_states: ClassVar[dict[int, str]] = {getattr(State, name): name for name in STATES}
     """Names of states, by number."""
 

@@ -24,12 +24,12 @@ class StateTransition(Event):
 
     @property
     def msg(self) -> Any:
-        """The message that tells of it."""
+        """The message that reports it."""
         return self.__msg
 
     @property
     def timestamp(self) -> int:
-        """When (ns)."""
+        """The time of the transition (ns)."""
         return self.__msg.timestamp
 
     @property
@@ -39,10 +39,10 @@ class StateTransition(Event):
 
     @property
     def start_state(self) -> str:
-        """The label of the state before."""
+        """The label of the previous state."""
         return self.__msg.start_state.label
 
     @property
     def goal_state(self) -> str:
-        """The label of the state now."""
+        """The label of the new state."""
         return self.__msg.goal_state.label
