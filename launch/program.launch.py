@@ -24,7 +24,7 @@ def generate_launch_description():
 
 
 def make_program(context):
-    """The node, with its words."""
+    """The node, with its arguments."""
     words = shlex.split(LaunchConfiguration("words").perform(context))
     program = LaunchConfiguration("program").perform(context)
     options = {"package": name} if (name := LaunchConfiguration("package").perform(context)) else {}

@@ -81,7 +81,7 @@ def generate_launch_description():
 
 
 def make_navigator(context):
-    """Our navigator, that of Nav2's goals or a file in its place, or nothing."""
+    """Our navigator, the one for Nav2's goals, a file instead of them, or nothing."""
     chosen = LaunchConfiguration("navigator").perform(context)
     if chosen.lower() in ("false", "0"):
         return []
@@ -105,7 +105,7 @@ def make_navigator(context):
 
 
 def make_simulator(context):
-    """The simulator, with the arguments that were given; the others stay as the file has them."""
+    """The simulator, with the given arguments; the others keep the values of its file."""
     given = {}
     if seed := LaunchConfiguration("seed").perform(context):
         given["seed"] = int(seed)

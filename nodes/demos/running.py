@@ -11,7 +11,7 @@ from rclpy.node import Node
 
 
 def run(make_node: Callable[[], Node], args: list[str] | None, cycles: int | None = None) -> None:
-    """Spin a node until it is interrupted, its context is shut down, or so many callbacks were called."""
+    """Spin a node until it is interrupted, its context is shut down, or a number of callbacks have run."""
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
         node = make_node()
         if cycles is None:

@@ -119,7 +119,7 @@ class Straight(Task):
 
 
 class Wait(Task):
-    """Stand for so many seconds."""
+    """Stand still for a number of seconds."""
 
     def __init__(self, duration: float) -> None:
         super().__init__()

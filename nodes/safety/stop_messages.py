@@ -57,7 +57,7 @@ def lock_of(message: DiagnosticStatus) -> tuple[Lock, str]:
     turn, stops = _number(values.get("turn")), _stops(values.get("stops"))
     if values.get("locked") == "false":
         stops = ()
-    elif not stops:  # of a node that tells no more than that it is locked
+    elif not stops:  # of a node that reports only that it is locked
         stops = (Stop(CROWD, _short(values.get("holder", "")), _short(values.get("reason", "")), turn),)
     return Lock(stops, turn), values.get("instance", "")
 

@@ -50,7 +50,7 @@ class Disc:
 
 @dataclass(frozen=True, slots=True)
 class Mover:
-    """A round obstacle that drives along `route` in a circle, or to random places in `area` (x0, y0, x1, y1).
+    """A round obstacle that drives along `route` repeatedly, or to random places in `area` (x0, y0, x1, y1).
 
     It comes no nearer than `keep_off` m to the robot's hull, and turns back when the robot does not move on.
     """

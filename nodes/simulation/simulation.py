@@ -82,7 +82,7 @@ class Simulation:
         self.drive.command(linear, angular)
 
     def step(self) -> bool:
-        """Let 10 ms pass; whether a collision began."""
+        """Advance by 10 ms; returns whether a collision began."""
         drive, (begin_x, begin_y, before) = self.drive, self.pose
         if self._movers:
             robot, radius = (begin_x, begin_y), drive.limits.radius
@@ -134,7 +134,7 @@ class Simulation:
         return self._space.distance_ahead(self.pose.x, self.pose.y, angle, reach)
 
     def gap_at(self, x: float, y: float) -> float:
-        """The room in m around a robot that would stand at a place; negative when it does not fit."""
+        """The room in m around a robot placed somewhere; negative if it does not fit."""
         return self._space.nearest(x, y)[0] if inside(self.world.boundary, x, y) else -math.inf
 
     def place(self, pose: Pose) -> None:

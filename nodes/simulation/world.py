@@ -16,7 +16,7 @@ TRIES = 400
 
 
 class WorldError(ValueError):
-    """A world that cannot be used; the text says where and how to mend it."""
+    """A world cannot be used; the message says where and how to fix it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,14 +16,14 @@ from textual.widgets import Static
 
 
 class BrokenPane(Pane):
-    """Says why the pane has ended, and opens it again."""
+    """Shows why a pane has failed, and reopens it."""
 
     HELP = "This pane has ended by a fault of the console. Everything else goes on; Enter opens it again."
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("broken")]
     can_focus = True
 
     class Reopen(Message):
-        """The pane shall be opened again."""
+        """Requests the pane to be reopened."""
 
         def __init__(self, pane: BrokenPane) -> None:
             super().__init__()
@@ -36,19 +36,19 @@ class BrokenPane(Pane):
         self._details = details
 
     def compose(self) -> ComposeResult:
-        """The reason, and what can be done."""
+        """The reason, and the remedy."""
         text = Text(f"This pane has ended: {harmless(self._why)}\n\n", "bold")
         text.append("Everything else goes on; the robot is not touched by it. Enter opens the pane again.", "not bold")
         text.append(f"\n\nDetails: {harmless(self._details)}" if self._details else "", "not bold dim")
         yield Static(text)
 
     def focus_target(self) -> None:
-        """The pane itself takes the key."""
+        """Focus the pane itself."""
         self.focus()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Nothing is drawn."""
+        """Draw nothing."""
 
     def action_reopen(self) -> None:
-        """Open the pane again."""
+        """Request the pane to be reopened."""
         self.post_message(self.Reopen(self))

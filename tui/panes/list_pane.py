@@ -13,19 +13,19 @@ from bot_console.tui.widgets.row_list import RowList
 
 
 class ListPane(Pane, Narrowed):
-    """A pane whose first `RowList` has a filter. A subclass gives `filter_is` and composes a `Prompt`."""
+    """A pane whose first `RowList` has a filter. Subclasses define `filter_is` and compose a `Prompt`."""
 
     SCOPES: ClassVar[tuple[str, ...]] = ("find", "narrowed", "list")
 
     def ask_words(self, line: Line) -> None:
-        """Ask at the foot of the pane."""
+        """Ask for search words at the bottom of the pane."""
         self.query_one(Prompt).ask(line)
 
     def _searched(self) -> RowList:
         return self.query(RowList).first()
 
     def find(self, words: str, step: int) -> bool:
-        """The next row that matches."""
+        """Go to the next matching row; returns whether there is one."""
         return self._searched().find(parse(words), step)
 
     def stands_on_match(self, words: str) -> bool:
@@ -34,7 +34,7 @@ class ListPane(Pane, Narrowed):
         return rows.cursor < rows.row_count() and rows.matches(rows.cursor, parse(words))
 
     def tell_filter(self, shown: int, every: int, *more: str) -> None:
-        """Write the filter, and how many pass it, into the frame; then what else narrows the list."""
+        """Show the filter and the number of matches in the frame, and then what else narrows the list."""
         narrowed = (f"/{self.words}" if self.words else "", *more)
         counts = f"{shown} of {every}" if any(narrowed) else ""
         self.caption("  ".join(each for each in (*narrowed, counts) if each))

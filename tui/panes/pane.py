@@ -49,21 +49,21 @@ class Pane(LateParts):
     """Scopes of the key table that act in the pane, beside the one of its own."""
 
     class PlotWanted(Message):
-        """Somebody wants to see a path over time."""
+        """Requests a plot of a path."""
 
         def __init__(self, path: str) -> None:
             super().__init__()
             self.path = path
 
     class LineWanted(Message):
-        """Somebody wants to see what a `ros2` line prints."""
+        """Requests the output of a `ros2` command."""
 
         def __init__(self, line: str) -> None:
             super().__init__()
             self.line = line
 
     class EditWanted(Message):
-        """Somebody wants to see a line of a file in an editor."""
+        """Requests a line of a file in an editor."""
 
         def __init__(self, file: str, line: int) -> None:
             super().__init__()
@@ -71,7 +71,7 @@ class Pane(LateParts):
             self.line = line
 
     class PaneWanted(Message):
-        """Somebody wants to see something in another pane."""
+        """Requests something to be shown in another pane."""
 
         def __init__(self, pane: str, name: str) -> None:
             super().__init__()
@@ -79,17 +79,17 @@ class Pane(LateParts):
             self.name = name
 
     class KeysChanged(Message):
-        """The `key_words` are others."""
+        """The `key_words` have changed."""
 
     class AlarmsHold(Message):
-        """Alarms of these names hold now, and no others."""
+        """The names of all alarms that are active now."""
 
         def __init__(self, names: Sequence[str]) -> None:
             super().__init__()
             self.names = names
 
     class TuningWanted(Message):
-        """Somebody wants settings tried in simulated runs; `take` is for the one that the person chooses."""
+        """Requests settings to be tried in simulated runs; `take` gets the one that the user chooses."""
 
         def __init__(self, question: TuningQuestion, take: Callable[[Setting], None]) -> None:
             super().__init__()
@@ -118,17 +118,17 @@ class Pane(LateParts):
 
     @property
     def key_words(self) -> Mapping[str, str]:
-        """What keys do now, by their ids in the key table, where that is not what the table says; empty: nothing."""
+        """Descriptions of keys, by their ids, that differ from the key table now; empty for keys without an effect."""
         return {}
 
     @property
     def host(self) -> App[object]:
-        """The app; what Textual's own property leaves unsaid of its type is said here once."""
+        """The app, with the type that Textual's own property leaves open."""
         return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
 
     @property
     def kept(self) -> Kept:
-        """What the panes keep from run to run."""
+        """The storage of what panes keep from run to run."""
         return getattr(self.host, "kept", None) or KeptHere()
 
     def caption(self, text: str) -> None:
@@ -143,7 +143,7 @@ class Pane(LateParts):
             self._only_edge = False
 
     def refresh(self: P, *regions: Region, repaint: bool = True, layout: bool = False, recompose: bool = False) -> P:
-        """As of Textual, which draws the whole pane and all in it where a caption changes: there the edge is enough."""
+        """Refresh like Textual, but only the edge if just the caption has changed."""
         size = self.outer_size
         if self._only_edge and size:
             left, top = self.content_offset
@@ -151,7 +151,7 @@ class Pane(LateParts):
         return super().refresh(*regions, repaint=repaint, layout=layout, recompose=recompose)
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Draw what is new in the snapshot; compare parts by identity and do nothing where they are the same."""
+        """Draw what is new in the snapshot; parts are compared by identity, and identical ones are not redrawn."""
         raise NotImplementedError
 
     def heed(self, snapshot: ConsoleSnapshot) -> None:

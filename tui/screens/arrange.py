@@ -19,14 +19,14 @@ from textual.widgets import Static
 
 
 class Arranger(Protocol):
-    """What can be done with the panes; each method acts on the selected one."""
+    """The operations on panes; each method acts on the selected one."""
 
     def select(self, dx: int, dy: int) -> None:
         """Select the pane in a direction."""
         ...
 
     def exchange(self, dx: int, dy: int) -> None:
-        """Change places with the pane in a direction."""
+        """Swap with the pane in a direction."""
         ...
 
     def split(self, way: Way) -> None:
@@ -38,11 +38,11 @@ class Arranger(Protocol):
         ...
 
     def close(self) -> None:
-        """Take the pane away."""
+        """Remove the pane."""
         ...
 
     def grow(self, columns: int, lines: int) -> None:
-        """Make it wider or higher by steps; negative ones make it smaller."""
+        """Make it wider or higher by a number of steps; negative ones shrink it."""
         ...
 
     def even(self) -> None:
@@ -50,11 +50,11 @@ class Arranger(Protocol):
         ...
 
     def turn(self) -> None:
-        """Let what stands beside it stand below, and the other way round."""
+        """Turn the split: panes beside it move below it, and vice versa."""
         ...
 
     def undo(self) -> None:
-        """Take the last change back."""
+        """Undo the last change."""
         ...
 
     def open_layout(self) -> None:
@@ -62,12 +62,12 @@ class Arranger(Protocol):
         ...
 
     def name_question(self) -> Line:
-        """Under which name to keep what is shown."""
+        """The question for the name under which to save the current layout."""
         ...
 
 
 class ArrangeScreen(VeilScreen):
-    """A line of keys over the last line of the screen; everything above it stays to be seen."""
+    """A line of keys over the last line of the screen; everything above it stays visible."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("arrange")]
     AUTO_FOCUS = ""
@@ -92,11 +92,11 @@ class ArrangeScreen(VeilScreen):
         yield Prompt()
 
     def on_mount(self) -> None:
-        """Let the selected pane be seen as such."""
+        """Highlight the selected pane."""
         self.app.screen_stack[0].add_class("arranging")  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """No key moves panes while a name is typed."""
+        """Disable the keys that arrange panes while a name is typed."""
         return not asks(self) and super().check_action(action, parameters)
 
     def action_select(self, dx: int, dy: int) -> None:
@@ -104,7 +104,7 @@ class ArrangeScreen(VeilScreen):
         self._arranger.select(dx, dy)
 
     def action_exchange(self, dx: int, dy: int) -> None:
-        """Change places with the pane in a direction."""
+        """Swap with the pane in a direction."""
         self._arranger.exchange(dx, dy)
 
     def action_split(self, way: Way) -> None:
@@ -116,7 +116,7 @@ class ArrangeScreen(VeilScreen):
         self._arranger.put_another()
 
     def action_close_pane(self) -> None:
-        """Take the pane away."""
+        """Remove the pane."""
         self._arranger.close()
 
     def action_grow(self, columns: int, lines: int) -> None:
@@ -128,19 +128,19 @@ class ArrangeScreen(VeilScreen):
         self._arranger.even()
 
     def action_turn(self) -> None:
-        """Let the split run the other way."""
+        """Turn the split."""
         self._arranger.turn()
 
     def action_undo(self) -> None:
-        """Take the last change back."""
+        """Undo the last change."""
         self._arranger.undo()
 
     def action_open_layout(self) -> None:
-        """Show a layout that has a name."""
+        """Show a saved layout."""
         self._arranger.open_layout()
 
     def action_save_layout(self) -> None:
-        """Give what is shown a name."""
+        """Save the current layout under a name."""
         self.query_one(Prompt).ask(self._arranger.name_question())
 
     def action_done(self) -> None:

@@ -11,7 +11,7 @@ from textual.widget import Widget
 
 
 class Boxed(Widget):
-    """A screen around one box. The box never has the focus: it would bring keys of its own."""
+    """A screen around one box. The box never has the focus, which would bring its own keys."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("box")]
 

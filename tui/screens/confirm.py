@@ -21,7 +21,7 @@ YES, NO = range(12, 17), range(4, 9)
 
 
 class ConfirmScreen(QuestionScreen[None], Boxed):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
-    """What is about to happen, and whether it shall."""
+    """Asks whether something shall happen."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("confirm")]
     DEFAULT_CSS = """
@@ -45,7 +45,7 @@ class ConfirmScreen(QuestionScreen[None], Boxed):  # pyright: ignore[reportIncom
             yield Static(text)
 
     def on_click(self, event: Click) -> None:
-        """A click on one of the two answers gives it, one beside the box gives up."""
+        """Answer on a click on an answer; give up on one outside the box."""
         box = self.query_one(VerticalScroll).region
         if not box.contains(event.screen_x, event.screen_y):
             self.give_up()

@@ -13,7 +13,7 @@ from rich.text import Text
 
 
 class DetailScreen(Overlay):
-    """Everything that is known of one log line."""
+    """Shows all details of one log line."""
 
     def __init__(self, record: LogRecord) -> None:
         super().__init__("Message")

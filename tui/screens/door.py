@@ -20,7 +20,7 @@ SCREENS = {
 
 
 def screen_for(question: Question[Any]) -> QuestionScreen[Any]:
-    """The screen that asks a question; raises `TypeError` for a kind that has none."""
+    """The screen for a question; raises `TypeError` for a kind without one."""
     for kind in type(question).__mro__:
         if kind.__name__ in SCREENS:
             return _screen(*SCREENS[kind.__name__])(question)
@@ -28,7 +28,7 @@ def screen_for(question: Question[Any]) -> QuestionScreen[Any]:
 
 
 def prepare() -> None:
-    """Import all of these screens, so that no first question has to wait for that."""
+    """Import all these screens, so that no first question has to wait for the import."""
     for module, name in SCREENS.values():
         _screen(module, name)
 

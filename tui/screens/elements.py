@@ -27,14 +27,14 @@ HINT = "enter edit · i insert · a add · d delete · J K move · u undo · s s
 
 
 class ElementRows(RowList):
-    """One element a line, behind its index."""
+    """One element per line, after its index."""
 
     def __init__(self, elements: Sequence[Element]) -> None:
         super().__init__()
         self.elements = list(elements)
 
     def row_count(self) -> int:
-        """How many elements there are."""
+        """The number of elements."""
         return len(self.elements)
 
     def matches(self, index: int, query: Query) -> bool:
@@ -49,7 +49,7 @@ class ElementRows(RowList):
 
 
 class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
-    """Asks for the elements of an array; nothing is set before the person says so."""
+    """Asks for the elements of an array; nothing is set until the user confirms."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("elements")]
     DEFAULT_CSS = """
@@ -64,7 +64,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
         self._leaving = False
 
     def compose(self) -> ComposeResult:
-        """The list, what is said about it, a field for one element."""
+        """The list, its state, and a field for one element."""
         with Box() as box:
             box.border_title = Text(harmless(self._asked.label))
             box.border_subtitle = HINT
@@ -77,12 +77,12 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
         return self.query_one(ElementRows)
 
     def on_mount(self) -> None:
-        """The list takes the keys."""
+        """Focus the list."""
         self._list.focus()
         self._tell()
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """No key of the list acts while an element is typed."""
+        """Disable the keys of the list while an element is typed."""
         return not asks(self) and super().check_action(action, parameters)
 
     def _tell(self, what: str = "") -> None:
@@ -106,14 +106,14 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
         self.query_one(Prompt).ask(Line(label, answered, text=text, check=partial(_wrong, self._asked.kind)))
 
     def ask_words(self, line: Line) -> None:
-        """Ask below the list."""
+        """Ask for search words below the list."""
         self.query_one(Prompt).ask(line)
 
     def filter_is(self, words: str) -> None:
-        """Nothing is hidden: an element is known by its index."""
+        """Hide nothing: elements are identified by their indices."""
 
     def find(self, words: str, step: int) -> bool:
-        """The next element that matches."""
+        """Go to the next matching element; returns whether there is one."""
         return self._list.find(parse(words), step)
 
     def stands_on_match(self, words: str) -> bool:
@@ -121,11 +121,11 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
         return self._list.cursor < len(self._list.elements) and self._list.matches(self._list.cursor, parse(words))
 
     def _change(self) -> None:
-        """Remember how the list was."""
+        """Save the list for undo."""
         self._before.append(list(self._list.elements))
 
     def action_edit(self) -> None:
-        """Edit the element at the cursor; the first one where there is none."""
+        """Edit the element at the cursor, or insert a first one if there is none."""
         shown = self._list
         if not shown.elements:
             self.action_insert(0)
@@ -134,7 +134,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
         self._ask(f"[{at}]", element_text(shown.elements[at]), partial(shown.elements.__setitem__, at))
 
     def action_insert(self, behind: int) -> None:
-        """Ask for a new element, before or behind the one at the cursor."""
+        """Ask for a new element, before or after the one at the cursor."""
         shown = self._list
         at = min(shown.cursor + behind, len(shown.elements))
 
@@ -165,21 +165,21 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
             self._tell()
 
     def action_undo(self) -> None:
-        """Take the last change of the list back."""
+        """Undo the last change of the list."""
         if self._before:
             self._list.elements = self._before.pop()
             self._list.rows_changed()
             self._tell()
 
     def action_take(self) -> None:
-        """Answer with the array as it is here."""
+        """Answer with the array as edited."""
         if self._changed:
             self.answer(tuple(self._list.elements))
         else:
             self.give_up()
 
     def action_give_up(self) -> None:
-        """Give up; what was changed is dropped only when that is said twice."""
+        """Give up; changes are discarded only at a second request."""
         if not self._changed or self._leaving:
             self.give_up()
             return

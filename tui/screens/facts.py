@@ -14,7 +14,7 @@ Section = tuple[str, Sequence[str]]
 
 
 class FactsScreen(Overlay):
-    """Sections one below the other; an empty one is left out."""
+    """Shows sections one below the other, without empty ones."""
 
     def __init__(self, title: str, sections: Sequence[Section]) -> None:
         super().__init__(title)

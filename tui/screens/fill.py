@@ -32,7 +32,7 @@ USUAL_RATE = "10"
 
 
 class SlotRows(RowList):
-    """One field a line: its name, what stands in it, its unit and type; a dot marks what was typed."""
+    """One field per line: name, value, unit and type; a dot marks typed values."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -45,7 +45,7 @@ class SlotRows(RowList):
         return self.slots[self.cursor] if self.cursor < len(self.slots) else None
 
     def row_count(self) -> int:
-        """How many slots there are."""
+        """The number of slots."""
         return len(self.slots)
 
     def row(self, index: int, width: int) -> list[Segment]:
@@ -68,7 +68,7 @@ class SlotRows(RowList):
 
 
 class ReplyRows(RowList):
-    """What came back, line by line."""
+    """The reply, line by line."""
 
     can_focus = False
 
@@ -77,7 +77,7 @@ class ReplyRows(RowList):
         self.fields: Sequence[Field] = ()
 
     def row_count(self) -> int:
-        """How many lines there are."""
+        """The number of lines."""
         return len(self.fields)
 
     def row(self, index: int, width: int) -> list[Segment]:
@@ -89,7 +89,7 @@ class ReplyRows(RowList):
 
 
 class FillScreen(QuestionScreen[None]):
-    """Stays open, so that the same can be sent again with other values."""
+    """A form to fill in and send; it stays open, so that it can be sent again with other values."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("fill")]
     DEFAULT_CSS = """
@@ -111,7 +111,7 @@ class FillScreen(QuestionScreen[None]):
         self._sent = 0
 
     def compose(self) -> ComposeResult:
-        """The form, what came back, what is said about it, a field for one value."""
+        """The form, the reply, the state, and a field for one value."""
         what, keys = WORDS[self._asked.payload]
         with Box() as box:
             box.border_title = Text(harmless(f"{what} {self._asked.name}  {self._asked.type}"))
@@ -126,7 +126,7 @@ class FillScreen(QuestionScreen[None]):
         return self.query_one(SlotRows)
 
     def on_mount(self) -> None:
-        """Begin at the first field that can be typed into."""
+        """Start at the first editable field."""
         rows = self._rows
         self._fill_in()
         self.set_focus(rows)
@@ -148,7 +148,7 @@ class FillScreen(QuestionScreen[None]):
         state.set_class(ok is False, "wrong")
 
     def action_edit(self) -> None:
-        """Type a value into the slot; a head goes on to the first slot below it."""
+        """Edit the value of the slot; on a heading, go to the first slot below it."""
         rows, slot = self._rows, self._rows.current
         if slot is None:
             return
@@ -166,19 +166,19 @@ class FillScreen(QuestionScreen[None]):
     def _typed(self, path: str, text: str) -> None:
         inside = [each for each in self._values if each.startswith(f"{path}.")]
         for each in inside:
-            del self._values[each]  # a yaw stands for all four of its numbers
+            del self._values[each]  # a yaw replaces all four numbers of a quaternion
         self._values[path] = text
         self._back = 0
         self._fill_in()
 
     def action_default(self) -> None:
-        """The default of the field again."""
+        """Reset the field to its default."""
         slot = self._rows.current
         if slot is not None and self._values.pop(slot.path, None) is not None:
             self._fill_in()
 
     def action_earlier(self, step: int) -> None:
-        """What was sent before, or after that; beyond the newest stands what was being typed."""
+        """Show an earlier or later sent form; after the newest one comes the unsent draft."""
         known = self._asked.traffic.earlier(self._asked.name)
         back = max(0, min(self._back + step, len(known)))
         if back == self._back:
@@ -225,7 +225,7 @@ class FillScreen(QuestionScreen[None]):
         rows.rows_changed()
 
     def look(self) -> bool:
-        """Show what has become of a goal; called with each snapshot."""
+        """Show the state of a goal; called with each snapshot."""
         goal = self._asked.traffic.goals().get(self._asked.name) if self._asked.payload is Payload.GOAL else None
         if goal is not None and self.is_mounted and goal != self._goal:
             self._goal = goal
@@ -236,7 +236,7 @@ class FillScreen(QuestionScreen[None]):
         return super().look()
 
     def action_repeat(self) -> None:
-        """Ask for a rate and publish at it."""
+        """Ask for a rate (Hz) and publish at it."""
         if self._asked.payload is Payload.MESSAGE:
             line = Line("rate (Hz)", self._repeat, text=USUAL_RATE, check=_wrong_rate)
             self.query_one(Prompt).ask(line)
@@ -247,7 +247,7 @@ class FillScreen(QuestionScreen[None]):
         self._say(f"{sent.text}; x ends it" if sent.ok else sent.text, ok=sent.ok)
 
     def action_stop(self) -> None:
-        """Publish no more at a rate, or cancel the goal."""
+        """Stop publishing at a rate, or cancel the goal."""
         asked, traffic = self._asked, self._asked.traffic
         if asked.payload is Payload.GOAL:
             answer = traffic.cancel(asked.name)

@@ -21,7 +21,7 @@ LINE_END = re.compile(r"(?<=\S)\n(?=\S)")
 
 
 class HelpScreen(Overlay):
-    """What a pane is for, and its keys, then those that work everywhere. A click on a line presses its key."""
+    """Shows the purpose of a pane and its keys, then the global ones. A click on a line presses its key."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("help")]
 
@@ -41,7 +41,7 @@ class HelpScreen(Overlay):
         yield KeyTable((*TABLE["app"], *(key for keys in shared for key in keys)))
 
     def on_click(self, event: Click) -> None:
-        """A click on a line closes the help and does what its key does."""
+        """Close the help and press the key of the line that was clicked."""
         key = event.style.meta.get(KEY)
         if isinstance(key, str):
             self.dismiss()

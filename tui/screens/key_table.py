@@ -26,7 +26,7 @@ BOLD = Style(bold=True)
 
 
 class Line(NamedTuple):
-    """A line: what stands in its two columns, and the key that a click on it presses."""
+    """A line: the text of its two columns, and the key that a click on it presses."""
 
     key: str
     text: str
@@ -34,7 +34,7 @@ class Line(NamedTuple):
 
 
 class KeyTable(StyledByPart):
-    """Two columns: keys, and what they do in as many lines as that takes."""
+    """Two columns: keys, and what they do, wrapped as needed."""
 
     DEFAULT_CSS = """
     KeyTable { height: auto; }
@@ -48,11 +48,11 @@ class KeyTable(StyledByPart):
         self._lines: list[Line] = []
 
     def get_content_height(self, container: Size, viewport: Size, width: int) -> int:
-        """As many lines as there are at a width."""
+        """The number of lines at a width."""
         return len(self._at(width))
 
     def render_line(self, y: int) -> Strip:
-        """A line; in nothing's place there is nothing."""
+        """Render a line, blank after the last one."""
         width, style = self.size.width, self.own_style
         lines = self._at(width)
         if y >= len(lines):
@@ -78,7 +78,7 @@ class KeyTable(StyledByPart):
 
 
 def wrapped(text: str, width: int) -> Sequence[str]:
-    """A text in lines of at most so many cells, broken between words; a longer word is a line of its own."""
+    """Wrap a text to a width in cells between words; a longer word is on its own line."""
     lines = [""]
     for word in text.split(" "):
         longer = f"{lines[-1]} {word}" if lines[-1] else word

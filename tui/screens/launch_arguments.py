@@ -19,7 +19,7 @@ from textual.widgets import Input, Static
 
 
 class ArgumentsScreen(QuestionScreen[dict[str, str]]):
-    """Asks for the arguments; the answer are the values that differ from their defaults."""
+    """Asks for launch arguments; the answer consists of the values that differ from their defaults."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("form")]
     DEFAULT_CSS = """
@@ -64,7 +64,7 @@ class ArgumentsScreen(QuestionScreen[dict[str, str]]):
         return " · ".join(each for each in parts if each)
 
     def on_mount(self) -> None:
-        """Begin at the first argument that has to be given."""
+        """Start at the first required argument."""
         fields = list(self.query(Input))
         needed = (at for at, each in enumerate(self._arguments) if each.default is None)
         self.set_focus(fields[next(needed, 0)])
@@ -74,12 +74,12 @@ class ArgumentsScreen(QuestionScreen[dict[str, str]]):
         return fields.index(self.focused) if isinstance(self.focused, Input) else 0
 
     def action_step(self, step: int) -> None:
-        """The next argument, or the one before."""
+        """Go to the next or previous argument."""
         fields = list(self.query(Input))
         self.set_focus(fields[(self._at() + step) % len(fields)])
 
     def action_choice(self, step: int) -> None:
-        """The next of the values that the launch file allows."""
+        """Select the next of the values that the launch file allows."""
         argument, field = self._arguments[self._at()], list(self.query(Input))[self._at()]
         if argument.choices:
             now = argument.choices.index(field.value) if field.value in argument.choices else -step
@@ -93,7 +93,7 @@ class ArgumentsScreen(QuestionScreen[dict[str, str]]):
             line.update(choices_line(self._arguments[at], event.value))
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
-        """Launch, when everything that is needed is there."""
+        """Launch, if all required values are given."""
         event.stop()
         values = {each.name: field.value for each, field in zip(self._arguments, self.query(Input), strict=True)}
         wrong = [
@@ -117,5 +117,5 @@ class ArgumentsScreen(QuestionScreen[dict[str, str]]):
 
 
 def choices_line(argument: LaunchArgument, value: str) -> str:
-    """The values that an argument may have, with a mark at the one that it has."""
+    """The values that an argument may have, with its current one marked."""
     return "  ".join(f"{'●' if each == value else '○'} {harmless(each)}" for each in argument.choices)

@@ -11,7 +11,7 @@ from rich.text import Text
 
 
 class OutputScreen(Overlay):
-    """A command and its output, as printed."""
+    """Shows a command and its output, as printed."""
 
     def __init__(self, command: str, output: str) -> None:
         super().__init__(command)

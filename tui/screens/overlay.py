@@ -20,7 +20,7 @@ from textual.widgets import Static
 
 
 class Overlay(VeilScreen, Boxed):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
-    """A title and what is to be read below it."""
+    """A box with a title and text to read."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("overlay")]
     DEFAULT_CSS = """
@@ -34,11 +34,11 @@ class Overlay(VeilScreen, Boxed):  # pyright: ignore[reportIncompatibleMethodOve
         self._heading = title
 
     def content(self) -> Iterable[RenderableType | Widget]:
-        """What stands in the box, from above."""
+        """The content of the box, from top to bottom."""
         raise NotImplementedError
 
     def on_click(self, event: Click) -> None:
-        """A click beside the box, or on its lower edge, closes it."""
+        """Close on a click outside the box or on its lower edge."""
         box = self.query_one(VerticalScroll).region
         if not box.contains(event.screen_x, event.screen_y) or event.screen_y == box.bottom - 1:
             self.dismiss()

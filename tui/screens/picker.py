@@ -19,7 +19,7 @@ from textual.widgets import Input
 
 
 class OptionRows(ItemList[Option]):
-    """Options: the title first, what is said about it after that."""
+    """Options, each with its title first, then its description."""
 
     can_focus = False
 
@@ -52,7 +52,7 @@ class PickerScreen(QuestionScreen[str]):
         self._every = 0
 
     def compose(self) -> ComposeResult:
-        """What is typed, and the options that match."""
+        """The search field, and the matching options."""
         with Box() as box:
             box.border_title = Text(harmless(self._choice.label))
             yield Input(placeholder=self._choice.hint)
@@ -64,7 +64,7 @@ class PickerScreen(QuestionScreen[str]):
         return self.query_one(OptionRows)
 
     def on_mount(self) -> None:
-        """Typing narrows."""
+        """Focus the search field."""
         self.set_focus(self.query_one(Input))
         self._every = len(self._choice.find(""))
         self._show("")
@@ -88,13 +88,13 @@ class PickerScreen(QuestionScreen[str]):
             self.answer(option.value or option.title)
 
     def action_move(self, step: int) -> None:
-        """Another option."""
+        """Move to another option."""
         self._list.action_cursor(step)
 
     def action_page(self, step: int) -> None:
-        """Another page of options."""
+        """Move by a page of options."""
         self._list.action_page(step)
 
     def action_end(self, end: int) -> None:
-        """The first option, or the last."""
+        """Move to the first or last option."""
         self._list.action_end(end)

@@ -14,7 +14,7 @@ A = TypeVar("A")
 
 
 class QuestionScreen(Asker[A], VeilScreen):
-    """Holds a question until it is answered; leaves the screen by itself when what it is about has left."""
+    """Shows a question until it is answered; closes by itself when its subject has gone."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("question")]
     AUTO_FOCUS = ""
@@ -25,7 +25,7 @@ class QuestionScreen(Asker[A], VeilScreen):
 
     @property
     def host(self) -> App[object]:
-        """The app; what Textual's own property leaves unsaid of its type is said here once."""
+        """The app, with the type that Textual's own property leaves open."""
         return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
 
     def close(self) -> None:
@@ -33,7 +33,7 @@ class QuestionScreen(Asker[A], VeilScreen):
         self.dismiss()
 
     def tell(self, why: str) -> None:
-        """Say why it closes, on the screen below."""
+        """Notify the user on the screen below why it closes."""
         self.notify(why, severity="warning", markup=False)
 
     def action_give_up(self) -> None:

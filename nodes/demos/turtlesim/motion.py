@@ -65,7 +65,7 @@ class Motion:
         self.command(0.0, 0.0, 0.0)
 
     def teleport(self, x: float, y: float, heading: float) -> None:
-        """Be somewhere else at once (m, y upwards, rad); the next step clamps what is outside."""
+        """Jump to a pose (m, y upwards, rad); the next step clamps it to the field."""
         self.x, self.y, self.heading = x, max(0.0, SIDE - y), heading
 
     def jump(self, distance: float, angle: float) -> None:

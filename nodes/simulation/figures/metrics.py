@@ -48,12 +48,12 @@ class Metrics:
 
     @property
     def duration(self) -> float:
-        """Simulated s so far."""
+        """The simulated time so far, in s."""
         return self.steps * self._dt
 
     @property
     def mean_speed(self) -> float:
-        """Way over time in m/s."""
+        """The distance driven over time, in m/s."""
         return self.distance / self.duration if self.steps else 0.0
 
     @property

@@ -15,7 +15,7 @@ MOST_SAMPLES = 50
 
 @dataclass(frozen=True)
 class AlarmText:
-    """An alarm as a person has typed it; it is kept from run to run."""
+    """An alarm as typed by the user; kept from run to run."""
 
     name: str
     condition: str
@@ -28,7 +28,7 @@ class AlarmText:
 
 
 def texts_of(data: object) -> list[AlarmText]:
-    """The alarms of a file; what is none, or cannot be read as a condition, is left out."""
+    """The alarms of a file, without invalid entries and conditions."""
     found: list[AlarmText] = []
     for each in cast("list[object]", data) if isinstance(data, list) else []:
         given = cast("Mapping[str, Any]", each) if isinstance(each, Mapping) else dict[str, Any]()
@@ -44,7 +44,7 @@ def texts_of(data: object) -> list[AlarmText]:
 
 @dataclass
 class Alarm:
-    """What becomes of a condition while samples come."""
+    """The state of a condition as samples arrive."""
 
     text: AlarmText
     condition: Condition
@@ -64,16 +64,16 @@ class Alarm:
 
     @classmethod
     def of(cls, text: AlarmText) -> Alarm:
-        """An alarm that has seen nothing; raises `ValueError` for a condition that cannot be read."""
+        """An alarm without samples; raises `ValueError` for an invalid condition."""
         return cls(text, read(text.condition))
 
     @property
     def paths(self) -> tuple[str, ...]:
-        """What it looks at."""
+        """The paths in its condition."""
         return self.condition.paths
 
     def look(self, console: ConsoleReading) -> list[float]:
-        """Take in new samples, one after the other; gives the values of the first path at which it began to hold."""
+        """Process new samples in order; returns the values of the first path at which the alarm became active."""
         began: list[float] = []
         for time, path, value in self._new(console):
             self.values[path] = value
@@ -87,7 +87,7 @@ class Alarm:
         return began
 
     def _new(self, console: ConsoleReading) -> list[tuple[float, str, float]]:
-        """New samples of all paths in the order in which they came."""
+        """New samples (time, path, value) of all paths in order of time."""
         found: list[tuple[float, str, float]] = []
         for path in self.paths:
             new: Samples = console.samples(path, self._cursors.get(path, 0))

@@ -36,7 +36,7 @@ class Comparison:
     operators: tuple[str, ...]
 
     def holds(self, known: Mapping[str, float]) -> bool:
-        """Whether it holds for these values; raises `ValueError` for what cannot be worked out."""
+        """Whether it holds for these values; raises `ValueError` if it cannot be evaluated."""
         found = [value_of(each, known) for each in self.sides]
         return all(
             OPERATORS[sign](left, right) for sign, left, right in zip(self.operators, found, found[1:], strict=False)
@@ -45,20 +45,20 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Condition:
-    """A condition that was read: the paths in it, and its alternatives."""
+    """A parsed condition: its paths and its alternatives."""
 
     text: str
     paths: tuple[str, ...]
     alternatives: tuple[tuple[Comparison, ...], ...]
 
     def holds(self, values: Mapping[str, float]) -> bool:
-        """Whether it holds for the values of its paths; raises `ValueError` for what cannot be worked out."""
+        """Whether it holds for the values of its paths; raises `ValueError` if it cannot be evaluated."""
         known = {**WORDS, **values}
         return any(all(each.holds(known) for each in every) for every in self.alternatives)
 
 
 def read(text: str) -> Condition:
-    """Read a condition; raises `ValueError` with what is wrong and how it should be."""
+    """Parse a condition; raises `ValueError` that says what is wrong and how to fix it."""
     if len(text) > LONGEST:
         raise ValueError(f"a condition of more than {LONGEST} letters")
     if not text.strip():
@@ -74,7 +74,7 @@ def read(text: str) -> Condition:
 
 
 class _ConditionReader(Reader):
-    """Reads expressions with comparisons between them, and `and`, `or` between these."""
+    """Parses comparisons of expressions, combined by `and` and `or`."""
 
     def alternatives(self) -> tuple[tuple[Comparison, ...], ...]:
         found = [self._every()]
@@ -111,7 +111,7 @@ class _ConditionReader(Reader):
 
 
 def _check(side: Tree, paths: tuple[str, ...]) -> None:
-    """Find what is wrong with an expression before there are values: whatever the values, the grammar is the same."""
+    """Find errors in an expression before there are values, as the grammar does not depend on them."""
     if any(isinstance(each, Span) for each in walk(side)):
         raise ValueError("a length of time stands in curves of the plot only; an alarm is judged at each message")
     for value in (1.0, 0.5):

@@ -60,13 +60,13 @@ class AlarmsPane(ListPane):
         self._looked = self._drawn = self._asked = float("-inf")
 
     def compose(self) -> ComposeResult:
-        """The alarms, a word on the one at the cursor, a prompt."""
+        """The alarms, details of the one at the cursor, and a prompt."""
         yield AlarmRows()
         yield Words(id="alarms-status")
         yield Prompt(id="alarms-prompt")
 
     def on_mount(self) -> None:
-        """Take up the alarms of the last run."""
+        """Restore the alarms of the last run."""
         for text in texts_of(self.kept.get(KEPT))[:MOST]:
             self._alarms.append(Alarm.of(text))
             self._waiting |= dict.fromkeys(self._alarms[-1].paths, "not watched yet")
@@ -76,11 +76,11 @@ class AlarmsPane(ListPane):
         return self.query_one(AlarmRows)
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """The list is drawn by time, not by snapshots."""
+        """Redraw the list; its content comes by time, not by snapshots."""
         self._arrange()
 
     def tick(self) -> None:
-        """Look at new samples, also while hidden; and at the list, while it is seen."""
+        """Process new samples, even while hidden, and update the list while it is visible."""
         now = self.clock()
         if self._alarms and now - self._looked >= PERIOD:
             self._looked = now
@@ -147,22 +147,22 @@ class AlarmsPane(ListPane):
         return next((each for each in self._alarms if row and each.text.name == row.name), None)
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
-        """Tell of the alarm at the cursor."""
+        """Describe the alarm at the cursor."""
         event.stop()
         self._describe()
 
     def on_alarm_rows_pressed(self, event: AlarmRows.Pressed) -> None:
-        """A row that was chosen already was clicked."""
+        """Edit the alarm whose selected row was clicked."""
         event.stop()
         self.action_edit()
 
     def filter_is(self, words: str) -> None:
-        """Show what passes."""
+        """Show the alarms that pass."""
         self._query = parse(words)
         self._arrange()
 
     def action_add(self) -> None:
-        """Ask for another alarm."""
+        """Ask for a new alarm."""
         if len(self._alarms) >= MOST:
             self.notify(f"There are {MOST} alarms; d takes one away.", severity="warning")
             return
@@ -177,7 +177,7 @@ class AlarmsPane(ListPane):
             self._ask("alarm", f"{alarm.text.name}: {alarm.text.condition}", alarm)
 
     def _ask(self, label: str, text: str, old: Alarm | None) -> None:
-        suggestions = self.console.plottable()  # with them an old text is not selected: mostly its end is edited
+        suggestions = self.console.plottable()  # these leave the old text unselected: usually its end is edited
         check, then = partial(self._wrong, old), partial(self._take, old)
         self.ask(Line(label, then, text=text, check=check, suggestions=suggestions))
 
@@ -204,7 +204,7 @@ class AlarmsPane(ListPane):
         self._list.cursor = names.index(name) if name in names else self._list.cursor
 
     def _let_go_of(self, alarm: Alarm | None) -> None:
-        """Watch no more what no other alarm looks at."""
+        """Stop watching the paths that no other alarm uses."""
         wanted = {path for each in self._alarms for path in each.paths}
         for path in set(alarm.paths) - wanted if alarm else ():
             self._waiting.pop(path, None)
@@ -217,7 +217,7 @@ class AlarmsPane(ListPane):
         self._arrange()
 
     def action_delete(self) -> None:
-        """Take the alarm at the cursor away."""
+        """Delete the alarm at the cursor."""
         alarm = self._current
         if alarm is not None:
             self._alarms.remove(alarm)
@@ -225,25 +225,25 @@ class AlarmsPane(ListPane):
             self._keep()
 
     def action_bell(self) -> None:
-        """Ring the terminal's bell when the alarm at the cursor begins to hold, or not."""
+        """Switch the terminal's bell of the alarm at the cursor on or off."""
         alarm = self._current
         if alarm is not None:
             alarm.text = AlarmText(alarm.text.name, alarm.text.condition, not alarm.text.bell)
             self._keep()
 
     def action_plot(self) -> None:
-        """Plot what the alarm at the cursor looks at."""
+        """Plot the paths of the alarm at the cursor."""
         for path in self._current.paths if self._current else ():
             self.post_message(self.PlotWanted(path))
 
     def let_go(self) -> None:
-        """Watch nothing any more."""
+        """Stop watching all paths."""
         for path in {path for each in self._alarms for path in each.paths}:
             self.console.unwatch(path, ASKER)
 
 
 def parted(typed: str) -> tuple[str, str]:
-    """Name and condition of what was typed; without a name the condition is its own."""
+    """Split a typed text into name and condition; without a name the condition serves as one."""
     found = NAMED.fullmatch(typed.strip())
     condition = " ".join((found[2] if found else typed).split())
     return (found[1].strip() if found else condition), condition

@@ -22,7 +22,7 @@ NAME, STATE, AGE = 24, 11, 8
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """An alarm as it is shown."""
+    """An alarm as shown."""
 
     name: str
     condition: str
@@ -35,7 +35,7 @@ class Row:
 
 
 def row_of(alarm: Alarm, now: float) -> Row:
-    """An alarm at a moment of the axis of all series (s)."""
+    """The row of an alarm at a time (s) of the axis of all series."""
     values = ", ".join(f"{alarm.values[each]:.4g}" for each in alarm.paths if each in alarm.values)
     age = max(0, int(now - alarm.since)) if alarm.holds is not None else 0
     text = alarm.text
@@ -43,13 +43,13 @@ def row_of(alarm: Alarm, now: float) -> Row:
 
 
 class AlarmRows(ItemList[Row]):
-    """One alarm a row."""
+    """One alarm per row."""
 
     class Pressed(Message):
-        """A row that was chosen already was clicked."""
+        """The selected row was clicked."""
 
     def key(self, item: Row) -> object:
-        """Its name."""
+        """The alarm's name."""
         return item.name
 
     def matches(self, index: int, query: Query) -> bool:
@@ -81,8 +81,8 @@ class AlarmRows(ItemList[Row]):
         return self.part_style(f"row-list--{name}")
 
     def on_click(self, event: Click) -> None:
-        """A click chooses the row; a click on the chosen one edits it."""
-        event.prevent_default()  # what any other list does
+        """Select the clicked row; post `Pressed` if it was selected already."""
+        event.prevent_default()  # as in any other list
         index = event.y + self.scroll_offset.y
         if 0 <= index < self.row_count():
             chosen, self.cursor = index == self.cursor, index

@@ -11,7 +11,7 @@ from rich.cells import cell_len
 
 
 def sections(status: Status, now: float) -> list[Section]:
-    """What it says, its values, and what it has been, the newest first."""
+    """The message of a status, its values, and its history, newest first."""
     level, age = status.now(now), int(now - status.heard)
     head = [f"{LOOKS[level][0]} {level.name}  {status.message}"]
     if level is Level.STALE and status.level is not level:
@@ -25,5 +25,5 @@ def sections(status: Status, now: float) -> list[Section]:
 
 
 def below_text(row: Row) -> str:
-    """What is known of a part that only holds others."""
+    """The details of a part that only contains others."""
     return f"{row.path}\n  {row.count - row.bad} of {row.count} OK"

@@ -58,7 +58,7 @@ class DiagnosticsPane(ListPane):
         """When something here is a second older, and perhaps stale, with nothing new having come."""
 
     def compose(self) -> ComposeResult:
-        """The tree, what is at the cursor, a prompt."""
+        """The tree, details of the row at the cursor, and a prompt."""
         with Container(id="diagnostics-body"):
             yield StatusRows()
             yield Words(id="diagnostics-detail")
@@ -69,14 +69,14 @@ class DiagnosticsPane(ListPane):
         return self.query_one(StatusRows)
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Take in why nothing may come."""
+        """Update the reason why there may be no diagnostics."""
         if snapshot.problem != self._problem:
             self._problem = snapshot.problem
             self._due = 0.0
         self._look()
 
     def tick(self) -> None:
-        """Look again, while it is seen."""
+        """Update the tree while it is visible."""
         if self.display and self.clock() - self._looked >= PERIOD:
             self._look()
 
@@ -117,12 +117,12 @@ class DiagnosticsPane(ListPane):
         return text
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
-        """Tell of the row at the cursor."""
+        """Describe the row at the cursor."""
         event.stop()
         self._describe()
 
     def on_status_rows_pressed(self, event: StatusRows.Pressed) -> None:
-        """A row that was chosen already, or a fold mark, was clicked."""
+        """Fold, unfold or open the clicked row."""
         event.stop()
         row = self._list.current
         if event.on_mark and row is not None:
@@ -141,12 +141,12 @@ class DiagnosticsPane(ListPane):
         self.set_filter("")
 
     def action_bad_only(self) -> None:
-        """Only what is not OK, or all."""
+        """Show only what is not OK, or everything."""
         self._bad_only = not self._bad_only
         self._arrange()
 
     def action_open(self) -> None:
-        """All that is known of a status; of what only holds others: close or open it."""
+        """Show all details of a status; fold or unfold a part that only contains others."""
         row = self._list.current
         if row is not None and row.status is not None:
             self.host.push_screen(FactsScreen(harmless(row.status.name), sections(row.status, self.clock())))
@@ -154,7 +154,7 @@ class DiagnosticsPane(ListPane):
             self.action_fold(not row.folded)
 
     def action_fold(self, closed: bool) -> None:
-        """Close or open what stands below the row at the cursor; or close what it stands in."""
+        """Fold or unfold the row at the cursor, or fold its parent."""
         shown, row = self._list, self._list.current
         if row is None:
             return
@@ -166,11 +166,11 @@ class DiagnosticsPane(ListPane):
         self._arrange()
 
     def action_fold_all(self) -> None:
-        """Close all that holds others, or open everything."""
+        """Fold all parts that contain others, or unfold everything."""
         paths = frozenset(each.path for each in self._list.rows if each.count)
         self._folded = frozenset() if self._folded else paths
         self._arrange()
 
     def on_resize(self) -> None:
-        """List and detail side by side where there is room."""
+        """Place list and detail side by side if there is room."""
         self.set_class(self.size.width >= SIDE, "side")

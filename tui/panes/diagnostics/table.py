@@ -28,10 +28,10 @@ NAME = 40
 
 
 class StatusRows(ItemList[Row]):
-    """One part of the robot a row."""
+    """One part of the robot per row."""
 
     class Pressed(Message):
-        """A row that was chosen already, or its fold mark, was clicked."""
+        """The selected row, or a fold mark, was clicked."""
 
         def __init__(self, on_mark: bool) -> None:
             super().__init__()
@@ -42,12 +42,12 @@ class StatusRows(ItemList[Row]):
         self._names: tuple[object, int] = (None, 0)
 
     def key(self, item: Row) -> object:
-        """Its path."""
+        """The part's path."""
         return item.path
 
     def on_click(self, event: Click) -> None:
-        """A click chooses the row; on its fold mark, or on the row that was chosen already, it opens or closes."""
-        event.prevent_default()  # what any other list does
+        """Select the clicked row; post `Pressed` for its fold mark, or if it was selected already."""
+        event.prevent_default()  # as in any other list
         index = event.y + self.scroll_offset.y
         if not 0 <= index < self.row_count():
             return
@@ -58,7 +58,7 @@ class StatusRows(ItemList[Row]):
             self.post_message(self.Pressed(on_mark))
 
     def matches(self, index: int, query: Query) -> bool:
-        """Whether a status matches a filter; what only holds others is no match."""
+        """Whether a status matches a filter; parts that only contain others never do."""
         status = self.rows[index].status
         return status is not None and matches(status, query)
 

@@ -11,7 +11,7 @@ from bot_console.tui.console.sights.model import Level, Status
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A part of the robot: one that has said something, or one that others stand below, or both."""
+    """A part of the robot: one with a status, one with parts below it, or both."""
 
     path: str
     title: str
@@ -35,7 +35,7 @@ class _Part:
     parts: dict[str, _Part] = field(default_factory=dict[str, "_Part"])
 
     def statuses(self) -> list[Status]:
-        """All at it and below it."""
+        """The statuses of the part and of those below it."""
         below = [each for part in self.parts.values() for each in part.statuses()]
         return [self.status, *below] if self.status else below
 
@@ -46,7 +46,7 @@ def matches(status: Status, query: Query) -> bool:
 
 
 def rows(statuses: Sequence[Status], now: float, folded: Collection[str] = (), *, bad_only: bool = False) -> list[Row]:
-    """The tree at a moment (s of the steady clock), sorted by name; with `bad_only` what is OK is left out."""
+    """The tree at a time (s of the steady clock), sorted by name; with `bad_only` without what is OK."""
     top = _Part("")
     for status in statuses:
         if bad_only and status.now(now) is Level.OK:

@@ -89,7 +89,7 @@ def _named(ends: Iterable[Endpoint], name: str) -> list[Endpoint]:
 
 
 def finding_options(info: GraphInfo) -> list[Option]:
-    """What is odd, each line with the item that it is about."""
+    """The findings, each with the item that it concerns."""
     return [Option(each.text, "fault" if each.fault else "", ITEM + _item_of(info, each)) for each in findings(info)]
 
 
@@ -103,7 +103,7 @@ def _item_of(info: GraphInfo, finding: Finding) -> str:
 
 
 def narrowed(options: Sequence[Option]) -> Callable[[str], Sequence[Option]]:
-    """Finds those that have all the words typed."""
+    """A search for the options that contain all typed words."""
 
     def find(typed: str) -> Sequence[Option]:
         words = typed.lower().split()

@@ -13,7 +13,7 @@ CELL, LINE = 8, 16
 
 
 def exported(graph: Digraph, drawing: Drawing, suffix: str) -> str:
-    """The graph as a file name's ending asks: `.mmd` Mermaid, `.dot` or `.gv` DOT, `.svg` the picture, else as text."""
+    """The graph in the format of a file name's suffix: `.mmd` Mermaid, `.dot` or `.gv` DOT, `.svg`, else plain text."""
     if suffix in (".mmd", ".mermaid"):
         return _mermaid(graph)
     if suffix == ".svg":
@@ -22,7 +22,7 @@ def exported(graph: Digraph, drawing: Drawing, suffix: str) -> str:
 
 
 def _svg(drawing: Drawing) -> str:
-    """The picture's letters, each run where it stands in cells, so that lines meet in any font of even width."""
+    """The picture as text, each run at its cell position, so that lines meet in any monospaced font."""
     width, height = (drawing.width + 2) * CELL, (len(drawing.rows) + 1) * LINE
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" '

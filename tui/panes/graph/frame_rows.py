@@ -16,14 +16,14 @@ NAME = 44
 
 
 class FrameRows(ItemList[FrameRow]):
-    """One frame a row."""
+    """One frame per row."""
 
     def key(self, item: FrameRow) -> object:
-        """Its name: it may stand elsewhere in the tree."""
+        """The frame's name, as its place in the tree may change."""
         return item.name
 
     def row(self, index: int, width: int) -> list[Segment]:
-        """Tree and name, rate, age, who tells, what is wrong."""
+        """Tree and name, rate, age, publisher, and problems."""
         row = self.rows[index]
         longest = max(2 * each.depth + cell_len(harmless(each.name)) for each in self.rows)
         name = cut("  " * row.depth + harmless(row.name), max(12, min(longest, NAME, width - RATE - AGE)), pad=True)

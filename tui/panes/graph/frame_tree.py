@@ -13,7 +13,7 @@ from bot_console.tui.screens.facts import Section
 
 @dataclass(frozen=True)
 class FrameRow:
-    """A frame with its depth in the tree; `frame` is None for one that nobody tells of, a root."""
+    """A frame with its depth in the tree; `frame` is None for a root, which nobody publishes."""
 
     name: str
     depth: int
@@ -26,7 +26,7 @@ class FrameRow:
 
 
 def rows(info: Frames, clock: float, query: Query) -> list[FrameRow]:
-    """All frames, depth first; those that pass a filter with what leads to them."""
+    """All frames, depth first; with a filter, those that pass and their ancestors."""
     below: dict[str, list[Frame]] = {}
     for each in info.frames:
         below.setdefault(each.parent, []).append(each)
@@ -48,7 +48,7 @@ def rows(info: Frames, clock: float, query: Query) -> list[FrameRow]:
 
     for root in roots(parents):
         add(root, 0, None)
-    for each in info.frames:  # those of loops, which hang on no root
+    for each in info.frames:  # frames of loops, which have no root
         add(each.name, 0, each)
     return found
 
@@ -66,7 +66,7 @@ def _wanted(parents: dict[str, str], query: Query) -> set[str]:
 
 
 def _wrong(info: Frames, clock: float) -> dict[str, str]:
-    """The trouble of each frame in a few words."""
+    """The problem of each frame in a few words."""
     parents = {each.name: each.parent for each in info.frames}
     wrong: dict[str, str] = {}
     for each in info.frames:
@@ -94,7 +94,7 @@ def summary(row: FrameRow | None, info: Frames) -> str:
 
 
 def facts(row: FrameRow, info: Frames, clock: float) -> list[Section]:
-    """All that is known of a frame."""
+    """All details of a frame."""
     frame = row.frame
     told = [text for name, text in findings(info, clock) if name == row.name]
     if frame is None:

@@ -20,7 +20,7 @@ PERIOD = 0.5
 
 
 class FramesView(Container):
-    """The list, and what is known of it."""
+    """The list of frames with its details."""
 
     DEFAULT_CSS = "FramesView { height: 1fr; display: none; }"
 
@@ -43,19 +43,19 @@ class FramesView(Container):
         return self.query_one(FrameRows)
 
     def toggle(self) -> None:
-        """Open, or close."""
+        """Open or close the list."""
         self.open = not self.open
         self.display = self.open
         self._looked = 0.0
 
     def take_focus(self) -> None:
-        """The list takes the keys."""
+        """Focus the list."""
         self._rows.focus()
 
     def look(self, sights: Sights, clock: float, *, seen: bool) -> None:
-        """Listen while it is open and seen; look again when it is time."""
+        """Subscribe while it is open and visible; update it when due."""
         wanted = self.open and seen
-        if self._looking_by is not (sights if wanted else None):  # another one after the system was connected anew
+        if self._looking_by is not (sights if wanted else None):  # a different one after a reconnection
             self._looking_by = sights if wanted else None
             sights.look_at_frames(wanted)
         if wanted and clock - self._looked >= PERIOD:
@@ -68,13 +68,13 @@ class FramesView(Container):
         self._rows.exchange(rows(self._info, clock, self._query))
 
     def filter_by(self, words: str) -> None:
-        """Show what passes, with what leads to it."""
+        """Show the frames that pass, and their ancestors."""
         self._query, self._words = parse(words), words
         if self.open:
             self._arrange(self._looked)
 
     def find(self, query: Query, step: int) -> bool:
-        """The next frame that matches."""
+        """Go to the next matching frame; returns whether there is one."""
         return self._rows.find(query, step)
 
     def stands_on(self, query: Query) -> bool:
@@ -84,7 +84,7 @@ class FramesView(Container):
 
     @property
     def caption(self) -> str:
-        """How many there are, and how much of it is odd."""
+        """The numbers of frames and of findings."""
         info = self._info
         parts = ["frames of tf2", f"/{self._words}" if self._words else ""]
         parts += [counted(len(info.frames), "transform") if info.frames else ""]
@@ -98,7 +98,7 @@ class FramesView(Container):
         return harmless(summary(self._rows.current, self._info))
 
     def odd(self, clock: float) -> Sequence[Option]:
-        """What is odd, each line with its frame."""
+        """The findings, each with its frame."""
         return [Option(text, "", name) for name, text in findings(self._info, clock)]
 
     def go_to(self, name: str) -> None:
@@ -107,7 +107,7 @@ class FramesView(Container):
         shown.cursor = next((at for at, each in enumerate(shown.rows) if each.name == name), shown.cursor)
 
     def show_facts(self, host: App[object], clock: float) -> None:
-        """All that is known of the frame at the cursor."""
+        """Show all details of the frame at the cursor."""
         row = self._rows.current
         if row is not None:
             host.push_screen(FactsScreen(harmless(row.name), facts(row, self._info, clock)))

@@ -11,7 +11,7 @@ STEP = 2
 
 @dataclass(frozen=True)
 class Focus:
-    """An item and how many hops around it are drawn; an empty item: everything is."""
+    """An item and the number of hops drawn around it; without an item everything is drawn."""
 
     item: str = ""
     hops: int = 1
@@ -19,7 +19,7 @@ class Focus:
 
 @dataclass
 class Journey:
-    """Where the focus was, is, and was before one went back."""
+    """The history of the focus, backwards and forwards."""
 
     now: Focus = field(default_factory=Focus)
     _behind: list[Focus] = field(default_factory=lambda: [])
@@ -33,11 +33,11 @@ class Journey:
         self.now = Focus(item, wider)
 
     def back(self) -> bool:
-        """Where the focus was before; whether there was anything."""
+        """Go back to the previous focus; returns whether there was one."""
         return self._move(self._behind, self._ahead)
 
     def forth(self) -> bool:
-        """Where the focus was before one went back."""
+        """Go forward to the focus left by `back`; returns whether there was one."""
         return self._move(self._ahead, self._behind)
 
     def _move(self, source: list[Focus], target: list[Focus]) -> bool:
@@ -49,7 +49,7 @@ class Journey:
 
 
 def around(focus: Focus, edges: Iterable[tuple[str, str]]) -> set[str]:
-    """The items within the hops of a focus, against and along the arrows."""
+    """The items within the hops of a focus, in both directions of the arrows."""
     near: dict[str, set[str]] = {}
     for a, b in edges:
         near.setdefault(a, set()).add(b)

@@ -16,7 +16,7 @@ def namespace_of(node: str) -> str:
 
 
 def outermost(nodes: Iterable[str]) -> frozenset[str]:
-    """The namespaces next to the root that have nodes enough for a box."""
+    """The top-level namespaces with enough nodes for a box."""
     counts: dict[str, int] = {}
     for node in nodes:
         space = "/" + node.split("/")[1] if node.count("/") > 1 else ""
@@ -25,7 +25,7 @@ def outermost(nodes: Iterable[str]) -> frozenset[str]:
 
 
 def box_of(node: str, folded: Collection[str]) -> str:
-    """The item that stands for a node: itself, or the box of the outermost folded namespace that it is in."""
+    """The item that represents a node: itself, or the box of its outermost folded namespace."""
     space = namespace_of(node)
     within = [each for each in folded if space == each or space.startswith(f"{each}/")]
     return SPACE + min(within, key=len) if within else node
@@ -34,9 +34,9 @@ def box_of(node: str, folded: Collection[str]) -> str:
 def folded_edges(
     edges: Iterable[tuple[str, str]], folded: Collection[str], is_link: Collection[str]
 ) -> tuple[set[tuple[str, str]], set[str]]:
-    """Edges between what is drawn, and the links (topics, services) that stand inside one box and are not drawn.
+    """Edges between drawn items, and the links (topics, services) within one box, which are not drawn.
 
-    `is_link` are the ids that are no nodes.
+    `is_link` are the ids that are not nodes.
     """
     boxes: dict[str, str] = {}
 

@@ -90,17 +90,17 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         """Who finds out which nodes do not answer."""
 
     def on_mount(self) -> None:
-        """Draw as at the end of the last run."""
+        """Restore the view of the last run."""
         left = view_state_of(self.kept.get(KEPT))
         self._mode, self._view, self._folds = left.mode, left.view, left.folds
         self._rates = {} if left.rates else None
 
     def on_unmount(self) -> None:
-        """Keep how it is drawn."""
+        """Save the view."""
         self.kept.put(KEPT, ViewState(self._mode, self._view, self._folds, self._rates is not None).data)
 
     def compose(self) -> ComposeResult:
-        """The picture, a line on what is selected, a prompt."""
+        """The picture, details of the selected item, and a prompt."""
         yield DiagramView()
         yield FramesView()
         yield Words(id="graph-status")
@@ -115,14 +115,14 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         return self.query_one(FramesView)
 
     def focus_target(self) -> None:
-        """The picture takes the keys, or the frames in its place."""
+        """Focus the picture, or the frames that replace it."""
         if self._frames.open:
             self._frames.take_focus()
         else:
             self._picture.focus()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Draw the graph anew when it is another object."""
+        """Redraw the graph if it is a different object."""
         self._snapshot = snapshot
         if snapshot.graph is not self._info or snapshot.problem != self._problem:
             self._info = snapshot.graph
@@ -147,26 +147,26 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             if excess <= 1.0 or len(self._shown.graph.items) > LARGE:
                 break
         else:
-            # Nothing fits: whole names, and fewer topics only where that is much too large.
+            # Nothing fits: use whole names, and fewer topics only if that is much too large.
             whole = [each for each in sizes if not each[2]]
             _, mode, short = next((each for each in whole if each[0] <= TOO_LARGE), whole[-1])
             self._try(info, mode, short)
         self._tell()
 
     def _fits_without_topics(self, info: GraphInfo) -> bool:
-        """Draw nodes only, where that can nearly be seen at once and with all topics it could not; whether it did."""
+        """Try to draw only nodes, if that nearly fits and all topics would not; returns whether it does."""
         every, few = (len(shown(info, replace(self._view, mode=each)).graph.items) for each in (Mode.ALL, Mode.NODES))
         return every > LARGE >= few and self._try(info, Mode.NODES, False) <= TOO_LARGE
 
     def _try(self, info: GraphInfo, mode: Mode, short: bool) -> float:
-        """Draw it so; how many times larger than the pane it is then."""
+        """Draw the graph in a mode; returns the ratio of its size to the pane's."""
         self._view = replace(self._view, mode=mode, short=short)
         self._shown = shown(info, self._view, self._rates or {})
         self._picture.show(self._shown.graph, self._shown.dead_ends, self._shown.faults, self._shown.silent)
         return self._picture.excess
 
     def tick(self) -> None:
-        """Write rates where they are wanted and the pane is seen; measure nothing otherwise."""
+        """Show rates if requested and the pane is visible; otherwise measure nothing."""
         self._ask_nodes()
         if self.has_parts:
             self._frames.look(self.console.sights, self.clock(), seen=self.display)
@@ -190,24 +190,24 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             self._draw()
 
     def _ask_nodes(self) -> None:
-        """Have nodes asked whether they live while the pane is seen."""
+        """Have nodes probed for liveness while the pane is visible."""
         wanted = self.console.sights if self.display else None
-        if wanted is not self._asking_by:  # another one, too, after the system was connected anew
+        if wanted is not self._asking_by:  # a different one, too, after a reconnection
             self._asking_by = wanted
             self.console.sights.look_at_nodes(wanted is not None)
 
     def let_go(self) -> None:
-        """Measure and ask no more."""
+        """Stop measuring and probing."""
         self.console.traffic.measure([], "graph")
         self.console.sights.look_at_nodes(False)
         self.console.sights.look_at_frames(False)
 
     def on_diagram_view_resized(self) -> None:
-        """Choose anew what fits."""
+        """Choose again what fits."""
         self._draw()
 
     def _tell(self) -> None:
-        """Say what is selected, and what is left out."""
+        """Describe the selected item, and what is omitted."""
         if self._frames.open:
             self.caption(self._frames.caption)
             self.query_one("#graph-status", Words).say(self._frames.summary)
@@ -230,7 +230,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self.query_one("#graph-status", Words).say(text)
 
     def on_diagram_view_selected(self, event: DiagramView.Selected) -> None:
-        """Tell of the item."""
+        """Describe the selected item."""
         event.stop()
         self._tell()
 
@@ -247,11 +247,11 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._draw()
 
     def ask_words(self, line: Line) -> None:
-        """Ask at the foot of the pane."""
+        """Ask for search words at the bottom of the pane."""
         self.query_one(Prompt).ask(line)
 
     def filter_is(self, words: str) -> None:
-        """Draw what passes, and what is linked to it."""
+        """Draw the items that pass, and those linked to them."""
         self._frames.filter_by(words)
         self._view = replace(self._view, query=parse(words))
         self._draw()
@@ -264,17 +264,17 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         return self._picture.find(lambda item: matches(item, query), step)
 
     def stands_on_match(self, words: str) -> bool:
-        """Whether the selected one matches."""
+        """Whether the selected item matches."""
         if self._frames.open:
             return self._frames.stands_on(parse(words))
         return bool(self._picture.selected) and matches(self._picture.selected, parse(words))
 
     def action_turn_picture(self) -> None:
-        """Another direction of the arrows."""
+        """Change the direction of the arrows."""
         self._picture.action_turn()
 
     def action_detail(self) -> None:
-        """List all about the selected item, to go on to; unfold a box."""
+        """List all details of the selected item, to navigate from; unfold a box."""
         if self._frames.open:
             self._frames.show_facts(self.host, self.clock())
             return
@@ -289,7 +289,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._offer(name, options, "Nothing has these words.")
 
     def action_findings(self) -> None:
-        """List what is odd."""
+        """List the findings."""
         if self._frames.open:
             self._offer("What is odd about the frames", self._frames.odd(self.clock()), "Nothing is odd.")
             return
@@ -311,7 +311,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             self.post_message(self.LineWanted(f"ros2 interface show {where.removeprefix(TYPE)}"))
 
     def _go_to_item(self, item: str) -> None:
-        """Select an item; what is not drawn now becomes the focus."""
+        """Select an item; one that is not drawn becomes the focus."""
         if item not in self._picture.places:
             services = self._view.services or item.startswith((SERVICE, ACTION))
             self._view = replace(self._view, debug=True, services=services)
@@ -326,13 +326,13 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._go_to_item(name)
 
     def action_focus(self) -> None:
-        """Draw only what is linked to the selected item; a hop more the next time."""
+        """Draw only what is linked to the selected item, with one more hop each time."""
         if self._picture.selected:
             self._journey.go(self._picture.selected)
             self._draw()
 
     def action_journey(self, where: str) -> None:
-        """The focus of before, or of after that."""
+        """Go to the previous or next focus."""
         if self._journey.back() if where == "back" else self._journey.forth():
             self._draw()
             if self._journey.now.item:
@@ -364,13 +364,13 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._draw()
 
     def action_rates(self) -> None:
-        """Measure rates and write them on the topics, or no more."""
+        """Switch the rates on the topics on or off."""
         self._rates = {} if self._rates is None else None
         self.tick()
         self._draw()
 
     def action_frames(self) -> None:
-        """The frames of tf2 instead of nodes and topics, or back."""
+        """Show the frames of tf2 instead of nodes and topics, or go back."""
         frames = self._frames
         frames.toggle()
         self._picture.display = not frames.open
@@ -379,12 +379,12 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._tell()
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
-        """Tell of the frame at the cursor."""
+        """Describe the frame at the cursor."""
         event.stop()
         self._tell()
 
     def action_export(self) -> None:
-        """Ask where to export to."""
+        """Ask for the file to export to."""
         self.ask_file("export to (.mmd .dot .svg .txt)", "graph.mmd", self._save)
 
     def _save(self, path: Path) -> Answer:
@@ -394,7 +394,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
 
 def _rate(rate: float | None) -> str:
-    """A rate so that the picture need not be drawn anew for each tremble."""
+    """Format a rate coarsely, so that the picture is not redrawn for small changes."""
     if rate is None:
         return ""
     return f"{rate:.1f} Hz" if rate < 9.5 else f"{rate:.2g} Hz" if rate < 95 else f"{rate:.0f} Hz"

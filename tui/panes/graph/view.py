@@ -27,7 +27,7 @@ LONGEST, SHORT = 40, 16
 
 
 class Mode(Enum):
-    """What stands for what, in rqt_graph's words."""
+    """What is drawn, in rqt_graph's terms."""
 
     ACTIVE = "nodes and topics in use"
     ALL = "nodes and all topics"
@@ -36,7 +36,7 @@ class Mode(Enum):
 
 @dataclass(frozen=True)
 class GraphView:
-    """How a person wants to see the graph."""
+    """The user's choices for drawing the graph."""
 
     mode: Mode = Mode.ALL
     query: Query = field(default_factory=Query)
@@ -56,7 +56,7 @@ class GraphView:
 
 @dataclass(frozen=True)
 class Shown:
-    """The graph to draw, topics that lack a publisher or a subscriber, and how much is left out."""
+    """The graph to draw, the topics without a publisher or a subscriber, and how much is omitted."""
 
     graph: Digraph
     dead_ends: frozenset[str] = frozenset()
@@ -74,7 +74,7 @@ class Shown:
 
 
 def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingProxyType({})) -> Shown:
-    """Choose nodes and topics, and turn them into items and edges; `rates` are written behind the names of topics."""
+    """Select nodes and topics, and convert them to items and edges; `rates` are appended to topic names."""
     nodes = [each for each in info.nodes if view.debug or not each.hidden]
     edges = _edges(nodes, view)
     topics = {TOPIC + each.name for each in info.topics} | {each for edge in edges for each in edge if is_link(each)}
@@ -129,7 +129,7 @@ def _edges(nodes: list[NodeInfo], view: GraphView) -> list[tuple[str, str]]:
 
 
 class _Labels:
-    """What stands on each item."""
+    """The labels of the items."""
 
     def __init__(
         self, info: GraphInfo, view: GraphView, rates: Mapping[str, str], ids: Collection[str], faulty: Collection[str]
@@ -170,12 +170,12 @@ def _last(item: str) -> str:
 
 
 def is_debug(topic: str) -> bool:
-    """Whether a topic is a tool's: logs, parameter events, statistics, actions' insides, hidden names."""
+    """Whether a topic is for debugging: logs, parameter events, statistics, parts of actions, hidden names."""
     return topic in DEBUG_TOPICS or "/_" in topic
 
 
 def is_link(item: str) -> bool:
-    """Whether an item stands between nodes: a topic, a service, an action."""
+    """Whether an item links nodes: a topic, a service, an action."""
     return item.startswith(LINKS)
 
 
@@ -190,7 +190,7 @@ def _wanted(topic: str, view: GraphView, sources: set[str], sinks: set[str], cou
 
 
 def _filtered(ids: set[str], edges: list[tuple[str, str]], query: Query) -> set[str]:
-    """What matches, and what is linked to it; an excluding word excludes in either case."""
+    """The matching items and those linked to them; an excluding word excludes both."""
     if not query.terms:
         return ids
     excluding, positive = query.part(exclude=True), query.part(exclude=False)
@@ -245,7 +245,7 @@ def summary(info: GraphInfo, item: str) -> str:
 
 
 def server_types(info: GraphInfo, item: str) -> list[str]:
-    """The types of a service or action, and who serves it."""
+    """The types of a service or action, and its servers."""
     kind, _, name = item.partition(":")
     found: dict[str, None] = {}
     servers: list[str] = []
@@ -258,7 +258,7 @@ def server_types(info: GraphInfo, item: str) -> list[str]:
 
 
 def warning(publishers: list[str], subscribers: list[str]) -> str:
-    """What is odd about a topic with these ends; empty when nothing is."""
+    """What is unusual about a topic with these endpoints; empty if nothing is."""
     if not publishers:
         return " - nobody publishes it: is the name right?"
     return " - nobody listens" if not subscribers else ""
@@ -272,7 +272,7 @@ def ends_of(info: GraphInfo, topic: str) -> tuple[list[str], list[str]]:
 
 
 def types_of(info: GraphInfo, topic: str) -> tuple[str, ...]:
-    """The types of a topic; more than one is a mistake in the system."""
+    """The types of a topic; more than one is an error in the system."""
     found: dict[str, None] = {}
     every: list[Endpoint] = [*info.topics]
     for node in info.nodes:
@@ -284,5 +284,5 @@ def types_of(info: GraphInfo, topic: str) -> tuple[str, ...]:
 
 
 def node_of(info: GraphInfo, name: str) -> NodeInfo | None:
-    """The node of that name."""
+    """The node with that name."""
     return next((each for each in info.nodes if each.name == name), None)

@@ -14,7 +14,7 @@ SWITCHES = ("debug", "dead_sinks", "leaves", "services")
 
 @dataclass(frozen=True)
 class ViewState:
-    """What a person has chosen; what the pane chooses by itself is not among it."""
+    """The user's choices, without those that the pane makes by itself."""
 
     mode: Mode | None = None
     view: GraphView = field(default_factory=GraphView)
@@ -33,7 +33,7 @@ class ViewState:
 
 
 def view_state_of(data: object) -> ViewState:
-    """How it was left; the default for each part that cannot be read."""
+    """Restore the choices; parts that cannot be read get their defaults."""
     given = cast("Mapping[str, Any]", data) if isinstance(data, Mapping) else dict[str, Any]()
     switches = {each: given[each] for each in SWITCHES if isinstance(given.get(each), bool)}
     mode = next((each for each in Mode if each.name == given.get("mode")), None)

@@ -14,13 +14,13 @@ NO_TUNER = "Nothing is tuned here: this console only looks on, or was given no s
 
 
 class TuningDoor(App[None]):
-    """An app whose panes may ask for a tuning."""
+    """An app whose panes may request a tuning."""
 
     tuner: Tuner | None = None
     """Who makes the runs; None: nobody."""
 
     def on_pane_tuning_wanted(self, event: Pane.TuningWanted) -> None:
-        """Begin a tuning, and show it over the panes."""
+        """Start a tuning, and show it over the panes."""
         event.stop()
         tuner = self.tuner
         problem = tuner.problem(event.question) if tuner else NO_TUNER

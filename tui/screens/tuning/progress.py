@@ -35,7 +35,7 @@ HINT = "enter takes this setting · S saves it as a profile · esc closes"
 
 
 class SettingRows(RowList):
-    """One setting a line, the best first."""
+    """One setting per line, best first."""
 
     def __init__(self, question: Question) -> None:
         super().__init__()
@@ -45,7 +45,7 @@ class SettingRows(RowList):
         """How it was before."""
 
     def row_count(self) -> int:
-        """How many settings have been judged."""
+        """The number of judged settings."""
         return len(self.rows)
 
     def row(self, index: int, width: int) -> list[Segment]:
@@ -68,17 +68,17 @@ class SettingRows(RowList):
 
     @property
     def column(self) -> int:
-        """Cells of a value: the width of the longest name, within reason."""
+        """The column width of the values in cells: that of the longest name, within limits."""
         return min(18, max(6, *(len(each.name) for each in self._question.dials)))
 
     def head(self) -> str:
-        """The names over the columns."""
+        """The column headings."""
         names = (f"{cut(each.name, self.column):>{self.column}}  " for each in self._question.dials)
         return f"{'score':>9}  " + "".join(names)
 
 
 class TuningScreen(VeilScreen):
-    """Shows a tuning; closing it ends the runs."""
+    """Shows the progress of a tuning; closing it ends the runs."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("tuning")]
     AUTO_FOCUS = ""
@@ -89,7 +89,7 @@ class TuningScreen(VeilScreen):
     """
 
     def __init__(self, question: Question, tuning: Tuning, take: Callable[[Setting], None]) -> None:
-        """`take` is called with the setting that the running system is to have."""
+        """`take` is called with the setting chosen for the running system."""
         super().__init__()
         self._question = question
         self._tuning = tuning
@@ -99,7 +99,7 @@ class TuningScreen(VeilScreen):
         self._leaving = False
 
     def compose(self) -> ComposeResult:
-        """Progress, the curve, the table, what is said of it, a line for a name."""
+        """Progress, curve, table, state, and a line for a name."""
         names = ", ".join(each.name for each in self._question.dials)
         with Box() as box:
             box.border_title = Text(f"Tune {names} for {self._question.score.text}")
@@ -116,18 +116,18 @@ class TuningScreen(VeilScreen):
         return self.query_one(SettingRows)
 
     def on_mount(self) -> None:
-        """The table takes the keys."""
+        """Focus the table."""
         self._list.focus()
         self.query_one("#tuning-head", Words).say(self._list.head())
         self.set_interval(1.0 / LOOKS, self.look)
         self.call_after_refresh(self.look)
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """No key of the table acts while a name is typed."""
+        """Disable the keys of the table while a name is typed."""
         return not asks(self) and super().check_action(action, parameters)
 
     def look(self) -> None:
-        """Show how far it is, where that is new."""
+        """Show the progress, if it has changed."""
         progress = self._tuning.progress
         if progress is self._progress:
             return
@@ -150,7 +150,7 @@ class TuningScreen(VeilScreen):
         self.query_one("#tuning-state", Words).say(text or (verdict(progress) if progress else ""))
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
-        """A person has chosen a row: it keeps the cursor when better ones come."""
+        """Keep the cursor on a row that the user has chosen when better ones arrive."""
         event.stop()
         self._moved = event.index != 0
 
@@ -160,7 +160,7 @@ class TuningScreen(VeilScreen):
         return shown.rows[shown.cursor] if shown.cursor < len(shown.rows) else None
 
     def action_take(self) -> None:
-        """Give the running system the setting at the cursor."""
+        """Apply the setting at the cursor to the running system."""
         chosen = self._chosen
         if chosen is None:
             self._say("Nothing is known yet.")
@@ -184,7 +184,7 @@ class TuningScreen(VeilScreen):
         self.query_one(Prompt).ask(Line("save as profile", save, text="tuned"))
 
     def action_leave(self) -> None:
-        """Close; runs that go on are ended only when that is said twice."""
+        """Close; unfinished runs are ended only at a second request."""
         if self._progress is None or self._progress.ended or self._leaving:
             self._tuning.stop()
             self.dismiss()
@@ -194,7 +194,7 @@ class TuningScreen(VeilScreen):
 
 
 def progress_text(progress: Progress) -> str:
-    """A bar, and how much is left."""
+    """A progress bar, and the remaining time."""
     if not progress.runs:
         return progress.problem or "preparing the runs ..."
     full = round(BAR * progress.done / progress.runs)
@@ -211,7 +211,7 @@ def _minutes(seconds: float) -> str:
 
 
 def verdict(progress: Progress) -> str:
-    """What came of it, and whether that holds on other seeds."""
+    """The result, and whether it holds on other seeds."""
     best = progress.best
     if best is None or not progress.rows:
         return progress.problem
@@ -228,7 +228,7 @@ def verdict(progress: Progress) -> str:
 
 
 def curve_lines(rows: Sequence[Judged], width: int, height: int) -> list[str]:
-    """The scores in the order of the settings as dots, and the best so far as a line."""
+    """The scores of the settings in order as dots, and the best so far as a line."""
     canvas = BrailleCanvas(width, height)
     scores = np.array([each.score for each in rows], float)
     finite = scores[np.isfinite(scores)]
