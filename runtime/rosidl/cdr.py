@@ -9,21 +9,21 @@ from bot_console.runtime.rosidl.cdr_read import HEADER_SIZE, CdrError, reader
 from bot_console.runtime.rosidl.cdr_write import writer
 
 ORDERS = {0: ">", 1: "<"}
-"""Byte orders by the second byte of the header."""
+"""Byte order by the second byte of the header."""
 
 
 def serialize(message: Any) -> bytes:
-    """The bytes of a message, header first; raises `FieldTypeError` where a field holds what cannot be sent."""
+    """Serialize a message, including the header; raises `FieldTypeError` if a field holds what cannot be sent."""
     try:
         return writer(message.__class__)(message)
-    except Exception:  # whatever it is: making a copy tells what cannot be sent, and makes of the rest what can
+    except Exception:  # whatever it is: making a copy raises for what cannot be sent, and converts the rest
         pass
     copy = message._copy_()
     return writer(copy.__class__)(copy)
 
 
 def deserialize(data: bytes | bytearray | memoryview, message_class: Any) -> Any:
-    """The message that bytes are; raises `CdrError` where they are none of the class."""
+    """Deserialize a message; raises `CdrError` if the bytes are not a message of the class."""
     if not isinstance(data, bytes):
         data = bytes(data)
     if len(data) < HEADER_SIZE or data[0] != 0 or data[1] not in ORDERS:

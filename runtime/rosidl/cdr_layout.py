@@ -1,4 +1,4 @@
-"""The layout of a message in CDR: runs of numbers between the parts whose length is known only when they are read."""
+"""The layout of a message in CDR: runs of numbers between the parts whose length is known only on reading."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ CODES = {
 """Codes of `struct` by element type."""
 
 FILLER = ""
-"""Name of the byte by which a structure without fields is sent."""
+"""Name of the byte sent for a structure without fields."""
 
 
 class Part(NamedTuple):
-    """A field by its path from the outermost message; `owner` is the class that has it."""
+    """A field by its path from the outermost message; `owner` is the class that declares it."""
 
     path: tuple[str, ...]
     type: Type
@@ -38,12 +38,12 @@ class Part(NamedTuple):
 
     @property
     def number(self) -> bool:
-        """Whether its length is known and it is no array."""
+        """Whether its length is known and it is not an array."""
         return self.type.item in CODES and not self.type.sequence and not self.type.size
 
 
 def parts(cls: Any, path: tuple[str, ...] = ()) -> Iterator[Part]:
-    """The fields of a message class in the order of the wire, those of nested messages in the place of these."""
+    """Yield a message class's fields in wire order, with nested messages replaced by their fields."""
     fields = cls._fields_and_field_types
     if not fields:
         yield Part((*path, FILLER), Type("uint8"), cls)
@@ -56,7 +56,7 @@ def parts(cls: Any, path: tuple[str, ...] = ()) -> Iterator[Part]:
 
 
 def nested(cls: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
-    """The single nested messages, outer ones first, by their path."""
+    """Yield the single nested messages by path, outer ones first."""
     for name, text in cls._fields_and_field_types.items():
         kind = parse_type(text)
         if not (kind.primitive or kind.sequence or kind.size):
@@ -66,27 +66,27 @@ def nested(cls: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ..
 
 
 class Place(NamedTuple):
-    """What is known of a place in the stream before there is one: its remainder `rest` by `step`, a power of two."""
+    """What is known statically of a place in the stream: its remainder `rest` modulo `step`, a power of two."""
 
     step: int
     rest: int
 
     def gap(self, size: int) -> int | None:
-        """The bytes to the next multiple of `size`; None where only the stream tells."""
+        """Return the padding to the next multiple of `size`; None if it depends on the stream."""
         return -self.rest % size if size <= self.step else None
 
     def behind(self, length: int) -> Place:
-        """The place so many bytes on."""
+        """Return the place that many bytes further on."""
         return Place(self.step, (self.rest + length) % self.step)
 
     def behind_many(self, size: int) -> Place:
-        """The place behind a number, not known yet, of elements of `size` bytes."""
+        """Return the place after an unknown number of elements of `size` bytes."""
         step = min(self.step, size)
         return Place(step, self.rest % step)
 
 
 START = Place(8, 4)
-"""The place of a header: what is behind its 4 bytes is aligned to 8."""
+"""The place after the header: what follows its 4 bytes is aligned to 8."""
 ANYWHERE = Place(1, 0)
 
 

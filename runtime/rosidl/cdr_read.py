@@ -34,12 +34,12 @@ LENGTHS = {order: row(["I"], ANYWHERE, order)[0] for order in "<>"}
 
 
 class CdrError(ValueError):
-    """Bytes that are no message of the class asked for."""
+    """The bytes are not a message of the requested class."""
 
 
 @cache
 def reader(cls: Any, order: str = "<") -> Callable[[bytes], Any]:
-    """The function that gives the message of a class; raises `CdrError`, and `struct.error` where bytes are missing."""
+    """Return the function that reads a message of a class; raises `CdrError`, and `struct.error` for missing bytes."""
     reading = _Reading(cls, order, outermost=True)
     return reading.source.compiled("data", reading.lines(), f"CDR reader of {cls.__name__}")
 
@@ -54,7 +54,7 @@ def element_reader(cls: Any, order: str) -> Callable[[bytes, memoryview, int, in
 
 
 class _Reading:
-    """A reader as it grows; `_codes` and `_targets` are the row of numbers that comes next."""
+    """A reader being generated; `_codes` and `_targets` are the pending row of numbers."""
 
     def __init__(self, cls: Any, order: str, *, outermost: bool) -> None:
         helpers = (fixed, flags, missing, no_text, octets, texts, too_many, wide)
@@ -87,7 +87,7 @@ class _Reading:
             line(f"{name}._check_fields = False")
 
     def lines(self) -> Sequence[str]:
-        """The body of the function."""
+        """Return the body of the function."""
         self.source.line("return m" if self._outermost else f"return m, {self.source.there}")
         lines = self.source.lines()
         if not self._has_text:
@@ -96,7 +96,7 @@ class _Reading:
         return ["try:", *("    " + line for line in lines), *refused]
 
     def _end_row(self) -> None:
-        """Read the numbers that are noted."""
+        """Emit the code that reads the pending numbers."""
         codes, targets = self._codes, self._targets
         self._codes, self._targets = [], []
         if codes:
@@ -117,7 +117,7 @@ class _Reading:
         self._end_row()
         if not kind.size:
             self.source.reach()
-            # Each element takes a byte at least, so a larger number is no number of elements.
+            # Each element takes at least one byte, so a larger number cannot be a length.
             self.source.line(f"if {count} > end - at: raise too_many({count}, end - at)")
         if not kind.sequence and not kind.size:
             self._text(kind.item, target, count)
@@ -145,7 +145,7 @@ class _Reading:
         self.source.leap(count, ANYWHERE)
 
     def _numbers(self, item: str, target: str, count: str) -> None:
-        """A sequence of numbers, aligned where there are any."""
+        """Emit a sequence of numbers, aligned only if it has any."""
         source, code = self.source, TYPECODES[item]
         size, values = array(code).itemsize, source.local("v")
         gap = source.place.gap(size)
@@ -162,7 +162,7 @@ class _Reading:
         source.land(source.place.behind_many(size if gap == 0 else 4))
 
     def _fixed(self, item: str, target: str, count: str) -> None:
-        """Numbers in a NumPy array."""
+        """Emit numbers in a NumPy array."""
         source, code = self.source, CODES[item]
         size = row([code], ANYWHERE, "=")[0][0].size
         gap = source.place.gap(size)
@@ -186,17 +186,17 @@ class _Reading:
 
 
 def too_many(count: int, left: int) -> CdrError:
-    """The error for a length that cannot be one."""
+    """Return the error for an impossible length."""
     return CdrError(f"{count} elements cannot be in the {left} bytes that are left")
 
 
 def missing(at: int, stop: int) -> CdrError:
-    """The error for bytes that end within an array."""
+    """Return the error for bytes that end within an array."""
     return CdrError(f"{stop - at} bytes are missing at byte {at - HEADER_SIZE}: the data end there")
 
 
 def no_text(at: int, error: UnicodeDecodeError) -> CdrError:
-    """The error for a string at a place."""
+    """Return the error for an invalid string at a place."""
     return CdrError(f"a string at byte {at - HEADER_SIZE} is not UTF-8: {error}")
 
 

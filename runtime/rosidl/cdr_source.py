@@ -29,13 +29,13 @@ class Source:
         self._holders: dict[Sequence[str], str] = {(): "m"}
 
     def name(self, letter: str, value: Any) -> str:
-        """A name by which the function finds a value."""
+        """Return a name by which the function refers to a value."""
         found = f"{letter}{len(self.names)}"
         self.names[found] = value
         return found
 
     def local(self, letter: str) -> str:
-        """A name for a value of the function's own."""
+        """Return a name for a local variable of the function."""
         self._locals += 1
         return f"{letter}{self._locals}"
 
@@ -47,11 +47,11 @@ class Source:
             yield self._holders[path], expression, inner
 
     def field(self, path: Sequence[str]) -> str:
-        """The expression of a field by its path; the message that has it has its local name."""
+        """Return the expression of a field by its path, using the local name of its message."""
         return f"{self._holders[path[:-1]]}._{path[-1]}"
 
     def line(self, text: str, *, moves: bool = False) -> None:
-        """Add a line; one that only moves `at` is left out where no later one asks for that."""
+        """Add a line; one that only moves `at` is dropped if no later line needs that."""
         self._lines.append((text, moves))
 
     @property
@@ -61,7 +61,7 @@ class Source:
 
     @property
     def aligned(self) -> str:
-        """The same for the place by which numbers are aligned."""
+        """The place used for alignment, as an expression."""
         return self._expression(self._ahead + self._shift)
 
     def _expression(self, ahead: int) -> str:
@@ -70,27 +70,27 @@ class Source:
         return f"at + {ahead}" if ahead else "at"
 
     def step(self, length: int) -> None:
-        """Go on by a known number of bytes."""
+        """Advance by a known number of bytes."""
         self._ahead += length
         self.place = self.place.behind(length)
 
     def leap(self, length: str, place: Place) -> None:
-        """Go on by an expression; what is known of the place behind it is given."""
+        """Advance by an expression; `place` is what is known of the place after it."""
         self.line(f"at = {self.there} + {length}", moves=True)
         self.land(place)
 
     def land(self, place: Place) -> None:
-        """Go on to where a line has set `at`."""
+        """Continue at the `at` that a line has set."""
         self._at, self._ahead, self.place = "at", 0, place
 
     def reach(self) -> None:
-        """Let `at` be the place, for lines that ask for it."""
+        """Set `at` to the place, for lines that need it."""
         if self.there != "at":
             self.line(f"at = {self.there}", moves=True)
             self.land(self.place)
 
     def row(self, codes: Sequence[str], use: Callable[[str], str]) -> None:
-        """Add a line that uses the structure of some numbers, and go behind them."""
+        """Add a line that uses the structure of some numbers, and advance past them."""
         structures, behind = row(codes, self.place, self._order)
         if len(structures) == 1:
             self.line(use(self.name("S", structures[0])))
@@ -102,7 +102,7 @@ class Source:
             self.leap("s.size", behind)
 
     def lines(self) -> Sequence[str]:
-        """The body of the function."""
+        """Return the body of the function."""
         asked = max(
             (number for number, (text, moves) in enumerate(self._lines) if not moves and re.search(r"\bat\b", text)),
             default=-1,
@@ -110,7 +110,7 @@ class Source:
         return [text for number, (text, moves) in enumerate(self._lines) if not moves or number < asked]
 
     def compiled(self, arguments: str, lines: Sequence[str], title: str) -> Callable[..., Any]:
-        """The function `f` with a body."""
+        """Compile a body into the function `f`."""
         text = "\n".join([f"def f({arguments}):", *("    " + line for line in lines)])
         exec(compile(text, f"<{title}>", "exec"), self.names)
         return self.names["f"]

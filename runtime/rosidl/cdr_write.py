@@ -36,7 +36,7 @@ LENGTHS = row(["I"], ANYWHERE, "<")[0]
 
 
 class InexactError(TypeError):
-    """A field does not hold just what a copy of the message would."""
+    """A field does not hold exactly what a copy of the message would."""
 
 
 @cache
@@ -57,7 +57,7 @@ def element_writer(cls: Any) -> Callable[[Any, Put, int], int]:
 
 
 class _Writing:
-    """A writer as it grows; `_codes` and `_values` are the row of numbers that comes next."""
+    """A writer being generated; `_codes` and `_values` are the pending row of numbers."""
 
     def __init__(self, cls: Any, *, outermost: bool) -> None:
         helpers = (array, is_octets, texts, wide)
@@ -85,7 +85,7 @@ class _Writing:
         self._end_row()
 
     def lines(self) -> Sequence[str]:
-        """The body of the function."""
+        """Return the body of the function."""
         line = self.source.line
         if not self._outermost:
             line(f"return {self.source.there}")
@@ -113,7 +113,7 @@ class _Writing:
             self._chunks.append(name)
 
     def _end_row(self) -> None:
-        """Write the numbers that are noted."""
+        """Emit the code that writes the pending numbers."""
         if self._floats:
             self._want(" and ".join(self._floats))
         codes, values = self._codes, self._values
@@ -161,10 +161,10 @@ class _Writing:
         self._end_row()
         self._chunk(data)
         self.source.leap(f"len({data})", ANYWHERE)
-        self._add("x")  # the closing zero
+        self._add("x")  # the terminating zero
 
     def _computed(self, call: str) -> None:
-        """Bytes that depend on their place in the stream."""
+        """Emit bytes that depend on their place in the stream."""
         self._end_row()
         data = self.source.local("d")
         self.source.line(f"{data} = {call % self.source.there}")
@@ -172,7 +172,7 @@ class _Writing:
         self.source.leap(f"len({data})", ANYWHERE)
 
     def _fixed(self, part: Part, value: str) -> None:
-        """Numbers in a NumPy array."""
+        """Emit numbers in a NumPy array."""
         import numpy
 
         dtype, size = numpy.dtype(DTYPES[part.type.item]), part.type.size
@@ -195,7 +195,7 @@ class _Writing:
         if numbers:
             self._numbers(part, value)
             return
-        # What another thread puts into the list meanwhile is not counted.
+        # Elements that another thread adds meanwhile are not counted.
         self.source.line(f"{value} = [*{value}]")
         if kind.size or kind.bound:
             self._want(f"len({value}) {f'== {kind.size}' if kind.size else f'<= {kind.bound}'}")
@@ -215,7 +215,7 @@ class _Writing:
             self._computed(f"texts({value}, %s, {kind.limit}, {kind.item == 'wstring'})")
 
     def _numbers(self, part: Part, value: str) -> None:
-        """A sequence of numbers, aligned where there are any."""
+        """Emit a sequence of numbers, aligned only if it has any."""
         code = TYPECODES[part.type.item]
         size, count = array(code).itemsize, self.source.local("n")
         self.source.line(f"{count} = len({value})")
@@ -224,7 +224,7 @@ class _Writing:
         self._add("I", count)
         self._end_row()
         gap = self.source.place.gap(size)
-        # Behind an empty sequence there is nothing to align.
+        # After an empty sequence there is nothing to align.
         behind = self.source.place.behind_many(size if gap == 0 else 4)
         if gap != 0:
             filler = self.source.local("g")

@@ -18,7 +18,7 @@ cached_type = lru_cache(None)(parse_type)
 
 
 def check(owner: Any, field: str, value: Any) -> bool:
-    """Raise `AssertionError` unless a value fits a field; whether it is an array that the field can keep."""
+    """Raise `AssertionError` unless a value fits a field; return whether it is an array that the field can keep."""
     kind = cached_type(owner._fields_and_field_types[field])
     if kind.sequence or kind.size:
         if kind.item in TYPECODES and _is_kept(kind, field, value):

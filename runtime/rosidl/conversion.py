@@ -9,7 +9,7 @@ from typing import Any
 
 
 class FieldTypeError(TypeError):
-    """A field holds a value that cannot be sent; `field` is its path, as `linear.x`."""
+    """A field holds a value that cannot be sent; `field` is its path, such as `linear.x`."""
 
     def __init__(self, owner: str, field: str, wanted: str, value: object) -> None:
         self.owner = owner
@@ -28,7 +28,7 @@ class FieldTypeError(TypeError):
 
 
 def type_name(cls: type) -> str:
-    """The ROS name of a class, such as `geometry_msgs/msg/Twist`; a subclass has that of the generated class."""
+    """Return the ROS name of a class, such as `geometry_msgs/msg/Twist`; a subclass has its generated class's name."""
     cls = next((each for each in cls.__mro__ if "_fields_and_field_types" in vars(each)), cls)
     package, kind = cls.__module__.split(".")[:2]
     return f"{package}/{kind}/{cls.__name__}"

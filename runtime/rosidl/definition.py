@@ -27,7 +27,7 @@ PRIMITIVES = {
     "string": "string",
     "wstring": "wstring",
 }
-"""The words of definition files and those of `get_fields_and_field_types`."""
+"""Type names in definition files and those in `get_fields_and_field_types`."""
 
 TYPECODES = {
     "float": "f",
@@ -65,12 +65,12 @@ class Type(NamedTuple):
 
     @property
     def primitive(self) -> bool:
-        """Whether the element is no message."""
+        """Whether the element is not a message."""
         return "/" not in self.item
 
     @property
     def text(self) -> str:
-        """As `get_fields_and_field_types` writes it."""
+        """The type in the notation of `get_fields_and_field_types`."""
         item = f"{self.item}<{self.limit}>" if self.limit else self.item
         if self.sequence:
             return f"sequence<{item}, {self.bound}>" if self.bound else f"sequence<{item}>"
@@ -78,7 +78,7 @@ class Type(NamedTuple):
 
 
 class Field(NamedTuple):
-    """A field with the Python literal of its default; None where the type's own default holds."""
+    """A field with the Python literal of its default; None for the type's own default."""
 
     name: str
     type: Type
@@ -111,7 +111,7 @@ class Interface(NamedTuple):
 
 
 def parse_type(text: str) -> Type:
-    """Read a type as `get_fields_and_field_types` writes it."""
+    """Parse a type in the notation of `get_fields_and_field_types`."""
     match = SHAPES.match(text)
     item = (match["item"] or match["fixed"]) if match else text
     string = BOUNDED.match(item)

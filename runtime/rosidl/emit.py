@@ -33,7 +33,7 @@ ZEROS = {"boolean": "False", "octet": "b'\\x00'", "float": "0.0", "double": "0.0
 
 
 PARTS_SUFFIX = "__parts"
-"""What follows the module name of a service in that of its request, response and event."""
+"""Suffix of the name of the module with a service's request, response and event."""
 
 
 def modules(interface: Interface) -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""The base of all generated classes."""
+"""The base class of all generated classes."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def checks_asked_for() -> bool:
 
 
 def read_checks_again() -> None:
-    """Look at the environment again before this thread's next message."""
+    """Read the environment again before this thread's next message."""
     _asked.value = None
 
 
@@ -113,6 +113,6 @@ class ServiceType(type):
         return part
 
     def __call__(cls, *args: Any, **kwargs: Any) -> Any:
-        """Refuse to be made, as upstream does."""
+        """Refuse instantiation, as upstream does."""
         kind = "Action" if hasattr(cls, "Goal") else "Service"
         raise NotImplementedError(f"{kind} classes can not be instantiated")

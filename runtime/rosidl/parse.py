@@ -22,7 +22,7 @@ class DefinitionError(ValueError):
 
 
 def parse(text: str, package: str, kind: str, name: str, file: str = "") -> Interface:
-    """Read the text of a definition file; raises `DefinitionError`."""
+    """Parse the text of a definition file; raises `DefinitionError`."""
     names = PARTS[kind]
     where = file or f"{package}/{kind}/{name}"
     if not NAME.match(name):
@@ -63,7 +63,7 @@ def _part(name: str, rows: list[tuple[int, str]], package: str, where: str) -> D
 
 
 def _without_comment(line: str) -> str:
-    """A line up to its comment; a `#` inside quotes is no comment."""
+    """Return a line up to its comment; a `#` inside quotes is no comment."""
     quote = ""
     for index, letter in enumerate(line):
         if quote:
@@ -120,7 +120,7 @@ def _default(text: str, kind: Type) -> str:
 
 
 def _literal(text: str, kind: Type) -> str:
-    """The Python literal of a value as definition files write it; raises `ValueError`."""
+    """Return the Python literal of a value in definition file notation; raises `ValueError`."""
     if kind.item in TEXTS:
         return repr(_unquoted(text))
     if kind.item == "boolean":

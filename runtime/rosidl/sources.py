@@ -16,13 +16,13 @@ _sources: list[Folders] = []
 
 
 def add_source(folders: Folders) -> None:
-    """Let what `folders` gives count as well: package names with the folders in which `msg`, `srv`, `action` lie."""
+    """Register a source: `folders` returns package names with the folders that hold `msg`, `srv` and `action`."""
     if folders not in _sources:
         _sources.append(folders)
 
 
 def added_folders() -> Mapping[str, Path]:
-    """The packages that were added, with their folders; the first of a name wins."""
+    """Return the added packages with their folders; the first one of a name wins."""
     found: dict[str, Path] = {}
     for each in _sources:
         for name, folder in each().items():

@@ -14,7 +14,7 @@ KINDS = ("msg", "srv", "action")
 
 
 def package_folder(package: str) -> Path | None:
-    """The folder in which a package's `msg`, `srv` and `action` lie; None for an unknown package."""
+    """Return the folder that holds a package's `msg`, `srv` and `action`; None for an unknown package."""
     folder = PREFIX / "share" / package
     if folder.is_dir() and not (package in EXAMPLES and package in added_folders()):
         return folder
@@ -22,17 +22,17 @@ def package_folder(package: str) -> Path | None:
 
 
 def standard_packages() -> Sequence[str]:
-    """Names of the packages that come along."""
+    """Return the names of the packages included."""
     return sorted(each.name for each in (PREFIX / "share").iterdir())
 
 
 def known_packages() -> Sequence[str]:
-    """Names of all packages that define interfaces, sorted."""
+    """Return the sorted names of all packages that define interfaces."""
     return sorted({*standard_packages(), *added_folders()})
 
 
 def interface_names(package: str) -> Sequence[str]:
-    """Interfaces of a package such as `msg/String`, sorted."""
+    """Return the sorted interfaces of a package, such as `msg/String`."""
     folder = package_folder(package)
     if folder is None:
         return []
@@ -40,13 +40,13 @@ def interface_names(package: str) -> Sequence[str]:
 
 
 def definition_path(package: str, kind: str, name: str) -> Path | None:
-    """The definition file of an interface; None where there is none."""
+    """Return the definition file of an interface; None if there is none."""
     folder = package_folder(package)
     path = None if folder is None or kind not in KINDS else folder / kind / f"{name}.{kind}"
     return path if path is not None and path.is_file() else None
 
 
 def definition_text(package: str, kind: str, name: str) -> str | None:
-    """The text of a definition file, comments and all; None where there is none."""
+    """Return the text of a definition file with its comments; None if there is none."""
     path = definition_path(package, kind, name)
     return None if path is None else path.read_text(encoding="utf-8")

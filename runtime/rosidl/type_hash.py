@@ -16,7 +16,7 @@ VERSION = 1
 
 @cache
 def digest(cls: Any) -> bytes:
-    """The 32 bytes of the hash of a message, service or action class."""
+    """Return the 32-byte hash of a message, service or action class."""
     known = KNOWN.get(type_name(cls))
     if known:
         return bytes.fromhex(known)
@@ -26,20 +26,20 @@ def digest(cls: Any) -> bytes:
 
 
 def digest_of_description(description: Description) -> bytes:
-    """The 32 bytes of the hash of an interface of which nothing but its description is known."""
+    """Return the 32-byte hash of an interface known only by its description."""
     import json
-    from hashlib import sha256  # which loads OpenSSL
+    from hashlib import sha256  # imported late, as it loads OpenSSL
 
     return sha256(json.dumps(description, separators=(", ", ": ")).encode()).digest()
 
 
 def text(cls: Any) -> str:
-    """The hash as ROS 2 writes it: `RIHS01_` and 64 digits."""
+    """Return the hash in ROS 2's notation: `RIHS01_` and 64 digits."""
     return _text(digest(cls))
 
 
 def text_of_description(description: Description) -> str:
-    """The hash of an interface of which nothing but its description is known."""
+    """Return the hash, in that notation, of an interface known only by its description."""
     return _text(digest_of_description(description))
 
 

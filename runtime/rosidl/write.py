@@ -12,7 +12,7 @@ WORDS = {name: WORDS.get(name, name) for name in PRIMITIVES.values()}
 
 
 def written(interface: Interface) -> str:
-    """The text of a definition file, its parts divided by `---`."""
+    """Return the text of a definition file, its parts separated by `---`."""
     return "---\n".join(_part(each, interface.package) for each in interface.parts)
 
 
