@@ -13,6 +13,7 @@ from bot_console.tui.cli.interpreter import collect_from_now_on, eager_switching
 from bot_console.tui.cli.live.descriptors import own_terminal
 from bot_console.tui.cli.live.ending_signals import ended_by_signals, hangup_as_signal
 from bot_console.tui.cli.look import look_of
+from bot_console.tui.cli.slow_end import slow_end_told
 from bot_console.tui.cli.standstill import Standstill, stacks_kept
 from bot_console.tui.files.folders import state_folder
 
@@ -103,7 +104,8 @@ class Session:
                 if self._standstill is not None:
                     self._standstill.rest()
                 self.app.stage.arrangement.remember()
-                self.close()
+                with slow_end_told():
+                    self.close()
         return self.app.return_code or 0
 
     def _end(self, number: int) -> None:
