@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from bot_console.tui.terminal.composing import kept
+from bot_console.tui.terminal.composing import cache_limits
 from piloting import Session, run
 from samples import live
 
@@ -11,7 +11,7 @@ FEW = 3
 
 
 def test_few_answers_are_kept_however_often_panes_are_changed(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(kept, "ANSWERS", FEW)
+    monkeypatch.setattr(cache_limits, "ANSWERS", FEW)
 
     async def play(session: Session) -> None:
         await session.press(*"12345678123")
