@@ -1,5 +1,6 @@
 """Runs launch descriptions."""
 
+# pyright: reportPrivateUsage=false
 # The service uses the context's private methods, as upstream; its users should not.
 
 from __future__ import annotations
