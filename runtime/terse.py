@@ -61,6 +61,11 @@ def help_tells_faults() -> None:
     argparse.ArgumentParser._print_message = write  # pyright: ignore[reportPrivateUsage] -- where all help passes
 
 
+def is_read() -> bool:
+    """Whether stderr is a terminal: what is said beyond the words of ROS 2 is for people alone."""
+    return sys.stderr is not None and sys.stderr.isatty()
+
+
 def ended_code(error: BaseException) -> int:
     """The exit code that shells give to what this ended: Ctrl-C, or SIGTERM; 0 for any other error."""
     if isinstance(error, KeyboardInterrupt):

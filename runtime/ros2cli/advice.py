@@ -6,6 +6,8 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
 
+from bot_console.runtime.terse import is_read
+
 _WRONG_TYPE = re.compile(r"Wrong parameter type, expected 'Type\.(\w+)' got 'Type\.(\w+)'")
 
 
@@ -13,11 +15,6 @@ def advise(text: Callable[[], str]) -> None:
     """Print a hint on stderr if stderr is a terminal; `text` is called only then, and an empty hint is not printed."""
     if is_read() and (said := text()):
         print(said, file=sys.stderr)
-
-
-def is_read() -> bool:
-    """Whether stderr is a terminal."""
-    return sys.stderr.isatty()
 
 
 def no_parameter(node: str, name: str, names: Iterable[str]) -> str:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Sequence
 
 from bot_console.runtime.process.crashes import MEND
 from bot_console.runtime.rmw import arguments
 from bot_console.runtime.rmw.arguments import Arguments, ArgumentsError
+from bot_console.runtime.terse import is_read
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
 from rclpy.impl.log_file import LogFile
 from rclpy.impl.log_routing import state
@@ -78,11 +78,6 @@ def _parse(words: Sequence[str]) -> Arguments:
     for rule in parsed.deprecated_rules:
         RcutilsLogger("rcl").warning(DEPRECATED.format(rule))
     return parsed
-
-
-def is_read() -> bool:
-    """Whether stderr is a terminal: elsewhere a program prints only the messages of rcl."""
-    return sys.stderr is not None and sys.stderr.isatty()
 
 
 def _refuse_unknown(parsed: Arguments) -> None:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-from rclpy.impl.command_line import is_read
+from bot_console.runtime.terse import is_read
 from rclpy.impl.written_values import value_text, written
 
 WRONG_PARAMETER = (
