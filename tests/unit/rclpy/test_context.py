@@ -241,7 +241,8 @@ def test_a_callback_that_spins_its_own_node_leaves_it_to_who_spins_it(default: N
         rclpy.shutdown()
 
     node.create_timer(0.0, callback)
-    rclpy.spin(node)
+    with node:
+        rclpy.spin(node)
     assert calls == [True, True]
 
 
