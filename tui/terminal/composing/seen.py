@@ -10,6 +10,7 @@ from typing import Any, cast
 
 from bot_console.tui.terminal.output import SUPPORTED
 from textual import messages
+from textual.message import Message
 from textual.screen import Screen
 from textual.widget import Widget
 
@@ -17,19 +18,21 @@ from textual.widget import Widget
 class SeenScreen(Screen[Any]):
     """A screen that ignores layouts and updates of hidden widgets, as showing one lays the screen out anyway."""
 
-    def on_layout(self, message: messages.Layout) -> None:
-        """Ignore a hidden widget, unless it has just been hidden."""
-        widget = message.widget
-        hidden = widget.styles.display == "none" and widget not in self._compositor.widgets
-        if hidden or _is_within_hidden(widget):
-            message.stop()
-            message.prevent_default()
+    def check_message_enabled(self, message: Message) -> bool:
+        """Keep layouts and updates of hidden widgets out of the queue.
 
-    def on_update(self, message: messages.Update) -> None:
-        """Ignore updates of widgets in hidden ones."""
-        if _is_within_hidden(message.widget):
-            message.stop()
-            message.prevent_default()
+        In the queue, Textual replaces a layout by the one after it, whatever widget that is for: a hidden one's would
+        take the place of one that is needed.
+        """
+        if isinstance(message, messages.Layout):
+            unneeded = self._is_hidden(message.widget) or _is_within_hidden(message.widget)
+        else:
+            unneeded = isinstance(message, messages.Update) and _is_within_hidden(message.widget)
+        return not unneeded and super().check_message_enabled(message)
+
+    def _is_hidden(self, widget: Widget) -> bool:
+        """Whether a widget is hidden and was when the screen was last laid out."""
+        return widget.styles.display == "none" and widget not in self._compositor.widgets
 
 
 def _is_within_hidden(widget: Widget) -> bool:

@@ -113,12 +113,23 @@ async def hide_the_other(app: Panes, pilot: Pilot[None]) -> None:
     app.query_one("#shown").display = False
 
 
+async def grow_before_the_hidden(app: Panes, pilot: Pilot[None]) -> None:
+    shown = app.query_one("#shown Static", Static)
+    shown.update("b\nc")
+    shown._check_refresh()
+    hidden = app.query_one("#hidden")
+    hidden.refresh(layout=True)
+    hidden._check_refresh()
+
+
 async def come_and_show(app: Panes, pilot: Pilot[None]) -> None:
     await come(app, pilot)
     app.query_one("#new").display = True
     assert [each.id for each in app.query_one(Horizontal).children] == ["shown", "new", "hidden"]
 
 
-@pytest.mark.parametrize("change", [grow_and_show, show_and_hide, hide_all, hide_the_other, come_and_show])
+@pytest.mark.parametrize(
+    "change", [grow_and_show, show_and_hide, hide_all, hide_the_other, grow_before_the_hidden, come_and_show]
+)
 def test_what_is_seen_in_the_end_is_what_textual_shows(change: Play) -> None:
     assert played(change)[2] == played(change, Screen)[2]
