@@ -1,0 +1,36 @@
+"""The changelog has one entry per fact: a merge can bring an old wording back beside the new one."""
+
+import re
+from itertools import combinations
+from pathlib import Path
+
+CHANGELOG = (Path(__file__).resolve().parents[2] / "CHANGELOG.md").read_text(encoding="utf-8")
+ENTRY = re.compile(r"^- .*(?:\n  .*)*", re.MULTILINE)
+WORD = re.compile(r"[\w:/~-]{4,}")
+SAME_FACT = 0.75
+"""Share of the shorter entry's words from which on two entries are one fact: different facts stay below 0.65."""
+FEWEST_WORDS = 6
+
+
+def repeated(text):
+    """The pairs of entries that have most of their words in common, by their first lines."""
+    entries = [(entry.split("\n")[0], set(WORD.findall(entry.lower()))) for entry in ENTRY.findall(text)]
+    return [
+        (first, second)
+        for (first, words), (second, others) in combinations(entries, 2)
+        if (fewest := min(len(words), len(others))) >= FEWEST_WORDS and len(words & others) / fewest >= SAME_FACT
+    ]
+
+
+def test_no_fact_stands_twice():
+    assert repeated(CHANGELOG) == []
+
+
+def test_no_group_stands_twice():
+    groups = re.findall(r"^#+ .+$", CHANGELOG, re.MULTILINE)
+    assert len(groups) == len(set(groups))
+
+
+def test_a_fact_in_other_words_would_be_noticed():
+    again = "- History (`H`): every change and refusal, also of earlier runs; back to a row; export as CSV, YAML or a script.\n"
+    assert len(repeated(CHANGELOG + again)) == 1
