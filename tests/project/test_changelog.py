@@ -32,5 +32,5 @@ def test_no_group_stands_twice():
 
 
 def test_a_fact_in_other_words_would_be_noticed():
-    again = "- History (`H`): every change and refusal, also of earlier runs; back to a row; export as CSV, YAML or a script.\n"
+    again = "- History (`H`): every change and refusal, also of earlier runs; back to a row; export as CSV or YAML.\n"
     assert len(repeated(CHANGELOG + again)) == 1
