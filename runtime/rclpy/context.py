@@ -66,7 +66,8 @@ class Context:
                 self._log_file = begin_log_file(self.arguments)
             self._initialized = True
         remember_context(self)
-        self._forget_abandon = current().on_abandon(self._abandon)
+        self._process = current()
+        self._forget_abandon = self._process.on_abandon(self._abandon)
 
     def ok(self) -> bool:
         """Whether it has been initialised and not shut down."""
@@ -135,6 +136,7 @@ class Context:
         for endpoint in list(self.lingering):
             self.bus.remove(endpoint)
         self._end_log_file()
+        self._release_to_nodes()
         for held in wakes if self.ended_by_signal else callbacks + wakes:
             callback = held()
             if callback is not None:
@@ -195,6 +197,18 @@ class Context:
             self.bus.remove(endpoint)
         for node in list(self._nodes):
             node._ros_leave_graph()
+
+    def _release_to_nodes(self) -> None:
+        """Let only the nodes keep the context from here on: a program may initialise and shut down any number of them."""
+        weak_abandon = weakref.WeakMethod(self._abandon)
+
+        def abandon() -> None:
+            still_there = weak_abandon()
+            if still_there is not None:
+                still_there()
+
+        weakref.finalize(self, self._process.on_abandon(abandon)).atexit = False
+        self._forget_abandon()
 
     def _end_log_file(self) -> None:
         log_file, self._log_file = self._log_file, None

@@ -1,6 +1,8 @@
 """A killed process may run a little further: what it still makes never shows in the graph."""
 
+import gc
 import itertools
+import weakref
 
 import pytest
 from bot_console.runtime.process import NodeProcess
@@ -61,6 +63,29 @@ def test_a_context_that_begins_after_the_end(process, domain):
     context = Context()
     context.init([], domain_id=domain)
     assert not context.ok()
+
+
+def test_nodes_of_a_context_that_was_shut_down_leave_with_the_process(process, domain):
+    context = Context()
+    context.init([], domain_id=domain)
+    node = Node("n", context=context)
+    context.shutdown()
+    assert things(domain) != []
+    process.finish(-9)
+    assert things(domain) == []
+    node.destroy_node()
+
+
+def test_a_process_does_not_keep_contexts_that_were_shut_down(process, domain):
+    context = Context()
+    context.init([], domain_id=domain)
+    Node("n", context=context).destroy_node()
+    context.shutdown()
+    there = weakref.ref(context)
+    del context
+    gc.collect()
+    assert there() is None
+    process.finish(-9)
 
 
 def test_an_interrupt_on_its_way_comes_before_the_refusal_it_causes(process, domain, monkeypatch):
