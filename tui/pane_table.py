@@ -12,16 +12,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PaneEntry:
-    """A pane: its id (also the name of its folder), its class, and the key that opens it, mostly a digit."""
+    """A pane: its id (also the name of its folder), the key that opens it, mostly a digit, and its class."""
 
     id: str
-    digit: str
+    key: str
     title: str
     class_name: str
     place: int = 9
-    """Its place among the panes on the screen, from the upper left; the overview fills its grid in this order."""
-    overview: int = 0
-    """The smallest overview that has it: 1 the usual one, 2 the one of wide terminals, 0 none."""
+    """Its place among the panes on the screen, from the upper left; Tab goes through them in this order."""
     short: str = ""
     """The title where there is little room; empty: the title."""
 
@@ -31,11 +29,11 @@ class PaneEntry:
 
 
 PANES = (
-    PaneEntry("parameters", "1", "Parameters", "ParametersPane", place=1, overview=1, short="Params"),
-    PaneEntry("logs", "2", "Logs", "LogsPane", place=5, overview=1),
-    PaneEntry("graph", "3", "Graph", "GraphPane", place=3, overview=2),
-    PaneEntry("plot", "4", "Plot", "PlotPane", place=4, overview=1),
-    PaneEntry("world", "5", "World", "WorldPane", place=2, overview=1),
+    PaneEntry("parameters", "1", "Parameters", "ParametersPane", place=1, short="Params"),
+    PaneEntry("logs", "2", "Logs", "LogsPane", place=5),
+    PaneEntry("graph", "3", "Graph", "GraphPane", place=3),
+    PaneEntry("plot", "4", "Plot", "PlotPane", place=4),
+    PaneEntry("world", "5", "World", "WorldPane", place=2),
     PaneEntry("steering", "6", "Steering", "SteeringPane", short="Steer"),
     PaneEntry("profiles", "7", "Profiles", "ProfilesPane"),
     PaneEntry("launch", "8", "Launch", "LaunchPane"),

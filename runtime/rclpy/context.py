@@ -199,7 +199,7 @@ class Context:
             node._ros_leave_graph()
 
     def _release_to_nodes(self) -> None:
-        """Let only the nodes keep the context from here on: a program may initialise and shut down any number of them."""
+        """Let only the nodes keep the context from here on: a program may initialise and shut down many contexts."""
         weak_abandon = weakref.WeakMethod(self._abandon)
 
         def abandon() -> None:

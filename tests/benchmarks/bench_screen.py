@@ -77,7 +77,7 @@ def drawing() -> dict[str, float]:
     terminal = Terminal(CONSOLE, WIDE, shown=False)
     terminal.run(8)
     found: dict[str, float] = {}
-    for key in ("0", *(each.digit for each in PANES)):
+    for key in ("0", *(each.key for each in PANES)):
         terminal.press(key)
         terminal.run(2)
         began, before = time.monotonic(), terminal.threads()[terminal.pid]

@@ -45,7 +45,7 @@ def app_of(system: System, start: str = "overview") -> BotConsoleApp:
 )  # fmt: skip
 @pytest.mark.parametrize("entry", PANES, ids=[each.id for each in PANES])
 def test_pane(entry: Any, state: str, system: System, size: tuple[int, int], snap_compare: Any) -> None:
-    assert snap_compare(app_of(system), terminal_size=size, press=[entry.digit])
+    assert snap_compare(app_of(system), terminal_size=size, press=[entry.key])
 
 
 @pytest.mark.parametrize("size", [(100, 30), (120, 40), (200, 60)], ids=["small", "medium", "large"])
@@ -66,7 +66,7 @@ LONG_AND_SHORT = ("parameters", "world")
     [pytest.param(each, id=each.id, marks=() if each.id in LONG_AND_SHORT else pytest.mark.soak) for each in PANES],
 )
 def test_help(entry: Any, snap_compare: Any) -> None:
-    assert snap_compare(app_of(live), terminal_size=(100, 40), press=[entry.digit, "question_mark"])
+    assert snap_compare(app_of(live), terminal_size=(100, 40), press=[entry.key, "question_mark"])
 
 
 OVERLAYS = {

@@ -9,7 +9,7 @@ also while it is hidden; `let_go()`, called when it ends by a fault. A subclass 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from bot_console.tui.console.model import ConsoleSnapshot
@@ -20,16 +20,12 @@ from textual.app import ComposeResult
 from textual.widget import Widget
 
 
-def _none() -> Any:
-    raise NotImplementedError
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class PluginEntry(PaneEntry):
     """A pane of another package; `find` imports its class and may raise anything."""
 
-    find: Callable[[], Any] = field(default=_none)
-    source: str = ""
+    find: Callable[[], Any]
+    source: str
     """Which package it is of, for a person to read."""
 
     def load(self) -> type[Pane]:

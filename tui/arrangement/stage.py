@@ -13,7 +13,7 @@ from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.screens.door import screen_for
 from bot_console.tui.widgets.key_bar import NO_OTHERS, KeyBar
 from bot_console.tui.widgets.pane_area import PaneArea
-from bot_console.tui.widgets.tabs import Tabs
+from bot_console.tui.widgets.tabs import Tab, Tabs
 from textual.app import App
 from textual.geometry import Size
 from textual.widgets import Input, Static
@@ -221,12 +221,12 @@ class Stage:
         together = self._wanted == OVERVIEW and self._tree() is not None
         name = self.arrangement.title
         long, short = (name.capitalize(), "All") if name == OVERVIEW else (name, name)
-        marks = [("0", long, short, OVERVIEW, together)]
-        marks += [
-            (each.digit, each.title, each.short or each.title, each.id, not together and shown == each.id)
+        tabs = [Tab("0", long, short, OVERVIEW, together)]
+        tabs += [
+            Tab(each.key, each.title, each.short or each.title, each.id, not together and shown == each.id)
             for each in self.entries()
         ]
-        self._app.screen_stack[0].query_one(Tabs).show(marks, self._extent.width - 2, self._primary())
+        self._app.screen_stack[0].query_one(Tabs).show(tabs, self._extent.width - 2, self._primary())
 
     def _primary(self) -> str:
         # Textual and Rich call the terminal's own colours by different names.

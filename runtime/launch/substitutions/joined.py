@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from launch.utilities.perform_substitutions_impl import perform_substitutions
-
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
@@ -30,8 +28,3 @@ def bool_of(context: LaunchContext, subs: Iterable[Any]) -> bool:
 def word(value: bool) -> str:
     """Return `true` or `false`."""
     return "true" if value else "false"
-
-
-def text_of(context: LaunchContext, subs: Iterable[Any]) -> str:
-    """The text."""
-    return perform_substitutions(context, subs)

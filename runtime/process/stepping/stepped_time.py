@@ -86,25 +86,12 @@ class SteppedTime:
         """Run everything up to and including that steady time (ns). Raises `RuntimeError` outside the run."""
         seat = local.seat
         if not isinstance(seat, Seat) or seat.baton is not self._baton:
-            raise RuntimeError("this thread takes no part in the stepped run: see SteppedTime.participate")
+            raise RuntimeError("this thread takes no part in the stepped run")
         self._baton.wait(seat, None, steady_ns)
 
     def run_for(self, seconds: float) -> None:
         """Run everything in the next `seconds` s of virtual time."""
         self.run_until(self._baton.now + round(seconds * 1e9))
-
-    @contextmanager
-    def participate(self) -> Generator[None]:
-        """Let the calling thread, which does not belong to the run, take turns in it within the block."""
-        seat = self.seat(None)
-        before = local.seat, local.waits_on
-        local.seat, local.waits_on = seat, self
-        seat.take()
-        try:
-            yield
-        finally:
-            seat.leave()
-            local.seat, local.waits_on = before
 
     def close(self) -> None:
         """Kill what still runs, let it unwind, and restore the driver's thread."""

@@ -18,7 +18,7 @@ NAVIGATOR = "/robot_navigator"
 def test_every_pane_is_reached_by_its_tab_and_its_rows_are_chosen() -> None:
     async def play(session: Session) -> None:
         for entry in PANES:
-            await session.click_tab(entry.digit)
+            await session.click_tab(entry.key)
             [pane] = session.app.visible_panes()
             assert pane.id == entry.id
             lists = [each for each in pane.query(RowList) if each.display and each.row_count() > 1]

@@ -27,7 +27,7 @@ def shown(session: Session) -> list[str]:
 def test_a_digit_jumps_to_the_pane_and_gives_it_the_keyboard() -> None:
     async def play(session: Session) -> None:
         for entry in PANES:
-            await session.press(entry.digit)
+            await session.press(entry.key)
             assert shown(session) == [entry.id]
             assert session.app.focused is not None
             assert session.app.current_pane is not None and session.app.current_pane.id == entry.id
@@ -107,7 +107,7 @@ def test_even_a_tiny_terminal_tells_how_to_stop_the_robot_and_how_to_quit() -> N
 def test_help_names_every_key_of_the_pane() -> None:
     async def play(session: Session) -> None:
         for entry in PANES:
-            await session.press(entry.digit, "question_mark")
+            await session.press(entry.key, "question_mark")
             seen = session.text()
             for key in TABLE[entry.id]:
                 assert key.text in seen, (entry.id, key.id)
@@ -145,7 +145,7 @@ def test_the_palette_opens_and_runs_an_action(key: str) -> None:
 def test_the_all_stop_works_in_every_pane_and_over_help() -> None:
     async def play(session: Session) -> None:
         for entry in PANES:
-            await session.press(entry.digit, "exclamation_mark")
+            await session.press(entry.key, "exclamation_mark")
             assert session.console.asked[-1] == ("all_stop", True), entry.id
             assert "ALL STOP" in session.lines()[-2]
             await session.press("question_mark", "exclamation_mark", "escape")
@@ -169,7 +169,7 @@ def test_in_a_text_field_the_all_stop_and_digits_are_text() -> None:
 def test_q_quits_and_the_keys_line_fits_every_width() -> None:
     async def play(session: Session) -> None:
         for entry in PANES:
-            await session.press(entry.digit)
+            await session.press(entry.key)
             last = session.lines()[-1]
             assert "? Help" in last and "! Stop" in last and "q Quit" in last
         await session.press("q")
@@ -182,7 +182,7 @@ def test_no_two_scopes_that_are_live_together_claim_one_key() -> None:
     async def play(session: Session) -> None:
         ours = {key.id for keys in TABLE.values() for key in keys}
         for entry in PANES:
-            await session.press(entry.digit)
+            await session.press(entry.key)
             claims: dict[str, set[str]] = {}
             assert session.app.focused is not None
             for node in session.app.focused.ancestors_with_self:
@@ -208,7 +208,7 @@ def test_the_first_and_the_last_row_are_one_key_away_in_every_list() -> None:
 
     async def play(session: Session) -> None:
         for pane in panes:
-            await session.press(next(each.digit for each in PANES if each.load() is pane))
+            await session.press(next(each.key for each in PANES if each.load() is pane))
             rows = next(each for each in session.pane(pane).query(RowList) if each.can_focus)
             for last, first in (("G", "g"), ("end", "home")):
                 await session.press(last)

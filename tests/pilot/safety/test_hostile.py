@@ -29,7 +29,7 @@ def test_no_control_character_reaches_the_screen() -> None:
         for line in session.lines():
             assert harmful(line) == [], line
         for entry in PANES:
-            for key in (entry.digit, *KEYS.get(entry.id, [])):
+            for key in (entry.key, *KEYS.get(entry.id, [])):
                 await session.press(key)
                 for line in session.lines():
                     assert harmful(line) == [], (entry.id, key, line)
@@ -45,7 +45,7 @@ def test_a_hostile_problem_is_harmless_in_every_pane() -> None:
 
     async def play(session: Session) -> None:
         for entry in PANES:
-            await session.press(entry.digit)
+            await session.press(entry.key)
             for line in session.lines():
                 assert harmful(line) == [], (entry.id, line)
 

@@ -53,7 +53,7 @@ def test_any_text_is_drawn_in_every_pane_and_over_it(text: str) -> None:
         session.console.change(problem=text)
         await session.press("0")
         for entry in PANES:
-            for key in (entry.digit, *KEYS.get(entry.id, []), "escape", "escape"):
+            for key in (entry.key, *KEYS.get(entry.id, []), "escape", "escape"):
                 await session.press(key)
         session.console.change(problem="")
         await session.settle()

@@ -18,7 +18,7 @@ from samples import live
 from textual.app import App, ComposeResult
 from textual.widgets import Static
 
-DIGITS = {each.id: each.digit for each in ORDERED}
+DIGITS = {each.id: each.key for each in ORDERED}
 
 
 def test_a_pane_that_nobody_has_seen_has_no_parts() -> None:

@@ -42,7 +42,7 @@ OFTEN = [(SIZES[0], faulty), ((120, 40), live), (SIZES[0], empty)]
 )
 def test_every_pane_and_the_overview_fit(size, system) -> None:
     async def play(session: Session) -> None:
-        for digit in ("0", *(each.digit for each in PANES)):
+        for digit in ("0", *(each.key for each in PANES)):
             await session.press(digit)
             check(session, size)
 
@@ -51,7 +51,7 @@ def test_every_pane_and_the_overview_fit(size, system) -> None:
 
 def test_below_the_minimum_only_a_word_about_it_is_seen_and_nothing_overflows() -> None:
     async def play(session: Session) -> None:
-        for digit, size in zip(("0", *(each.digit for each in PANES)), cycle(((59, 20), (60, 19), (40, 10)))):
+        for digit, size in zip(("0", *(each.key for each in PANES)), cycle(((59, 20), (60, 19), (40, 10)))):
             await session.pilot.resize_terminal(80, 24)
             await session.press(digit)
             await session.pilot.resize_terminal(*size)

@@ -80,7 +80,7 @@ def test_no_key_has_two_meanings_in_one_scope(scope: str) -> None:
 def test_every_pane_has_its_digit_keys_and_help() -> None:
     digits = {key.keys: key.action for key in TABLE["app"] if key.action.startswith("pane(")}
     for each in PANES:
-        assert digits[each.digit] == f"pane('{each.id}')"
+        assert digits[each.key] == f"pane('{each.id}')"
         assert each.load().HELP and each.id in TABLE
 
 

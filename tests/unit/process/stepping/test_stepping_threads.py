@@ -90,23 +90,6 @@ def test_outside_threads_may_wake_and_wait():
     assert woken == [True]
 
 
-def test_participate():
-    trace = []
-    with stepped(virtual_main=False) as clock:
-
-        def outside():
-            with clock.participate():
-                for _ in range(2):
-                    time.sleep(1.0)
-                    trace.append(time.monotonic())
-
-        thread = threading.Thread(target=outside, daemon=True)
-        thread.start()
-        while thread.is_alive():
-            clock.run_for(1.0)
-    assert trace[1] - trace[0] == 1.0
-
-
 def test_only_who_takes_part_can_run(clock):
     errors = []
 
@@ -121,7 +104,7 @@ def test_only_who_takes_part_can_run(clock):
 
     start_outside(thread)
     thread.join(LONG)
-    assert errors == ["this thread takes no part in the stepped run: see SteppedTime.participate"]
+    assert errors == ["this thread takes no part in the stepped run"]
 
 
 def test_locks_are_handed_over_in_order_and_in_virtual_time(clock):
