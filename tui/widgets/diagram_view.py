@@ -154,9 +154,10 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         return min((self._excess(each) for each in self._drawings), default=1.0)
 
     def _excess(self, flow: Flow) -> float:
-        width, height = max(1, self.size.width), max(1, self.size.height)
+        # A hidden widget has no size, and shown again at its old one it is not resized: what fits is what fitted there.
+        room = self.size or self.outer_size
         drawing = self._drawings[flow]
-        return max(1.0, drawing.width / width) * max(1.0, len(drawing.rows) / height)
+        return max(1.0, drawing.width / max(1, room.width)) * max(1.0, len(drawing.rows) / max(1, room.height))
 
     def choose(self, item: str) -> None:
         """Select a drawn item; it remains selected as long as it is drawn."""

@@ -124,6 +124,33 @@ def test_a_new_node_appears_and_the_selection_stays() -> None:
     run(live(), play)
 
 
+def test_what_changed_while_the_pane_was_hidden_is_drawn_as_it_fits_the_pane() -> None:
+    """A hidden widget has no size; what is drawn before it has one again must not be chosen for a pane of one cell."""
+    longer = "/cell_3/perception/front"
+    first = NodeInfo(
+        f"{longer}/left_stereo_camera", (Endpoint(f"{longer}/left/image_raw", ("sensor_msgs/msg/Image",)),)
+    )
+    second = NodeInfo(
+        f"{longer}/depth_from_stereo",
+        (Endpoint(f"{longer}/depth/image_raw", ("sensor_msgs/msg/Image",)),),
+        (Endpoint(f"{longer}/left/image_raw", ("sensor_msgs/msg/Image",)),),
+    )
+    third = NodeInfo(f"{longer}/obstacles", (), (Endpoint(f"{longer}/depth/image_raw", ("sensor_msgs/msg/Image",)),))
+
+    async def play(session: Session) -> None:
+        session.console.change(graph=GraphInfo((first, second, third)))
+        await session.press("3")
+        before = dict(picture(session).places)
+        assert picture(session).excess == 1.0
+        await session.press("1")
+        session.console.change(graph=GraphInfo((first, second, third), silent=(third.name,)))
+        await session.settle()
+        await session.press("3")
+        assert picture(session).places == before
+
+    run(live(), play, (120, 40))
+
+
 def test_it_is_exported_as_mermaid(tmp_path: Path) -> None:
     target = tmp_path / "g.mmd"
 

@@ -8,7 +8,7 @@ from bot_console.tui.console.model.changes import BEGUN_ANEW, Change, ChangeSour
 from bot_console.tui.console.model.graph import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.model.launch import LaunchArgument, LaunchEvent, LaunchInfo, ProcessInfo, ProcessState
 from bot_console.tui.console.model.logs import LogFilter, LoggerLevel, LogRecord, LogState, Severity
-from bot_console.tui.console.model.parameters import Kind, ParameterInfo, ParameterTree, Range, Value
+from bot_console.tui.console.model.parameters import Kind, ParameterInfo, ParameterTree, Range, Value, same
 from bot_console.tui.console.model.profiles import Profile, ProfileDifference
 from bot_console.tui.console.model.snapshot import Capabilities, ConsoleSnapshot, LinkInfo
 
@@ -41,4 +41,5 @@ __all__ = [
     "SetOutcome",
     "Severity",
     "Value",
+    "same",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import TypeAlias
@@ -10,6 +11,15 @@ from bot_console.tui.console.parameters.unit import unit_of
 
 Value: TypeAlias = "bool | int | float | str | tuple[bool | int | float | str | bytes, ...] | None"
 """A parameter's value; arrays are tuples, None is NOT_SET."""
+
+
+def same(one: Value | bytes, other: Value | bytes) -> bool:
+    """Whether two values are identical, type included; NaN equals itself."""
+    if isinstance(one, tuple) and isinstance(other, tuple):
+        return len(one) == len(other) and all(same(*pair) for pair in zip(one, other, strict=True))
+    if isinstance(one, float) and isinstance(other, float) and math.isnan(one):
+        return math.isnan(other)
+    return type(one) is type(other) and one == other
 
 
 class Kind(IntEnum):
@@ -69,7 +79,7 @@ class ParameterInfo:
     @property
     def changed(self) -> bool:
         """Whether the value differs from the default."""
-        return self.value != self.default
+        return not same(self.value, self.default)
 
 
 @dataclass(frozen=True, slots=True)

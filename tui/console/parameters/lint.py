@@ -5,6 +5,7 @@ from __future__ import annotations
 from bot_console.tui.console.model import Kind, ParameterInfo
 
 NUMBERS = (Kind.INTEGER, Kind.DOUBLE)
+NO_DESCRIPTION = "no description"
 
 
 def faults(parameter: ParameterInfo) -> tuple[str, ...]:
@@ -13,7 +14,7 @@ def faults(parameter: ParameterInfo) -> tuple[str, ...]:
         return ()
     found: list[str] = []
     if not parameter.description.strip():
-        found.append("no description")
+        found.append(NO_DESCRIPTION)
     if parameter.kind in NUMBERS and parameter.range is None and not parameter.read_only:
         found.append("no range")
     if parameter.kind is Kind.DOUBLE and parameter.description.strip() and not parameter.unit:
@@ -22,7 +23,7 @@ def faults(parameter: ParameterInfo) -> tuple[str, ...]:
 
 
 MENDS = {
-    "no description": "give declare_parameter a ParameterDescriptor(description=...)",
+    NO_DESCRIPTION: "give declare_parameter a ParameterDescriptor(description=...)",
     "no range": "give the descriptor a floating_point_range or an integer_range, so that nonsense is refused",
     "no unit": "end the description with the unit in brackets, such as (m/s)",
     "no validation": "add_on_set_parameters_callback, or ranges in the descriptors: now any value is taken",

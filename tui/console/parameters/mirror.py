@@ -10,7 +10,16 @@ from types import MappingProxyType
 from typing import Any
 
 from bot_console.tui.console.calls import Calls, NoAnswer
-from bot_console.tui.console.model import ChangeSource, GraphInfo, Kind, NodeInfo, ParameterInfo, ParameterTree, Value
+from bot_console.tui.console.model import (
+    ChangeSource,
+    GraphInfo,
+    Kind,
+    NodeInfo,
+    ParameterInfo,
+    ParameterTree,
+    Value,
+    same,
+)
 from bot_console.tui.console.parameters.origin import START, origin_text
 from bot_console.tui.console.parameters.provenance import Provenance
 from bot_console.tui.console.values import from_message, info
@@ -133,7 +142,7 @@ class ParameterMirror:
         """Report each value that differs from when the node left."""
         for each in tree.parameters:
             old = before.get(each.name) if before else None
-            if old is not None and old.value != each.value:
+            if old is not None and not same(old.value, each.value):
                 self._anew(each.node, each.name, old.value, each.value)
 
     async def _describe(self, node: str, names: Sequence[str]) -> list[ParameterInfo]:
@@ -222,13 +231,14 @@ class ParameterMirror:
         kind = Kind(message.value.type) if message.value.type else before.kind
         # An equal value is announced too, and whoever asked for it waits for word of it.
         source = self._changed(before.node, before.name, before.value, value)
-        same = value == before.value and kind is before.kind
-        return before if same else replace(before, value=value, kind=kind, origin=origin_text(source, time.time_ns()))
+        if same(value, before.value) and kind is before.kind:
+            return before
+        return replace(before, value=value, kind=kind, origin=origin_text(source, time.time_ns()))
 
     def _begun_anew(self, before: ParameterInfo, message: Parameter) -> ParameterInfo:
         """Take in a parameter that is declared again: its node restarted before its absence was noticed."""
         value = from_message(message.value)
-        if value != before.value:
+        if not same(value, before.value):
             self._anew(before.node, before.name, before.value, value)
         kind = Kind(message.value.type) if message.value.type else before.kind
         first = replace(before, value=value, kind=kind, default=value, origin=START, declared_at="")

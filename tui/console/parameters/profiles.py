@@ -10,9 +10,8 @@ from types import MappingProxyType
 from typing import Any, cast
 
 import yaml
-from bot_console.tui.console.model import ParameterTree, Profile, ProfileDifference, Value
+from bot_console.tui.console.model import ParameterTree, Profile, ProfileDifference, Value, same
 from bot_console.tui.console.parameters.file.node_keys import is_wildcard, means
-from bot_console.tui.console.parameters.file.patch import same
 from bot_console.tui.console.parameters.file.text import KEYWORD, NOTHING, sections, value_at
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.values import refusal

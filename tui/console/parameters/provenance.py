@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
-from bot_console.tui.console.model import ParameterInfo, Value
+from bot_console.tui.console.model import ParameterInfo, Value, same
 from bot_console.tui.console.parameters.origin import START
 
 COMMAND_LINE = "-p"
@@ -77,7 +77,7 @@ class Provenance:
             return self._given.get(key, START)
         source = declared.override
         if not source:
-            return "declared value" if parameter.value == declared.default else START
+            return "declared value" if same(parameter.value, declared.default) else START
         if source == COMMAND_LINE:
             return self._given.get(key, "command line")
         name = os.path.basename(source)

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
-from bot_console.tui.console.model import ChangeSource, Value
-from bot_console.tui.console.parameters.file.patch import same
+from bot_console.tui.console.model import ChangeSource, Value, same
 
 IN_A_FILE = (ChangeSource.PROFILE, ChangeSource.FILE)
 UNDONE = ChangeSource.UNDO

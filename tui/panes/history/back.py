@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from bot_console.tui.console.model import Change, ParameterTree, Value
+from bot_console.tui.console.model import Change, ParameterTree, Value, same
 
 
 @dataclass(frozen=True)
@@ -44,6 +44,6 @@ def returns(
         parameter = tree.get(name) if tree else None
         if parameter is None:
             missing.append(f"{node} {name}: " + ("there is no such parameter now" if tree else "the node is not there"))
-        elif parameter.value != value and value is not None and not parameter.read_only:
+        elif not same(parameter.value, value) and value is not None and not parameter.read_only:
             found.append(Return(node, name, parameter.value, value))
     return found, missing

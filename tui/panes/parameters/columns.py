@@ -1,4 +1,7 @@
-"""The column widths of the parameter pane: names get room before values, and values before descriptions."""
+"""The column widths of the parameter pane: names get room before values, and values before descriptions.
+
+A few names that are much longer than all others do not cost every row its slider: they run over their column.
+"""
 
 from __future__ import annotations
 
@@ -12,12 +15,17 @@ from bot_console.tui.format import harmless, value_text
 from bot_console.tui.panes.parameters.rows import Row
 from rich.cells import cell_len
 
-BAR = 12
-"""Cells of the slider."""
+BAR, SHORTEST_BAR = 12, 6
+"""Cells of the slider where there is room, and where there is little."""
+
+FEW = 10
+"""One name in so many may be longer than its column, if the sliders have room then."""
 
 MARKS = 2
 """Cells of the marks before a name."""
-GAP = 2
+GAP, END = 2, 1
+"""Cells between columns, and behind a slider."""
+
 VALUE = 8
 """Cells that a value has at least."""
 
@@ -31,6 +39,8 @@ class Measures:
 
     name: int = 0
     number: int = VALUE
+    most_names: int = 0
+    """The longest name but for a few; 0: that of all."""
 
 
 @dataclass(frozen=True)
@@ -45,18 +55,26 @@ class Columns:
 
 def measured(rows: Sequence[Row]) -> Measures:
     """Measure the rows; numbers in steps of two cells, so that the columns stand while a value moves."""
-    name, number = 0, VALUE
+    names: list[int] = []
+    number = VALUE
     for row in rows:
         if row.parameter is None:
             continue
-        name = max(name, 2 * row.depth + _name_cells(row.name))
+        names.append(name_cells(row))
         if row.parameter.range is not None:
             number = max(number, _number_cells(row.parameter.value, row.parameter.description))
-    return Measures(name, -(-number // 2) * 2)
+    names.sort()
+    few = len(names) // FEW
+    return Measures(max(names, default=0), -(-number // 2) * 2, names[-1 - few] if names else 0)
+
+
+def name_cells(row: Row) -> int:
+    """Cells of a parameter's name with its indentation."""
+    return 2 * row.depth + _cells(row.name)
 
 
 @lru_cache(maxsize=20_000)
-def _name_cells(name: str) -> int:
+def _cells(name: str) -> int:
     return cell_len(harmless(name))
 
 
@@ -75,12 +93,21 @@ def shown_value(row: Row) -> str:
     return harmless(value_text(parameter.value)) + (f" {parameter.unit}" if parameter.unit else "")
 
 
+def name_column(row: Row, own: Columns, width: int) -> int:
+    """Cells that a row's name takes: its column, or more where it is one of the few that run over it."""
+    return max(own.name, min(name_cells(row), width - MARKS - GAP - VALUE))
+
+
 def columns(need: Measures, width: int) -> Columns:
-    """Share a width (cells): the names take what the longest needs, and leave a value its place."""
+    """Share a width (cells): the names take what the longest needs, or all but a few, and leave a value its place."""
     room = width - MARKS
     name = max(1, min(need.name, room - GAP - VALUE))
+    beside_bar = room - GAP - need.number - GAP - SHORTEST_BAR - END
+    if 0 < need.most_names <= beside_bar < name:
+        name = beside_bar
     left = room - name - GAP
     value = max(0, min(need.number, left))
-    bar = BAR if left - value >= GAP + BAR else 0
-    left -= value + GAP + BAR if bar else value
+    bar = max(0, min(BAR, left - value - GAP - END))
+    bar = bar if bar >= SHORTEST_BAR else 0
+    left -= value + GAP + bar if bar else value
     return Columns(name, value, bar, left - GAP if bar and left - GAP >= DESCRIPTION else 0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bot_console.tui.console.model import ParameterInfo, SetOutcome, Value
-from bot_console.tui.console.parameters.lint import faults
+from bot_console.tui.console.parameters.lint import NO_DESCRIPTION, faults
 from bot_console.tui.console.parameters.safety import foretold
 from bot_console.tui.format import command_of, harmless, range_text, value_text
 from bot_console.tui.text.refusals import in_detail
@@ -32,7 +32,7 @@ def details(
         text.append(f"{in_detail(refused)}\n", "bold")
     if staged is not None:
         text.append(f"→ {harmless(value_text(staged))} is marked; a applies, x drops the mark\n", "bold")
-    text.append(harmless(parameter.description) or "(nobody says what it is for)")
+    text.append(harmless(parameter.description) or "No description.")
     if risk := foretold(parameter):
         text.append(f"\n⚠ {risk}", "bold")
     facts = [parameter.kind.word, range_text(parameter.range, parameter.kind), harmless(parameter.constraints)]
@@ -40,7 +40,7 @@ def details(
     facts.append(_default(parameter))
     facts.append(harmless(parameter.origin))
     facts += marks
-    facts += faults(parameter)
+    facts += [each for each in faults(parameter) if each != NO_DESCRIPTION]
     text.append("\n" + " · ".join(each for each in facts if each), "dim")
     text.append("\n" + harmless(command_of(parameter, parameter.value)), "dim italic")
     return text

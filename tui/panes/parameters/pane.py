@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Collection
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import BEGUN_ANEW, ConsoleSnapshot, Value
+from bot_console.tui.console.model import BEGUN_ANEW, ConsoleSnapshot, Value, same
 from bot_console.tui.console.query import parse
-from bot_console.tui.format import command_of, harmless
+from bot_console.tui.format import command_of, counted, harmless
 from bot_console.tui.kept import LAST_FILE
 from bot_console.tui.panes.parameters.details import details
 from bot_console.tui.panes.parameters.edit_pane import EditPane
@@ -113,7 +114,7 @@ class ParametersPane(EditPane):
         for key, start in self._starts.items():
             tree = snapshot.parameters.get(key[0])
             parameter = tree.get(key[1]) if tree else None
-            if parameter is not None and parameter.value != start:
+            if parameter is not None and not same(parameter.value, start):
                 moved.add(key)
         if (unsaved, moved) != (shown.unsaved, shown.moved):
             shown.unsaved, shown.moved = unsaved, frozenset(moved)
@@ -182,16 +183,16 @@ class ParametersPane(EditPane):
             self._list.cursor = found
 
     def _tell_counts(self) -> None:
-        every = sum(len(tree.parameters) for tree in self._snapshot.parameters.values())
         found = sum(row.count for row in self._list.rows if row.depth == 0)  # each counts all that is below it
         staged = self.staging.caption()
-        if self.words or self._view.only_changed:
+        if self._view.filtering:
+            every = self._tree.count(self._snapshot.parameters, self._view)
             self.tell_filter(found, every, *(each for each in ("changed" * self._view.only_changed, staged) if each))
         else:
             self.caption(staged)
 
     def _value_changed(self, before: Row, after: Row) -> None:
-        if before.parameter is None or after.parameter is None or before.parameter.value == after.parameter.value:
+        if before.parameter is None or after.parameter is None or same(before.parameter.value, after.parameter.value):
             return
         key = (after.node, after.parameter.name)
         if key == (before.node, before.parameter.name):
@@ -224,7 +225,7 @@ class ParametersPane(EditPane):
             waiting = f"No parameters; {fixed}." if fixed else "Waiting for nodes with parameters ..."
             return Text(harmless(self._snapshot.problem) or waiting, "dim")
         if row.parameter is None:
-            return Text(harmless(row.problem or f"{row.node}  {row.count} parameters"), "dim")
+            return Text(harmless(row.problem or f"{row.node}  {counted(row.count, 'parameter')}"), "dim")
         key = (row.node, row.parameter.name)
         marks = ["not saved"] if key in self._list.unsaved else []
         marks += ["changed since the start"] if key in self._list.moved else []
@@ -246,7 +247,7 @@ class ParametersPane(EditPane):
 
     def filter_is(self, words: str) -> None:
         """Show the parameters that pass; the cursor goes to one that is called like the last word."""
-        self._view = replace(self._view, query=parse(words))
+        self._view = replace(self._view, query=parse(words), folded_matches=frozenset())
         self._arrange()
         at = namesake(self._list.rows, words.rpartition(" ")[2], self._list.cursor)
         if at is not None:
@@ -254,7 +255,7 @@ class ParametersPane(EditPane):
 
     def action_toggle_changed(self) -> None:
         """Only what differs from its default, or all."""
-        self._view = replace(self._view, only_changed=not self._view.only_changed)
+        self._view = replace(self._view, only_changed=not self._view.only_changed, folded_matches=frozenset())
         self._arrange()
 
     def action_toggle_built_in(self) -> None:
@@ -274,15 +275,17 @@ class ParametersPane(EditPane):
             at = next(above, shown.cursor)
             fold = shown.rows[at].fold
             shown.cursor = at
-        folded = set(self._view.folded) - {fold} | ({fold} if closed else set[str]())
-        self._view = replace(self._view, folded=frozenset(folded))
+        self._close(set(self._view.closed) - {fold} | ({fold} if closed else set[str]()))
+
+    def _close(self, folded: Collection[str]) -> None:
+        """Close these and no others; what is closed among the matches of a filter is another matter than the tree."""
+        which = "folded_matches" if self._view.filtering else "folded"
+        self._view = replace(self._view, **{which: frozenset(folded)})
         self._arrange()
 
     def action_fold_all(self) -> None:
         """Close all nodes, or open everything."""
-        nodes = frozenset(self._snapshot.parameters)
-        self._view = replace(self._view, folded=frozenset() if self._view.folded else nodes)
-        self._arrange()
+        self._close(() if self._view.closed else self._snapshot.parameters)
 
     def action_plot(self) -> None:
         """Plot this parameter."""

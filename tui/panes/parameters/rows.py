@@ -41,6 +41,20 @@ class View:
     only_changed: bool = False
     built_in: bool = False
     folded: Collection[str] = frozenset()
+    """What is closed while all is shown."""
+
+    folded_matches: Collection[str] = frozenset()
+    """What was closed since a filter came: what it finds is seen, however the tree was left."""
+
+    @property
+    def filtering(self) -> bool:
+        """Whether only some parameters are shown: those that pass a filter, or that differ."""
+        return bool(self.query.terms) or self.only_changed
+
+    @property
+    def closed(self) -> Collection[str]:
+        """What is closed now."""
+        return self.folded_matches if self.filtering else self.folded
 
 
 class TreeRows:
@@ -58,12 +72,11 @@ class TreeRows:
             self._made.clear()
             self._view = view
         found: list[Row] = []
-        filtering = bool(view.query.terms) or view.only_changed
         spaces = _spaces(tuple(trees))
         shown: dict[str, list[Row]] = {}
         for name, tree in trees.items():
             made = self._node(name, tree, len(spaces[name]), spaces[name][-1] if spaces[name] else "", view)
-            if not filtering or made[0].count:
+            if not view.filtering or made[0].count:
                 shown[name] = made
         counts: dict[str, int] = {}
         for name, made in shown.items():
@@ -75,12 +88,16 @@ class TreeRows:
             for depth, space in enumerate(spaces[name]):
                 if not hidden and open_spaces[depth : depth + 1] != (space,):
                     above = spaces[name][depth - 1] if depth else ""
-                    found.append(_space_row(space, depth, above, counts[space], f"{space}/" in view.folded))
-                hidden = hidden or f"{space}/" in view.folded
+                    found.append(_space_row(space, depth, above, counts[space], f"{space}/" in view.closed))
+                hidden = hidden or f"{space}/" in view.closed
             open_spaces = spaces[name]
             if not hidden:
                 found += made
         return found
+
+    def count(self, trees: Iterable[str], view: View) -> int:
+        """How many parameters of these nodes, whose rows were made, a view shows without a filter."""
+        return sum(self._sorted[each].count(view) for each in trees)
 
     def _node(self, name: str, tree: ParameterTree, depth: int, space: str, view: View) -> list[Row]:
         known = self._made.get(name)
@@ -90,11 +107,11 @@ class TreeRows:
         if ordered is None or ordered.tree is not tree:
             ordered = self._sorted[name] = _Sorted(tree)
         parameters = ordered.passing(view)
-        folded = name in view.folded
+        folded = name in view.closed
         title = name.removeprefix(f"{space}/") if space else ""
         made = [Row(name, "", depth, None, tree.problem, len(parameters), folded, name, title)]
         if not folded:
-            made += self._rows_below(name, parameters, depth + 1, view.folded)
+            made += self._rows_below(name, parameters, depth + 1, view.closed)
         self._made[name] = (tree, depth, made)
         return made
 
@@ -149,6 +166,10 @@ class _Sorted:
         self._texts = [_text(each) for each in self._parameters]
         self._lower = [each.lower() for each in self._texts]
         self._own = [at for at, each in enumerate(self._parameters) if not _is_built_in(each.name)]
+
+    def count(self, view: View) -> int:
+        """How many there are to filter: all, or without those that every node has."""
+        return len(self._parameters if view.built_in else self._own)
 
     def passing(self, view: View) -> list[ParameterInfo]:
         """Those that a view shows."""

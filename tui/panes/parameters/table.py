@@ -8,7 +8,7 @@ from bot_console.tui.console.model import ChangeSource, ParameterInfo, SetOutcom
 from bot_console.tui.console.parameters.origin import SET_BY
 from bot_console.tui.console.query import Query
 from bot_console.tui.format import cut, harmless, value_text
-from bot_console.tui.panes.parameters.columns import BAR, GAP, MARKS, Measures, columns, measured, shown_value
+from bot_console.tui.panes.parameters.columns import GAP, MARKS, Measures, columns, measured, name_column, shown_value
 from bot_console.tui.panes.parameters.rows import Row, matches
 from bot_console.tui.text.refusals import beside_row
 from bot_console.tui.widgets.item_list import ItemList
@@ -97,11 +97,13 @@ class ParameterRows(ItemList[Row]):
 
     def _parameter(self, row: Row, parameter: ParameterInfo, width: int) -> list[Segment]:
         own = columns(self._measures, width)
-        name = cut("  " * row.depth + harmless(row.name), own.name, pad=True)
+        taken = name_column(row, own, width)
+        over = taken - own.name
+        name = cut("  " * row.depth + harmless(row.name), taken, pad=True)
         key = (parameter.node, parameter.name)
         mark = "".join(sign if here else " " for sign, here in self.signs(parameter))
         segments = [Segment(f"{mark}{name}{' ' * GAP}", self._style("strong" if parameter.changed else "plain"))]
-        left = max(0, width - MARKS - own.name - GAP)
+        left = max(0, width - MARKS - taken - GAP)
         value, dim = shown_value(row), self._style("dim")
         refused = self.refused.get(key)
         if refused or key in self.late:
@@ -116,14 +118,14 @@ class ParameterRows(ItemList[Row]):
             unit = f" {parameter.unit}" if parameter.unit else ""
             text = f"{harmless(value_text(parameter.value))} → {harmless(value_text(self.staged[key]))}{unit}"
             return [*segments, Segment(cut(text, left), self._style("good"))]
-        slider = bar(parameter) if own.bar else ""
+        slider = bar(parameter, own.bar) if own.bar and not over else ""
         tail = slider or ("read only" if parameter.read_only else "")
         segments.append(self._value(value, own.value, left, parameter, bool(tail)))
         used = segments[-1].cell_length
         if tail:
             segments.append(Segment(cut(" " * GAP + tail, left - used), dim))
             used += segments[-1].cell_length
-        start = own.value + GAP + BAR + GAP
+        start = own.value + GAP + own.bar + GAP - over
         if own.description and used <= start - GAP:
             segments.append(Segment(" " * (start - used) + cut(harmless(parameter.description), own.description), dim))
         return segments
@@ -155,18 +157,19 @@ class ParameterRows(ItemList[Row]):
                 self.post_message(self.Pressed(row))
             return
         own = columns(self._measures, self.across)
-        begin = MARKS + own.name + GAP + own.value + GAP
-        if own.bar and bar(row.parameter) and begin <= event.x < begin + BAR and not row.parameter.read_only:
-            self.post_message(self.Slid(row.parameter, (event.x - begin) / (BAR - 1)))
+        begin = MARKS + name_column(row, own, self.across) + GAP + own.value + GAP
+        slides = own.bar and begin == MARKS + own.name + GAP + own.value + GAP and not row.parameter.read_only
+        if slides and bar(row.parameter, own.bar) and begin <= event.x < begin + own.bar:
+            self.post_message(self.Slid(row.parameter, (event.x - begin) / (own.bar - 1)))
         elif chosen:
             self.post_message(self.Pressed(row))
 
 
-def bar(parameter: ParameterInfo) -> str:
-    """Where a number stands in its range."""
+def bar(parameter: ParameterInfo, cells: int) -> str:
+    """Where a number stands in its range, as a slider of some cells."""
     limits, value = parameter.range, parameter.value
     if limits is None or isinstance(value, (bool, str, tuple)) or value is None or limits.high <= limits.low:
         return ""
     share = min(1.0, max(0.0, (value - limits.low) / (limits.high - limits.low)))
-    place = round(share * (BAR - 1))
-    return "─" * place + "●" + "─" * (BAR - 1 - place)
+    place = round(share * (cells - 1))
+    return "─" * place + "●" + "─" * (cells - 1 - place)

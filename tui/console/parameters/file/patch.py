@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias, cast
 
-from bot_console.tui.console.model import Value
+from bot_console.tui.console.model import Value, same
 from bot_console.tui.console.parameters.file import yaml_tree
 from bot_console.tui.console.parameters.file.node_keys import means
 from bot_console.tui.console.parameters.file.text import KEYWORD, Section, block_text, inline_text, sections, value_at
@@ -183,12 +182,3 @@ def _given(merged: dict[str, _Places], node: str) -> _Places:
         if means(key, node):
             given.update(places)
     return given
-
-
-def same(one: Value | bytes, other: Value | bytes) -> bool:
-    """Whether two values are identical, type included; NaN equals itself."""
-    if isinstance(one, tuple) and isinstance(other, tuple):
-        return len(one) == len(other) and all(same(*pair) for pair in zip(one, other, strict=True))
-    if isinstance(one, float) and isinstance(other, float) and math.isnan(one):
-        return math.isnan(other)
-    return type(one) is type(other) and one == other

@@ -6,7 +6,7 @@ import time
 from dataclasses import replace
 
 import pytest
-from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree
+from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Value
 from bot_console.tui.console.query import parse
 from bot_console.tui.panes.parameters.rows import TreeRows, View, matches, namesake, rows
 
@@ -48,6 +48,31 @@ def test_each_group_folds_by_itself() -> None:
     assert drawn(GROUPED, View(folded=frozenset({"/n:pid.x."})))[6:] == ["  pid.", "    x.", "    y.kp"]
     found = rows(GROUPED, View(folded=frozenset({"/n:pid."})))
     assert (found[-1].name, found[-1].folded, found[-1].count) == ("pid.", True, 3)
+
+
+def test_what_a_filter_finds_is_seen_however_the_tree_was_left() -> None:
+    closed = View(query=parse("kp"), folded=frozenset({"/n", "/n:pid."}))
+    assert drawn(GROUPED, closed) == ["/n", "  pid.", "    x.kp", "    y.kp"]
+    assert drawn(GROUPED, replace(closed, folded_matches=frozenset({"/n:pid."}))) == ["/n", "  pid."]
+    changed = trees(ParameterTree("/n", (ParameterInfo("/n", "a", Kind.DOUBLE, 2.0, default=1.0),)), tree("/m", "b"))
+    assert drawn(changed, View(only_changed=True, folded=frozenset({"/n"}))) == ["/n", "  a"]
+    assert drawn(changed, replace(closed, query=parse(""))) == ["/m", "  b", "/n"]
+
+
+def test_a_filter_is_counted_against_what_is_shown_without_it() -> None:
+    found, made = trees(tree("/n", "gain", "use_sim_time", "qos_overrides./tf.depth"), tree("/m", "gain")), TreeRows()
+    made.rows(found, View(query=parse("gain")))
+    assert made.count(found, View()) == 2
+    assert made.count(found, View(built_in=True)) == 4
+
+
+def test_what_is_not_a_number_is_no_change_of_itself() -> None:
+    def info(value: Value, default: Value) -> ParameterInfo:
+        return ParameterInfo("/n", "a", Kind.DOUBLE_ARRAY, value, default=default)
+
+    assert not info((0.1, float("nan")), (0.1, float("nan"))).changed
+    assert not info(float("nan"), float("nan")).changed
+    assert info((0.1, 0.0), (0.1, float("nan"))).changed and info((0.1,), (0.1, 0.1)).changed
 
 
 def test_a_whole_name_means_the_parameter_called_so_and_not_one_that_mentions_it() -> None:

@@ -1,0 +1,48 @@
+"""The columns of the parameter pane: names, values, sliders, descriptions."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.model import Kind, ParameterInfo, Range
+from bot_console.tui.panes.parameters.columns import (
+    BAR,
+    GAP,
+    MARKS,
+    SHORTEST_BAR,
+    VALUE,
+    Columns,
+    columns,
+    measured,
+    name_column,
+)
+from bot_console.tui.panes.parameters.rows import Row
+
+LONG = "auto.target_mean_brightness_of_region_of_interest"
+
+
+def row(name: str) -> Row:
+    return Row("/n", name, 1, ParameterInfo("/n", name, Kind.DOUBLE, 1.0, range=Range(0.0, 2.0)))
+
+
+def needed(own: Columns) -> int:
+    """Cells of all columns."""
+    return MARKS + own.name + GAP + own.value + (GAP + own.bar if own.bar else 0)
+
+
+def test_the_longest_name_has_room_and_the_slider_takes_what_is_left() -> None:
+    need = measured([row("gain"), row("emergency_stop_distance")])
+    widths = {width: columns(need, width) for width in range(30, 90)}
+    name = 2 + len("emergency_stop_distance")
+    assert {each.bar for each in widths.values()} == {0, *range(SHORTEST_BAR, BAR + 1)}
+    assert all(each.name == name and needed(each) <= width for width, each in widths.items() if each.bar)
+
+
+def test_one_long_name_of_many_does_not_take_the_sliders_of_all() -> None:
+    rows = [row(f"gain_{number}") for number in range(20)]
+    need = measured([*rows, row(LONG)])
+    own = columns(need, 60)
+    assert own.bar >= SHORTEST_BAR and needed(own) <= 60
+    assert name_column(rows[0], own, 60) == own.name
+    over = name_column(row(LONG), own, 60)
+    assert over > own.name and MARKS + over + GAP + VALUE <= 60, "it runs over its column, and its value is seen"
+    assert columns(need, 100).name == 2 + len(LONG), "where there is room all names stand in the column"
+    assert not columns(measured([rows[0], row(LONG)]), 60).bar, "one of two is not few"
