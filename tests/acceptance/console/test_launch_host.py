@@ -146,6 +146,23 @@ def test_a_killed_host_takes_its_processes_along_and_the_console_says_so(hosted:
     assert not answer.ok and "launch host has ended" in answer.text
 
 
+STARTS_OTHERS = "sleep 600 & echo $!; (trap '' TERM; echo $BASHPID; sleep 600; sleep 600) & wait"
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
+@pytest.mark.parametrize("end", ["close", "kill"])
+def test_what_programs_have_started_themselves_ends_with_the_host(hosted: Hosted, end: str) -> None:
+    assert hosted.launch(f"ExecuteProcess(cmd=['bash', '-c', {STARTS_OTHERS!r}])").ok
+    lines = hosted.until(lambda: len(found := [text for *_, text in hosted.printed if text.isdecimal()]) == 2 and found)
+    pids = [hosted.named("bash").pid, *map(int, lines)]
+    assert all(map(is_running, pids))
+    if end == "kill":
+        hosted.process.kill()
+    else:
+        hosted.launcher.close()
+    hosted.until(lambda: not any(map(is_running, pids)))
+
+
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
 def test_what_an_owner_started_ends_with_it(tmp_path: Path) -> None:
     program = tmp_path / "waiter.py"

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import signal
 import socket
 import sys
@@ -56,6 +57,7 @@ def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], N
 
     `forget` ends the telling of news where that has begun already.
     """
+    from bot_console.runtime.process.session_end import end_session
     from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
     from bot_console.runtime.rmw.zenoh.domain.sockets import lives
     from bot_console.tui.cli.awake import wait_awake
@@ -74,6 +76,8 @@ def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], N
     forget()
     host.close()
     close_fork_server()
+    if os.getsid(0) == os.getpid():
+        end_session(os.getpid())  # what launched programs have started themselves
 
 
 def close_on_signals(close: Callable[[], None]) -> None:

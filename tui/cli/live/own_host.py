@@ -6,10 +6,12 @@ import contextlib
 import os
 import socket
 import subprocess
+import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from bot_console.runtime.process.session_end import end_session
 from bot_console.runtime.process.watch.held_lock import HeldLock
 from bot_console.tui.own_program import own_program
 
@@ -24,6 +26,8 @@ class Host:
 
     process: subprocess.Popen[bytes]
     connection: socket.socket
+    rest: threading.Thread
+    """Ends what the host leaves behind, however it ends."""
 
     def end(self, patience: float = END_S) -> None:
         """Close the connection, which ends the host and all it started; waits, and kills it if that takes too long.
@@ -37,7 +41,7 @@ class Host:
             self.process.wait(0.0 if HeldLock(self.process.pid).held_in() else patience)
         except subprocess.TimeoutExpired:
             self.process.kill()
-            self.process.wait()
+        self.rest.join()
 
 
 def start_host(options: Sequence[str] = (), *, log: Path | None = None) -> Host:
@@ -55,4 +59,12 @@ def start_host(options: Sequence[str] = (), *, log: Path | None = None) -> Host:
             pass_fds=[theirs.fileno()],
             start_new_session=True,
         )
-    return Host(process, ours)
+    rest = threading.Thread(target=_end_rest, args=(process,), name="rest of the launch host", daemon=True)
+    rest.start()
+    return Host(process, ours, rest)
+
+
+def _end_rest(host: subprocess.Popen[bytes]) -> None:
+    """Wait until a host has ended, and end the programs of one that was killed: any other has done so itself."""
+    if host.wait() != 0:
+        end_session(host.pid)

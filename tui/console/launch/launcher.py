@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from launch import LaunchContext
 
 CLOSED = "the console is closing"
+KILLED_S = 1.0
+"""Seconds that launches get to end after their processes were killed."""
 BUSY_S = 6.0
 """Seconds after which a process that never waits is named."""
 
@@ -327,18 +329,33 @@ class RosLauncher(ProcessVerbs):
         self._printed(Severity.ERROR, "bot-console", f"the launch pane misses something: {error!r}")
 
     def close(self, patience: float = 10.0) -> None:
-        """Shut all launches down and wait, at most so many seconds in total; a second call does nothing."""
+        """Shut all launches down and wait, at most so many seconds in total; then kill what still runs.
+
+        A second call does nothing.
+        """
         with self._lock:
             if self._closed:
                 return
             self._closed = True
             runs = list(self._runs.items())
-        deadline = time.monotonic() + patience
         for run, _ in runs:
             run.shut_down()
-        for _, thread in runs:
-            if thread is not None:
-                thread.join(max(0.0, deadline - time.monotonic()))
+        if _joined([thread for _, thread in runs], patience):
+            return
+        with self._lock:
+            for held in self._held.values():
+                if held.process.alive:
+                    self._order(held, Order.KILL)
+        _joined([thread for _, thread in runs], KILLED_S)
+
+
+def _joined(threads: Sequence[Joinable | None], patience: float) -> bool:
+    """Wait for these, at most so many seconds in total; return whether that was enough."""
+    deadline = time.monotonic() + patience
+    for each in threads:
+        if each is not None:
+            each.join(max(0.0, deadline - time.monotonic()))
+    return time.monotonic() < deadline
 
 
 def _thread(target: Callable[[], None], file: str) -> threading.Thread:

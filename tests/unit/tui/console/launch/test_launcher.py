@@ -363,6 +363,14 @@ def test_closing(bench, waiter):
         assert answer.result(PATIENCE).text == "the console is closing"
 
 
+def test_closing_kills_what_does_not_end_in_time(bench):
+    path = bench.program(DEAF)
+    bench.run(f"[ExecuteProcess(cmd=['python3', '-u', {path!r}])]")
+    bench.until(lambda: any("up" in text for _, _, text in bench.printed), "its first line")
+    bench.launcher.close(patience=0.0)
+    assert bench.process().exit_code == -9
+
+
 def test_a_node_that_is_not_here_stands_as_missing_and_the_rest_goes_on(bench):
     path = bench.program(WAITS, "waits.py")
     nodes = f"[Node(package='nowhere_cpp', executable='driver', name='d'), Node(executable={path!r}, name='bob')]"

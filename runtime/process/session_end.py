@@ -1,0 +1,52 @@
+"""Ends what is left of a session: the programs that the process which led it has started, and theirs.
+
+A process that has started a session of its own, as a daemon does, is meant to stay. Linux; elsewhere nothing is found.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import time
+from pathlib import Path
+
+GRACE_S = 1.0
+"""Seconds that they get after SIGTERM, and again after SIGKILL."""
+LOOK_S = 0.02
+
+
+def end_session(session: int, grace: float = GRACE_S) -> None:
+    """Send SIGTERM, then SIGKILL, to all other processes of a session until none is left, or time is up.
+
+    `session` is the pid of the process that began it; `grace` is in seconds.
+    """
+    for number in (signal.SIGTERM, signal.SIGKILL):
+        deadline, told = time.monotonic() + grace, set[int]()
+        while (left := _members(session)) and time.monotonic() < deadline:
+            for pid in left - told:
+                with contextlib.suppress(OSError):  # it has ended, or belongs to another user
+                    os.kill(pid, number)
+            told |= left
+            time.sleep(LOOK_S)
+
+
+def _members(session: int) -> set[int]:
+    """The processes of a session that still run, except for this one."""
+    try:
+        numbers = [int(each) for each in os.listdir("/proc") if each.isdecimal()]
+    except OSError:  # a system without it
+        return set()
+    return {pid for pid in numbers if pid != os.getpid() and _runs_in(session, pid)}
+
+
+def _runs_in(session: int, pid: int) -> bool:
+    try:
+        return os.getsid(pid) == session and not _is_zombie(pid)
+    except OSError:  # it has ended
+        return False
+
+
+def _is_zombie(pid: int) -> bool:
+    state = Path(f"/proc/{pid}/stat").read_bytes().rpartition(b")")[2].split()[0]
+    return state in (b"Z", b"X")
