@@ -14,7 +14,15 @@ from typing import TYPE_CHECKING
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.live.own_host import Host, start_host
 from bot_console.tui.cli.live.session import Session
-from bot_console.tui.cli.system.domain import domain, is_in_range, others_take_part, robot_there, take_part, why_alone
+from bot_console.tui.cli.system.domain import (
+    domain,
+    is_in_range,
+    others_take_part,
+    robot_there,
+    take_part,
+    unusable_domain,
+    why_alone,
+)
 from bot_console.tui.cli.system.named_launch import with_launch_file
 from bot_console.tui.files.folders import state_folder
 from bot_console.tui.settings.settings import read_settings
@@ -87,7 +95,7 @@ def _connect(options: Options, alone: str, own: Host | None, start: Callable[[],
 def _refusal() -> str:
     if not sys.stdout.isatty() or not sys.stdin.isatty():
         return "bot-console needs a terminal; without one, use --headless"
-    return ""
+    return unusable_domain()
 
 
 def _host(options: Options) -> Host:

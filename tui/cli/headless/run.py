@@ -19,7 +19,7 @@ from bot_console.runtime.importer import install
 from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.awake import wait_awake
-from bot_console.tui.cli.system.domain import domain, robot_there, run_apart, take_part
+from bot_console.tui.cli.system.domain import domain, robot_there, run_apart, take_part, unusable_domain
 from bot_console.tui.cli.system.named_launch import with_launch_file
 from bot_console.tui.cli.system.workspaces import choose
 
@@ -46,7 +46,7 @@ SLOW_START = 60.0
 def run(options: Options) -> int:
     """Run the system for a while and print the report; 1 when there is nothing to report."""
     options, problem = with_launch_file(options)
-    if problem:
+    if problem := unusable_domain() or problem:
         print(problem, file=sys.stderr)
         return 1
     gc.disable()  # what is imported stays: to look it through again and again is a tenth of the start

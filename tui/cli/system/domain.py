@@ -18,10 +18,21 @@ CONNECT_VARIABLE = "BOT_CONSOLE_CONNECT"
 """The router that `--connect` would name, for verbs, and for shells in which all is about one robot."""
 
 
+def unusable_domain() -> str:
+    """Why the domain that the environment names is none, in one line; empty when it is one."""
+    try:
+        domain_id()
+    except ValueError as error:
+        return f"{error}: unset it, or set 0 to 101"
+    return ""
+
+
 def why_alone() -> str:
     """Why this program cannot meet others in its domain, in one line; empty when it can."""
     from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
 
+    if problem := unusable_domain():
+        return problem
     try:
         domain_folder(domain())
     except FolderRefusedError as refused:

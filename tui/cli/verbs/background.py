@@ -15,8 +15,10 @@ from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
 
+from bot_console.runtime.process.session_end import end_session
+from bot_console.runtime.rmw.zenoh.domain.discovery_range import RANGE_VARIABLE
 from bot_console.tui.cli.system.background_system import SWITCH
-from bot_console.tui.cli.system.domain import domain, frozen, robot_there, take_part
+from bot_console.tui.cli.system.domain import domain, frozen, is_in_range, robot_there, take_part
 from bot_console.tui.cli.system.named_launch import with_launch_file
 from bot_console.tui.cli.system.one_start import one_start
 from bot_console.tui.cli.system.system_log import new_log
@@ -64,7 +66,7 @@ def up(words: Sequence[str]) -> int:
     if options.fast:
         print("a system in the background runs in real time: leave --fast out", file=sys.stderr)
         return 2
-    alone = take_part()
+    alone = take_part() or _unreachable()
     options, problem = with_launch_file(options)
     if problem := problem or alone:
         print(problem, file=sys.stderr)
@@ -98,8 +100,9 @@ def _await(process: subprocess.Popen[bytes], started: Background, *, launched: b
     """Wait until the robot of a started system is seen, or what is launched is, and tell how to go on."""
     deadline = time.monotonic() + STARTING
     is_up = partial(_runs, process.pid) if launched else robot_there
+    seen: object = False
     try:
-        while process.poll() is None and not is_up() and time.monotonic() < deadline:
+        while process.poll() is None and not (seen := is_up()) and time.monotonic() < deadline:
             time.sleep(0.1)
     except KeyboardInterrupt:
         print(f"it goes on starting: {started.told()}; bot-console down ends it", file=sys.stderr)
@@ -109,12 +112,21 @@ def _await(process: subprocess.Popen[bytes], started: Background, *, launched: b
         started.close_way_in()
         print(f"it has ended with exit code {process.returncode}; its log is {started.log}", file=sys.stderr)
         return 1
+    if not seen:
+        what = "nothing that it launches runs" if launched else "no robot was seen"
+        print(f"{what} after {STARTING:g} s: {started.told()} says why; bot-console down ends it", file=sys.stderr)
+        return 1
     print(f"running in ROS domain {domain()}: {started.told()}")
     print("bot-console attach shows it, bot-console down ends it")
     if router_log and not _is_program(started.way_in, b"router"):
         print(f"other machines are not let in; why is at the end of {router_log}", file=sys.stderr)
         return 1
     return 0
+
+
+def _unreachable() -> str:
+    """Why nobody could see or stop a system in the background, in one line; empty when they can."""
+    return "" if is_in_range() else f"{RANGE_VARIABLE} is OFF: a system in the background could not be seen or stopped"
 
 
 def _serving(words: Sequence[str]) -> tuple[list[str], list[str]]:
@@ -180,6 +192,7 @@ def down(words: Sequence[str]) -> int:
             time.sleep(0.05)
         if not there.runs():
             break
+    end_session(there.pid)  # what it launched has outlived it only if it was killed
     there.close_way_in()
     _file().unlink(missing_ok=True)
     print(f"ended: {there.told()}")

@@ -106,3 +106,27 @@ def test_an_interrupt_while_it_starts_says_how_to_end_it(
     with pytest.raises(KeyboardInterrupt):
         background.up([])
     assert "it goes on starting: process" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("words", "what"), [([], "no robot was seen"), (["--launch", __file__], "nothing that it")])
+def test_one_that_does_not_come_up_in_time_is_not_called_running(
+    started: list[object],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    words: list[str],
+    what: str,
+) -> None:
+    monkeypatch.setattr(background, "STARTING", 0.0)
+    monkeypatch.setattr(background, "robot_there", list)
+    monkeypatch.setattr(background, "_runs", lambda pid: False)
+    assert background.up(words) == 1
+    said = capsys.readouterr()
+    assert said.err.startswith(what) and f"process {os.getpid()}" in said.err and not said.out
+
+
+def test_one_that_nobody_could_reach_is_not_started(
+    started: list[object], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")
+    assert background.up([]) == 1
+    assert "could not be seen or stopped" in capsys.readouterr().err and not started

@@ -50,6 +50,21 @@ def test_a_background_system_says_where_its_log_would_go(
     assert said.startswith(f"not started: the log cannot be kept in {no_home}/state: ") and OVERRIDE in said
 
 
+@pytest.mark.parametrize(
+    "words",
+    [["status"], ["down"], ["up"], ["stop"], ["bag", "record", "-a"], ["launch", "x.launch.py"], ["run", "x.py"],
+     ["node", "list"], ["--headless"], ["--headless", "--fast"], ["graph"], ["reset"], ["lint", "running"]],
+    ids=" ".join,
+)  # fmt: skip
+def test_a_domain_that_is_no_number_is_told_in_one_line(
+    words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "x")
+    assert told(lambda: main(words)) != 0
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "ROS_DOMAIN_ID is 'x', not a number" in line
+
+
 LONG = "a" * 300
 
 
