@@ -20,6 +20,11 @@ ALL_KEPT = 1000
 """How many messages a latching publisher with KEEP_ALL keeps for other processes."""
 
 
+MANY = 1000
+"""Depth from which a reliable publisher counts as one that keeps everything: ROS 2 would keep so many messages for a
+reader that is late, and a link has room for 1 MB.
+"""
+
 PATIENT_TOPICS = frozenset({"/rosout"})
 """Reliable topics on which nothing is dropped whatever the depth: readers of a log need every line."""
 
@@ -27,8 +32,8 @@ PATIENT_TOPICS = frozenset({"/rosout"})
 class Outlet(deque[Any]):
     """The queue, among a publisher's local subscriptions, that represents all other processes.
 
-    A message that the publisher appends is sent at once; one that must not be dropped (reliable, and KEEP_ALL or a log
-    line) is sent by another thread, so that the publisher does not wait. A latching publisher's messages are always
+    A message that the publisher appends is sent at once; one that must not be dropped (reliable, and KEEP_ALL, a depth
+    of `MANY` or a log line) is sent by another thread, so that the publisher does not wait. A latching publisher's messages are always
     sent: late subscribers get them from the session, not from the program.
     """
 
@@ -43,7 +48,7 @@ class Outlet(deque[Any]):
         self._process = current()
         self._sender = sender
         qos = publisher.endpoint.qos
-        all_count = qos.history.name == "KEEP_ALL" or publisher.endpoint.topic in PATIENT_TOPICS
+        all_count = (depth(qos) or MANY) >= MANY or publisher.endpoint.topic in PATIENT_TOPICS
         self._patient = all_count and qos.reliability.name != "BEST_EFFORT"
         self._target = SubscriptionEndpoint(publisher.endpoint, True, self, _nothing)
         self.latching = publisher.history is not None
