@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 RQT_PANES = {
     "rqt": "overview",
@@ -49,8 +49,7 @@ WITHOUT_VALUE = (
 )
 
 
-@dataclass(frozen=True)
-class Opening:
+class Opening(NamedTuple):
     """A pane to show first, curves to plot, a node to go to, and lines that say what was ignored."""
 
     pane: str = "overview"

@@ -5,8 +5,7 @@ from __future__ import annotations
 import threading
 import weakref
 from collections.abc import Callable, Sequence
-from inspect import ismethod
-from types import TracebackType
+from types import MethodType, TracebackType
 from typing import Any
 
 from bot_console.runtime.domain_id import domain_id as environments_domain
@@ -163,7 +162,7 @@ class Context:
 
     def _held(self, callback: Callable[[], Any]) -> Callable[[], Any]:
         """A reference to the callback: methods are held weakly, so that the context keeps no object alive."""
-        if ismethod(callback):
+        if isinstance(callback, MethodType):
             try:
                 return weakref.WeakMethod(callback, self._forget)
             except TypeError:  # the object does not support weak references

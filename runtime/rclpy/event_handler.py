@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from rclpy._rclpy_pybind11 import UnsupportedEventTypeError, rmw_qos_policy_kind_t
 from rclpy.impl.event_handlers import (
@@ -44,20 +43,15 @@ INFINITE_NS = 2**63 - 2
 """Durations from here on stand for no limit."""
 
 
-@dataclass
-class QoSIncompatibleInfo:
+class QoSIncompatibleInfo(NamedTuple):
     """Incompatible endpoints: the total, the change, and the last policy that did not match."""
 
     total_count: int = 0
     total_count_change: int = 0
-    last_policy_kind: int = QoSPolicyKind.INVALID
-
-    def __post_init__(self) -> None:
-        self.last_policy_kind = rmw_qos_policy_kind_t(int(self.last_policy_kind))
+    last_policy_kind: rmw_qos_policy_kind_t = rmw_qos_policy_kind_t(QoSPolicyKind.INVALID.value)
 
 
-@dataclass
-class QoSMatchedInfo:
+class QoSMatchedInfo(NamedTuple):
     """Matched endpoints: the total ever, its change, the current number, and its change."""
 
     total_count: int = 0
@@ -66,16 +60,14 @@ class QoSMatchedInfo:
     current_count_change: int = 0
 
 
-@dataclass
-class QoSCountInfo:
+class QoSCountInfo(NamedTuple):
     """How often something has happened: the total, and the change since the last call."""
 
     total_count: int = 0
     total_count_change: int = 0
 
 
-@dataclass
-class QoSLivelinessChangedInfo:
+class QoSLivelinessChangedInfo(NamedTuple):
     """Publishers that are alive and that are not, and the changes since the last call."""
 
     alive_count: int = 0

@@ -6,7 +6,6 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any, cast
 
 from bot_console.runtime.rmw.parameter_types import ARRAYS, BY_CLASS, BY_CODE, STRING
-from bot_console.runtime.rmw.plain_yaml import plain_scalar
 from rclpy.impl.parameter_values import FIELDS, infer, value_fits
 from rclpy.impl.reexports import reexporting
 
@@ -111,6 +110,8 @@ def get_parameter_value(string_value: str) -> ParameterValue:
 
 def _yaml_value(text: str) -> Any:
     """The value of a text in YAML; the text itself if that is null or it cannot be parsed."""
+    from bot_console.runtime.rmw.plain_yaml import plain_scalar
+
     plain = plain_scalar(text)
     if plain is not None:
         return plain

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 from collections import deque
 from collections.abc import Callable
 from enum import Enum
@@ -10,6 +9,7 @@ from typing import Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import Held, SubscriptionEndpoint, own
+from rclpy.impl.callables import is_coroutine_function, takes
 from rclpy.impl.destroyable import SubscriptionHandle
 from rclpy.impl.entity import SUBSCRIPTION, Entity
 from rclpy.impl.reexports import reexporting
@@ -69,21 +69,16 @@ class Subscription(Entity):
         self._callback = value
         self._callback_type = Subscription.CallbackType.MessageOnly
         self._message_only = True
-        self._is_async = inspect.iscoroutinefunction(value)
+        self._is_async = is_coroutine_function(value)
         try:
-            inspect.signature(value).bind(object())
-            return
-        except TypeError:
-            pass
+            if takes(value, 1):
+                return
         except ValueError:
             return
-        try:
-            inspect.signature(value).bind(object(), object())
+        if takes(value, 2):
             self._callback_type = Subscription.CallbackType.WithMessageInfo
             self._message_only = False
             return
-        except TypeError:
-            pass
         raise RuntimeError(
             "Subscription.__init__(): callback should be either be callable with one argument"
             "(to get only the message) or two (to get message and message info)"

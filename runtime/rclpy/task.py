@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import inspect
 import sys
 import threading
 import warnings
 import weakref
 from collections.abc import Callable, Coroutine, Generator
 from typing import Any, Generic, TypeVar
+
+from rclpy.impl.callables import is_coroutine, is_coroutine_function
 
 T = TypeVar("T")
 
@@ -160,7 +161,7 @@ class Task(Future[T]):
         self._args = args or ()
         self._kwargs = kwargs or {}
         self._handler: Any = handler
-        if inspect.iscoroutinefunction(handler):
+        if is_coroutine_function(handler):
             self._handler = handler(*self._args, **self._kwargs)
             self._args, self._kwargs = (), {}
         self._executing = False
@@ -175,7 +176,7 @@ class Task(Future[T]):
             if self._done or self._handler is None:
                 return
             self._executing = True
-            if inspect.iscoroutine(self._handler):
+            if is_coroutine(self._handler):
                 self._step()
             else:
                 self._run()
@@ -213,7 +214,7 @@ class Task(Future[T]):
 
         Raises ValueError if the coroutine is running.
         """
-        if inspect.iscoroutine(self._handler):
+        if is_coroutine(self._handler):
             self._handler.close()
             self._handler = None
         super().cancel()

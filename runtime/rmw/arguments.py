@@ -6,7 +6,6 @@ Arguments outside that part belong to the program; a remap rule among them is ob
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
 
 from bot_console.runtime.rmw.lexer import GrammarError, Lexeme, Lexer
 from bot_console.runtime.rmw.names import validate_namespace
@@ -30,26 +29,26 @@ class ArgumentsError(ValueError):
         self.warning = warning
 
 
-@dataclass
 class Arguments:
     """The parsed ROS arguments of a command line."""
 
-    remap_rules: list[RemapRule] = field(default_factory=list[RemapRule])
-    parameters: ParameterTable = field(default_factory=ParameterTable)
-    """Values of `-p` and `--params-file`, in command line order."""
-    unparsed: list[str] = field(default_factory=list[str])
-    """The arguments for the program itself."""
-    unknown_ros_args: list[str] = field(default_factory=list[str])
-    deprecated_rules: list[str] = field(default_factory=list[str])
-    """Remap rules outside the ROS part."""
-    default_level: int | None = None
-    logger_levels: dict[str, int] = field(default_factory=dict[str, int])
-    log_config_file: str | None = None
-    log_file_name: str | None = None
-    enclave: str | None = None
-    stdout_enabled: bool = True
-    rosout_enabled: bool = True
-    external_logs_enabled: bool = True
+    def __init__(self) -> None:
+        self.remap_rules: list[RemapRule] = []
+        self.parameters = ParameterTable()
+        """Values of `-p` and `--params-file`, in command line order."""
+        self.unparsed: list[str] = []
+        """The arguments for the program itself."""
+        self.unknown_ros_args: list[str] = []
+        self.deprecated_rules: list[str] = []
+        """Remap rules outside the ROS part."""
+        self.default_level: int | None = None
+        self.logger_levels: dict[str, int] = {}
+        self.log_config_file: str | None = None
+        self.log_file_name: str | None = None
+        self.enclave: str | None = None
+        self.stdout_enabled = True
+        self.rosout_enabled = True
+        self.external_logs_enabled = True
 
 
 def parse(words: Sequence[str]) -> Arguments:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple
 
 from bot_console.runtime.rmw.names import full_name
@@ -128,58 +127,88 @@ class NodeId(NamedTuple):
         return self.name, self.namespace
 
 
-@dataclass(eq=False)
+# No dataclasses: their import and what they generate take a tenth of a short program's time.
+
+
 class Endpoint:
     """A publisher or subscription in the graph. `topic` is fully qualified, `gid` has 16 bytes.
 
     An endpoint of another process may have no class here; its type is then known only by name and hash (`RIHS01_...`).
     """
 
-    node: NodeId
-    topic: str
-    type_name: str
-    qos: Profile
-    gid: bytes
-    message_class: Any = None
-    type_hash: str | None = None
+    def __init__(
+        self,
+        node: NodeId,
+        topic: str,
+        type_name: str,
+        qos: Profile,
+        gid: bytes,
+        message_class: Any = None,
+        type_hash: str | None = None,
+    ) -> None:
+        self.node = node
+        self.topic = topic
+        self.type_name = type_name
+        self.qos = qos
+        self.gid = gid
+        self.message_class = message_class
+        self.type_hash = type_hash
 
 
-@dataclass(eq=False)
 class SubscriptionEndpoint:
     """Receives messages: `queue` holds entries (message, source ns, sequence number, expiry ns).
 
     The message may be `Held`; `own` takes it.
     """
 
-    endpoint: Endpoint
-    raw: bool
-    queue: deque[Any]
-    notify: Notify
-    on_event: OnEvent = no_event
-    matched: int = 0
+    def __init__(
+        self, endpoint: Endpoint, raw: bool, queue: deque[Any], notify: Notify, on_event: OnEvent = no_event
+    ) -> None:
+        self.endpoint = endpoint
+        self.raw = raw
+        self.queue = queue
+        self.notify = notify
+        self.on_event = on_event
+        self.matched = 0
 
 
-@dataclass(eq=False)
 class ServiceEndpoint:
     """Answers requests: `queue` holds (client, sequence number, request). `type_hash` is set for another process's."""
 
-    node: NodeId
-    name: str
-    type_name: str
-    notify: Notify
-    service_class: Any = None
-    queue: deque[Any] = field(default_factory=deque[Any])
-    type_hash: str | None = None
+    def __init__(
+        self,
+        node: NodeId,
+        name: str,
+        type_name: str,
+        notify: Notify,
+        service_class: Any = None,
+        type_hash: str | None = None,
+    ) -> None:
+        self.node = node
+        self.name = name
+        self.type_name = type_name
+        self.notify = notify
+        self.service_class = service_class
+        self.queue: deque[Any] = deque()
+        self.type_hash = type_hash
 
 
-@dataclass(eq=False)
 class ClientEndpoint:
     """Sends requests: `queue` holds (sequence number, response)."""
 
-    node: NodeId
-    name: str
-    type_name: str
-    notify: Notify
-    service_class: Any = None
-    queue: deque[Any] = field(default_factory=deque[Any])
-    gid: bytes = field(default_factory=new_gid)
+    def __init__(
+        self,
+        node: NodeId,
+        name: str,
+        type_name: str,
+        notify: Notify,
+        service_class: Any = None,
+        gid: bytes | None = None,
+    ) -> None:
+        self.node = node
+        self.name = name
+        self.type_name = type_name
+        self.notify = notify
+        self.service_class = service_class
+        self.queue: deque[Any] = deque()
+        self.gid = gid or new_gid()

@@ -6,16 +6,14 @@ import sys
 from array import array
 from collections import OrderedDict
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from rosidl_parser.definition import AbstractString, AbstractWString, Array, BasicType, BoundedSequence
 from rosidl_runtime_py.block_yaml import block_yaml
 
 
-@dataclass(frozen=True)
-class Shortening:
+class Shortening(NamedTuple):
     """What is left out: elements and characters beyond `length`, arrays, strings."""
 
     length: int | None = None

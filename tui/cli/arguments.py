@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -107,7 +107,7 @@ def _look(given: argparse.Namespace) -> dict[str, Any]:
 
 
 def _with_perspective(opening: Opening, given: argparse.Namespace) -> Opening:
-    return replace(opening, perspective=given.perspective_file) if given.perspective_file else opening
+    return opening._replace(perspective=given.perspective_file) if given.perspective_file else opening
 
 
 def parse(words: Sequence[str]) -> Options:

@@ -6,7 +6,6 @@ import shlex
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
-from dataclasses import replace
 from difflib import get_close_matches
 from typing import Any, Protocol
 
@@ -151,7 +150,7 @@ class LineRunner:
         if opening.perspective:
             file = opening.perspective
             notes.append(f"perspective {file} is opened at the start only: bot-console --perspective-file {file}")
-        self._host.open(replace(opening, notes=tuple(notes)))
+        self._host.open(opening._replace(notes=tuple(notes)))
 
     def _ros2(self, line: str) -> None:
         stream = self._lines.stream(line)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import inspect
 from collections import deque
 from collections.abc import Callable, Sequence
 from typing import Any
 
 from rclpy._rclpy_pybind11 import InvalidHandle
+from rclpy.impl.callables import is_coroutine_function
 from rclpy.impl.entity import DESTROYED, WAITABLE, Entity
 from rclpy.type_support import check_is_valid_action_type
 from rclpy.waitable import Waitable
@@ -68,6 +68,6 @@ def take(queue: deque[Any]) -> Any:
 
 async def call(callback: Callable[..., Any], *args: Any) -> Any:
     """Call a function, or await the coroutine of a coroutine function."""
-    if inspect.iscoroutinefunction(callback):
+    if is_coroutine_function(callback):
         return await callback(*args)
     return callback(*args)

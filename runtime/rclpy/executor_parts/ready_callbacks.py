@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Iterable
 from typing import Any, cast
 
+from rclpy.impl.callables import is_coroutine_function
 from rclpy.task import Future, Task
 
 
@@ -18,7 +18,7 @@ class TimeoutObject:
 
 async def await_or_execute(callback: Callable[..., Any], *args: Any) -> Any:
     """Await a coroutine function, or call a plain one; returns its result."""
-    if inspect.iscoroutinefunction(callback):
+    if is_coroutine_function(callback):
         return await callback(*args)
     return callback(*args)
 

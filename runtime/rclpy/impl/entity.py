@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from inspect import iscoroutinefunction
 from typing import Any
 
 from rclpy._rclpy_pybind11 import InvalidHandle
+from rclpy.impl.callables import is_coroutine_function
 
 WAITABLE, TIMER, SUBSCRIPTION, GUARD, CLIENT, SERVICE = range(6)
 """Kinds, in the order in which one wake of an executor serves them."""
@@ -84,7 +84,7 @@ class Entity:
     @callback.setter
     def callback(self, value: Any) -> None:
         self._callback = value
-        self._is_async = iscoroutinefunction(value)
+        self._is_async = is_coroutine_function(value)
 
     def use(self) -> None:
         """Raise `InvalidHandle` if the entity was destroyed."""

@@ -8,6 +8,7 @@ from typing import Any
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.bus import Publisher
 from bot_console.runtime.rmw.endpoints import Event
+from rclpy._rclpy_pybind11 import rmw_qos_policy_kind_t
 from rclpy.impl.entity import WAITABLE, Entity
 from rclpy.impl.qos_policies import QoSPolicyKind
 
@@ -89,7 +90,7 @@ class IncompatibleHandler(EventHandler):
         self._tell()
 
     def _info(self) -> Any:
-        info = self._info_type(self._total, self._new, self._policy)
+        info = self._info_type(self._total, self._new, rmw_qos_policy_kind_t(self._policy.value))
         self._new = 0
         return info
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import itertools
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 from bot_console.runtime.rmw.bus import PublisherEndpoint, Thing
 from bot_console.runtime.rmw.endpoints import (
@@ -45,8 +44,7 @@ FLUSHED = 0.3
 Way = Outlet | Inlet | Served | Asking
 
 
-@dataclass
-class Bridge:
+class Bridge(NamedTuple):
     """What the session holds for one endpoint of this process."""
 
     way: Way
@@ -54,13 +52,12 @@ class Bridge:
     watched: tuple[Kind, str, Listener] | None = None
 
 
-@dataclass
-class BridgedNode:
+class BridgedNode(NamedTuple):
     """A node of this process as other processes see it."""
 
     node: TokenNode
     token: Declared
-    bridges: dict[Any, Bridge] = field(default_factory=dict[Any, Bridge])
+    bridges: dict[Any, Bridge]
 
 
 class ZenohBus:
@@ -91,7 +88,7 @@ class ZenohBus:
         shown = TokenNode(self._session.zid, next(self._numbers), enclave, namespace, name)
         token = self._session.declare_token(node_token(self._session.domain, shown))
         with self._lock:
-            self._nodes[node] = BridgedNode(shown, token)
+            self._nodes[node] = BridgedNode(shown, token, {})
         return node
 
     def remove_node(self, node: NodeId) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Container
-from dataclasses import dataclass
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
@@ -23,16 +22,17 @@ ALL_KEPT = 1000
 """How many earlier messages a subscription with KEEP_ALL requests."""
 
 
-@dataclass(eq=False)
 class RemotePublisher:
-    """What a subscription knows of a publisher in another process. `lifespan` is in ns; None means no limit."""
+    """What a subscription knows of a publisher in another process."""
 
-    fits: bool = True
-    lifespan: int | None = None
-    number: int = 0
-    """Sequence number of its last message."""
-
-    lease: int | None = None
+    def __init__(self) -> None:
+        self.fits = True
+        self.number = 0
+        """Sequence number of its last message."""
+        self.lifespan: int | None = None
+        """In ns; None means no limit."""
+        self.lease: int | None = None
+        """In ns; None means no limit."""
 
 
 class Arrived(Held):

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
-from typing import Any, cast
+from types import MappingProxyType
+from typing import Any, NamedTuple, cast
 
 SCHEME = "unixsock-stream/"
 
@@ -61,12 +61,11 @@ INSEPARABLE = ("connect/retry",)
 """Settings that Zenoh accepts only as a whole."""
 
 
-@dataclass(frozen=True)
-class Serving:
+class Serving(NamedTuple):
     """A mesh's entry for other machines: the endpoints a router listens on besides its socket, and its TLS settings."""
 
     endpoints: tuple[str, ...]
-    tls: Mapping[str, Any] = field(default_factory=dict[str, Any])
+    tls: Mapping[str, Any] = MappingProxyType({})
 
 
 def network_link(serving: Serving) -> dict[str, Any]:

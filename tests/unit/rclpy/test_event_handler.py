@@ -13,6 +13,7 @@ from rclpy.event_handler import (
     SubscriptionEventCallbacks,
 )
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.impl.event_handlers import IncompatibleHandler
 from rclpy.qos import LivelinessPolicy, QoSPolicyKind, QoSProfile
 from std_msgs.msg import Int32
 
@@ -35,7 +36,7 @@ class Events:
 
         def callback(info: Any) -> None:
             elapsed = (self._clock.now() - self._start).nanoseconds // 1_000_000
-            self.heard.append((elapsed, name, *vars(info).values()))
+            self.heard.append((elapsed, name, *info))
 
         return callback
 
@@ -142,6 +143,10 @@ def test_events_of_a_node_that_another_executor_serves(stepped_ros: Any) -> None
 
 
 def test_the_policy_that_did_not_fit_prints_by_name() -> None:
-    info = QoSRequestedIncompatibleQoSInfo(1, 1, QoSPolicyKind.RELIABILITY)
+    heard: list[QoSRequestedIncompatibleQoSInfo] = []
+    handler = IncompatibleHandler(QoSRequestedIncompatibleQoSInfo, heard.append, None)
+    handler.happened("incompatible", "RELIABILITY")
+    handler.run()
+    (info,) = heard
     assert str(info.last_policy_kind) == "rmw_qos_policy_kind_t.RMW_QOS_POLICY_RELIABILITY"
     assert info.last_policy_kind == QoSPolicyKind.RELIABILITY

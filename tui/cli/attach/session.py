@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.cli.arguments import Options
@@ -48,7 +47,7 @@ class AttachedSession:
         look = look_of(options)
         self.app = BotConsoleApp(
             *for_panes(console, launcher, command_line, read_only=options.read_only),
-            opening=replace(options.opening, notes=(*options.opening.notes, *look.notes)),
+            opening=options.opening._replace(notes=(*options.opening.notes, *look.notes)),
             on_first_frame=self._on_first_frame,
             look=look,
             plugins=find_plugins,

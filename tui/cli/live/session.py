@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import signal
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -39,7 +38,7 @@ class Session:
         look = look_of(options)
         self.app = BotConsoleApp(
             reach=self._reach,
-            opening=replace(options.opening, notes=(*options.opening.notes, *look.notes)),
+            opening=options.opening._replace(notes=(*options.opening.notes, *look.notes)),
             on_first_frame=collect_from_now_on,
             look=look,
             plugins=self._plugins,

@@ -8,7 +8,6 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -272,7 +271,7 @@ def _open(given: argparse.Namespace) -> int:
     notes = [f"{each} is not shown: the bag is too large" for each in contents.left_out]
     notes += [contents.damage] if contents.damage else []
     try:
-        app = BotConsoleApp(console, opening=replace(options.opening, notes=tuple(notes)), look=look_of(options))
+        app = BotConsoleApp(console, opening=options.opening._replace(notes=tuple(notes)), look=look_of(options))
         app.time_cursor.follow(console.topics)
         app.run()
     finally:
