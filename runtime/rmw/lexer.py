@@ -49,7 +49,7 @@ _PATTERNS = (
     (Lexeme.WILD_ONE, r"\*"),
     (Lexeme.DOT, r"\."),
 )
-_SCAN = re.compile("|".join(f"({pattern})" for _, pattern in _PATTERNS))
+_SCAN = "|".join(f"({pattern})" for _, pattern in _PATTERNS)
 
 
 class Lexer:
@@ -62,7 +62,7 @@ class Lexer:
     def _at(self, index: int) -> tuple[Lexeme, int]:
         if index >= len(self.text):
             return Lexeme.EOF, index
-        found = _SCAN.match(self.text, index)
+        found = re.compile(_SCAN).match(self.text, index)
         if found is None:
             return Lexeme.NONE, index
         return _PATTERNS[(found.lastindex or 1) - 1][0], found.end()

@@ -1,25 +1,26 @@
-"""Serialization of messages: CDR version 1, as rmw implementations send it."""
+"""Serialization of messages: CDR version 1, as rmw implementations send it.
+
+What generates the functions is imported with the first message: many short-lived programs serialize none.
+"""
 
 from __future__ import annotations
 
 import struct
+from collections.abc import Callable
+from functools import cache
 from typing import Any
 
-from bot_console.runtime.rosidl.cdr_read import HEADER_SIZE, CdrError, reader
-from bot_console.runtime.rosidl.cdr_write import writer
-
-ORDERS = {0: ">", 1: "<"}
-"""Byte order by the second byte of the header."""
+from bot_console.runtime.rosidl.cdr_header import HEADER_SIZE, ORDERS, CdrError
 
 
 def serialize(message: Any) -> bytes:
     """Serialize a message, including the header; raises `FieldTypeError` if a field holds what cannot be sent."""
     try:
-        return writer(message.__class__)(message)
+        return _writer(message.__class__)(message)
     except Exception:  # whatever it is: making a copy raises for what cannot be sent, and converts the rest
         pass
     copy = message._copy_()
-    return writer(copy.__class__)(copy)
+    return _writer(copy.__class__)(copy)
 
 
 def deserialize(data: bytes | bytearray | memoryview, message_class: Any) -> Any:
@@ -29,8 +30,22 @@ def deserialize(data: bytes | bytearray | memoryview, message_class: Any) -> Any
     if len(data) < HEADER_SIZE or data[0] != 0 or data[1] not in ORDERS:
         raise CdrError(f"no CDR header of version 1: {data[:HEADER_SIZE].hex(' ') or 'no data'}")
     try:
-        return reader(message_class, ORDERS[data[1]])(data)
+        return _reader(message_class, ORDERS[data[1]])(data)
     except struct.error:
         raise CdrError(f"{len(data)} bytes are too few for a {message_class.__name__}") from None
     except CdrError as error:
         raise CdrError(f"no {message_class.__name__}: {error}") from None
+
+
+@cache
+def _writer(cls: Any) -> Callable[[Any], bytes]:
+    from bot_console.runtime.rosidl.cdr_write import writer
+
+    return writer(cls)
+
+
+@cache
+def _reader(cls: Any, order: str) -> Callable[[bytes], Any]:
+    from bot_console.runtime.rosidl.cdr_read import reader
+
+    return reader(cls, order)

@@ -47,8 +47,8 @@ DTYPES = {"float": "float32", "double": "float64", **{name: name for name in TYP
 """NumPy dtypes of fixed-size arrays by element type; other fixed-size arrays are lists."""
 
 INTEGERS = tuple(name for name in TYPECODES if "int" in name)
-SHAPES = re.compile(r"^(?:sequence<(?P<item>.+?)(?:, (?P<bound>\d+))?>|(?P<fixed>.+?)\[(?P<size>\d+)\])$")
-BOUNDED = re.compile(r"^(w?string)<(\d+)>$")
+SHAPES = r"^(?:sequence<(?P<item>.+?)(?:, (?P<bound>\d+))?>|(?P<fixed>.+?)\[(?P<size>\d+)\])$"
+BOUNDED = r"^(w?string)<(\d+)>$"
 
 
 class Type(NamedTuple):
@@ -112,9 +112,11 @@ class Interface(NamedTuple):
 
 def parse_type(text: str) -> Type:
     """Parse a type in the notation of `get_fields_and_field_types`."""
-    match = SHAPES.match(text)
+    if not text.endswith((">", "]")):  # most fields: short-lived programs compile no pattern
+        return Type(text)
+    match = re.match(SHAPES, text)
     item = (match["item"] or match["fixed"]) if match else text
-    string = BOUNDED.match(item)
+    string = re.match(BOUNDED, item)
     return Type(
         string[1] if string else item,
         sequence=bool(match and match["item"]),
