@@ -8,15 +8,20 @@ matches the type in the graph.
 from __future__ import annotations
 
 import re
-import tempfile
 from collections.abc import Iterable, Mapping
 from functools import cache
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import tempfile
+    from pathlib import Path
 
 KINDS = ("msg", "srv", "action")
-TYPE_NAME = re.compile(rf"[a-z][a-z0-9_]*/(?:{'|'.join(KINDS)})/[A-Z][A-Za-z0-9]*")
-"""What a folder and a file may be named after: the names come from another program, perhaps of another machine."""
+TYPE_NAME = rf"[a-z][a-z0-9_]*/(?:{'|'.join(KINDS)})/[A-Z][A-Za-z0-9]*"
+"""What a folder and a file may be named after: the names come from another program, perhaps of another machine.
+
+A pattern, compiled when it is needed.
+"""
 FALSE = "tells of it what does not have the hash"
 UNREADABLE = "describes it in a way that cannot be read"
 
@@ -40,7 +45,7 @@ def learn(type_name: str, type_hash: str, told: Any) -> str:
         return refused
     texts = {each.type_name: each.raw_file_contents for each in told.type_sources if each.encoding in KINDS}
     try:
-        if not all(map(TYPE_NAME.fullmatch, (type_name, *texts))):
+        if not all(re.fullmatch(TYPE_NAME, each) for each in (type_name, *texts)):
             raise DefinitionError("a name that no type has")
         if not _has_hash(type_name, type_hash, texts):
             return f"{FALSE} {type_hash}"
@@ -106,8 +111,12 @@ def _tell_of_more(modules: Iterable[str]) -> None:
 
 @cache
 def _held() -> tempfile.TemporaryDirectory[str]:
+    import tempfile
+
     return tempfile.TemporaryDirectory(prefix="bot-console-interfaces-")
 
 
 def _kept() -> Path:
+    from pathlib import Path
+
     return Path(_held().name)

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 from bot_console.runtime.terse import is_read
 
-_WRONG_TYPE = re.compile(r"Wrong parameter type, expected 'Type\.(\w+)' got 'Type\.(\w+)'")
+_WRONG_TYPE = r"Wrong parameter type, expected 'Type\.(\w+)' got 'Type\.(\w+)'"
 
 
 def advise(text: Callable[[], str]) -> None:
@@ -24,7 +24,7 @@ def no_parameter(node: str, name: str, names: Iterable[str]) -> str:
 
 def wrong_type(name: str, value: str, reason: str) -> str:
     """The hint for a value refused for its type: how to write it; empty if `reason` is a different one."""
-    found = _WRONG_TYPE.match(reason)
+    found = re.match(_WRONG_TYPE, reason)
     if found is None:
         return ""
     from rclpy.impl.written_values import written

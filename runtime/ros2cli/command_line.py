@@ -89,7 +89,7 @@ def _run(words: list[str]) -> Result:
         parser.parse_args(words)
         parser.print_help()
         return 0
-    subparser = _add(parser, command)
+    subparser = _add(parser, command, words)
     arguments = parser.parse_args(words)
     if command.main:
         arguments.parser = subparser
@@ -137,7 +137,8 @@ def _all_commands(parser: argparse.ArgumentParser) -> argparse._SubParsersAction
     return _subparsers(parser, "ros2", {name: text for name, (_, text) in COMMANDS.items()})
 
 
-def _add(parser: argparse.ArgumentParser, command: Command) -> argparse.ArgumentParser:
+def _add(parser: argparse.ArgumentParser, command: Command, words: Sequence[str]) -> argparse.ArgumentParser:
+    """Add a command's parser with all its verbs, and the arguments of those that `words` may be about."""
     commands = _all_commands(parser)
     subparser = commands.add_parser(command.name, description=command.description, formatter_class=HelpFormatter)
     command.arguments(subparser)
@@ -148,5 +149,6 @@ def _add(parser: argparse.ArgumentParser, command: Command) -> argparse.Argument
                 verb.name, description=verb.description, formatter_class=HelpFormatter, epilog=verb.epilog
             )
             leaf.set_defaults(_verb=verb, parser=leaf)
-            verb.arguments(leaf)
+            if verb.name in words:
+                verb.arguments(leaf)
     return subparser

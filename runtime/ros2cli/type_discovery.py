@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import importlib.util
+import re
 from collections.abc import Callable
 from contextlib import nullcontext
 from typing import TYPE_CHECKING, Any
@@ -57,7 +58,7 @@ def not_installed(type_name: str, why: str) -> str:
 def learned(type_name: str, node: Node | None = None) -> str | None:
     """Learn a type by its full name; returns an empty string, or why that failed, or None if no node knows the type."""
     package = type_name.partition("/")[0]
-    if not TYPE_NAME.fullmatch(type_name):
+    if not re.fullmatch(TYPE_NAME, type_name):
         return None
     if package not in learned_folders() and importlib.util.find_spec(package) is not None:
         return None

@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 
-from bot_console.runtime.rosidl.texts import definition_path, interface_names, known_packages, package_folder
-
 Interfaces = dict[str, list[str]]
 
 
 def get_interface_packages() -> list[str]:
     """All packages that define interfaces."""
+    from bot_console.runtime.rosidl.texts import known_packages
+
     return list(known_packages())
 
 
@@ -39,6 +39,8 @@ def get_action_interfaces(package_names: Iterable[str] = ()) -> Interfaces:
 
 
 def _of(prefix: str, package_names: Iterable[str]) -> Interfaces:
+    from bot_console.runtime.rosidl.texts import interface_names, known_packages, package_folder
+
     found: Interfaces = {}
     for package in list(package_names) or known_packages():
         if package_folder(package) is None and not _is_package(package):
@@ -60,6 +62,8 @@ def get_interface_path(interface_name: str) -> str:
 
     Raises `ValueError` for a name in a wrong form, `LookupError` for an unknown package or interface.
     """
+    from bot_console.runtime.rosidl.texts import definition_path, package_folder
+
     parts = interface_name.split("/")
     problem = _problem(parts)
     if problem:

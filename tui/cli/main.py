@@ -59,17 +59,17 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"bot-console {__version__}")
         return 0
     from bot_console.runtime.terse import help_tells_faults
-    from bot_console.tui.opening import is_rqt, names_system
 
     help_tells_faults()
+    if words and words[0] in ros2.VERBS:  # the quickest first
+        return ros2.taking_part(words)
+    from bot_console.tui.opening import is_rqt, names_system
+
     if is_rqt(words):
         if others_take_part() or not names_system(words):
             return _attach(words)
-    elif words:
-        if words[0] in _COMMANDS:
-            return _imported(_COMMANDS[words[0]])(words[1:])
-        if words[0] in ros2.VERBS:
-            return ros2.taking_part(words)
+    elif words and words[0] in _COMMANDS:
+        return _imported(_COMMANDS[words[0]])(words[1:])
     from bot_console.tui.cli.arguments import parse
 
     os.getcwd()  # raises where the folder was deleted, which is said in one line; nodes could not be started in it

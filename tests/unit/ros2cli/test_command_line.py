@@ -52,7 +52,7 @@ from ros2cli.command_line import main
 from rclpy.parameter import get_parameter_value
 assert main(["param", "set", "/no_node"]) == 2
 assert get_parameter_value("1.5").double_value == 1.5
-print(*{"numpy", "shutil", "traceback", "yaml"} & {*sys.modules})
+print(*{"dataclasses", "inspect", "numpy", "shutil", "traceback", "yaml"} & {*sys.modules})
 """
     shown = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert shown.stdout == "\n"
