@@ -33,8 +33,8 @@ class Outlet(deque[Any]):
     """The queue, among a publisher's local subscriptions, that represents all other processes.
 
     A message that the publisher appends is sent at once; one that must not be dropped (reliable, and KEEP_ALL, a depth
-    of `MANY` or a log line) is sent by another thread, so that the publisher does not wait. A latching publisher's messages are always
-    sent: late subscribers get them from the session, not from the program.
+    of `MANY` or a log line) is sent by another thread, so that the publisher does not wait. A latching publisher's
+    messages are always sent: late subscribers get them from the session, not from the program.
     """
 
     def __init__(self, session: Session, sender: Sender, publisher: LocalPublisher, key: str) -> None:
