@@ -124,7 +124,7 @@ class Asking:
             self._querier = self._session.declare_querier(self._key, timeout)
         payload = serialize(request)
         attachment = pack(number, self._clock.system_ns(), self._client.gid, payload)
-        return self._querier.get(payload, attachment, self._replied, _nothing)
+        return self._querier.get(payload, attachment, self._replied)
 
     def send_again(self) -> None:
         """Send the requests held back while the session was being reopened."""

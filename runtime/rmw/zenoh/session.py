@@ -178,7 +178,7 @@ class Session(Lifetime):
         import zenoh
 
         def ask(
-            inner: zenoh.Querier, payload: bytes, attachment: bytes, replied: Received, done: Callable[[], None]
+            inner: zenoh.Querier, payload: bytes, attachment: bytes, replied: Received, done: Callable[[], None] | None
         ) -> None:
             def take(reply: zenoh.Reply) -> None:
                 if not here.kept:
