@@ -66,7 +66,7 @@ class Client(Entity):
         future = self.call_async(request)
         if not future.done():
             clock = current().clock
-            deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * NANO)
+            deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(NANO))
             try:
                 wait_until_settled(future, self._node.context, deadline)
             finally:

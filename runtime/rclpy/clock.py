@@ -8,6 +8,7 @@ from __future__ import annotations
 import threading
 import weakref
 from collections.abc import Callable
+from enum import IntEnum
 from types import TracebackType
 from typing import Any
 
@@ -16,7 +17,6 @@ from rclpy.clock_type import ClockType
 from rclpy.duration import Duration
 from rclpy.exceptions import NotInitializedException
 from rclpy.impl.any_clock import AnyClock
-from rclpy.impl.named_enum import NamedIntEnum
 from rclpy.impl.reexports import reexporting
 from rclpy.time import Time
 from rclpy.utilities import get_default_context
@@ -32,7 +32,7 @@ __all__ = [
 ]
 
 
-class ClockChange(NamedIntEnum):
+class ClockChange(IntEnum):
     """How the source of ROS time changed in a jump."""
 
     ROS_TIME_NO_CHANGE = 1

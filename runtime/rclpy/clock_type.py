@@ -1,9 +1,9 @@
 """Kinds of clocks."""
 
-from rclpy.impl.named_enum import NamedIntEnum
+from enum import IntEnum
 
 
-class ClockType(NamedIntEnum):
+class ClockType(IntEnum):
     """The clock types of rcl with their numbers."""
 
     UNINITIALIZED = 0

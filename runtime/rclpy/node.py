@@ -20,6 +20,7 @@ from rclpy.logging import get_logger
 from rclpy.node_parts.entities import NodeEntities
 from rclpy.node_parts.graph import NodeGraph
 from rclpy.node_parts.missed_parameter_files import missed_files
+from rclpy.node_parts.parameter_setting import ParameterSetting
 from rclpy.node_parts.parameters import NodeParameters
 from rclpy.node_parts.rosout import Rosout
 from rclpy.parameter import Parameter
@@ -249,7 +250,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         self.destroy_node()
 
 
-for _part in (NodeEntities, NodeParameters, NodeGraph):
+for _part in (NodeEntities, ParameterSetting, NodeParameters, NodeGraph):
     for _name, _method in vars(_part).items():
         if isinstance(_method, FunctionType):
             _method.__qualname__ = f"Node.{_name}"  # shown by the error of a call with wrong arguments

@@ -112,7 +112,8 @@ def _yaml_value(text: str) -> Any:
     """The value of a text in YAML; the text itself if that is null or it cannot be parsed."""
     from bot_console.runtime.rmw.plain_yaml import plain_scalar
 
-    plain = plain_scalar(text)
+    # What is no text is left to the YAML library, which says so.
+    plain = plain_scalar(text) if isinstance(text, str) else None  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
     if plain is not None:
         return plain
     import yaml

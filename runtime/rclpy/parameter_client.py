@@ -66,7 +66,7 @@ class AsyncParameterClient:
     def wait_for_services(self, timeout_sec: float | None = None) -> bool:
         """Block until the services are available; False after the time-out (s) or a shutdown of the context."""
         clock = current().clock
-        deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * NANO)
+        deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(NANO))
         for client in self._clients():
             left = None if deadline is None else max(0, deadline - clock.steady_ns()) / NANO
             if not client.wait_for_service(left):

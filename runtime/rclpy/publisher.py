@@ -12,6 +12,7 @@ from bot_console.runtime.process import current
 from bot_console.runtime.rmw.bus import PublisherEndpoint
 from bot_console.runtime.rmw.qos_matching import LATCHING
 from bot_console.runtime.rosidl.conversion import FieldTypeError
+from bot_console.runtime.rosidl.message import type_shown
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.duration import Duration
 from rclpy.impl.destroyable import Destroyable
@@ -102,7 +103,7 @@ class Publisher:
         elif isinstance(msg, self.msg_type):
             self._endpoint.publish(msg)
         else:
-            raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
+            raise TypeError(f"Expected {self.msg_type}, got {type_shown(msg)}")
 
     def _refuse(self, what: str = "Failed to publish") -> None:
         self._use()

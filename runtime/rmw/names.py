@@ -106,6 +106,8 @@ def _validate_characters(name: str) -> Problem | None:
         if not _TYPED_CHARACTERS.match(character) and opened < 0:
             words = "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'"
             return words, index
+        if character == "~" and index:  # within braces, too
+            return "topic name must not have tilde '~' unless it is the first character", index
         if opened >= 0 and character != "}":
             problem = _validate_substitution(name, opened, index)
             if problem:
@@ -116,8 +118,6 @@ def _validate_characters(name: str) -> Problem | None:
             opened = -1
         elif character == "{":
             opened = index
-        elif character == "~" and index:
-            return "topic name must not have tilde '~' unless it is the first character", index
     if opened >= 0:
         return "topic name must not have unmatched (unbalanced) curly braces '{}'", opened
     return None

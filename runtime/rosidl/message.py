@@ -49,6 +49,13 @@ class MessageType(type):
         super().__setattr__(name, value)
 
 
+def type_shown(value: object) -> str:
+    """The class of a value as text; a message class itself is of a class of its own, as upstream."""
+    if isinstance(value, MessageType):
+        return f"<class '{value.__module__}.Metaclass_{value.__name__}'>"
+    return str(type(value))
+
+
 class Message(metaclass=MessageType):
     """A generated message; its class has `__slots__`, one for each field, and no dictionary."""
 
@@ -111,6 +118,10 @@ class ServiceType(type):
         part = getattr(import_module(f"{cls.__module__}__parts"), f"{cls.__name__}_{name}")
         setattr(cls, name, part)
         return part
+
+    def __dir__(cls) -> list[str]:
+        """Name the parts that are not yet imported as well."""
+        return sorted({*super().__dir__(), *cls._later})
 
     def __call__(cls, *args: Any, **kwargs: Any) -> Any:
         """Refuse instantiation, as upstream does."""

@@ -28,7 +28,7 @@ def require_valid(context: Any, what: str) -> None:
 def wait_until_there(node: Any, is_there: Callable[[], bool], timeout_sec: float | None) -> bool:
     """Block until `is_there()`, a time-out (s) or the context's shutdown; returns the last `is_there()`."""
     clock = current().clock
-    deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * NANO)
+    deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(NANO))
     wakeup = clock.wakeup()
 
     def woken(owner: Owner) -> None:

@@ -18,13 +18,16 @@ def detect(options: dict[str, Any]) -> tuple[str, ...]:
         if name not in OPTIONS:
             raise TypeError(f'parameter "{name}" is not one of the recognized logging options "{list(OPTIONS)}"')
     found: list[str] = []
-    if "throttle_duration_sec" in options:
+    if options.get("throttle_duration_sec") or options.get("throttle_time_source_type"):
+        if "throttle_duration_sec" not in options:
+            raise TypeError(
+                'required parameter "throttle_duration_sec" not specified but is required for the '
+                'the logging filter "throttle"'
+            )
+        for name in OPTIONS[:2]:
+            if options.get(name, ...) is None:
+                raise TypeError(f'Required parameter "{name}" was not specified for logging filter "Throttle"')
         found.append("throttle")
-    elif "throttle_time_source_type" in options:
-        raise TypeError(
-            'required parameter "throttle_duration_sec" not specified but is required for the '
-            'the logging filter "throttle"'
-        )
     if options.get("skip_first"):
         found.append("skip_first")
     if options.get("once"):

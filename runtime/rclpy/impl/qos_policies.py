@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import warnings
 from enum import EnumMeta, IntEnum
 from typing import Any
@@ -14,11 +15,13 @@ class QoSPolicyEnumMeta(EnumMeta):
 
     def __getattr__(cls, name: str) -> Any:
         prefix = cls.__dict__.get("_deprecated_prefix")
-        if prefix and name.startswith(prefix):
-            new = name[len(prefix) :]
+        new = name[len(prefix) :] if prefix and name.startswith(prefix) else ""
+        if new in cls.__members__:
             warnings.warn(f"{cls.__name__}.{name} is deprecated. Use {cls.__name__}.{new} instead.", stacklevel=2)
             return cls[new]
-        raise AttributeError(name)
+        raise AttributeError(
+            name if sys.version_info < (3, 12) else f"type object {cls.__name__!r} has no attribute {name!r}"
+        )
 
 
 class QoSPolicyEnum(IntEnum, metaclass=QoSPolicyEnumMeta):

@@ -49,9 +49,8 @@ def _outside_integers(name: str, value: int, allowed: Any) -> str | None:
 
 def _outside_doubles(name: str, value: float, allowed: Any, tolerance: float) -> str | None:
     """The same for a double, with a relative tolerance at the ends and at each step."""
-    low, high = allowed.from_value, allowed.to_value
-    if low > high:
-        low, high = high, low
+    ends = (allowed.from_value, allowed.to_value)
+    low, high = min(ends), max(ends)  # NaN as the first end makes both NaN, as upstream
     if math.isclose(value, low, rel_tol=tolerance) or math.isclose(value, high, rel_tol=tolerance):
         return None
     if not low < value < high:

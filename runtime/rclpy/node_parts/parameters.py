@@ -177,8 +177,9 @@ class NodeParameters(ParameterSetting):
 
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
         """The parameters below a prefix, by the rest of their names; all parameters for an empty prefix."""
-        start = prefix + PARAMETER_SEPARATOR_STRING if prefix else ""
-        return {name[len(start) :]: parameter for name, parameter in self._parameters.items() if name.startswith(start)}
+        start = prefix + PARAMETER_SEPARATOR_STRING if prefix else prefix
+        length = len(start)
+        return {name[length:]: parameter for name, parameter in self._parameters.items() if name.startswith(start)}
 
     def list_parameters(self, prefixes: list[str], depth: int) -> ListParametersResult:
         """The names below prefixes, at most `depth` levels deep (0 for any), with the prefixes that they have.

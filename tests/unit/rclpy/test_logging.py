@@ -111,7 +111,7 @@ def test_sites_belong_to_loggers(log: Any) -> None:
     ("message", "options", "kind", "words"),
     [
         ("x", {"foo": 1}, TypeError, 'parameter "foo" is not one of the recognized logging options'),
-        ("x", {"throttle_time_source_type": None}, TypeError, 'required parameter "throttle_duration_sec" not'),
+        ("x", {"throttle_time_source_type": Clock()}, TypeError, 'required parameter "throttle_duration_sec" not'),
         (
             "x",
             {"throttle_duration_sec": 1.0, "throttle_time_source_type": "ROS"},

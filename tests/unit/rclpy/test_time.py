@@ -139,8 +139,3 @@ def test_messages() -> None:
 def test_they_do_not_change() -> None:
     with pytest.raises(AttributeError):
         Time().nanoseconds = 5  # type: ignore[misc]
-
-
-def test_the_kind_of_clock_prints_by_name() -> None:
-    kind = Time(clock_type=ClockType.ROS_TIME).clock_type
-    assert (str(kind), f"{kind}", int(kind)) == ("ClockType.ROS_TIME", "ClockType.ROS_TIME", 1)

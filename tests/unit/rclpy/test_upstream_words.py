@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from enum import IntEnum
 from typing import Any
 
 import pytest
+from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
 from rclpy.clock import ClockChange, JumpThreshold, ROSClock
 from rclpy.clock_type import ClockType
 from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.event_handler import QoSPublisherEventType
+from rclpy.exceptions import InvalidParameterValueException
 from rclpy.logging import get_logger
-from rclpy.qos import QoSCompatibility, QoSPresetProfiles, QoSProfile
+from rclpy.parameter import get_parameter_value
+from rclpy.qos import QoSCompatibility, QoSPresetProfiles, QoSProfile, ReliabilityPolicy
 from rclpy.service_introspection import ServiceIntrospectionState
 from rclpy.signals import SignalHandlerOptions
 from rclpy.time import Time
@@ -24,8 +28,6 @@ from std_srvs.srv import Trigger
 @pytest.mark.parametrize(
     "member",
     [
-        ClockChange.ROS_TIME_ACTIVATED,
-        ClockType.ROS_TIME,
         QoSCompatibility.WARNING,
         QoSPublisherEventType.RCL_PUBLISHER_MATCHED,
         ServiceIntrospectionState.CONTENTS,
@@ -36,6 +38,13 @@ def test_an_enumeration_of_the_c_extension_prints_its_name(member: Any) -> None:
     expected = f"{type(member).__name__}.{member.name}"
     assert (str(member), f"{member}") == (expected, expected)
     assert member == member.value
+
+
+@pytest.mark.parametrize("member", [ClockChange.ROS_TIME_ACTIVATED, ClockType.ROS_TIME])
+def test_an_enumeration_of_rclpy_itself_prints_as_those_of_this_python(member: Any) -> None:
+    plain: Any = IntEnum(type(member).__name__, {member.name: member.value})
+    plain = plain(member.value)
+    assert (str(member), f"{member}", repr(member)) == (str(plain), f"{plain}", repr(plain))
 
 
 @pytest.mark.parametrize("profile", [10, "10", None])
@@ -141,3 +150,68 @@ def test_an_endpoint_that_nothing_is_known_of() -> None:
     assert "Topic type hash: INVALID" in str(info)
     with pytest.raises(AssertionError):
         info.endpoint_type = "PUBLISHER"  # type: ignore[assignment]
+
+
+@pytest.mark.parametrize("method", ["set_parameters", "get_parameter", "create_timer", "count_publishers"])
+def test_a_call_without_its_argument_names_the_node_s_method(ros: Any, method: str) -> None:
+    with pytest.raises(TypeError, match=rf"^Node\.{method}\(\) missing 1 required positional argument"):
+        getattr(ros.node(), method)(*(() if method != "create_timer" else (1.0,)))
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"throttle_duration_sec": 1.0, "throttle_time_source_type": None}, "throttle_time_source_type"),
+        ({"throttle_duration_sec": None, "throttle_time_source_type": ROSClock()}, "throttle_duration_sec"),
+    ],
+)
+def test_a_throttle_that_is_given_as_none(options: dict[str, Any], words: str) -> None:
+    with pytest.raises(
+        TypeError, match=f'^Required parameter "{words}" was not specified for logging filter "Throttle"$'
+    ):
+        get_logger("l").info("text", **options)
+
+
+@pytest.mark.parametrize("options", [{"throttle_duration_sec": None}, {"throttle_time_source_type": None}])
+def test_a_throttle_of_none_alone_is_no_throttle(options: dict[str, Any]) -> None:
+    assert [get_logger("l").info("text", **options) for _ in range(2)] == [True, True]
+
+
+def test_a_message_class_that_was_not_called(ros: Any) -> None:
+    publisher = ros.node().create_publisher(String, "t", 1)
+    with pytest.raises(TypeError, match=r"got <class 'std_msgs\.msg\._string\.Metaclass_String'>$"):
+        publisher.publish(String)
+
+
+@pytest.mark.parametrize("name", ["RMW_QOS_POLICY_RELIABILITY_NONE", "RELIABLEE"])
+def test_a_policy_that_there_is_not(name: str) -> None:
+    with pytest.raises(AttributeError, match=rf"\b{name}'?$"):
+        getattr(ReliabilityPolicy, name)
+
+
+@pytest.mark.parametrize("text", [5, None, ["a"]])
+def test_a_parameter_s_word_that_is_no_text(text: Any) -> None:
+    with pytest.raises(AttributeError, match="object has no attribute 'read'"):
+        get_parameter_value(text)
+
+
+def test_a_prefix_of_none(ros: Any) -> None:
+    with pytest.raises(TypeError, match="object of type 'NoneType' has no len"):
+        ros.node().get_parameters_by_prefix(None)
+
+
+def test_a_range_that_begins_with_nan_refuses_all(ros: Any) -> None:
+    nothing = FloatingPointRange(from_value=float("nan"), to_value=1.0)
+    with pytest.raises(InvalidParameterValueException, match=r"out of range Min: nan, Max: nan, value: 0\.5"):
+        ros.node().declare_parameter("p", 0.5, ParameterDescriptor(floating_point_range=[nothing]))
+
+
+def test_a_time_out_that_is_no_number_is_refused_at_once(ros: Any) -> None:
+    with pytest.raises(TypeError):
+        ros.node().create_client(Trigger, "t").wait_for_service("1")
+
+
+def test_the_parts_of_a_service_are_listed_before_they_are_imported() -> None:
+    from nav_msgs.srv import GetPlan
+
+    assert {"Event", "Request", "Response"} <= set(dir(GetPlan))

@@ -97,6 +97,7 @@ BRACES = "topic name must not have unmatched (unbalanced) curly braces '{}'"
         ("{a", (BRACES, 0)),
         ("a}", (BRACES, 1)),
         ("{a}}", (BRACES, 3)),
+        ("{~}", ("topic name must not have tilde '~' unless it is the first character", 1)),
         (
             "{a-b}",
             ("substitution name must not contain characters other than alphanumerics or '_'", 2),
