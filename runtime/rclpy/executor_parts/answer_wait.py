@@ -22,7 +22,7 @@ def wait_until_settled(future: Future[Any], context: Any, deadline_ns: int | Non
     if deadline_ns is not None:
         wakeup.wait(deadline_ns)
         return
-    forget = context.on_end(lambda: wakeup.set())  # a method would be held weakly, which costs more than this wait
+    forget = context.on_end(lambda: wakeup.set())  # noqa: PLW0108 -- a method would be held weakly, which takes longer
     try:
         wakeup.wait()
     finally:

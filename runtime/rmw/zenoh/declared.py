@@ -118,9 +118,7 @@ class Querier(Declared):
         super().__init__(session, declare)
         self._ask = ask
 
-    def get(
-        self, payload: bytes, attachment: bytes, replied: Received, done: Callable[[], None] | None = None
-    ) -> bool:
+    def get(self, payload: bytes, attachment: bytes, replied: Received, done: Callable[[], None] | None = None) -> bool:
         """Send a query; `replied` is called with each reply, and `done`, if given, after the last one or the timeout.
 
         Returns False if no query was sent because the session is closed or rejoining; then `done` is not called.
