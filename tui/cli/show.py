@@ -19,6 +19,7 @@ from bot_console.tui.cli.system.domain import (
     is_in_range,
     others_take_part,
     robot_there,
+    same_names_there,
     take_part,
     unusable_domain,
     why_alone,
@@ -47,8 +48,9 @@ def run(options: Options) -> int:
         return 1
     if not (alone or options.attach or options.launch) and others_take_part():
         _prepare(options)
-        there = robot_there()
-        if there and not _attach_instead(there):
+        robot = robot_there()
+        there = robot or same_names_there(options.launch_arguments)
+        if there and not _attach_instead(there, robot=bool(robot)):
             return 1
         options = replace(options, attach=bool(there))
     with ExitStack() as hosts:
@@ -112,13 +114,25 @@ def _host(options: Options) -> Host:
     return start_host(words, log=log)
 
 
-def _attach_instead(there: list[str]) -> bool:
-    """Ask whether to attach: two robots in one domain would obey each other's commands."""
+def _attach_instead(there: list[str], *, robot: bool) -> bool:
+    """Ask whether to attach to a robot, or to nodes that have names of ours.
+
+    Two robots in one domain would obey each other's commands, and two nodes of one name share their parameters and log.
+    """
+    from bot_console.runtime.workspace.own import NAME
+
     number = domain()
-    print(f"A robot runs already in ROS domain {number}: {', '.join(there)}.")
-    print(f"`ROS_DOMAIN_ID={number + 1} bot-console` starts another one apart from it.")
+    if robot:
+        print(f"A robot runs already in ROS domain {number}: {', '.join(there)}.")
+        print(f"`ROS_DOMAIN_ID={number + 1} bot-console` starts another one apart from it.")
+        question = "Attach the console to the one that runs? [Y/n] "
+    else:
+        print(f"Nodes named as our robot's run already in ROS domain {number}: {', '.join(there)}.")
+        print(f"`bot-console --launch {NAME} simulator.launch.py` gives them a simulated robot and nothing else,")
+        print(f"`ROS_DOMAIN_ID={number + 1} bot-console` starts ours apart from them.")
+        question = "Attach the console to them, without a robot? [Y/n] "
     try:
-        return input("Attach the console to the one that runs? [Y/n] ").strip().lower() in ("", "y", "yes")
+        return input(question).strip().lower() in ("", "y", "yes")
     except (EOFError, KeyboardInterrupt):
         print()
         return False

@@ -11,6 +11,7 @@ from bot_console.runtime.process import NodeProcess
 from bot_console.runtime.workspace.own import NAME
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.live import robot_beside
+from bot_console.tui.cli.system.domain import nodes_there
 from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH, launch_environment
 from bot_console.tui.console.launch.delayed import delayed_starts
 
@@ -55,8 +56,9 @@ class Launches:
         arguments = dict(options.launch_arguments)
         if not options.launch:
             arguments = {"profile": options.profile, **robot_beside.arguments(options), **arguments}
+        others = len(nodes_there())
         self._start(self._launch, self._file, arguments)
-        system = robot_beside.System(self._processes, _tell, self._start_robot)
+        system = robot_beside.System(self._processes, _tell, self._start_robot, others)
         self._looking = robot_beside.begin(options, system, self._clock)
 
     def on_end(self, call: Callable[[], None]) -> None:

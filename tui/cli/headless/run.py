@@ -19,7 +19,14 @@ from bot_console.runtime.importer import install
 from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.awake import wait_awake
-from bot_console.tui.cli.system.domain import domain, robot_there, run_apart, take_part, unusable_domain
+from bot_console.tui.cli.system.domain import (
+    domain,
+    robot_there,
+    run_apart,
+    same_names_there,
+    take_part,
+    unusable_domain,
+)
 from bot_console.tui.cli.system.named_launch import with_launch_file
 from bot_console.tui.cli.system.workspaces import choose
 
@@ -91,7 +98,7 @@ def simulated(options: Options, observer: Observer | None = None) -> tuple[dict[
 def _meet_others(options: Options) -> None:
     """Join the domain, unless another robot is in it: the two would obey each other's commands."""
     problem = take_part()
-    if not problem and not options.launch and (there := robot_there()):
+    if not problem and not options.launch and (there := robot_there() or same_names_there(options.launch_arguments)):
         run_apart()
         problem = f"a robot is in ROS domain {domain()} already ({', '.join(there)}), so this one runs apart"
     if problem:

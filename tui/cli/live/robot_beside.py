@@ -36,6 +36,8 @@ class System:
     """Put a line into the log."""
     start: Callable[[Mapping[str, str]], None]
     """Launch `LAUNCH_FILE` with arguments."""
+    others: int = 0
+    """Visible nodes that were in the domain before the launch; none of its processes has made them."""
 
 
 class RobotBeside:
@@ -81,7 +83,7 @@ class RobotBeside:
         self._seen = seen
         if self._delayed is not None:
             self._delayed += PERIOD
-        up = visible_nodes(node) >= running
+        up = running > 0 and visible_nodes(node) - self._system.others >= running
         if self._rested < (SETTLED if up else PATIENCE) or self.started:
             return
         why = robot_wanted(node)

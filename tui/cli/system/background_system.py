@@ -42,6 +42,7 @@ def _run(options: Options, file: Path) -> int:
     from bot_console.tui.cli.live.launch_host import serve
     from bot_console.tui.cli.live.launchers import launcher_here
     from bot_console.tui.cli.live.process_news import tell_news
+    from bot_console.tui.cli.system.domain import nodes_there
     from bot_console.tui.cli.system.rotating_file import rotate_launch_files
     from bot_console.tui.cli.system.system_log import SystemLog
     from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH
@@ -71,12 +72,13 @@ def _run(options: Options, file: Path) -> int:
     def start_robot(arguments: Mapping[str, str]) -> None:
         launcher.launch(robot_beside.LAUNCH_FILE, arguments)
 
+    others = len(nodes_there())
     answer = launcher.launch(options.launch or SYSTEM_LAUNCH, arguments).result()
     if not answer.ok:
         print(answer.text, file=sys.stderr)
         host.close()
         return 1
-    system = robot_beside.System(lambda: robot_beside.processes(launcher.info()), tell, start_robot)
+    system = robot_beside.System(lambda: robot_beside.processes(launcher.info()), tell, start_robot, others)
     looking = robot_beside.begin(options, system)
     serve(host, options.duration, forget)
     if looking is not None:

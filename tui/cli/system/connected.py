@@ -15,6 +15,7 @@ from bot_console.tui.cli.live.for_panes import for_panes
 from bot_console.tui.cli.live.launchers import ConsoleLauncher, embedded
 from bot_console.tui.cli.live.process_news import tell_news
 from bot_console.tui.cli.live.ros2_command_line import Ros2CommandLine
+from bot_console.tui.cli.system.domain import nodes_there
 from bot_console.tui.cli.system.plugins import find_plugins
 from bot_console.tui.cli.system.type_source import DomainTypes
 from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH, config_folders
@@ -94,8 +95,9 @@ class Connected:
         if options.attach:
             return
         if options.launch:
+            others = len(nodes_there())
             self.launcher.launch(options.launch, options.launch_arguments)
-            system = robot_beside.System(self._processes, self._tell, self._start_robot)
+            system = robot_beside.System(self._processes, self._tell, self._start_robot, others)
             self._looking = robot_beside.begin(options, system)
             return
         arguments = {"profile": options.profile, **robot_beside.arguments(options), **options.launch_arguments}

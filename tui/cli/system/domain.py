@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Mapping
 from typing import NoReturn
 
 from bot_console.runtime.domain_id import domain_id
@@ -115,6 +116,25 @@ def robot_there() -> list[str]:
     found += [end for each in tables for end in each.subscriptions.on(VELOCITY)]
     robots = (each.node for each in found if not each.node.name.startswith("_"))
     return sorted({each.full_name for each in robots})
+
+
+def nodes_there() -> list[str]:
+    """The full names of all nodes in the domain, without tools and consoles. To be called after `take_part`."""
+    from bot_console.runtime.rmw.middleware import bus_of
+
+    nodes = [each for table in bus_of(domain()).tables() for each in table.nodes()]
+    return sorted(each.full_name for each in nodes if not each.name.startswith("_"))
+
+
+def same_names_there(arguments: Mapping[str, str]) -> list[str]:
+    """The nodes of other processes that have names of our system's, launched with these arguments.
+
+    Parameters, logs and commands of two nodes of one name cannot be told apart. To be called like `robot_there`.
+    """
+    from bot_console.tui.cli.system.workspaces import NAVIGATOR, SYSTEM_NODES
+
+    ours = SYSTEM_NODES - {NAVIGATOR} if "navigator" in arguments else SYSTEM_NODES
+    return sorted(ours.intersection(nodes_there())) if others_take_part() else []
 
 
 def domain() -> int:

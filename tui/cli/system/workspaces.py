@@ -16,6 +16,19 @@ PROGRAM_LAUNCH = ROOT / "launch" / "program.launch.py"
 """Runs what a person has named, which is not ours."""
 SYSTEM_LAUNCH = str(ROOT / "launch" / "robot_system.launch.py")
 """What `bot-console` starts."""
+SYSTEM_NODES = frozenset(
+    (
+        "/motion_controller",
+        "/robot_navigator",
+        "/safety_monitor",
+        "/sensor_handler",
+        "/simulator",
+        "/telemetry_publisher",
+    )
+)
+"""The nodes of `SYSTEM_LAUNCH`, by their full names."""
+NAVIGATOR = "/robot_navigator"
+"""The one of them that the launch argument `navigator` replaces or leaves out."""
 
 
 def choose(folders: Sequence[Path]) -> None:

@@ -6,6 +6,7 @@ import threading
 from dataclasses import replace
 from pathlib import Path
 
+from bot_console.tui.cli.system.workspaces import SYSTEM_NODES
 from bot_console.tui.cli.tune.pool import CAN_FORK, Pool
 from bot_console.tui.cli.tune.saving import save_profile
 from bot_console.tui.console.answer import Answer
@@ -15,19 +16,6 @@ from bot_console.tui.tuning.dial import Setting
 from bot_console.tui.tuning.journal import Journal
 from bot_console.tui.tuning.question import Question
 from bot_console.tui.tuning.study import Progress, Study
-
-SIMULATED = frozenset(
-    f"/{each}"
-    for each in (
-        "robot_navigator",
-        "sensor_handler",
-        "safety_monitor",
-        "motion_controller",
-        "telemetry_publisher",
-        "simulator",
-    )
-)
-"""The nodes that a run has."""
 
 
 class LocalTuner:
@@ -42,7 +30,7 @@ class LocalTuner:
         """Why a question cannot be answered; empty when it can."""
         if not CAN_FORK:
             return "this system cannot fork processes, which runs side by side need"
-        strange = [each.label for each in question.dials if each.node not in SIMULATED]
+        strange = [each.label for each in question.dials if each.node not in SYSTEM_NODES]
         if strange:
             return f"{', '.join(strange)}: only nodes of the robot that comes along are in the simulated runs"
         return question.problem()

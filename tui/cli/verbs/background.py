@@ -18,7 +18,7 @@ from pathlib import Path
 from bot_console.runtime.process.session_end import end_session
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import RANGE_VARIABLE
 from bot_console.tui.cli.system.background_system import SWITCH
-from bot_console.tui.cli.system.domain import domain, frozen, is_in_range, robot_there, take_part
+from bot_console.tui.cli.system.domain import domain, frozen, is_in_range, robot_there, same_names_there, take_part
 from bot_console.tui.cli.system.named_launch import with_launch_file
 from bot_console.tui.cli.system.one_start import one_start
 from bot_console.tui.cli.system.system_log import new_log
@@ -71,7 +71,8 @@ def up(words: Sequence[str]) -> int:
     if problem := problem or alone:
         print(problem, file=sys.stderr)
         return 1
-    robot = [] if options.launch or _known() else robot_there()
+    apart = options.launch or _known()
+    robot = [] if apart else robot_there() or same_names_there(options.launch_arguments)
     with one_start(_file().with_name("background.lock"), STARTING) as got:
         there = _known()
         if not got or there or robot:

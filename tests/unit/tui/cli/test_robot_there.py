@@ -1,9 +1,11 @@
 """What counts as a robot that is there already: whoever gives scans or obeys velocities, and no console."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from bot_console.runtime.rmw.zenoh.domain import sockets
@@ -44,6 +46,34 @@ def test_who_gives_scans_and_who_obeys_velocities_are(made):
     made("lidar").create_publisher(LaserScan, "/scan", 10)
     made("base").create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
     assert domain.robot_there() == ["/base", "/lidar"]
+
+
+def test_nodes_named_as_ours_are_named_however_they_talk(made):
+    made("robot_navigator"), made("sensor_handler"), made("chatter"), made("_safety_monitor")
+    assert domain.nodes_there() == ["/chatter", "/robot_navigator", "/sensor_handler"]
+    assert domain.same_names_there({}) == ["/robot_navigator", "/sensor_handler"]
+    assert domain.same_names_there({"navigator": "mine.py"}) == ["/sensor_handler"]
+
+
+def test_those_names_are_the_ones_of_our_launch_file():
+    from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH, SYSTEM_NODES
+
+    names = re.findall(r'(?:robot_node\("\w+", |name=)"(\w+)"', Path(SYSTEM_LAUNCH).read_text())
+    only_with_goals = {"bt_navigator"}
+    assert {f"/{each}" for each in {*names, "robot_navigator", "simulator"} - only_with_goals} == SYSTEM_NODES
+
+
+@pytest.mark.parametrize(("typed", "attached"), [("", True), ("n", False)])
+def test_the_question_before_a_second_node_of_one_name(monkeypatch, capsys, typed, attached):
+    from bot_console.tui.cli import show
+
+    asked = []
+    monkeypatch.setattr("builtins.input", lambda question: asked.append(question) or typed)
+    assert show._attach_instead(["/robot_navigator"], robot=False) is attached
+    told = capsys.readouterr().out
+    assert "Nodes named as our robot's run already" in told and "/robot_navigator" in told
+    assert "bot-console --launch bot_console_robot simulator.launch.py" in told
+    assert asked == ["Attach the console to them, without a robot? [Y/n] "]
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="states of processes are read from /proc")
