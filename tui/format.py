@@ -11,6 +11,7 @@ from bot_console.tui.console.parameter_types import ARRAYS
 from bot_console.tui.text.shown import brief as brief
 from bot_console.tui.text.shown import counted as counted
 from bot_console.tui.text.shown import cut as cut
+from bot_console.tui.text.shown import cut_name as cut_name
 from bot_console.tui.text.shown import harmless as harmless
 from bot_console.tui.text.yaml_flow import in_quotes, is_plain, items, quoted, unquoted
 

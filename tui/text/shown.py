@@ -43,6 +43,17 @@ def cut(text: str, width: int, *, pad: bool = False) -> str:
     return text + " " * (width - cell_len(text)) if pad else text
 
 
+def cut_name(name: str, width: int, *, pad: bool = False) -> str:
+    """A ROS name of at most so many cells; a longer one loses its middle, since both ends tell it from others."""
+    if cell_len(name) > width >= 3:
+        before = (width - 1) // 3
+        end = len(name)
+        while cell_len(name[end - 1 :]) <= width - 1 - before:
+            end -= 1
+        name = set_cell_size(name, before) + "…" + name[end:]
+    return cut(name, width, pad=pad)
+
+
 def brief(text: str) -> str:
     """A text for a notification: its first lines, harmless, and how many more there are."""
     lines = [harmless(line) for line in cut(text, MOST_LETTERS).splitlines()]

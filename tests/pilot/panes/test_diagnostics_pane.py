@@ -32,6 +32,18 @@ def test_the_tree_shows_levels_by_word_and_the_worst_upwards() -> None:
     run(live(), play, (100, 30))
 
 
+def test_that_nothing_reports_is_said_in_whole() -> None:
+    async def play(session: Session) -> None:
+        session.console.sights.info = Diagnostics()
+        await session.press("M")
+        session.pane(DiagnosticsPane).tick()
+        await session.settle()
+        said = " ".join(" ".join(each.rpartition("│ ")[2].strip(" │") for each in session.lines()).split())
+        assert "No node publishes diagnostics (diagnostic_msgs/msg/DiagnosticArray) yet." in said
+
+    run(live(), play, (120, 40))
+
+
 def test_what_comes_is_shown_when_time_goes_on_and_what_is_silent_turns_stale() -> None:
     async def play(session: Session) -> None:
         await session.press("M", "w")

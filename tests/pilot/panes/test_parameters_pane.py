@@ -201,7 +201,13 @@ def test_default_undo_redo_fold_and_filters() -> None:
         assert ("undo",) in session.console.asked and ("redo",) in session.console.asked
         await session.press("C")
         assert all(row.parameter is None for row in rows(session).rows)
-        await session.press("C", "slash")
+        await session.press("slash")
+        await session.type("max_speed")
+        await session.press("enter", "escape")
+        at = rows(session).current
+        assert at and at.name == "max_speed", "what was found is seen without the filter, though its node was closed"
+        assert any(row.folded and row.node == "/simulator" for row in rows(session).rows)
+        await session.press("C", "C", "slash")
         await session.type("lidar")
         assert {row.node for row in rows(session).rows} == {"/simulator"}
         await session.press("enter")

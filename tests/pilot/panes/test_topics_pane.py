@@ -104,6 +104,27 @@ def test_the_newest_message_is_a_tree_that_freezes_and_folds() -> None:
     run(live(), play, SIZE)
 
 
+def test_names_beside_a_message_lose_their_middle_and_the_one_that_is_open_stands_out() -> None:
+    deep = [f"/cell_3/perception/front/left/camera/{each}" for each in ("colour/image_raw", "depth/image_raw", "info")]
+    topics = tuple(Endpoint(each, ("std_msgs/msg/Float64",)) for each in deep)
+
+    async def play(session: Session) -> None:
+        session.console.change(graph=GraphInfo((NodeInfo("/n", topics),), topics))
+        await opened(session)
+        await at(session, deep[1])
+        await session.press("enter")
+        left = [each.partition("│")[2].split()[0] for each in session.lines() if "/cell_3" in each][:3]
+        assert len(set(left)) == 3 and all(each.startswith("/cell_3") for each in left), left
+        assert [each.rpartition("/")[2] for each in left] == ["image_raw", "image_raw", "info"]
+        assert session.pane(TopicRows).opened == deep[1]
+        name, other = (session.pane(TopicRows).row(at, 45)[2] for at in (1, 0))
+        assert name.style and name.style.bold and name.style != other.style
+        await session.press("escape")
+        assert not session.pane(TopicRows).opened
+
+    run(live(), play, (120, 40))
+
+
 def test_a_field_at_the_cursor_is_plotted() -> None:
     async def play(session: Session) -> None:
         session.console.series["/cmd_vel/linear.x"] = ([1.0], [1.0])

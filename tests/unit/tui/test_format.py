@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from bot_console.tui.format import brief, cut
+from bot_console.tui.format import brief, cut, cut_name
+from rich.cells import cell_len
 
 
 def test_what_is_cut_ends_in_an_ellipsis() -> None:
@@ -15,3 +16,10 @@ def test_a_notification_is_a_few_lines() -> None:
     many = brief("\n".join(f"parameter {each}" for each in range(399)))
     assert many.splitlines()[-1] == "... and 394 lines more" and len(many.splitlines()) == 6
     assert len(brief("x" * 10_000)) == 400
+
+
+def test_a_long_name_keeps_both_ends() -> None:
+    assert cut_name("/a/b", 4) == "/a/b" and cut_name("/a/b", 6, pad=True) == "/a/b  "
+    assert cut_name("/robot_1/camera/image_raw", 16) == "/robo…/image_raw"
+    assert all(cell_len(cut_name("/robot_1/camera/image_raw", width)) <= width for width in range(30))
+    assert cell_len(cut_name("/日本語/日本語日本語", 9, pad=True)) == 9

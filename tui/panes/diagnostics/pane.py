@@ -100,7 +100,9 @@ class DiagnosticsPane(ListPane):
         self._describe()
 
     def _describe(self) -> None:
-        self.query_one("#diagnostics-detail", Words).say(self._details(self._list.current))
+        row, detail = self._list.current, self.query_one("#diagnostics-detail", Words)
+        detail.set_class(row is None, "sentence")
+        detail.say(self._details(row))
 
     def _details(self, row: Row | None) -> Text:
         if row is None:

@@ -10,6 +10,9 @@ class NodeNames:
 
     def __init__(self) -> None:
         self._names: dict[str, str] = {}
+        self.longest = 0
+        """Letters of the longest of them."""
+
         self._graph: GraphInfo | None = None
 
     def learn(self, graph: GraphInfo) -> bool:
@@ -18,6 +21,7 @@ class NodeNames:
             return False
         self._graph, before = graph, len(self._names)
         self._names.update({each.name.strip("/").replace("/", "."): each.name for each in graph.nodes})
+        self.longest = max(map(len, self._names.values()), default=0)
         return len(self._names) > before
 
     def of(self, logger: str) -> str:

@@ -16,6 +16,9 @@ from rich.segment import Segment
 STYLES = {Severity.DEBUG: "dim", Severity.WARN: "warn", Severity.ERROR: "error", Severity.FATAL: "error"}
 NODE, WIDE_NODE, PLACE = 18, 22, 26
 """Cells of a node's name, where there is room for it, and of the place in the code."""
+
+WITH_PLACE, MORE_NODE = 150, 20
+"""Cells of a line from which it has the place in the code; a node's name has up to so many more of those beyond."""
 MARK = "▌"
 """Stands before the text of a line that a rule highlights: not every terminal has colours."""
 
@@ -106,22 +109,31 @@ class LogRows(RowList):
         colour = self.rules.colour_of(record)
         name = f"log-rows--{colour}" if colour else f"row-list--{STYLES.get(record.severity, '')}"
         style = self.part_style(name) if colour or record.severity in STYLES else None
-        text = line_text(record, self.names.of(record.node), width, self.numbers.count(index), marked=bool(colour))
+        text = line_text(
+            record,
+            self.names.of(record.node),
+            width,
+            self.names.longest,
+            self.numbers.count(index),
+            marked=bool(colour),
+        )
         return [Segment(text, style)]
 
 
-def line_text(record: LogRecord, node: str, width: int, count: int = 1, *, marked: bool = False) -> str:
+def line_text(
+    record: LogRecord, node: str, width: int, longest: int = 0, count: int = 1, *, marked: bool = False
+) -> str:
     """A record on one line: without the time where there is little room, with its place where there is much.
 
-    The end of a node's name says most.
+    The end of a node's name says most. Where there is much room it has what the `longest` of all needs (letters).
 
     `count` is how many equal records the line stands for, `marked` whether a rule highlights it.
     """
     time = f"{clock_text(record.stamp)} " if width >= 70 else ""
-    room = NODE if width < 110 else WIDE_NODE
+    room = NODE if width < 110 else WIDE_NODE + max(0, min(MORE_NODE, (width - WITH_PLACE) // 2, longest - WIDE_NODE))
     node = harmless(node)
     node = "…" + node[1 - room :] if len(node) > room else node
-    place = f" {cut(_place(record), PLACE, pad=True)}" if width >= 150 else ""
+    place = f" {cut(_place(record), PLACE, pad=True)}" if width >= WITH_PLACE else ""
     times = f"x{count} " if count > 1 else ""
     text = harmless(record.text[: 4 * width])
     return f"{time}{LETTERS[record.severity]} {cut(node, room, pad=True)}{place}{MARK if marked else ' '}{times}{text}"

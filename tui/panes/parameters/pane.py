@@ -17,7 +17,7 @@ from bot_console.tui.kept import LAST_FILE
 from bot_console.tui.panes.parameters.details import details
 from bot_console.tui.panes.parameters.edit_pane import EditPane
 from bot_console.tui.panes.parameters.memory import At, Left, left_of
-from bot_console.tui.panes.parameters.rows import Row, TreeRows, View, namesake
+from bot_console.tui.panes.parameters.rows import Row, TreeRows, View, namesake, opened
 from bot_console.tui.panes.parameters.staging import Key
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.widgets.prompt.line import Prompt
@@ -247,15 +247,21 @@ class ParametersPane(EditPane):
 
     def filter_is(self, words: str) -> None:
         """Show the parameters that pass; the cursor goes to one that is called like the last word."""
-        self._view = replace(self._view, query=parse(words), folded_matches=frozenset())
-        self._arrange()
+        self._look(replace(self._view, query=parse(words), folded_matches=frozenset()))
         at = namesake(self._list.rows, words.rpartition(" ")[2], self._list.cursor)
         if at is not None:
             self._list.cursor = at
 
     def action_toggle_changed(self) -> None:
         """Only what differs from its default, or all."""
-        self._view = replace(self._view, only_changed=not self._view.only_changed, folded_matches=frozenset())
+        self._look(replace(self._view, only_changed=not self._view.only_changed, folded_matches=frozenset()))
+
+    def _look(self, view: View) -> None:
+        """Show something else; the parameter at the cursor, which a filter has found, is seen without it, too."""
+        parameter = self._at()
+        if parameter is not None and not view.filtering and self._view.filtering:
+            view = replace(view, folded=opened(view.folded, parameter.node, parameter.name))
+        self._view = view
         self._arrange()
 
     def action_toggle_built_in(self) -> None:

@@ -57,6 +57,17 @@ class View:
         return self.folded_matches if self.filtering else self.folded
 
 
+def opened(folded: Collection[str], node: str, name: str) -> frozenset[str]:
+    """What is closed once a parameter is to be seen: without its namespaces, its node and its groups."""
+
+    def holds(fold: str) -> bool:
+        if fold.startswith(f"{node}:"):
+            return name.startswith(fold.removeprefix(f"{node}:"))
+        return fold == node or (fold.endswith("/") and node.startswith(fold))
+
+    return frozenset(each for each in folded if not holds(each))
+
+
 class TreeRows:
     """Makes rows; those of a node whose parameters and view are the same objects as before are not made anew."""
 

@@ -135,12 +135,13 @@ def _pad(state: Steering) -> list[Line]:
         cells = list("─" * width if row == down else " " * width)
         cells[across] = "┼" if row == down else "│"
         edge = " left    │" if row == down else " " * WORDS + "│"
+        end = "│ right" if row == down else "│"
         if row != y:
-            lines.append(((" " + edge[:WORDS] + "│" + "".join(cells) + "│", "dim"),))
+            lines.append(((" " + edge[:WORDS] + "│" + "".join(cells) + end, "dim"),))
             continue
         moving = bool(state.linear or state.angular)
         lines.append(((" " + edge[:WORDS] + "│" + "".join(cells[:x]), "dim"), ("●", "accent" if moving else "strong"),
-                      ("".join(cells[x + 1 :]) + "│", "dim")))  # fmt: skip
+                      ("".join(cells[x + 1 :]) + end, "dim")))  # fmt: skip
     return [*lines, ((" " * (WORDS + 1) + "╰" + "backward".center(width, "─") + "╯", "dim"),)]
 
 

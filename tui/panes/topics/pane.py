@@ -251,13 +251,15 @@ class TopicsPane(ListPane):
         self._topic, self._frozen, self._shown = topic, False, LiveMessage()
         self._looked_at_message = 0.0
         self._message.show_fields(())
+        self._list.opened = topic
         self.add_class("opened")
         self._look_at_message(self.clock())
         self.focus_target()
         self.call_after_refresh(self._laid_out)
 
     def _close(self) -> None:
-        self._topic, self._looked_at_message = "", 0.0
+        self._topic = self._list.opened = ""
+        self._looked_at_message = 0.0
         self.console.traffic.listen("")
         self.remove_class("opened")
         self.focus_target()

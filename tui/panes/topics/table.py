@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from bot_console.tui.console.traffic import Goal, Measure, Repeated
-from bot_console.tui.format import cut, harmless
+from bot_console.tui.format import cut, cut_name, harmless
 from bot_console.tui.panes.topics.rows import Kind, Row
 from bot_console.tui.text.figures import age_text, amount_text, rate_text, span_text, steady
 from bot_console.tui.widgets.item_list import ItemList
@@ -18,6 +18,9 @@ ENDS, RATE, AMOUNT, AGE, LATENCY = 6, 6, 8, 7, 8
 """Cells of the columns of figures, their gaps included."""
 NAME = 14
 """Cells that a name has at least."""
+
+WIDE = 56
+"""Cells from which all figures are shown, even if names are cut; below, only the rate where they would be."""
 QOS = 32
 
 
@@ -28,6 +31,9 @@ class Columns:
     name: int
     type: int
     figures: bool
+    amounts: bool
+    """Whether there are more figures than the rate."""
+
     latency: bool
     qos: int
 
@@ -37,13 +43,14 @@ def columns(rows: Sequence[Row], kind: Kind, width: int) -> Columns:
     longest = max((cell_len(harmless(each.name)) + 3 for each in rows), default=NAME)
     figures = kind is Kind.TOPICS
     latency = figures and width >= 90
-    room = width - ENDS - (RATE + AMOUNT + AGE if figures else 0) - (LATENCY if latency else 0)
+    amounts = figures and (width >= WIDE or longest <= width - ENDS - RATE - AMOUNT - AGE)
+    room = width - ENDS - (RATE * figures) - (AMOUNT + AGE) * amounts - LATENCY * latency
     name = max(NAME, min(longest, room))
     left = room - name
     types = min(max((cell_len(_short(each.type)) + 2 for each in rows), default=0), left) if left >= 12 else 0
     qos = QOS if figures and left - types >= QOS else 0
     rest = left - types - qos
-    return Columns(name + (0 if types else rest), types + (rest if types else 0), figures, latency, qos)
+    return Columns(name + (0 if types else rest), types + (rest if types else 0), figures, amounts, latency, qos)
 
 
 def heading(shown: Columns, kind: Kind) -> str:
@@ -51,7 +58,9 @@ def heading(shown: Columns, kind: Kind) -> str:
     ends = "pub/sub" if kind is Kind.TOPICS else "srv/cli"
     text = cut("  " + kind.value[:-1], shown.name - 2, pad=True) + f"{ends:>{ENDS + 2}}"
     if shown.figures:
-        text += f"{'Hz':>{RATE}}{'per s':>{AMOUNT}}{'age':>{AGE}}"
+        text += f"{'Hz':>{RATE}}"
+    if shown.amounts:
+        text += f"{'per s':>{AMOUNT}}{'age':>{AGE}}"
     if shown.latency:
         text += f"{'latency':>{LATENCY}}"
     if shown.type:
@@ -72,6 +81,9 @@ class TopicRows(ItemList[Row]):
         self.kind = Kind.TOPICS
         self.repeated: Mapping[str, Repeated] = {}
         self.goals: Mapping[str, Goal] = {}
+        self.opened = ""
+        """Whose message stands beside the list."""
+
         self._measured: dict[str, Measure] = {}
         self._texts: dict[str, str] = {}
         self._columns: tuple[object, Columns] | None = None
@@ -102,7 +114,7 @@ class TopicRows(ItemList[Row]):
         top = self.scroll_offset.y
         for index in range(top, min(len(self.rows), top + self.size.height)):
             name = self.rows[index].name
-            text = self._figures(name, latency=True) + self._mark(name)
+            text = self._figures(name, amounts=True, latency=True) + self._mark(name)
             if self._texts.get(name) != text:
                 self._texts[name] = text
                 self.row_changed(index)
@@ -115,9 +127,11 @@ class TopicRows(ItemList[Row]):
         goal = self.goals.get(name)
         return "▶" if name in self.repeated or (goal is not None and goal.active) else " "
 
-    def _figures(self, name: str, *, latency: bool) -> str:
+    def _figures(self, name: str, *, amounts: bool, latency: bool) -> str:
         known = self._measured.get(name, Measure())
-        text = f"{rate_text(known.rate):>{RATE}}{amount_text(known.bandwidth):>{AMOUNT}}{age_text(known.age):>{AGE}}"
+        text = f"{rate_text(known.rate):>{RATE}}"
+        if amounts:
+            text += f"{amount_text(known.bandwidth):>{AMOUNT}}{age_text(known.age):>{AGE}}"
         return text + (f"{span_text(known.latency):>{LATENCY}}" if latency else "")
 
     def row(self, index: int, width: int) -> list[Segment]:
@@ -125,15 +139,16 @@ class TopicRows(ItemList[Row]):
         row, shown = self.rows[index], self.columns(width)
         style = self._style("warn") if row.problem else None
         mark = self._mark(row.name)
+        open_ = row.name == self.opened
         ends = f"{len(row.gives)}/{len(row.takes)}"
         segments = [
             Segment(mark, self._style("good")),
             Segment("!" if row.problem else " ", style),
-            Segment(cut(harmless(row.name), shown.name - 2, pad=True), style),
+            Segment(cut_name(harmless(row.name), shown.name - 2, pad=True), self._style("head") if open_ else style),
             Segment(f"{ends:>{ENDS}}", style or (self._style("dim") if not row.takes else None)),
         ]
         if shown.figures:
-            segments.append(Segment(self._figures(row.name, latency=shown.latency)))
+            segments.append(Segment(self._figures(row.name, amounts=shown.amounts, latency=shown.latency)))
         if shown.type:
             segments.append(Segment(cut("  " + _short(row.type), shown.type, pad=True), self._style("dim")))
         if shown.qos:

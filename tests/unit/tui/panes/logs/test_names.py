@@ -34,6 +34,16 @@ def test_a_long_name_keeps_its_end_behind_an_ellipsis() -> None:
     assert "/talker            hello" in line_text(record, "/talker", 60)
 
 
+def test_a_wide_line_has_more_room_for_the_name() -> None:
+    names, name = NodeNames(), "/cell_3/robots/arm_left/controller"
+    record = LogRecord(0, 0, Severity.INFO, "x", "hello")
+    names.learn(GraphInfo((NodeInfo(name),)))
+    assert name not in line_text(record, name, 150, names.longest)
+    assert f"{name} " in line_text(record, name, 190, names.longest)
+    short = line_text(record, "/talker", 190, len("/talker"))
+    assert short == line_text(record, "/talker", 190), "where no name needs it there is no gap"
+
+
 def test_a_wide_line_has_the_place_in_the_code() -> None:
     record = LogRecord(0, 0, Severity.INFO, "x", "hello", "/ws/src/nav/nav.py", "turn", 42)
     assert "nav.py" not in line_text(record, "/talker", 149)

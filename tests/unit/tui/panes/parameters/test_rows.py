@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Value
 from bot_console.tui.console.query import parse
-from bot_console.tui.panes.parameters.rows import TreeRows, View, matches, namesake, rows
+from bot_console.tui.panes.parameters.rows import TreeRows, View, matches, namesake, opened, rows
 
 
 def tree(node: str, *names: str) -> ParameterTree:
@@ -57,6 +57,11 @@ def test_what_a_filter_finds_is_seen_however_the_tree_was_left() -> None:
     changed = trees(ParameterTree("/n", (ParameterInfo("/n", "a", Kind.DOUBLE, 2.0, default=1.0),)), tree("/m", "b"))
     assert drawn(changed, View(only_changed=True, folded=frozenset({"/n"}))) == ["/n", "  a"]
     assert drawn(changed, replace(closed, query=parse(""))) == ["/m", "  b", "/n"]
+
+
+def test_to_see_a_parameter_what_it_stands_in_is_opened_and_nothing_else() -> None:
+    closed = {"/a/", "/a/b/", "/a/n", "/a/n:pid.", "/a/n:pid.x.", "/a/n:pid.y.", "/a/nearby", "/n"}
+    assert opened(closed, "/a/n", "pid.x.kp") == {"/a/b/", "/a/n:pid.y.", "/a/nearby", "/n"}
 
 
 def test_a_filter_is_counted_against_what_is_shown_without_it() -> None:
