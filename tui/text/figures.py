@@ -22,6 +22,13 @@ def rate_text(rate: float | None) -> str:
     return f"{rate:.2f}" if rate < 1 else f"{rate:.1f}" if rate < 20 else f"{rate:.0f}"
 
 
+def coarse_rate(rate: float | None) -> str:
+    """Format a rate coarsely, so that the picture is not redrawn for small changes."""
+    if rate is None:
+        return ""
+    return f"{rate:.1f} Hz" if rate < 9.5 else f"{rate:.2g} Hz" if rate < 95 else f"{rate:.0f} Hz"
+
+
 def amount_text(amount: float | None) -> str:
     """An amount of bytes per second, in powers of a thousand."""
     if amount is None:

@@ -259,6 +259,28 @@ def test_many_nodes_are_folded_by_themselves() -> None:
     run(live(), play, (120, 40))
 
 
+def test_of_a_large_namespace_the_namespaces_in_it_are_drawn_first() -> None:
+    names = [f"/fleet/robot_{at % 10}/{part}_{at}" for at in range(100) for part in ("nav", "lidar")]
+    nodes = tuple(NodeInfo(each) for each in names)
+
+    async def play(session: Session) -> None:
+        session.console.change(graph=GraphInfo((*nodes, NodeInfo("/cell/a"), NodeInfo("/cell/b"))))
+        await session.press("3")
+        assert items(session) == {"namespace:/fleet", "namespace:/cell"}
+        picture(session).choose("namespace:/fleet")
+        await session.press("enter")
+        robots = {f"namespace:/fleet/robot_{at}" for at in range(10)}
+        assert items(session) == {"namespace:/cell", *robots}
+        assert picture(session).selected == "namespace:/fleet/robot_0"
+        await session.press("enter")
+        assert "/fleet/robot_0/nav_0" in items(session) and "namespace:/fleet/robot_1" in items(session)
+        session.console.change(graph=GraphInfo(nodes))
+        await session.press("F", "F")
+        assert items(session) == robots, "a single box for everything says nothing"
+
+    run(live(), play, (120, 40))
+
+
 def test_topics_that_alone_make_it_too_large_are_left_out_until_they_are_asked_for() -> None:
     nodes = tuple(
         NodeInfo(f"/s{at % 5}/n{at}", (Endpoint(f"/t{at}", ("a/msg/B",)),), (Endpoint(f"/t{at - 1}", ("a/msg/B",)),))

@@ -15,13 +15,28 @@ def namespace_of(node: str) -> str:
     return node.rpartition("/")[0]
 
 
-def outermost(nodes: Iterable[str]) -> frozenset[str]:
-    """The top-level namespaces with enough nodes for a box."""
+def outermost(nodes: Iterable[str], above: str = "") -> frozenset[str]:
+    """The namespaces directly below one, or below the root, with enough nodes for a box.
+
+    A single box for everything says nothing: where one namespace holds all nodes, those in it stand for them.
+    """
+    below = [each for each in nodes if each.startswith(f"{above}/")]
     counts: dict[str, int] = {}
-    for node in nodes:
-        space = "/" + node.split("/")[1] if node.count("/") > 1 else ""
-        counts[space] = counts.get(space, 0) + 1
-    return frozenset(space for space, count in counts.items() if space and count >= FEWEST)
+    for node in below:
+        first, deeper, _ = node.removeprefix(f"{above}/").partition("/")
+        if deeper:
+            space = f"{above}/{first}"
+            counts[space] = counts.get(space, 0) + 1
+    found = frozenset(space for space, count in counts.items() if count >= FEWEST)
+    if len(found) == 1 and counts[space := next(iter(found))] == len(below):
+        return outermost(below, space) or found
+    return found
+
+
+def unfolded(folded: frozenset[str], space: str, nodes: Iterable[str], most: int) -> frozenset[str]:
+    """What is folded once a namespace is not: if it has more than `most` nodes, the namespaces in it."""
+    inside = [each for each in nodes if each.startswith(f"{space}/")]
+    return folded - {space} | (outermost(inside, space) if len(inside) > most else frozenset[str]())
 
 
 def box_of(node: str, folded: Collection[str]) -> str:

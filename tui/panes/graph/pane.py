@@ -21,7 +21,7 @@ from bot_console.tui.panes.graph.details import ITEM, PANE, TYPE, details, findi
 from bot_console.tui.panes.graph.export import exported
 from bot_console.tui.panes.graph.frames import FramesView
 from bot_console.tui.panes.graph.journey import Journey
-from bot_console.tui.panes.graph.namespaces import SPACE, namespace_of, outermost
+from bot_console.tui.panes.graph.namespaces import SPACE, namespace_of, outermost, unfolded
 from bot_console.tui.panes.graph.view import (
     ACTION,
     SERVICE,
@@ -36,6 +36,7 @@ from bot_console.tui.panes.graph.view import (
 )
 from bot_console.tui.panes.graph.view_state import KEPT, ViewState, view_state_of
 from bot_console.tui.panes.pane import Pane
+from bot_console.tui.text.figures import coarse_rate
 from bot_console.tui.widgets.diagram_view import LARGE, DiagramView
 from bot_console.tui.widgets.prompt.filtered import Narrowed
 from bot_console.tui.widgets.prompt.line import Prompt
@@ -129,11 +130,15 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             self._problem = snapshot.problem
             self._draw()
 
+    @property
+    def _nodes(self) -> list[str]:
+        return [each.name for each in (self._info or GraphInfo()).nodes if not each.hidden]
+
     def _draw(self) -> None:
         info = self._info
         if info is None:
             return
-        nodes = [each.name for each in info.nodes if not each.hidden]
+        nodes = self._nodes
         folded = self._folds if self._folds is not None else outermost(nodes) if len(nodes) > MANY else frozenset[str]()
         self._view = replace(self._view, folded=folded, focus=self._journey.now)
         if self._mode is None and len(nodes) > MANY and self._fits_without_topics(info):
@@ -184,7 +189,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         topics = [each.id.removeprefix(TOPIC) for each in self._shown.graph.items if each.id.startswith(TOPIC)]
         self.console.traffic.measure(topics, "graph")
         known = self.console.traffic.measured()
-        rates = {topic: _rate(known[topic].rate) for topic in topics if topic in known}
+        rates = {topic: coarse_rate(known[topic].rate) for topic in topics if topic in known}
         if rates != self._rates:
             self._rates = rates
             self._draw()
@@ -351,14 +356,13 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         if not space:
             self.notify("It is in no namespace." if closed else "Only a folded namespace can be unfolded.")
             return
-        self._folds = folded | {space} if closed else folded - {space}
+        self._folds = folded | {space} if closed else unfolded(folded, space, self._nodes, MANY)
         self._draw()
-        self._picture.choose(SPACE + space)
+        self._picture.choose(SPACE + min(self._folds - folded, default=space))
 
     def action_fold_all(self) -> None:
         """Fold every namespace, or unfold all."""
-        nodes = [each.name for each in (self._info or GraphInfo()).nodes if not each.hidden]
-        self._folds = frozenset() if self._view.folded else outermost(nodes)
+        self._folds = frozenset() if self._view.folded else outermost(self._nodes)
         if not self._folds and not self._view.folded:
             self.notify("No namespace has two nodes or more.")
         self._draw()
@@ -391,10 +395,3 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         whole = shown(self._info or GraphInfo(), replace(self._view, short=False, whole=True), self._rates or {})
         save_file(path, exported(whole.graph, self._picture.drawing, path.suffix))
         return Answer(True, f"graph saved to {path}")
-
-
-def _rate(rate: float | None) -> str:
-    """Format a rate coarsely, so that the picture is not redrawn for small changes."""
-    if rate is None:
-        return ""
-    return f"{rate:.1f} Hz" if rate < 9.5 else f"{rate:.2g} Hz" if rate < 95 else f"{rate:.0f} Hz"
