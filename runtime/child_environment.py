@@ -60,11 +60,11 @@ class ChildEnvironment:
         """The folder of stand-ins; a package that has come to the workspace since the last process gets one now."""
         folder = self._folder / "python"
         folder.mkdir(exist_ok=True)
-        folders = [str(Path(__file__).absolute().parents[2]), *_dependencies()]
-        for name in embedded_names():
-            if name not in self._stood_in:
-                (folder / f"{name}.py").write_text(STAND_IN.format(name=name, folders=folders))
-                self._stood_in.add(name)
+        new = [each for each in embedded_names() if each not in self._stood_in]
+        folders = [str(Path(__file__).absolute().parents[2]), *_dependencies()] if new else []
+        for name in new:
+            (folder / f"{name}.py").write_text(STAND_IN.format(name=name, folders=folders))
+        self._stood_in.update(new)
         return folder
 
 

@@ -10,6 +10,7 @@ import importlib
 import os
 import sys
 from collections.abc import Sequence
+from functools import cache
 from importlib.machinery import ModuleSpec, PathFinder
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
@@ -131,8 +132,13 @@ def is_embedded(name: str) -> bool:
 
 def embedded_names() -> list[str]:
     """All top-level names that `install` leads somewhere: the runtime's, ours, the workspace's interfaces."""
-    generated = (each.name for each in os.scandir(GENERATED) if each.is_dir())
-    return sorted({*PACKAGES, *generated, *OWN_PACKAGES, DEMOS, *interface_folders()})
+    return sorted({*PACKAGES, *_generated(), *OWN_PACKAGES, DEMOS, *interface_folders()})
+
+
+@cache
+def _generated() -> tuple[str, ...]:
+    with os.scandir(GENERATED) as listed:
+        return tuple(each.name for each in listed if each.is_dir())
 
 
 def node_modules(folders: Sequence[str | os.PathLike[str]] = ()) -> FreshModules:

@@ -15,6 +15,7 @@ from bot_console.runtime.process.fork_server import ForkServer, function_named
 
 CAN_FORK = hasattr(os, "fork")
 WARM_UP = "bot_console.runtime.warm_up:warm_up"
+PREPARE = "bot_console.runtime.needed_imports:import_needed"
 
 _guard = threading.Lock()
 _beginnings: list[str] = []
@@ -25,8 +26,13 @@ def fork_server() -> ForkServer:
     """The fork server of this process, started when it is first asked for, and anew when it was killed."""
     with _guard:
         if not _servers or not _servers[0].is_alive:
-            _servers[:] = [ForkServer(WARM_UP)]
+            _servers[:] = [ForkServer(WARM_UP, PREPARE)]
         return _servers[0]
+
+
+def fork_off_server() -> None:
+    """Start the fork server as a fork of this process, which has just begun: it has one thread and no session."""
+    _servers[:] = [ForkServer(WARM_UP, PREPARE, from_here=True)]  # without the lock, which would be held in the fork
 
 
 def close_fork_server() -> None:

@@ -7,10 +7,25 @@ from bot_console.runtime.importer import install
 INTERFACES = ("action_msgs", "builtin_interfaces", "geometry_msgs", "nav_msgs", "rcl_interfaces", "sensor_msgs",
               "std_msgs", "std_srvs", "tf2_msgs")  # fmt: skip
 """Those whose messages, services and actions most nodes import."""
-MODULES = ("numpy", "rclpy.action", "rclpy.executors", "rclpy.qos", "bot_console.runtime.own_processes",
+MODULES = ("rclpy.executors", "rclpy.qos", "bot_console.runtime.own_processes",
            "bot_console.runtime.workspace.launched", "bot_console.runtime.rosidl.cdr_read",
            "bot_console.runtime.rosidl.cdr_write", "bot_console.runtime.rmw.zenoh.bus",
            "bot_console.runtime.rmw.zenoh.domain.domain_bus", "bot_console.runtime.rmw.zenoh.domain.mesh")  # fmt: skip
+
+
+SHARED = ("rclpy.validate_node_name", "bot_console.runtime.workspace.launched")
+"""What a launch imports as well."""
+
+
+def import_shared() -> None:
+    """Import what the server and its parent both need, before the one is forked from the other."""
+    import gc
+    import importlib
+
+    gc.disable()  # what is imported stays
+    install()
+    for name in SHARED:
+        importlib.import_module(name)
 
 
 def warm_up() -> None:

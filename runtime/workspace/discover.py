@@ -17,7 +17,7 @@ from bot_console.runtime.workspace.package import Package, read_package
 from bot_console.runtime.workspace.share import share_folder
 
 IGNORED = frozenset({"build", "install", "log", "node_modules", "__pycache__", "venv", "site-packages"})
-MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
+MARKERS = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 DEPTH = 6
 SOURCED_VARIABLE = "BOT_CONSOLE_WORKSPACE"
 """The workspaces whose `install/setup.bash` a shell has sourced, joined by colons; the last one sourced is first."""
@@ -49,8 +49,8 @@ class Workspace:
         found: dict[str, Package] = {}
         budget = [FOLDERS]
         for folder in self.folders:
-            for each in _package_folders(folder, DEPTH, budget):
-                package = read_package(each)
+            for each in _package_folders(os.fspath(folder), DEPTH, budget):
+                package = read_package(Path(each))
                 found.setdefault(package.name, package)
         found.setdefault(NAME, own_package())
         return MappingProxyType({**demo_packages(), **found})
@@ -91,28 +91,32 @@ def default_folders(start: Path) -> tuple[Path, ...]:
     return (start, start / "src") if (start / "src").is_dir() else (start,)
 
 
-def _package_folders(folder: Path, depth: int, budget: list[int]) -> Iterator[Path]:
-    """Folders with a `package.xml`, as colcon finds them: not below another package, not where told to ignore."""
+def _package_folders(folder: str, depth: int, budget: list[int]) -> Iterator[str]:
+    """Folders with a `package.xml`, as colcon finds them: not below another package, not where told to ignore.
+
+    Each folder is read once, and no paths are made of it: a launch waits for this.
+    """
     budget[0] -= 1
     if budget[0] == 0:
         _warn_of_size(folder)
-    if budget[0] <= 0 or any(os.path.exists(folder / marker) for marker in MARKERS):
-        return
-    if os.path.isfile(folder / "package.xml"):
-        yield folder
-        return
-    if depth == 0:
+    if budget[0] <= 0:
         return
     try:
-        below = sorted(Path(each.path) for each in os.scandir(folder) if each.is_dir(follow_symlinks=False))
+        with os.scandir(folder) as listed:
+            entries = {each.name: each for each in listed}
     except OSError:
         return
-    for each in below:
-        if each.name not in IGNORED and not each.name.startswith("."):
-            yield from _package_folders(each, depth - 1, budget)
+    if any(os.path.exists(entries[marker]) for marker in MARKERS & entries.keys()):
+        return
+    if "package.xml" in entries and entries["package.xml"].is_file():
+        yield folder
+    elif depth:
+        below = (name for name, each in entries.items() if each.is_dir(follow_symlinks=False))
+        for name in sorted(each for each in below if each not in IGNORED and not each.startswith(".")):
+            yield from _package_folders(os.path.join(folder, name), depth - 1, budget)
 
 
-def _warn_of_size(folder: Path) -> None:
+def _warn_of_size(folder: str) -> None:
     print(
         f"[WARN] [bot-console]: more than {FOLDERS} folders; packages are not looked for from {folder} on. "
         "Start in the workspace itself, or name it with --workspace",

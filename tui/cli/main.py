@@ -92,7 +92,16 @@ def program() -> NoReturn:
     """The entry point of the process."""
     from bot_console.runtime.terse import told
 
-    end_program(told(main))
+    end_program(told(_program))
+
+
+def _program() -> int:
+    words = sys.argv[2:] if sys.argv[1:2] == ["ros2"] else sys.argv[1:]
+    if words[:1] == ["launch"]:
+        from bot_console.tui.cli.system.own_processes import foresee
+
+        foresee(words[1:], from_here=True)
+    return main()
 
 
 def _has_screen() -> bool:

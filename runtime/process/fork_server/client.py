@@ -9,6 +9,7 @@ import sys
 import threading
 
 from . import wire
+from .fork_off import Fork
 from .job import Job
 
 CODE = """\
@@ -16,9 +17,11 @@ import sys
 if sys.path[:1] == [""]:
     sys.path.pop(0)
 from bot_console.runtime.process.fork_server.main import main
-main({descriptor}, {warm_up!r})
+main({descriptor}, {warm_up!r}, {prepare!r})
 """
 """The working directory is removed from `sys.path`: a user's `random.py` is for the user's nodes."""
+ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1"}
+"""OpenBLAS starts threads on import; a fork loses them, and may hang."""
 END_S = 12.0
 """Seconds the server may take to end its children: both steps of its escalation plus a margin."""
 
@@ -26,21 +29,17 @@ END_S = 12.0
 class ForkServer:
     """A fork server of this process. Thread-safe."""
 
-    def __init__(self, warm_up: str) -> None:
-        """`warm_up` names a function, `package.module:function`; it must leave no thread and no open socket behind."""
-        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
-        self._connection = ours
+    def __init__(self, warm_up: str, prepare: str = "", *, from_here: bool = False) -> None:
+        """`warm_up` names a function, `package.module:function`; it must leave no thread and no open socket behind.
+
+        So must `prepare`, which the server calls with each job before it forks the child. The server is a new
+        interpreter, or a fork `from_here`: of this process, which must have one thread only.
+        """
+        self._connection, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
         self._lock = threading.Lock()
+        start = _forked if from_here else _interpreter
         with theirs:
-            self._process = subprocess.Popen(
-                [sys.executable, "-c", CODE.format(descriptor=theirs.fileno(), warm_up=warm_up)],
-                stdin=subprocess.DEVNULL,
-                pass_fds=[theirs.fileno()],
-                # OpenBLAS starts threads on import; a fork loses them, and may hang.
-                env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
-                # Ctrl-C in the terminal is for the parent, which then ends what it has started.
-                start_new_session=True,
-            )
+            self._process = start(self._connection, theirs, warm_up, prepare)
         self.pid = self._process.pid
 
     @property
@@ -75,3 +74,29 @@ class ForkServer:
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
+
+
+def _interpreter(_: socket.socket, connection: socket.socket, warm_up: str, prepare: str) -> subprocess.Popen[bytes]:
+    code = CODE.format(descriptor=connection.fileno(), warm_up=warm_up, prepare=prepare)
+    return subprocess.Popen(
+        [sys.executable, "-c", code],
+        stdin=subprocess.DEVNULL,
+        pass_fds=[connection.fileno()],
+        env={**os.environ, **ENVIRONMENT},
+        # Ctrl-C in the terminal is for the parent, which then ends what it has started.
+        start_new_session=True,
+    )
+
+
+def _forked(parents: socket.socket, connection: socket.socket, warm_up: str, prepare: str) -> Fork:
+    descriptor = connection.fileno()
+
+    def serve() -> None:
+        parents.detach()
+        connection.detach()
+        os.environ.update(ENVIRONMENT)
+        from .main import main
+
+        main(descriptor, warm_up, prepare)
+
+    return Fork(serve, descriptor)

@@ -6,23 +6,28 @@ import gc
 import socket
 
 from .ending import run_to_end
-from .job import function_named
+from .job import Job, function_named
 from .server import Birth, Server
 from .start import become, let_signals_in
 
 
-def main(descriptor: int, warm_up: str) -> None:
+def main(descriptor: int, warm_up: str, prepare: str) -> None:
     """Serve the parent at the other end of a socket; in each child, run its program."""
+    gc.disable()  # nearly all that is made here stays
     function_named(warm_up)()
     gc.collect()
-    gc.freeze()  # objects that the collector never touches are not copied into each child
-    birth = Server(socket.socket(fileno=descriptor)).serve()
+    birth = Server(socket.socket(fileno=descriptor), function_named(prepare) if prepare else _nothing).serve()
     if birth is None:
         return
     run_to_end(lambda: _live(birth))
 
 
+def _nothing(_job: Job) -> None:
+    return
+
+
 def _live(birth: Birth) -> None:
+    gc.enable()
     program = become(birth)
     let_signals_in()
     program()

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import select
 import signal
 import socket
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from . import orphans, wire
@@ -37,6 +38,8 @@ class Server:
     """Serves one parent until the parent is gone."""
 
     parent: socket.socket
+    prepare: Callable[[Job], object]
+    """Called with each job before the fork, to import what its program needs."""
     _children: dict[int, int] = field(default_factory=dict[int, int])
     """The report descriptor of each child, by pid."""
     _sessions: set[int] = field(default_factory=set[int])
@@ -86,6 +89,8 @@ class Server:
         data, descriptors = request
         *given, report = descriptors
         job = Job.from_bytes(data)
+        self.prepare(job)
+        gc.freeze()  # objects that the collector never touches are not copied into each child
         # Until the child has its own handlers, a signal to it would run those of the server.
         signal.pthread_sigmask(signal.SIG_BLOCK, HELD_BACK)
         try:

@@ -5,13 +5,15 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
-from bot_console.runtime.own_processes import CAN_FORK, begin_children_with, fork_server
+from bot_console.runtime.own_processes import CAN_FORK, begin_children_with, fork_off_server, fork_server
 from bot_console.runtime.process.current import MAIN
+from bot_console.runtime.process.fork_server import has_one_thread
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.process.watch.busy_watch import busy_watch
 from bot_console.runtime.process.watch.lock_watch import LockWatch
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
+from bot_console.runtime.warm_up import import_shared
 
 SHARE = f"{share_domains.__module__}:{share_domains.__name__}"
 
@@ -20,12 +22,19 @@ STARTS_NOTHING = {"-h", "--help", "-p", "--print", "--print-description", "-s", 
 """Words of `launch` with which it needs no process."""
 
 
-def foresee(words: Sequence[str]) -> None:
-    """Start the fork server early for a `launch` with these arguments: it warms up while the launch file is read."""
+def foresee(words: Sequence[str], *, from_here: bool = False) -> None:
+    """Start the fork server early for a `launch` with these arguments: it warms up while the launch file is read.
+
+    `from_here`, in a program that has just begun, it is a fork of this process where that is possible.
+    """
     places = [each for each in words if not each.startswith("-") and ":=" not in each]
     names_file = len(places) > 1 or any(map(os.path.isfile, places))
     if CAN_FORK and is_in_range() and names_file and not STARTS_NOTHING.intersection(words):
-        fork_server()
+        if from_here and has_one_thread():
+            import_shared()
+            fork_off_server()
+        else:
+            fork_server()
 
 
 def isolate() -> None:

@@ -26,6 +26,7 @@ def test_it_starts_at_once(words: list[str], starts: bool, tmp_path: Path, monke
     started: list[bool] = []
     monkeypatch.setattr(own_processes, "CAN_FORK", True)
     monkeypatch.setattr(own_processes, "fork_server", lambda: started.append(True))
+    monkeypatch.setattr(own_processes, "fork_off_server", lambda: pytest.fail("this process goes on with its threads"))
     own_processes.foresee([each.format(file=file) for each in words])
     assert bool(started) is starts
     started.clear()

@@ -1,0 +1,109 @@
+"""Fork the server from its parent: it needs no start of an interpreter, and shares what the parent has imported."""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+import traceback
+from collections.abc import Callable
+from types import ModuleType
+from typing import NoReturn
+
+DESCRIPTORS = "/dev/fd"
+"""Where Linux and macOS list the open descriptors of a process."""
+
+
+def has_one_thread() -> bool:
+    """Whether this process may be forked and go on in both: a fork has only the thread that called it."""
+    alone = threading.active_count() == 1 and threading.current_thread() is threading.main_thread()
+    try:
+        return alone and len(os.listdir("/proc/self/task")) == 1  # libraries have threads that Python does not know
+    except OSError:
+        return alone
+
+
+class Fork:
+    """A fork of this process, with as much of `subprocess.Popen` as a parent of the server needs. Thread-safe."""
+
+    def __init__(self, serve: Callable[[], object], kept: int) -> None:
+        """Let the fork call `serve()` and end. Of all descriptors it has its output and `kept`."""
+        for stream in (sys.stdout, sys.stderr):
+            with contextlib.suppress(OSError, ValueError):  # what is left in their buffers would be written twice
+                stream.flush()
+        self._lock = threading.Lock()
+        self.returncode: int | None = None
+        # Ctrl-C is for the parent, and in the fork nobody would take it before `setsid`.
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+        self.pid = os.fork()
+        if self.pid == 0:
+            _live(serve, kept, before)
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+    def poll(self) -> int | None:
+        """The exit code; None while it runs."""
+        with self._lock:
+            if self.returncode is None:
+                try:
+                    pid, status = os.waitpid(self.pid, os.WNOHANG)
+                except ChildProcessError:  # somebody else has waited for every child
+                    self.returncode = 0
+                else:
+                    self.returncode = os.waitstatus_to_exitcode(status) if pid else None
+            return self.returncode
+
+    def wait(self, timeout: float | None = None) -> int:
+        """Wait for the end; raises `subprocess.TimeoutExpired` after `timeout` (s)."""
+        deadline, pause = time.monotonic() + (float("inf") if timeout is None else timeout), 0.0005
+        while (code := self.poll()) is None:
+            left = deadline - time.monotonic()
+            if left <= 0:
+                raise subprocess.TimeoutExpired("fork server", timeout or 0.0)
+            pause = min(pause * 2, left, 0.05)
+            time.sleep(pause)
+        return code
+
+    def kill(self) -> None:
+        """Kill it, if it has not ended."""
+        if self.poll() is None:
+            os.kill(self.pid, signal.SIGKILL)
+
+
+def _live(serve: Callable[[], object], kept: int, signals: set[signal.Signals] | set[int]) -> NoReturn:
+    """In the fork: drop what belongs to the parent's program, and serve."""
+    code = 1
+    try:
+        os.setsid()
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # until it serves; drops one that came before `setsid`
+        signal.pthread_sigmask(signal.SIG_SETMASK, signals)
+        _close_all_but(kept)
+        _forget_the_program()
+        serve()
+        code = 0
+    except BaseException:  # nothing may return into the parent's program
+        traceback.print_exc()
+    finally:
+        os._exit(code)
+
+
+def _close_all_but(kept: int) -> None:
+    nothing = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nothing, 0)
+    for name in os.listdir(DESCRIPTORS):
+        if int(name) > 2 and int(name) != kept:
+            with contextlib.suppress(OSError):  # that of the listing
+                os.close(int(name))
+
+
+def _forget_the_program() -> None:
+    """Programs of the children neither end as the parent's does, nor import modules that lie beside it."""
+    atexit._clear()  # pyright: ignore[reportPrivateUsage] -- has no other name
+    sys.modules["__main__"] = ModuleType("__main__")  # `multiprocessing` would import the parent's once more
+    beside = ("", os.getcwd(), os.path.dirname(os.path.realpath(sys.argv[0])))
+    if sys.path and sys.path[0] in beside and not getattr(sys.flags, "safe_path", sys.flags.isolated):
+        sys.path.pop(0)

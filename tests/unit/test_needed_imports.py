@@ -1,0 +1,74 @@
+"""What the fork server imports for a program before it forks: NumPy for all that may need it, and for nothing else."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+if not hasattr(os, "fork"):
+    pytest.skip("needs fork", allow_module_level=True)
+
+from bot_console.runtime.own_processes import PREPARE
+from bot_console.runtime.process.fork_server import ForkServer, Job
+
+PLAIN = "bot_console.runtime.importer:install"
+ENDS = "import sys\nprint(sorted(each for each in ('numpy', 'tf2_ros') if each in sys.modules))\nraise SystemExit\n"
+
+
+def imported(folder: Path, function: str, arguments: list[object]) -> str:
+    """What a process has at its first line."""
+    server = ForkServer(PLAIN, PREPARE)
+    taken, given = os.pipe()
+    null = os.open(os.devnull, os.O_RDWR)
+    try:
+        words = ([], f"bot_console.runtime.workspace.launched:{function}", arguments)
+        job = Job("x", "bot_console.runtime.own_processes:begun", words, ["x"], {}, str(folder))
+        os.close(server.start(job, stdin=null, stdout=given, stderr=2, data=null))
+        os.close(given)
+        with os.fdopen(taken) as output:
+            return output.read().strip()
+    finally:
+        os.close(null)
+        server.close()
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("import rclpy, json\nfrom rclpy.node import Node\nfrom std_msgs.msg import String, Header", []),
+        ("from sensor_msgs.msg import LaserScan\nfrom geometry_msgs.msg import Twist", []),
+        ("from std_srvs.srv import Trigger", []),
+        ("import math\nimport numpy as np", ["numpy"]),
+        ("def f():\n    import cv2", ["numpy"]),
+        ("from nav_msgs.msg import Odometry", ["numpy"]),
+        ("from nav_msgs import msg", ["numpy"]),
+        ("import helpers", ["numpy"]),
+        ("from . import helpers", ["numpy"]),
+        ("from std_msgs.msg import Unknown", ["numpy"]),
+        ("from rclpy.action import ActionClient", ["numpy"]),
+        ("import tf2_ros", ["tf2_ros"]),
+        ("from rclpy.nowhere import nothing\nimport numpy", ["numpy"]),
+        ("import numpy\n1 +", []),
+    ],
+)
+def test_numpy_is_there_for_a_file_that_may_need_it(text: str, wanted: list[str], tmp_path: Path) -> None:
+    file = tmp_path / "node.py"
+    if text.endswith("+"):
+        file.write_text(text)
+        assert imported(tmp_path, "python_file", [[], str(file), [], False]) == ""
+        return
+    file.write_text(ENDS + text)
+    assert imported(tmp_path, "python_file", [[], str(file), [], False]) == str(wanted)
+
+
+def test_the_file_of_an_entry_point_and_a_program_without_one(tmp_path: Path) -> None:
+    (tmp_path / "a").mkdir()
+    (tmp_path / "a" / "b.py").write_text("import json\n\n\ndef main():\n    " + ENDS.replace("\n", "\n    "))
+    assert imported(tmp_path, "entry_point", [[], "a.b:main", [str(tmp_path)]]) == "[]"
+    (tmp_path / "a" / "c.py").write_text((tmp_path / "a" / "b.py").read_text() + "\nimport numpy.linalg")
+    assert imported(tmp_path, "entry_point", [[], "a.c:main", [str(tmp_path)]]) == "['numpy']"
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    assert imported(elsewhere, "entry_point", [[], "json.tool:main", [str(tmp_path)]]) == ""
