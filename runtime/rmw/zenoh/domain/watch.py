@@ -19,7 +19,14 @@ from typing import Protocol
 from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, is_stopped, live_sockets, sockets
 
 PERIOD = 1.0
-"""How often the folder is checked, in s."""
+"""How often the own socket is checked, in s."""
+
+LOOK = 5.0
+"""How often the other processes are checked at most, in s.
+
+Many that start together are then looked at and asked once: when each of fifty did so once a second while the others
+were starting, that was a fifth of what all of them cost.
+"""
 
 GRACE = 15.0
 """How long another process may have no link, or a link without any answer, before that counts as a fault, in s: links
@@ -80,6 +87,7 @@ class Watch:
         self._clock = clock
         self._ended = threading.Event()
         self._looked_at: tuple[int, int] | None = None
+        self._next_look = 0.0
         self._is_calm = False
         self._cut: set[str] = set()
         self._answered: set[Identity] = set()
@@ -117,12 +125,15 @@ class Watch:
             os.lstat(own.path)
         except FileNotFoundError:
             return True
+        now = self._clock()
+        if now < self._next_look:
+            return False
         before, self._looked_at = self._looked_at, (state.st_ino, state.st_mtime_ns)
         if self._is_calm and not self._cut and self._looked_at == before:
             return False
+        self._next_look = now + LOOK
         found = sockets(os.path.dirname(own.path))
         without = self._without_link(found)
-        now = self._clock()
         self._since = {each: self._since.get(each, now) for each in self._running(without)}
         busy = slowness()
         due = {each for each, since in self._since.items() if now - since >= self._grace(each) * busy}
@@ -150,8 +161,10 @@ class Watch:
     def _ask(self, due: set[Identity]) -> None:
         """Query the linked processes; with the longer timeout if some of them are about to be given up."""
         linked = {zid[:8] for zid in self._session.linked()}
-        if any(zid in linked for zid, _ in self._since):
-            answered = self._session.attendance("*", PATIENCE_AT_LAST if due else PATIENCE)
+        asked = {zid for zid, _ in self._since if zid in linked}
+        if asked:
+            who = "*" if len(asked) > 1 else min(asked)  # by a single one, fifty others need not answer
+            answered = self._session.attendance(who, PATIENCE_AT_LAST if due else PATIENCE)
             self._answered |= {each for each in self._since if each[0] in answered}
 
     def _still_lost(self, folder: str) -> bool:
@@ -165,6 +178,7 @@ class Watch:
         self._opened_anew += bool(lost)
         self._answered.clear()
         self._since.clear()
+        self._next_look = 0.0
         self._is_calm = False
         return bool(lost) or self._session.socket not in live
 

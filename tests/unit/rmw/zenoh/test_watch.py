@@ -23,7 +23,7 @@ class FakeSession:
         self.socket = Socket(os.path.join(folder, f"1.{OWN}"), 1, OWN)
         self.links: set[str] = set()
         self.answering: set[str] = set()
-        self.questions = 0
+        self.asked: list[str] = []
         self.changed: Callable[[str, bool], None] = lambda zid, there: None
 
     def linked(self) -> set[str]:
@@ -34,7 +34,7 @@ class FakeSession:
         return self
 
     def attendance(self, who: str, timeout: float) -> set[str]:
-        self.questions += 1
+        self.asked.append(who)
         return self.answering & self.links
 
     def rejoin(self, needed: Callable[[str], bool]) -> None:
@@ -95,7 +95,20 @@ def test_a_link_that_answers_is_asked_once_and_left_alone(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=True)
     assert bench.opened_anew(1000) == 0
-    assert bench.session.questions == 1
+    assert bench.session.asked == [OTHER]
+
+
+def test_those_that_start_within_seconds_are_asked_together_and_a_later_one_alone(bench: Bench) -> None:
+    for number in range(4):
+        bench.appear(10 + number, f"{number}" * 8)
+        bench.links(f"{number}" * 8, answers=True)
+        assert bench.opened_anew(1) == 0
+    bench.opened_anew(100)
+    assert bench.session.asked == ["*"]
+    bench.appear(2, OTHER)
+    bench.links(OTHER, answers=True)
+    bench.opened_anew(100)
+    assert bench.session.asked == ["*", OTHER]
 
 
 def test_one_that_is_gone_at_once_is_not_asked(bench: Bench) -> None:
@@ -104,7 +117,7 @@ def test_one_that_is_gone_at_once_is_not_asked(bench: Bench) -> None:
     bench.opened_anew(1)
     os.unlink(os.path.join(bench.folder, f"2.{OTHER}"))
     bench.opened_anew(100)
-    assert bench.session.questions == 0
+    assert bench.session.asked == []
 
 
 def test_a_link_that_carries_nothing_is_mended_after_the_grace(bench: Bench) -> None:
