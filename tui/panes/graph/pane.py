@@ -131,14 +131,14 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             self._draw()
 
     @property
-    def _nodes(self) -> list[str]:
+    def _visible(self) -> list[str]:
         return [each.name for each in (self._info or GraphInfo()).nodes if not each.hidden]
 
     def _draw(self) -> None:
         info = self._info
         if info is None:
             return
-        nodes = self._nodes
+        nodes = self._visible
         folded = self._folds if self._folds is not None else outermost(nodes) if len(nodes) > MANY else frozenset[str]()
         self._view = replace(self._view, folded=folded, focus=self._journey.now)
         if self._mode is None and len(nodes) > MANY and self._fits_without_topics(info):
@@ -356,13 +356,13 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         if not space:
             self.notify("It is in no namespace." if closed else "Only a folded namespace can be unfolded.")
             return
-        self._folds = folded | {space} if closed else unfolded(folded, space, self._nodes, MANY)
+        self._folds = folded | {space} if closed else unfolded(folded, space, self._visible, MANY)
         self._draw()
         self._picture.choose(SPACE + min(self._folds - folded, default=space))
 
     def action_fold_all(self) -> None:
         """Fold every namespace, or unfold all."""
-        self._folds = frozenset() if self._view.folded else outermost(self._nodes)
+        self._folds = frozenset() if self._view.folded else outermost(self._visible)
         if not self._folds and not self._view.folded:
             self.notify("No namespace has two nodes or more.")
         self._draw()
