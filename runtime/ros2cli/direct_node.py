@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from types import TracebackType
 from typing import Any, NamedTuple
 
 import rclpy
+from bot_console.runtime.rmw.endpoints import Owner
 from bot_console.runtime.rmw.names import full_name
-from rclpy._rclpy_pybind11 import NodeNameNonExistentError
+from rclpy._rclpy_pybind11 import InvalidHandle, NodeNameNonExistentError
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
@@ -98,21 +100,44 @@ def absolute(name: str) -> str:
 
 
 def spin_until(node: Node, done: Callable[[], bool], timeout: float | None = None) -> bool:
-    """Spin the node until `done()` is true; returns False if that takes longer than `timeout` (s)."""
+    """Spin the node until `done()` is true; returns False if that takes longer than `timeout` (s).
+
+    It is asked after each callback, each change of the graph, and every 0.1 s.
+    """
+    if done():
+        return True
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     clock = Clock(clock_type=ClockType.STEADY_TIME)
     start = clock.now().nanoseconds
     try:
-        while not done():
-            left = None if timeout is None else timeout - (clock.now().nanoseconds - start) * 1e-9
-            if left is not None and left <= 0:
-                return False
-            executor.spin_once(timeout_sec=0.1 if left is None else min(0.1, left))
+        with _woken_by_graph(node):
+            while not done():
+                left = None if timeout is None else timeout - (clock.now().nanoseconds - start) * 1e-9
+                if left is not None and left <= 0:
+                    return False
+                executor.spin_once(timeout_sec=0.1 if left is None else min(0.1, left))
         return True
     finally:
         executor.remove_node(node)
         executor.shutdown(timeout_sec=0)
+
+
+@contextlib.contextmanager
+def _woken_by_graph(node: Node) -> Generator[None]:
+    """Let each change of the graph that the node learns of end a `spin_once`."""
+    guard = node.create_guard_condition(lambda: None)
+
+    def wake(owner: Owner) -> None:
+        with contextlib.suppress(InvalidHandle):  # the guard has just been destroyed
+            guard.trigger()
+
+    forget = node.context.bus.on_graph_change(wake)
+    try:
+        yield
+    finally:
+        forget()
+        node.destroy_guard_condition(guard)
 
 
 class NoAnswer(RuntimeError):

@@ -74,6 +74,13 @@ def test_call_waits_for_the_service(ros) -> None:
     assert ros.finish(waiting).stdout.endswith("AddTwoInts_Response(sum=2)\n\n")
 
 
+def test_a_service_that_appears_is_called_at_once(ros) -> None:
+    waiting = ros.ros2("service", "call", "/math/add", "example_interfaces/srv/AddTwoInts", "{a: 2}")
+    ros.run(1.02)
+    ros.node(SERVER, seconds=0.04)
+    assert waiting.exit == 0
+
+
 def test_call_again_and_again(ros) -> None:
     ros.node(SERVER)
     words = ("service", "call", "-r", "2", "/math/add", "example_interfaces/srv/AddTwoInts")
