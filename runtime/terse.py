@@ -61,6 +61,16 @@ def help_tells_faults() -> None:
     argparse.ArgumentParser._print_message = write  # pyright: ignore[reportPrivateUsage] -- where all help passes
 
 
+def help_is_english() -> None:
+    """Let parsers take their texts as they are: for each they would look for translations, of which Python has none.
+
+    That is a thirtieth of a short verb's time.
+    """
+    import argparse
+
+    argparse._ = str  # pyright: ignore[reportAttributeAccessIssue] -- what they ask for the translation of a text
+
+
 def is_read() -> bool:
     """Whether stderr is a terminal: what is said beyond the words of ROS 2 is for people alone."""
     return sys.stderr is not None and sys.stderr.isatty()

@@ -58,8 +58,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     if words == ["--version"]:
         print(f"bot-console {__version__}")
         return 0
-    from bot_console.runtime.terse import help_tells_faults
+    from bot_console.runtime.terse import help_is_english, help_tells_faults
 
+    help_is_english()
     help_tells_faults()
     if words and words[0] in ros2.VERBS:  # the quickest first
         return ros2.taking_part(words)

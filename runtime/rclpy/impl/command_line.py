@@ -17,7 +17,7 @@ from rclpy.impl.rcutils_logger import RcutilsLogger
 DEPRECATED = "Found remap rule '{0}'. This syntax is deprecated. Use '--ros-args --remap {0}' instead."
 NOT_OBEYED = "'{0}' stands outside of --ros-args and is left to the program. A parameter is set by --ros-args -p {0}"
 """rcl says nothing of it: `-p speed:=2.5` without the flag is a word like any other."""
-ASSIGNED = re.compile(r"[A-Za-z_][\w./]*:=.")
+ASSIGNED = r"[A-Za-z_][\w./]*:=."
 NO_LOG_CONFIG = "spdlog logging backend doesn't currently support external configuration"
 """Upstream's usual backend takes no file either; a program that gave one would not start there."""
 
@@ -37,7 +37,7 @@ def parse_global(words: Sequence[str]) -> Arguments:
         raise RCLError(f"failed to initialize logging: {NO_LOG_CONFIG}")
     state().obey(parsed)
     if is_read():
-        for word in filter(ASSIGNED.match, parsed.unparsed):
+        for word in (each for each in parsed.unparsed if re.match(ASSIGNED, each)):
             RcutilsLogger("rcl").warning(NOT_OBEYED.format(word))
     return parsed
 
