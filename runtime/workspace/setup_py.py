@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import ast
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from bot_console.runtime.workspace.setup_mistakes import first_mistake
 from bot_console.runtime.workspace.setup_values import Unreadable, Values, called
 
 PANES = "bot_console.panes"
@@ -60,7 +61,9 @@ def read_setup_py(folder: Path) -> SetupFile:
     reader = _Reader(folder, names)
     for statement in _statements(tree):
         reader.take(statement)
-    return reader.result()
+    read = reader.result()
+    mistake = "" if read.problem else first_mistake(tree)
+    return replace(read, problem=f"{path}: {mistake}") if mistake else read
 
 
 def _statements(tree: ast.Module) -> list[ast.stmt]:

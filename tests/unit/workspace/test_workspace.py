@@ -25,7 +25,7 @@ setup(
         ("share/" + package_name, ["package.xml"]),
         (os.path.join("share", package_name, "launch"), glob("launch/*.py")),
         (f"share/{package_name}/odd", glob("config/*.yaml")),
-        (unknown(), ["x"]),
+        (os.getcwd(), ["x"]),
     ],
     entry_points={"console_scripts": ["talker = demo.talker:main", "bare = demo.bare"]},
 )
