@@ -111,7 +111,9 @@ def print_exception(exception: BaseException) -> None:
     """Print an uncaught exception as the interpreter does, to the calling thread's `sys.stderr`."""
     trim(exception)
     hook = sys.excepthook
-    if hook is sys.__excepthook__:
+    if hook is sys.__excepthook__ and sys.stderr is not sys.__stderr__:
+        # The interpreter's own hook writes to the whole process's stream. Where that is meant, it is better: before
+        # Python 3.12 it alone adds `Did you mean`.
         import traceback
 
         traceback.print_exception(type(exception), exception, exception.__traceback__)

@@ -141,11 +141,11 @@ class Context:
             if callback is not None:
                 callback()
 
-    def on_shutdown(self, callback: Callable[[], Any]) -> Callable[[], None]:
-        """Register a callback for the shutdown, called at once if that is over; returns a function that removes it."""
+    def on_shutdown(self, callback: Callable[[], Any]) -> None:
+        """Register a callback for the shutdown, called at once if that is over."""
         if not callable(callback):
-            raise TypeError(f"callback should be a callable, got {type(callback)}")
-        return self._add(callback, "_callbacks")
+            raise TypeError("callback should be a callable, got {}", type(callback))  # a pair, as upstream
+        self._add(callback, "_callbacks")
 
     def on_end(self, wake: Callable[[], Any]) -> Callable[[], None]:
         """Register `wake` to be called when the context ends for any reason; returns a function that removes it."""

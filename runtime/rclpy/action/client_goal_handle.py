@@ -11,6 +11,8 @@ from rclpy.task import Future
 class ClientGoalHandle:
     """A goal that was sent and answered; `status` follows the server's status topic."""
 
+    __module__ = "rclpy.action.client"  # as upstream, where objects print it
+
     def __init__(self, action_client: Any, goal_id: Any, goal_response: Any) -> None:
         self._action_client = action_client
         self._goal_id = goal_id

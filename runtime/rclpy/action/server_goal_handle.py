@@ -16,6 +16,8 @@ class ServerGoalHandle:
     These three raise `RCLError` in a state that does not allow them, such as `canceled` without a cancel request.
     """
 
+    __module__ = "rclpy.action.server"  # as upstream, where objects print it
+
     def __init__(self, action_server: Any, goal_info: Any, goal_request: Any) -> None:
         self._action_server = action_server
         self._goal_info = goal_info

@@ -215,3 +215,20 @@ def test_the_parts_of_a_service_are_listed_before_they_are_imported() -> None:
     from nav_msgs.srv import GetPlan
 
     assert {"Event", "Request", "Response"} <= set(dir(GetPlan))
+
+
+def test_goals_print_the_module_that_they_are_imported_from() -> None:
+    from rclpy.action.client import ClientGoalHandle
+    from rclpy.action.server import ServerGoalHandle
+
+    assert str(ServerGoalHandle) == "<class 'rclpy.action.server.ServerGoalHandle'>"
+    assert str(ClientGoalHandle) == "<class 'rclpy.action.client.ClientGoalHandle'>"
+
+
+def test_what_is_called_at_the_shutdown_is_kept_without_an_answer() -> None:
+    context = Context()
+    answers: list[Any] = [context.on_shutdown(lambda: None)]
+    with pytest.raises(TypeError) as refused:
+        context.on_shutdown(5)  # type: ignore[arg-type]
+    assert answers == [None]
+    assert refused.value.args == ("callback should be a callable, got {}", int)
