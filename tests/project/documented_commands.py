@@ -106,7 +106,7 @@ def _ros2(words: list[str]) -> str:
     if command is None:
         return f"there is no command {words[0]}"
     parser = _top_parser()
-    _add(parser, command)
+    _add(parser, command, words)
     given = parser.parse_args(words)
     if words[0] == "launch" and given.package_name == PACKAGE:
         pairs = dict(each.split(":=", 1) for each in given.launch_arguments)
