@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable
 from typing import TextIO
 
+from bot_console.runtime.unwritable_log import LogFile
 from launch.logging import formats
 from launch.logging.formats import Format
 from launch.logging.log_directory import new_run_directory
@@ -120,7 +121,7 @@ class LaunchConfig:
         if file_name not in self._files:
             path = self.get_log_file_path(file_name)
             if self.log_handler_factory is logging.FileHandler:
-                handler: logging.Handler = logging.FileHandler(path, delay=True, encoding="utf-8")
+                handler: logging.Handler = LogFile(path, delay=True, encoding="utf-8")
             else:
                 handler = self.log_handler_factory(path, encoding="utf-8")
             chosen = Format.overridden(LOG_FORMAT, self._log_format)

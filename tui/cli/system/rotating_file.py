@@ -8,6 +8,8 @@ import os
 from logging.handlers import RotatingFileHandler
 from pathlib import Path
 
+from bot_console.runtime.unwritable_log import UnwritableLog
+
 STANDARD_STREAMS = (1, 2)
 LAUNCH_BYTES = 2_000_000
 """The size of a file of launch after which the next one begins."""
@@ -15,7 +17,7 @@ LAUNCH_PARTS = 1
 """Older parts of it that are kept."""
 
 
-class RotatingFile(RotatingFileHandler):
+class RotatingFile(UnwritableLog, RotatingFileHandler):
     """Writes to a file until it has `most_bytes`; rotated files are named `.1` (the newest) and up.
 
     Descriptors in `followed` that refer to the file are redirected to the new one on rotation: otherwise what this

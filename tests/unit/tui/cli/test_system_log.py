@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 
 import pytest
+from bot_console.runtime.process import on_notice
 from bot_console.tui.cli.system import system_log
 from bot_console.tui.cli.system.system_log import KEPT_PARTS, KEPT_SYSTEMS, SystemLog, new_log
 
@@ -39,3 +40,21 @@ def test_logs_of_old_systems_go_with_all_their_parts(tmp_path: Path, monkeypatch
     new_log(2)
     kept = {each.name for each in folder.iterdir()}
     assert kept == {f"{number}.log{part}" for number in range(3, KEPT_SYSTEMS + 2) for part in ("", ".1")}
+
+
+def test_one_that_cannot_be_written_says_so_once_and_never_by_itself(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    log, told = SystemLog(tmp_path / "a.log"), list[str]()
+    (tmp_path / "a.log").mkdir()
+
+    def notice(process: object, text: str) -> None:
+        told.append(text)
+        log.printed(30, "bot-console", text)
+
+    forget = on_notice(notice)
+    for number in range(3):
+        log.printed(20, "talker", f"line {number}")
+    forget()
+    assert told == [f"log files are not complete: {tmp_path} cannot be written (Is a directory)"]
+    assert capsys.readouterr().err == ""

@@ -1,0 +1,43 @@
+"""A log file that cannot be written, as on a full disk: told once, and nothing else stops for it."""
+
+from __future__ import annotations
+
+import logging
+import os
+import sys
+
+from bot_console.runtime.process import current
+from bot_console.runtime.process.notices import notify
+
+_told: set[str] = set()
+
+
+class UnwritableLog(logging.Handler):
+    """Mixin for a handler of a log file.
+
+    The standard library prints a traceback for each record instead. That ends in the same file where the standard
+    error stream is logged, and so never ends.
+    """
+
+    def handleError(self, record: logging.LogRecord) -> None:
+        """Give one notice per folder and reason; other mistakes are reported as usual."""
+        error = sys.exc_info()[1]
+        if not isinstance(error, OSError):
+            super().handleError(record)
+            return
+        folder = os.path.dirname(str(getattr(self, "baseFilename", "")))
+        text = f"log files are not complete: {folder} cannot be written ({error.strerror})"
+        if text not in _told:
+            _told.add(text)
+            notify(current(), text)
+
+
+class LogFile(UnwritableLog, logging.FileHandler):
+    """The standard library's log file, with that, also where it cannot be opened."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Write a record."""
+        try:
+            super().emit(record)
+        except OSError:
+            self.handleError(record)
