@@ -22,7 +22,7 @@ from bot_console.runtime.workspace.program import source_folders
 RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 
 STAND_IN = '''\
-"""Stands in for `{name}` until the embedded runtime is in place, and gives way to it."""
+"""Stands in for an embedded package until the embedded runtime is in place, and gives way to it."""
 
 import sys
 
@@ -61,11 +61,16 @@ class ChildEnvironment:
         folder = self._folder / "python"
         folder.mkdir(exist_ok=True)
         new = [each for each in embedded_names() if each not in self._stood_in]
-        folders = [str(Path(__file__).absolute().parents[2]), *_dependencies()] if new else []
-        for name in new:
-            (folder / f"{name}.py").write_text(STAND_IN.format(name=name, folders=folders))
+        for name in new:  # links, as writing so many files would take longer than starting a process
+            os.symlink(self._stand_in, folder / f"{name}.py")
         self._stood_in.update(new)
         return folder
+
+    @cached_property
+    def _stand_in(self) -> Path:
+        file = self._folder / "stand_in.py"
+        file.write_text(STAND_IN.format(folders=[str(Path(__file__).absolute().parents[2]), *_dependencies()]))
+        return file
 
 
 def _venv() -> list[str]:

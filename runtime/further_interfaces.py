@@ -9,7 +9,6 @@ import shutil
 from collections.abc import Iterator, Mapping
 from functools import cache
 from pathlib import Path
-from xml.etree import ElementTree
 
 from bot_console.runtime.user_folders import data_folder
 
@@ -68,6 +67,8 @@ def add(folder: Path) -> dict[str, list[str]]:
 
 def _packages(folder: Path) -> Iterator[tuple[str, Path]]:
     """Names and folders of the packages at or below a folder that define interfaces."""
+    from xml.etree import ElementTree
+
     for manifest in sorted(folder.rglob("package.xml")):
         if any(True for _ in _definitions(manifest.parent)):
             try:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Collection
 from typing import TYPE_CHECKING
 
@@ -38,6 +37,8 @@ class WarnOfUndeclaredArguments(Action):
         for name in self._names:
             if name in ALWAYS_KNOWN or name in context.declared_arguments or name in context.read_configurations:
                 continue
+            import difflib
+
             near = difflib.get_close_matches(name, sorted(context.declared_arguments), 1)
             hint = f"; did you mean '{near[0]}'?" if near else ""
             launch.logging.get_logger("launch").warning(

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
-from xml.etree import ElementTree
 
 from bot_console.runtime.workspace.cmake_lists import read_cmake_lists
 from bot_console.runtime.workspace.setup_cfg import read_setup_cfg
@@ -49,6 +48,8 @@ class Package:
 
 def read_package(folder: Path) -> Package:
     """Read the package in a folder that holds a `package.xml`."""
+    from xml.etree import ElementTree  # not for a launch without packages
+
     try:
         root = ElementTree.parse(folder / "package.xml").getroot()
     except (ElementTree.ParseError, OSError) as error:

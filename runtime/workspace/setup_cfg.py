@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import configparser
 from pathlib import Path
 
 from bot_console.runtime.workspace.setup_py import PANES, SetupFile, entry_lines
@@ -10,6 +9,8 @@ from bot_console.runtime.workspace.setup_py import PANES, SetupFile, entry_lines
 
 def read_setup_cfg(folder: Path) -> SetupFile:
     """Read `setup.cfg` of a package folder; an absent one says nothing. Raises `ValueError` with file and line."""
+    import configparser  # not for a launch without packages
+
     parser = configparser.ConfigParser(delimiters=("=",), interpolation=None)
     parser.optionxform = str  # type: ignore[assignment,method-assign] -- as the documentation of configparser has it
     try:
