@@ -31,6 +31,7 @@ def import_shared() -> None:
 def warm_up() -> None:
     """Import the runtime, and make and destroy one node. No thread and no session of a middleware stays."""
     import contextlib
+    import gc
     import importlib
 
     from bot_console.runtime.rmw.zenoh.session import preload
@@ -45,6 +46,7 @@ def warm_up() -> None:
         importlib.import_module(name)
     preload()
     gid_of("warm_up")  # which imports what hashes
+    gc.freeze()  # what was imported is no garbage: only what the node leaves behind has to be looked through
     _make_one_node()
 
 
