@@ -53,9 +53,9 @@ class Socket(NamedTuple):
         return is_stopped(self.pid)
 
     def remove(self) -> None:
-        """Remove the socket and its lock file."""
+        """Remove the socket and its lock file; what cannot be removed, as a folder of such a name, harms nobody."""
         for path in (self.path, self.lock):
-            with contextlib.suppress(FileNotFoundError):
+            with contextlib.suppress(OSError):
                 os.unlink(path)
 
 

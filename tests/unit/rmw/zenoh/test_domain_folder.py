@@ -109,3 +109,10 @@ except FolderRefusedError as error:
         f"{socket_folder} belongs to another user (uid 0): ask its owner to remove it; "
         "or set BOT_CONSOLE_SOCKET_DIR to another folder of yours",
     ]
+
+
+def test_a_folder_that_is_named_like_a_dead_socket_stops_nobody(socket_folder):
+    os.mkdir(os.path.join(domain_folder(7), "1.0123abcd"))
+    session = open_session(7)
+    assert os.path.exists(own_socket(domain_folder(7), session.zid).path)
+    session.close()
