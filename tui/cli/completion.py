@@ -43,7 +43,8 @@ def candidates(words: Sequence[str], names: Names | None = None) -> list[str]:
     *before, begun = words or [""]
     if before and before[0] == "ros2":
         before = before[1:]
-    return sorted({each for each in _offered(names or ShellNames(), before, begun) if each.startswith(begun)})
+    found = {each for each in _offered(names or ShellNames(), before, begun) if each.startswith(begun)}
+    return sorted(each for each in found if each != begun or not each.endswith(":="))  # its value comes next
 
 
 def _offered(names: Names, before: list[str], begun: str) -> Iterable[str]:
@@ -128,6 +129,17 @@ def _launch_files(names: Names, given: Sequence[str]) -> Iterable[str]:
     return [name for _, _, names in os.walk(share) for name in names if name.endswith(endings)]
 
 
+def _type_of(command: str) -> Source:
+    """The types of the topic, service or action named before; all types of interfaces if none is there."""
+    return lambda names, given: names.live(command, "type", given[0]) or names.asked("interface", "list")
+
+
+def _launch_arguments(names: Names, given: Sequence[str]) -> Iterable[str]:
+    """The arguments of the launch file of a package, up to the value."""
+    told = names.asked("launch", given[0], given[1], "--show-args")
+    return [f"{line[1:-2]}:=" for line in told if line.startswith("'") and line.endswith("':")]
+
+
 _NODE = _running("node", "list")
 _TOPIC = _running("topic", "list")
 _SERVICE = _running("service", "list")
@@ -173,13 +185,14 @@ _OUR_SOURCES: dict[str, Source] = {
 """Those of them after which names of what is there may follow."""
 
 _PLACES: dict[tuple[str, str], Sequence[Source]] = {
+    ("action", "send_goal"): (_ACTION, _type_of("action")),
     ("action", "*"): (_ACTION,),
     ("component", "*"): (_running("component", "list", "--containers-only"), _PACKAGE),
     ("component", "types"): (_PACKAGE,),
     ("interface", "package"): (_names("interface", "packages"),),
     ("interface", "*"): (_TYPE,),
     ("interface", "list"): (),
-    ("launch", ""): (_packages_and_files, _launch_files),
+    ("launch", ""): (_packages_and_files, _launch_files, _launch_arguments),
     ("lifecycle", "*"): (_running("lifecycle", "nodes"),),
     ("node", "info"): (_NODE,),
     ("param", "dump"): (_NODE,),
@@ -191,8 +204,10 @@ _PLACES: dict[tuple[str, str], Sequence[Source]] = {
     ("pkg", "xml"): (_PACKAGE,),
     ("run", ""): (_PACKAGE, _executables),
     ("service", "find"): (_TYPE,),
+    ("service", "call"): (_SERVICE, _type_of("service")),
     ("service", "*"): (_SERVICE,),
     ("topic", "find"): (_TYPE,),
+    ("topic", "pub"): (_TOPIC, _type_of("topic")),
     ("topic", "*"): (_TOPIC,),
 }
 """What stands at each place of a verb's words; `*` is for the verbs that are not named."""

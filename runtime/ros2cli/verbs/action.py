@@ -19,7 +19,7 @@ from rclpy.node import Node
 from rclpy.signals import uninstall_signal_handlers
 from rclpy.validate_full_topic_name import validate_full_topic_name
 from ros2cli.command import Command, Result, Verb
-from ros2cli.direct_node import DirectNode, add_strategy_arguments, node_names, spin_until
+from ros2cli.direct_node import GONE, LOOK, DirectNode, NoAnswer, add_strategy_arguments, node_names, spin_until
 from ros2cli.type_discovery import typed_class
 from ros2cli.yaml_values import read_values
 from rosidl_runtime_py import message_to_yaml, set_message_fields
@@ -136,15 +136,15 @@ def _follow(node: Node, client: ActionClient, goal: Any, feedback: bool) -> Resu
     spin_until(node, client.server_is_ready)
     print(f"Sending goal:\n     {message_to_yaml(goal)}")
     show = (lambda message: print(f"Feedback:\n    {message_to_yaml(message.feedback)}")) if feedback else None
-    handle: Any = _outcome(node, client.send_goal_async(goal, show))
+    handle: Any = _outcome(node, client, client.send_goal_async(goal, show))
     if not handle.accepted:
         print("Goal was rejected.")
         return None
     print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
     try:
-        answer: Any = _outcome(node, handle.get_result_async())
+        answer: Any = _outcome(node, client, handle.get_result_async())
     except KeyboardInterrupt:
-        problem = _cancel(node, handle)
+        problem = _cancel(node, client, handle)
         if problem:
             return problem
         raise
@@ -153,17 +153,24 @@ def _follow(node: Node, client: ActionClient, goal: Any, feedback: bool) -> Resu
     return None
 
 
-def _outcome(node: Node, future: Any) -> Any:
-    spin_until(node, future.done)
+def _outcome(node: Node, client: ActionClient, future: Any) -> Any:
+    """Wait for the server's part of the work; raises `NoAnswer` if it has left, where upstream waits forever."""
+    gone = 0
+    while not spin_until(node, future.done, LOOK):
+        gone = 0 if client.server_is_ready() else gone + 1
+        if gone > GONE:
+            name = client._action_name
+            raise NoAnswer(f"nobody answers {name}: its server has ended since it was asked; see what it printed")
     return future.result()
 
 
-def _cancel(node: Node, handle: Any) -> str | None:
+def _cancel(node: Node, client: ActionClient, handle: Any) -> str | None:
     """Request the cancellation of a goal that has not ended; returns an error message if the server refuses."""
     if handle.status not in (GoalStatus.STATUS_ACCEPTED, GoalStatus.STATUS_EXECUTING):
         return None
     print("Canceling goal...")
-    cancelling = [bytes(each.goal_id.uuid) for each in _outcome(node, handle.cancel_goal_async()).goals_canceling]
+    answer = _outcome(node, client, handle.cancel_goal_async())
+    cancelling = [bytes(each.goal_id.uuid) for each in answer.goals_canceling]
     if not cancelling:
         return "Failed to cancel goal"
     if len(cancelling) > 1:

@@ -27,6 +27,7 @@ _bot_console_complete() {
   local IFS=$'\\n'
   COMPREPLY=($("$BOT_CONSOLE_COMMAND" complete "${words[@]}" 2>/dev/null))
   [[ ${#COMPREPLY[@]} -eq 0 ]] && compopt -o default
+  [[ "${COMPREPLY[0]}" == *= ]] && compopt -o nospace
   return 0
 }
 complete -F _bot_console_complete bot-console
@@ -37,7 +38,9 @@ _ZSH = """\
 _bot_console_complete() {
   local -a found
   found=("${(@f)$("$BOT_CONSOLE_COMMAND" complete "${(@)words[1,CURRENT]}" 2>/dev/null)}")
-  [[ -n "${found[1]}" ]] && compadd -Q -a found || _files
+  local -a joined
+  [[ "${found[1]}" == *= ]] && joined=(-S '')
+  [[ -n "${found[1]}" ]] && compadd -Q "${joined[@]}" -a found || _files
 }
 (( ${+functions[compdef]} )) || { autoload -Uz compinit && compinit; }
 compdef _bot_console_complete bot-console
@@ -53,7 +56,12 @@ contains -- {rqt} $PATH; or set -gx PATH {rqt} $PATH
 command -q ros2; or set -gx PATH $PATH {ros2}
 function __bot_console_complete
     set -l words (commandline -opc) (commandline -ct)
-    $BOT_CONSOLE_COMMAND complete $words 2>/dev/null
+    set -l found ($BOT_CONSOLE_COMMAND complete $words 2>/dev/null)
+    if set -q found[1]
+        printf '%s\n' $found
+    else
+        __fish_complete_path (commandline -ct)
+    end
 end
 complete -c bot-console -f -a '(__bot_console_complete)'
 test (command -s ros2) = {ros2}/ros2; and complete -c ros2 -f -a '(__bot_console_complete)'

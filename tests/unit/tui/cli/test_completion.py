@@ -28,6 +28,9 @@ def test_nodes_topics_services_and_parameters_of_what_runs(socket_folder: str) -
         assert "/echo" in complete("topic", "echo", "/ec") and "/echo" in complete("rqt_plot", "/e")
         assert "/here/list_parameters" in complete("ros2", "service", "call", "/here/l")
         assert "/here" in complete("rqt_reconfigure", "")
+        assert complete("service", "call", "/here/list_parameters", "") == ["rcl_interfaces/srv/ListParameters"]
+        assert complete("topic", "pub", "/rosout", "") == ["rcl_interfaces/msg/Log"]
+        assert complete("topic", "pub", "/new", "std_msgs/msg/Strin") == ["std_msgs/msg/String"]
 
 
 def test_where_nothing_runs_there_is_nothing_to_offer_but_commands() -> None:

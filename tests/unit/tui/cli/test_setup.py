@@ -87,6 +87,8 @@ def test_a_second_time_adds_nothing(name: str, home: Path):
         pytest.param("ros2 param l", ["list", "load"], marks=pytest.mark.soak),
         ("bot-console setup ", ["bash", "fish", "zsh"]),
         ("ros2 interface show std_msgs/msg/Strin", ["std_msgs/msg/String"]),
+        ("ros2 launch bot_console_robot robot_system.launch.py nav", ["navigator:="]),
+        ("ros2 launch bot_console_robot robot_system.launch.py navigator:=", []),
         pytest.param("ros2 run bot_console_robot sim", ["simulator_node"], marks=pytest.mark.soak),
         pytest.param("ros2 launch bot_console_robot robot_", ["robot_system.launch.py"], marks=pytest.mark.soak),
         pytest.param("ros2 node list --co", ["--count-nodes"], marks=pytest.mark.soak),
@@ -100,6 +102,13 @@ def test_bash_completes(home: Path, line: str, found: list[str]):
 @pytest.mark.skipif("fish" not in SHELLS, reason="fish is not installed")
 def test_fish_completes(home: Path):
     assert shell("fish", home, "complete -C 'ros2 param l'").split() == ["list", "load"]
+
+
+@pytest.mark.skipif("fish" not in SHELLS, reason="fish is not installed")
+def test_fish_completes_files_where_there_are_no_names(home: Path):
+    (home / "values.yaml").touch()
+    line = f"ros2 run demo talker --ros-args --params-file {home}/val"
+    assert shell("fish", home, f"complete -C '{line}'").split() == [f"{home}/values.yaml"]
 
 
 def test_no_shell_or_an_unknown_one_prints_what_to_type(capsys: pytest.CaptureFixture[str]):

@@ -1,0 +1,50 @@
+"""`ros2 action send_goal` ends when the server that it waits for has ended."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from ros2cli.direct_node import NoAnswer
+from ros2cli.verbs import action
+
+
+class Server:
+    """A client's view of an action server that has left at some looks and answers at one of them, if at all."""
+
+    def __init__(self, gone_at: range, answers_at: int) -> None:
+        self._action_name = "/fibonacci"
+        self._gone_at = gone_at
+        self._answers_at = answers_at
+        self.looks = 0
+
+    def server_is_ready(self) -> bool:
+        return self.looks not in self._gone_at
+
+    def looked(self, node: Any, done: Any, seconds: float) -> bool:
+        self.looks += 1
+        return self.looks == self._answers_at
+
+
+FUTURE = SimpleNamespace(done=None, result=lambda: "result")
+
+
+@pytest.fixture
+def outcome(monkeypatch: pytest.MonkeyPatch) -> Any:
+    monkeypatch.setattr(action, "GONE", 2)
+
+    def waited(server: Server) -> Any:
+        monkeypatch.setattr(action, "spin_until", server.looked)
+        return action._outcome(None, server, FUTURE)  # type: ignore[arg-type]
+
+    return waited
+
+
+def test_a_server_that_has_ended_is_told(outcome: Any) -> None:
+    with pytest.raises(NoAnswer, match=r"^nobody answers /fibonacci: its server has ended since it was asked"):
+        outcome(Server(range(3, 99), 99))
+
+
+def test_a_server_that_is_back_is_waited_for(outcome: Any) -> None:
+    assert outcome(Server(range(3, 5), 40)) == "result"
