@@ -16,10 +16,10 @@ from bot_console.tui.keys.keyboard import LONGEST_PASTE, Keyboard
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.look import Look
 from bot_console.tui.opening import Opening
+from bot_console.tui.pane_requests import PaneRequests
 from bot_console.tui.pane_table import PANES, PaneEntry
-from bot_console.tui.pane_wishes import PaneWishes
 from bot_console.tui.recording import RecordingApp
-from bot_console.tui.screens.tuning.door import TuningDoor
+from bot_console.tui.screens.tuning.requests import TuningRequests
 from bot_console.tui.text.shown import brief, counted, harmless
 from bot_console.tui.theme import THEMES
 from bot_console.tui.time_cursor import TimeCursor
@@ -48,7 +48,7 @@ SEEN_AT_ONCE = 2
 P = TypeVar("P", bound="Pane")
 
 
-class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
+class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
     """rqt for the terminal."""
 
     TITLE = "bot-console"
@@ -99,19 +99,19 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
 
     def take_up(self, system: System) -> None:
         """Start acting on a system."""
+        from bot_console.tui.app_parts import AppParts
         from bot_console.tui.console.model import ConsoleSnapshot
-        from bot_console.tui.crew import Crew
 
         self.console_of_robot, self.launcher = system.console, system.launcher
         self._snapshot = ConsoleSnapshot()
-        self.crew = Crew(
+        self.parts = AppParts(
             *(self, self, self.stage, system.console, system.command_line),
             redraw=self.redraw,
             open=self.open,
             changed=self.panes_changed,
         )
-        self.desk, self.faults = self.crew.desk, self.crew.faults
-        self._keyboard.waits = self.crew.late_stop.waits
+        self.command_handler, self.faults = self.parts.command_handler, self.parts.faults
+        self._keyboard.waits = self.parts.late_stop.waits
         self._reached = True
 
     async def on_event(self, event: events.Event) -> None:
@@ -131,7 +131,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
 
     async def _deal(self, event: events.Event) -> None:
         overtaken = isinstance(event, events.Key) and self._keyboard.was_overtaken(event)
-        if not (self._reached and self.crew.is_spent(event, overtaken=overtaken)):
+        if not (self._reached and self.parts.is_spent(event, overtaken=overtaken)):
             await super().on_event(event)
 
     def compose(self) -> ComposeResult:
@@ -144,7 +144,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
                 yield from (
                     ComingPane(id, title, chosen=chosen) for id, title, chosen in self.stage.at_first(self.size)
                 )
-        yield from self.crew.widgets() if self._reached else (Static("", id=COMING_STATUS, markup=False),)
+        yield from self.parts.widgets() if self._reached else (Static("", id=COMING_STATUS, markup=False),)
         yield KeyBar()
         yield Static("", id="too-small", markup=False)
 
@@ -193,7 +193,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
             for pane in self.panes():
                 if not pane.is_ending:
                     pane.tick()
-            self.crew.beat()
+            self.parts.beat()
 
     def pull(self) -> None:
         """Take the newest snapshot and let the visible panes draw what has changed."""
@@ -205,11 +205,11 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
             self.stage.heed(snapshot)
             for pane in self.visible_panes():
                 pane.show(snapshot)
-            if self.crew.status.is_attached:  # not while the screen is made or taken away
-                self.crew.status.show(snapshot, self.gate.held_back)
-        for asker in self.crew.askers():
+            if self.parts.status.is_attached:  # not while the screen is made or taken away
+                self.parts.status.show(snapshot, self.gate.held_back)
+        for asker in self.parts.askers():
             asker.look()
-        for text in self.crew.safety_news.since(snapshot):
+        for text in self.parts.safety_news.since(snapshot):
             self.notify(text, severity="warning")
 
     def entries(self) -> Sequence[PaneEntry]:
@@ -273,20 +273,20 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
     def action_arrange(self) -> None:
         """Arrange the panes with keys."""
         self.stage.go(OVERVIEW)
-        self.crew.arrange()
+        self.parts.arrange()
 
     def action_all_stop(self) -> None:
         """Stop and hold the robot, or release it."""
-        if self.crew.quitting.keep_held():
+        if self.parts.quitting.keep_held():
             self.notify("The robot stays held.")
         else:
-            self.crew.stopping.wanted()
+            self.parts.stopping.wanted()
             self.pull()
 
     async def action_quit(self) -> None:
         """Quit, but ask first when values would be lost."""
         if self._reached:
-            self.crew.quitting.wanted()
+            self.parts.quitting.wanted()
         else:
             self.exit()
 
@@ -294,25 +294,25 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
         """Show help for the focused pane."""
         pane = self.current_pane
         if pane is not None:
-            self.crew.help(pane)
+            self.parts.help(pane)
 
     def action_palette(self) -> None:
         """Open the command palette."""
-        self.desk.palette()
+        self.command_handler.palette()
 
     def action_command_line(self) -> None:
         """Open the command line, for the console's own commands and `ros2` lines."""
-        self.desk.ask_line()
+        self.command_handler.ask_line()
 
     def on_pane_alarms_hold(self, event: Pane.AlarmsHold) -> None:
         """Name the active alarms in the status bar."""
-        bar = self.crew.status
+        bar = self.parts.status
         bar.alarms = event.names
         bar.show(self._snapshot, self.gate.held_back)
 
     def action_acknowledge(self) -> None:
         """Reset the error count."""
-        bar = self.crew.status
+        bar = self.parts.status
         bar.acknowledge(self._snapshot)
         bar.show(self._snapshot, self.gate.held_back)
 
@@ -383,7 +383,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
 
     def action_sleep(self) -> None:
         """Suspend the console; the robot is held meanwhile."""
-        self.crew.leaving.sleep()
+        self.parts.leaving.sleep()
 
     def on_text_selected(self) -> None:
         """Copy the text selected with the mouse."""
@@ -394,4 +394,4 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
 
     def action_end_stream(self) -> None:
         """Stop the command line that is running below the panes."""
-        self.desk.end_stream()
+        self.command_handler.end_stream()

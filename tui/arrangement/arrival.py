@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 from bot_console.tui.arrangement.early_keys import panes_needed
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.pane_table import PANES, PaneEntry
-from bot_console.tui.screens.door import prepare
+from bot_console.tui.screens.question_screens import prepare
 from bot_console.tui.terminal.composing.seen import mount_unseen
 from bot_console.tui.widgets.coming_pane import ComingPane
 from bot_console.tui.widgets.key_bar import KeyBar
@@ -20,9 +20,9 @@ from textual.app import App
 from textual.widget import MountError
 
 if TYPE_CHECKING:
+    from bot_console.tui.app_parts import AppParts
     from bot_console.tui.console.command_line import CommandLine
     from bot_console.tui.console.protocol import Console, Launcher
-    from bot_console.tui.crew import Crew
     from bot_console.tui.keys.keyboard import Keyboard, Typed
     from bot_console.tui.panes.pane import Pane
     from bot_console.tui.terminal.gate import AnswerGate
@@ -55,7 +55,7 @@ class ArrivingApp(App[None]):
     visible panes once those exist, and all others once everything does.
     """
 
-    crew: Crew
+    parts: AppParts
     stage: Stage
     gate: AnswerGate
     _keyboard: Keyboard
@@ -134,7 +134,7 @@ class ArrivingApp(App[None]):
         screen = self.screen_stack[0]
         with self.batch_update():
             await screen.query_one(f"#{COMING_STATUS}").remove()
-            await screen.mount(*self.crew.widgets(), before=screen.query_one(KeyBar))
+            await screen.mount(*self.parts.widgets(), before=screen.query_one(KeyBar))
         self.begin_to_pull()
         await self._keyboard.hold(self.is_stop)
         places = {each for each, _, _ in self.stage.at_first(self.size)}
@@ -198,6 +198,6 @@ class ArrivingApp(App[None]):
         prepare()
 
     def _made(self, entry: PaneEntry) -> Pane:
-        pane = self.crew.faults.made(entry)
+        pane = self.parts.faults.made(entry)
         pane.display = False  # until it is laid out, and shown the newest
         return pane

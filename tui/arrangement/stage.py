@@ -10,7 +10,7 @@ from bot_console.tui.layout.arrangement import Arrangement
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.layout.tree import Tree, panes
 from bot_console.tui.pane_table import PANES, PaneEntry
-from bot_console.tui.screens.door import screen_for
+from bot_console.tui.screens.question_screens import screen_for
 from bot_console.tui.widgets.key_bar import NO_OTHERS, KeyBar
 from bot_console.tui.widgets.pane_area import PaneArea
 from bot_console.tui.widgets.tabs import Tab, Tabs

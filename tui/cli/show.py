@@ -79,7 +79,7 @@ def _connect(options: Options, alone: str, own: Host | None, start: Callable[[],
     """Build what is shown, after the first frame: these imports take longer than everything before it."""
     _prepare(options)
     from bot_console.tui.cli.live.launchers import attached, embedded, hosted
-    from bot_console.tui.cli.live.past import HostsPast, overhear
+    from bot_console.tui.cli.live.snapshot_buffer import HostedSnapshotBuffer, overhear
     from bot_console.tui.cli.system.connected import Connected
     from bot_console.tui.console.model import Severity
 
@@ -90,8 +90,8 @@ def _connect(options: Options, alone: str, own: Host | None, start: Callable[[],
     size = read_settings().kept
     if own is None:
         return Connected(options, said, embedded, overhear(size) if size else None)
-    past = HostsPast(size.seconds) if size else None
-    return Connected(options, said, hosted(own, past), past)
+    buffer = HostedSnapshotBuffer(size.seconds) if size else None
+    return Connected(options, said, hosted(own, buffer), buffer)
 
 
 def _refusal() -> str:

@@ -13,7 +13,7 @@ from itertools import islice
 from typing import TypeAlias
 
 from bot_console.tui.keymap import stops
-from bot_console.tui.keys.escaping import told_apart
+from bot_console.tui.keys.escape_parser import told_apart
 from textual import events
 from textual.app import App
 from textual.dom import DOMNode

@@ -14,7 +14,7 @@ from bot_console.tui.console.protocol import Console, Launcher
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.format import counted, harmless
 from bot_console.tui.kept import Kept, KeptHere
-from bot_console.tui.screens.door import screen_for
+from bot_console.tui.screens.question_screens import screen_for
 from bot_console.tui.time_cursor import TimeCursor
 from bot_console.tui.tuning.dial import Setting
 from bot_console.tui.tuning.question import Question as TuningQuestion

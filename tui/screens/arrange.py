@@ -8,7 +8,7 @@ from bot_console.tui import keymap
 from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.key import key_text
 from bot_console.tui.layout.tree import Way
-from bot_console.tui.terminal.composing.veil import VeilScreen
+from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
 from bot_console.tui.widgets.prompt.line import Prompt, asks
 from bot_console.tui.widgets.prompt.question import Line
 from rich.style import Style
@@ -66,7 +66,7 @@ class Arranger(Protocol):
         ...
 
 
-class ArrangeScreen(VeilScreen):
+class ArrangeScreen(DimmedScreen):
     """A line of keys over the last line of the screen; everything above it stays visible."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("arrange")]

@@ -8,7 +8,7 @@ from typing import ClassVar
 from bot_console.tui import keymap
 from bot_console.tui.format import harmless
 from bot_console.tui.screens.box import Boxed
-from bot_console.tui.terminal.composing.veil import VeilScreen
+from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
 from rich.console import RenderableType
 from rich.text import Text
 from textual.app import ComposeResult
@@ -19,7 +19,7 @@ from textual.widget import Widget
 from textual.widgets import Static
 
 
-class Overlay(VeilScreen, Boxed):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
+class Overlay(DimmedScreen, Boxed):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
     """A box with a title and text to read."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("overlay")]

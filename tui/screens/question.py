@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import ClassVar, TypeVar
 
 from bot_console.tui import keymap
-from bot_console.tui.terminal.composing.veil import VeilScreen
+from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
 from bot_console.tui.widgets.prompt.question import Asker, Question
 from textual.app import App
 from textual.binding import BindingType
@@ -13,7 +13,7 @@ from textual.binding import BindingType
 A = TypeVar("A")
 
 
-class QuestionScreen(Asker[A], VeilScreen):
+class QuestionScreen(Asker[A], DimmedScreen):
     """Shows a question until it is answered; closes by itself when its subject has gone."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("question")]

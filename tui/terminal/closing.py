@@ -11,7 +11,7 @@ from collections.abc import Generator
 from types import FrameType
 from typing import Any, cast
 
-from bot_console.tui.terminal.guardian import LAST_WORDS
+from bot_console.tui.terminal.restorer import LAST_WORDS
 
 GRACE = 1.0
 """Seconds that a terminal has to take what is still to be written."""

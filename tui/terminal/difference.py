@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from bot_console.tui.terminal.cells import Cells, cells_of
-from bot_console.tui.terminal.pen import RESET, change
+from bot_console.tui.terminal.sgr import RESET, change
 from rich.color import ColorSystem
 from rich.segment import Segment
 from textual.strip import Strip

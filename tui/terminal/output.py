@@ -12,16 +12,16 @@ import asyncio
 from collections.abc import Mapping
 from typing import Any, cast
 
-from bot_console.tui.keys.taking import ends_at_once
+from bot_console.tui.keys.input_thread import ends_at_once
 from bot_console.tui.terminal.clipboard import osc52, within
 from bot_console.tui.terminal.closing import let_go
 from bot_console.tui.terminal.composing.cache_limits import limit_cut_cache, limit_query_cache
 from bot_console.tui.terminal.composing.compositor import PartwiseCompositor
 from bot_console.tui.terminal.difference import ShownScreen
 from bot_console.tui.terminal.gate import AnswerGate
-from bot_console.tui.terminal.gone import LastingFile
 from bot_console.tui.terminal.installed_version import installed_version
 from bot_console.tui.terminal.leaving import leaves_an_empty_screen, takes_up_again
+from bot_console.tui.terminal.terminal_file import TerminalFile
 from rich.color import ColorSystem
 from textual import events
 from textual._compositor import ChopsUpdate, LayoutUpdate
@@ -137,7 +137,7 @@ class SparingApp(App[None]):
         if hasattr(driver, "_file"):
             # Otherwise Textual draws for 80x24 until it learns the size, which wastes the first frame.
             driver._size = driver._size or driver._get_terminal_size()
-            driver._file = LastingFile(driver._file)
+            driver._file = TerminalFile(driver._file)
         if hasattr(driver, "_key_thread"):
             takes_up_again(driver)
             leaves_an_empty_screen(driver)

@@ -23,7 +23,7 @@ def held(session: Session) -> bool:
 async def behind(session: Session, *keys: str) -> list[Later]:
     """Type keys of which none has its turn yet; what is to be looked at when they have waited too long."""
     looks: list[Later] = []
-    session.app.crew.late_stop.later = looks.append
+    session.app.parts.late_stop.later = looks.append
     await session.app._keyboard.hold(lambda _: False)
     for each in keys:
         session.app.post_message(events.Key(each, "!" if each == STOP else each))

@@ -7,9 +7,9 @@ import random
 import pytest
 from bot_console.tui.pane_table import PANES
 from bot_console.tui.panes.graph.pane import GraphPane
-from bot_console.tui.screens.door import screen_for
 from bot_console.tui.screens.facts import FactsScreen
 from bot_console.tui.screens.output import OutputScreen
+from bot_console.tui.screens.question_screens import screen_for
 from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Line, Option
 from piloting import Session, run
 from samples import hostile, live

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from bot_console.tui.terminal.cells import cells_of
 from bot_console.tui.terminal.difference import ShownScreen
-from bot_console.tui.terminal.pen import change
+from bot_console.tui.terminal.sgr import change
 from emulator import Emulator, styled
 from hypothesis import given
 from hypothesis import strategies as st

@@ -1,4 +1,4 @@
-"""The console's own way to its terminal: descriptors that nobody else has, and a guardian.
+"""The console's own way to its terminal: descriptors that nobody else has, and a restorer.
 
 What C libraries write to descriptors 1 and 2, past Python, is lines for the log instead of holes in the screen. Who
 closes or redirects 0, 1 and 2 harms neither keys nor screen, and a child that inherits them cannot read the keys.
@@ -14,7 +14,7 @@ import threading
 from collections.abc import Callable, Generator, Iterator
 from typing import IO
 
-from bot_console.tui.terminal.guarding import Watch, guarded
+from bot_console.tui.terminal.restorer_process import Restorer, restored_terminal
 
 Printed = Callable[[int, str, str], None]
 LABEL = "stderr"
@@ -25,9 +25,9 @@ FIRST = 100
 
 
 @contextlib.contextmanager
-def own_terminal(printed: Printed) -> Generator[Watch]:
+def own_terminal(printed: Printed) -> Generator[Restorer]:
     """Captured descriptors for the time of an app, and the terminal put right after it, however this process ends."""
-    with captured_descriptors(printed) as keys, guarded(keys) as watch:
+    with captured_descriptors(printed) as keys, restored_terminal(keys) as watch:
         yield watch
 
 

@@ -27,7 +27,7 @@ def main(words: Sequence[str] | None = None) -> int:
     given = _parser().parse_args(words)
     install()
     from bot_console.tui.cli.live.launchers import launcher_here
-    from bot_console.tui.cli.live.past import overhear
+    from bot_console.tui.cli.live.snapshot_buffer import overhear
     from bot_console.tui.cli.system.domain import take_part
     from bot_console.tui.cli.system.own_processes import isolate, watch_threads
     from bot_console.tui.cli.system.rotating_file import rotate_launch_files
@@ -43,12 +43,12 @@ def main(words: Sequence[str] | None = None) -> int:
     isolate()
     watch_threads()
     rotate_launch_files()
-    past = overhear(RingSize(given.keep_seconds, given.keep_bytes)) if given.keep_bytes else None
-    host = LaunchHost(launcher_here, past=past)
+    buffer = overhear(RingSize(given.keep_seconds, given.keep_bytes)) if given.keep_bytes else None
+    host = LaunchHost(launcher_here, buffer=buffer)
     host.connect(socket.socket(fileno=given.owner), owner=True)
     serve(host)
-    if past is not None:
-        past.close()
+    if buffer is not None:
+        buffer.close()
     return 0
 
 

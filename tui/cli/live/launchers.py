@@ -22,7 +22,7 @@ from bot_console.tui.console.protocol import Launcher
 
 if TYPE_CHECKING:
     from bot_console.tui.cli.live.own_host import Host
-    from bot_console.tui.cli.live.past import HostsPast
+    from bot_console.tui.cli.live.snapshot_buffer import HostedSnapshotBuffer
     from bot_console.tui.console.connection.ros_console import RosConsole
 
 HANGS = (
@@ -76,15 +76,15 @@ def embedded(console: RosConsole) -> RosLauncher:
     return launcher_here(console.record, console.printed, console.heard)
 
 
-def hosted(host: Host, past: HostsPast | None) -> Callable[[RosConsole], HostedLauncher]:
+def hosted(host: Host, buffer: HostedSnapshotBuffer | None) -> Callable[[RosConsole], HostedLauncher]:
     """Through a launch host that this process owns, and that keeps the last minutes."""
 
     def make(console: RosConsole) -> HostedLauncher:
         launcher = HostedLauncher(
             host.connection, console.record, console.printed, learn=console.learn, hangs=why_it_hangs(host.process.pid)
         )
-        if past is not None:
-            past.host = launcher
+        if buffer is not None:
+            buffer.host = launcher
         return launcher
 
     return make

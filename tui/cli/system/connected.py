@@ -42,11 +42,11 @@ class Connected:
         options: Options,
         said: Sequence[tuple[Severity, str]] = (),
         system: Callable[[RosConsole], ConsoleLauncher] = embedded,
-        past: Keeper | None = None,
+        buffer: Keeper | None = None,
     ) -> None:
         """`said` are early lines for the log; `system` makes the launcher, in this process by default.
 
-        `past` keeps the last minutes.
+        `buffer` keeps the last minutes.
         """
         self._options = options
         self._said = said
@@ -62,7 +62,7 @@ class Connected:
             own_profiles=config_folder() / "profiles",
             workspace_profiles=config_folders,
             fetch=_fetched,
-            past=past,
+            buffer=buffer,
             types=DomainTypes(),
         )
         self.launcher = system(self.console)

@@ -13,7 +13,7 @@ import rclpy
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.needed import Missing
 from bot_console.tui.console.bags.recorder import CLOCK, PACE, Recorder
-from bot_console.tui.console.bags.tape import BagTape
+from bot_console.tui.console.bags.recording_sinks import BagSink
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.recording import Keeper, RecordingInfo
@@ -29,11 +29,11 @@ CLOSING = 3.0
 class Recordings:
     """Records all topics; its methods may be called from any thread."""
 
-    def __init__(self, past: Keeper | None = None) -> None:
-        """`past` keeps the last minutes, unless it is None. There is no node until something is recorded."""
-        self._past = past
-        self._tape = BagTape()
-        self._info = RecordingInfo(kept_s=past.kept_s if past else 0.0)
+    def __init__(self, buffer: Keeper | None = None) -> None:
+        """`buffer` keeps the last minutes, unless it is None. There is no node until something is recorded."""
+        self._buffer = buffer
+        self._sink = BagSink()
+        self._info = RecordingInfo(kept_s=buffer.kept_s if buffer else 0.0)
         self._orders: queue.SimpleQueue[tuple[Callable[[], Answer], Future[Answer]]] = queue.SimpleQueue()
         self._closing = threading.Event()
         self._thread: threading.Thread | None = None
@@ -42,8 +42,8 @@ class Recordings:
     @property
     def info(self) -> RecordingInfo:
         """The state of recording."""
-        writer = self._tape.writer
-        now = RecordingInfo(str(writer.folder) if writer else "", self._info.kept_s, self._tape.problem)
+        writer = self._sink.writer
+        now = RecordingInfo(str(writer.folder) if writer else "", self._info.kept_s, self._sink.problem)
         if now != self._info:
             self._info = now
         return self._info
@@ -52,10 +52,10 @@ class Recordings:
         """Record all topics into a new bag."""
 
         def begin() -> Answer:
-            if self._tape.writer is not None:
-                return Answer(False, f"{self._tape.writer.folder} is being recorded already")
+            if self._sink.writer is not None:
+                return Answer(False, f"{self._sink.writer.folder} is being recorded already")
             try:
-                self._tape.begin(BagWriter(typed_path(folder)), time.time_ns())
+                self._sink.begin(BagWriter(typed_path(folder)), time.time_ns())
             except (Missing, NotSaved, OSError) as error:
                 return Answer(False, f"not recorded: {error}")
             return Answer(True, f"records all topics into {folder}")
@@ -65,15 +65,15 @@ class Recordings:
     def stop(self) -> Future[Answer]:
         """Close the bag."""
         if self._thread is None:
-            return done(Answer(False, self._tape.problem or "nothing is being recorded"))
+            return done(Answer(False, self._sink.problem or "nothing is being recorded"))
 
         def end() -> Answer:
             try:
-                writer = self._tape.end()
+                writer = self._sink.end()
             except (NotSaved, OSError) as error:
                 return Answer(False, f"the bag has no end, which `bag info` adds: {error}")
             if writer is None:
-                return Answer(False, self._tape.problem or "nothing is being recorded")
+                return Answer(False, self._sink.problem or "nothing is being recorded")
             about = writer.metadata
             return Answer(True, f"{about.count} messages of {len(about.topics)} topics in {writer.folder}")
 
@@ -81,9 +81,9 @@ class Recordings:
 
     def keep(self, folder: str) -> Future[Answer]:
         """Save what is kept in memory."""
-        if self._past is None:
+        if self._buffer is None:
             return done(Answer(False, "nothing is kept in memory here (setting keep_minutes)"))
-        return self._past.keep(str(typed_path(folder).absolute()))
+        return self._buffer.keep(str(typed_path(folder).absolute()))
 
     def close(self) -> None:
         """Finish what is being recorded, and leave the graph."""
@@ -116,18 +116,18 @@ class Recordings:
         recorder: Recorder | None = None
         try:
             while not self._closing.wait(PACE):
-                wanted = self._tape.writer is not None
+                wanted = self._sink.writer is not None
                 if recorder is not None:
                     recorder.turn() if wanted else recorder.close()
                     recorder = recorder if wanted else None
                 elif wanted:
-                    recorder = Recorder(node, self._tape, CLOCK.__ne__, get_message)
+                    recorder = Recorder(node, self._sink, CLOCK.__ne__, get_message)
                 self._obey()  # after the turn: a bag that is ended has all that came before
             if recorder is not None:
                 recorder.close()
-            self._tape.end()
+            self._sink.end()
         except Exception as error:  # the border of the thread: the bag ends here, the next one has a thread of its own
-            self._tape.fail(f"recording ended by a fault: {type(error).__name__}: {error}")
+            self._sink.fail(f"recording ended by a fault: {type(error).__name__}: {error}")
         finally:
             node.destroy_node()
             context.try_shutdown()

@@ -52,7 +52,7 @@ class LinkedConsole:
         views: LogViews,
         shelf: Shelf,
         capabilities: Capabilities,
-        past: Keeper | None = None,
+        buffer: Keeper | None = None,
     ) -> None:
         self._node = node
         self._logs = logs
@@ -60,7 +60,7 @@ class LinkedConsole:
         self._shelf = shelf
         node.node.create_timer(SHELF_PERIOD, shelf.look_if_changed)
         self._capabilities = capabilities
-        self._recordings = Recordings(past)
+        self._recordings = Recordings(buffer)
         self._once_there: set[str] = set()
         """Profiles that were on the shelf while they were the active one."""
 

@@ -58,7 +58,7 @@ class RosConsole(ConsoleRelay):
         link: Callable[[], LinkInfo] = lambda: NO_LINK,
         foreign: bool = False,
         fetch: Callable[[str], Path] | None = None,
-        past: Keeper | None = None,
+        buffer: Keeper | None = None,
         frozen: FrozenNodes | None = None,
         types: TypeSource | None = None,
     ) -> None:
@@ -68,7 +68,7 @@ class RosConsole(ConsoleRelay):
 
         `fetch` gives the copy of a parameter file on a server, or raises `OSError`; in any thread.
 
-        `link` tells how a network is; `foreign` that the system is not ours, see `ConsoleNode`; `past` keeps the
+        `link` tells how a network is; `foreign` that the system is not ours, see `ConsoleNode`; `buffer` keeps the
         last minutes, None: nobody does; `frozen` which nodes' processes are stopped;
         `types` makes the types that this program does not have.
         """
@@ -85,7 +85,7 @@ class RosConsole(ConsoleRelay):
         self._link = link
         self._fetch = fetch
         self._foreign = foreign
-        self._past = past
+        self._buffer = buffer
         self._zeroed = False
         self._linking = threading.RLock()  # a signal that ends the console stops too, amid a stop
         self._early_stop: tuple[bool, str] | None = None
@@ -132,7 +132,7 @@ class RosConsole(ConsoleRelay):
             self._learn = node.learn
             node.setter.profile = self._active_profile
             self._heard = node.loggers
-            linked = LinkedConsole(node, logs, self._views, shelf, self._capabilities, self._past)
+            linked = LinkedConsole(node, logs, self._views, shelf, self._capabilities, self._buffer)
             self._linked = linked
             if self._closed:
                 self._now = NoConsole(CLOSED, linked)

@@ -68,14 +68,14 @@ class LaunchHost:
         self,
         make: Callable[[Add, Printed], HostedService],
         also: Printed | None = None,
-        past: Keeper | None = None,
+        buffer: Keeper | None = None,
     ) -> None:
         """`make` is given what takes log records and what takes printed lines; `also` takes printed lines, too.
 
-        `past` keeps the last minutes of this process; None: nobody does.
+        `buffer` keeps the last minutes of this process; None: nobody does.
         """
         self._also = also
-        self._past = past
+        self._buffer = buffer
         self._lock = threading.RLock()
         self._consoles: list[_Console] = []
         self._lines: deque[Message] = deque(maxlen=LINES_KEPT)
@@ -154,8 +154,8 @@ class LaunchHost:
     def _received(self, console: _Console, message: Message) -> None:
         number, verb, words = message.get("id"), message.get("do"), message.get("with", [])
         reply = partial(self._reply, console, number)
-        if verb in ("launch", "start", "stop", "kill", "restart") or (verb == "keep" and self._past is not None):
-            outcome: Future[Answer] = getattr(self._past if verb == "keep" else self._service, verb)(*words)
+        if verb in ("launch", "start", "stop", "kill", "restart") or (verb == "keep" and self._buffer is not None):
+            outcome: Future[Answer] = getattr(self._buffer if verb == "keep" else self._service, verb)(*words)
             outcome.add_done_callback(lambda done: reply(answer=[done.result().ok, done.result().text]))
         elif verb == "arguments":
             threading.Thread(target=self._arguments, args=(reply, *words), daemon=True).start()

@@ -19,8 +19,8 @@ from bot_console.tui.files.save_file import save_file
 from bot_console.tui.format import counted
 from bot_console.tui.panes.graph.details import ITEM, PANE, TYPE, details, finding_options, narrowed
 from bot_console.tui.panes.graph.export import exported
+from bot_console.tui.panes.graph.focus_history import FocusHistory
 from bot_console.tui.panes.graph.frames import FramesView
-from bot_console.tui.panes.graph.journey import Journey
 from bot_console.tui.panes.graph.namespaces import SPACE, namespace_of, outermost, unfolded
 from bot_console.tui.panes.graph.view import (
     ACTION,
@@ -81,7 +81,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._mode: Mode | None = None
         self._shown = Shown(graph=DiagramView.EMPTY)
         self._snapshot = ConsoleSnapshot()
-        self._journey = Journey()
+        self._focus_history = FocusHistory()
         self._folds: frozenset[str] | None = None
         """Namespaces that a person has folded; None: as it seems best."""
         self._rates: dict[str, str] | None = None
@@ -140,7 +140,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             return
         nodes = self._visible
         folded = self._folds if self._folds is not None else outermost(nodes) if len(nodes) > MANY else frozenset[str]()
-        self._view = replace(self._view, folded=folded, focus=self._journey.now)
+        self._view = replace(self._view, folded=folded, focus=self._focus_history.now)
         if self._mode is None and len(nodes) > MANY and self._fits_without_topics(info):
             self._tell()
             return
@@ -220,7 +220,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         info = self._info or GraphInfo()
         parts = [self._view.mode.value] if self._view.mode is not Mode.ALL else []
         parts += [f"/{self.words}"] if self.words else []
-        focus = self._journey.now
+        focus = self._focus_history.now
         parts += [f"around {focus.item.removeprefix(TOPIC)}, {counted(focus.hops, 'hop')}"] if focus.item else []
         odd = len(findings(info)) if info.nodes else 0
         parts += [f"w {counted(odd, 'finding')}"] if odd else []
@@ -322,7 +322,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             self._view = replace(self._view, debug=True, services=services)
             self._mode = Mode.ALL
             self._folds = frozenset()
-            self._journey.go(item)
+            self._focus_history.go(item)
             self._draw()
         self._picture.choose(item)
 
@@ -333,15 +333,15 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     def action_focus(self) -> None:
         """Draw only what is linked to the selected item, with one more hop each time."""
         if self._picture.selected:
-            self._journey.go(self._picture.selected)
+            self._focus_history.go(self._picture.selected)
             self._draw()
 
-    def action_journey(self, where: str) -> None:
+    def action_focus_history(self, where: str) -> None:
         """Go to the previous or next focus."""
-        if self._journey.back() if where == "back" else self._journey.forth():
+        if self._focus_history.back() if where == "back" else self._focus_history.forth():
             self._draw()
-            if self._journey.now.item:
-                self._picture.choose(self._journey.now.item)
+            if self._focus_history.now.item:
+                self._picture.choose(self._focus_history.now.item)
         else:
             self.notify("There is nothing further back." if where == "back" else "There is nothing further on.")
 

@@ -13,7 +13,7 @@ from bot_console.tui.console.graph.qos import mismatches
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.query import Query
 from bot_console.tui.format import counted, harmless
-from bot_console.tui.panes.graph.journey import Focus, around
+from bot_console.tui.panes.graph.focus_history import Focus, around
 from bot_console.tui.panes.graph.namespaces import SPACE, box_of, folded_edges
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
 

@@ -12,7 +12,7 @@ from bot_console.tui.console.sights.model import COMPRESSED, IMAGE
 from bot_console.tui.console.sights.model import Picture as Seen
 from bot_console.tui.format import cut
 from bot_console.tui.panes.images import drawing
-from bot_console.tui.panes.images.pace import Pace
+from bot_console.tui.panes.images.frame_limit import FrameLimit
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.prompt.line import Prompt
@@ -58,7 +58,7 @@ class ImagesPane(Pane):
         self._seen = Seen()
         self._shown: drawing.Pixels | None = None
         self._drawn: object = None
-        self._pace = Pace()
+        self._frame_limit = FrameLimit()
         self._frozen = self._once = self._in_letters = False
 
     def compose(self) -> ComposeResult:
@@ -124,7 +124,7 @@ class ImagesPane(Pane):
             self._ask_for(self._topic, size.width, size.height * 2)
         now, seen = self.clock(), self.console.sights.picture()
         held = (self._frozen or self._slow) and not self._once
-        if self._topic and seen.topic == self._topic and not held and (self._once or self._pace.due(now)):
+        if self._topic and seen.topic == self._topic and not held and (self._once or self._frame_limit.due(now)):
             self._draw(seen, now)
         self._say()
 
@@ -140,7 +140,7 @@ class ImagesPane(Pane):
         self._seen, self._drawn, before = seen, key, self._shown
         self._shown = drawing.steady(drawing.pixels_of(seen), before)
         draw = drawing.letters if in_letters else drawing.half_blocks
-        self._pace.drawn(now, drawing.cost(self._shown, before, coloured=not in_letters))
+        self._frame_limit.drawn(now, drawing.cost(self._shown, before, coloured=not in_letters))
         view.set_lines(draw(self._shown, view.size.width, view.size.height))
 
     def _say(self) -> None:
@@ -163,10 +163,10 @@ class ImagesPane(Pane):
             return f"slow link: frozen{new}; space takes one picture"
         if self._frozen:
             return f"frozen{new}; space goes on"
-        wait = self._pace.wait(self.clock())
-        if newer > 0 and wait > 2.0 / self._pace.rate:
+        wait = self._frame_limit.wait(self.clock())
+        if newer > 0 and wait > 2.0 / self._frame_limit.rate:
             return f"the next one in {wait:.0f} s (5 kB/s); g shows letters, which cost less"
-        return f"at most {self._pace.rate:g} a second"
+        return f"at most {self._frame_limit.rate:g} a second"
 
     def on_picture_resized(self, event: Picture.Resized) -> None:
         """Another size: the picture is wanted for that."""
@@ -183,7 +183,7 @@ class ImagesPane(Pane):
 
     def _choose(self, topic: str) -> None:
         self._topic, self._shown, self._drawn, self._seen = topic, None, None, Seen()
-        self._pace = Pace(self._pace.rate)
+        self._frame_limit = FrameLimit(self._frame_limit.rate)
         self._view.set_lines(())
         self._look()
 
@@ -220,7 +220,7 @@ class ImagesPane(Pane):
 
     def action_rate(self, factor: float) -> None:
         """More pictures per second, or fewer."""
-        self._pace.change(factor)
+        self._frame_limit.change(factor)
         self._say()
 
     def action_copy(self) -> None:

@@ -13,7 +13,7 @@ from bot_console.tui.console.model import GraphInfo, LoggerLevel, Severity
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.format import LETTERS, cut, harmless
 from bot_console.tui.panes.pane import answer_of
-from bot_console.tui.terminal.composing.veil import VeilScreen
+from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.item_list import ItemList
 from bot_console.tui.widgets.words import Words
@@ -42,7 +42,7 @@ class LevelRows(ItemList[LoggerLevel]):
         return [Segment(f" {cut(harmless(level.logger), wide, pad=True)}  {marks}  {set_here}")]
 
 
-class LevelsScreen(VeilScreen):
+class LevelsScreen(DimmedScreen):
     """Asks every node that offers it, and shows what has answered so far."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("levels")]

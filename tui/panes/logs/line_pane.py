@@ -6,7 +6,7 @@ from functools import partial
 from typing import Any
 
 from bot_console.tui.panes.list_pane import ListPane
-from bot_console.tui.panes.logs.before import happened_before, options_of
+from bot_console.tui.panes.logs.preceding_events import options_of, preceding_events
 from bot_console.tui.panes.logs.rows import LogRows
 from bot_console.tui.screens.detail import DetailScreen
 from bot_console.tui.widgets.prompt.question import Choice
@@ -52,7 +52,7 @@ class LinePane(ListPane):
         if record is None:
             return
         events = self.console.snapshot().launch.timeline
-        found = happened_before(record.stamp, self.console.changes(-(10**9)), events)
+        found = preceding_events(record.stamp, self.console.changes(-(10**9)), events)
         if not found:
             self.notify("No parameter was changed and nothing launched before this line.")
             return

@@ -14,13 +14,13 @@ from bot_console.tui.files.save_file import save_file
 from bot_console.tui.format import LETTERS, harmless
 from bot_console.tui.panes.logs.filtering import Filtering
 from bot_console.tui.panes.logs.levels_screen import LevelsScreen
-from bot_console.tui.panes.logs.likeness import options_like
 from bot_console.tui.panes.logs.line_pane import LinePane
+from bot_console.tui.panes.logs.match_search import MatchSearch
 from bot_console.tui.panes.logs.names import NodeNames
 from bot_console.tui.panes.logs.rows import LogRows
 from bot_console.tui.panes.logs.rules import RuleBook
 from bot_console.tui.panes.logs.rules_screen import RulesScreen
-from bot_console.tui.panes.logs.seeking import Seeker
+from bot_console.tui.panes.logs.similar_lines import options_like
 from bot_console.tui.panes.logs.source import LiveLog
 from bot_console.tui.widgets.prompt.common import wrong_filter, wrong_path
 from bot_console.tui.widgets.prompt.line import Prompt
@@ -50,7 +50,7 @@ class LogsPane(LinePane):
         self._filtering = Filtering(RuleBook())
         self._view: LogView | None = None
         self._found: LogFindings | None = None
-        self._seeker = Seeker(self._view_of)
+        self._match_search = MatchSearch(self._view_of)
         self._sought_for = ""
         """What the seeker looks for, in words."""
         self._looked_for: int | None = None
@@ -167,12 +167,12 @@ class LogsPane(LinePane):
         # What was found may be newer than the snapshot: lines come all the time.
         end = max(state.end, self._found.end if self._found else 0)
         parts = [f"{self._list.row_count()} of {end - state.first}"]
-        if self._found is None or not self._found.complete or self._seeker.under_way:
+        if self._found is None or not self._found.complete or self._match_search.under_way:
             parts.append("searching")
         if not self._following:
             parts.append("paused, f follows")
         if self._looked_for is not None and self._sought_for:
-            parts.append(f"{self._seeker.text()} {self._sought_for}")
+            parts.append(f"{self._match_search.text()} {self._sought_for}")
         parts += self._filtering.texts()
         if state.dropped:
             parts.append(f"{state.dropped} dropped")
@@ -295,14 +295,14 @@ class LogsPane(LinePane):
         whole = step < 0 and self._following
         at = rows.number(rows.cursor) + whole if step > 0 or whole else rows.first_of_row()
         self._sought_for = words or "errors"
-        self._seeker.seek(self._filtering.narrowed_to(words, minimum), at, step)
+        self._match_search.seek(self._filtering.narrowed_to(words, minimum), at, step)
         self._go_on()
         self._tell()
         return True
 
     def _go_on(self) -> bool:
         """Go to what was looked for, as soon as it is found."""
-        target = self._seeker.look()
+        target = self._match_search.look()
         if target is None:
             return False
         if target < 0:
@@ -331,7 +331,7 @@ class LogsPane(LinePane):
         self._source = self._list.source = source
         self.border_title = f"Logs of {harmless(Path(source.name).name)} · O goes back" if source.name else self.TITLE
         self._state, self._view, self._found = LogState(), None, None
-        self._seeker.forget()
+        self._match_search.forget()
         self._following, self._looked_for, self._moment = True, None, None
         self._list.show_nothing()
         self._state = source.state
@@ -340,7 +340,7 @@ class LogsPane(LinePane):
     def action_clear(self) -> None:
         """Clear the log."""
         self._source.clear()
-        self._seeker.forget()
+        self._match_search.forget()
         self._search()
 
     def action_save(self) -> None:

@@ -9,7 +9,7 @@ from typing import ClassVar
 from bot_console.tui import keymap
 from bot_console.tui.format import counted, harmless
 from bot_console.tui.panes.logs.rules import COLOURS, HIDE, Rule, RuleBook, turned
-from bot_console.tui.terminal.composing.veil import VeilScreen
+from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.item_list import ItemList
 from bot_console.tui.widgets.prompt.common import wrong_filter
@@ -37,7 +37,7 @@ class RuleRows(ItemList[Rule]):
         return [Segment(f" {'●' if rule.on else '○'} {rule.colour or HIDE:<7} {harmless(rule.words)}", style)]
 
 
-class RulesScreen(VeilScreen):
+class RulesScreen(DimmedScreen):
     """Every change acts at once and is kept."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("rules")]

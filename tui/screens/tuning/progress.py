@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 from bot_console.tui import keymap
 from bot_console.tui.format import counted, cut, value_text
-from bot_console.tui.terminal.composing.veil import VeilScreen
+from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
 from bot_console.tui.tuning.dial import Setting
 from bot_console.tui.tuning.question import Question
 from bot_console.tui.tuning.study import Judged, Progress
@@ -77,7 +77,7 @@ class SettingRows(RowList):
         return f"{'score':>9}  " + "".join(names)
 
 
-class TuningScreen(VeilScreen):
+class TuningScreen(DimmedScreen):
     """Shows the progress of a tuning; closing it ends the runs."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("tuning")]

@@ -11,8 +11,8 @@ import rclpy
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.recorder import Ring
+from bot_console.tui.console.bags.recording_sinks import BagSink, RingSink
 from bot_console.tui.console.bags.recordings import Recordings
-from bot_console.tui.console.bags.tape import BagTape, RingTape
 from bot_console.tui.console.bags.writer import BagWriter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message
@@ -72,17 +72,17 @@ def test_a_bag_is_recorded_from_begin_to_end(tmp_path: Path, node: rclpy.node.No
 
 
 def test_what_was_is_saved_afterwards_with_what_had_been_latched(tmp_path: Path) -> None:
-    tape = RingTape(Ring(10.0, 10_000_000))
-    tape.topic("/map_name", String, LATCHED)
-    tape.topic("/rosout", String, LATCHED)
-    tape.topic("/words", String, [])
+    sink = RingSink(Ring(10.0, 10_000_000))
+    sink.topic("/map_name", String, LATCHED)
+    sink.topic("/rosout", String, LATCHED)
+    sink.topic("/words", String, [])
     say = lambda text: serialize_message(String(data=text))  # noqa: E731
-    tape.write("/map_name", say("office"), 10**9, 0)
-    tape.write("/rosout", say("a line"), 10**9, 0)
+    sink.write("/map_name", say("office"), 10**9, 0)
+    sink.write("/rosout", say("a line"), 10**9, 0)
     for second in range(2, 60):
-        tape.write("/words", say(str(second)), second * 10**9, 0)
+        sink.write("/words", say(str(second)), second * 10**9, 0)
     writer = BagWriter(tmp_path / "bag")
-    tape.pour(writer)
+    sink.pour(writer)
     writer.close()
     assert texts(tmp_path / "bag") == [str(second) for second in range(49, 60)]
     assert texts(tmp_path / "bag", "/map_name") == ["office"] and texts(tmp_path / "bag", "/rosout") == []
@@ -90,16 +90,16 @@ def test_what_was_is_saved_afterwards_with_what_had_been_latched(tmp_path: Path)
 
 
 def test_a_full_disk_ends_the_bag(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    tape = BagTape()
-    tape.topic("/words", String, [])
-    tape.begin(BagWriter(tmp_path / "bag"), 10**9)
+    sink = BagSink()
+    sink.topic("/words", String, [])
+    sink.begin(BagWriter(tmp_path / "bag"), 10**9)
 
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(tape.writer, "write", full)
-    tape.write("/words", b"x", 10**9, 0)
-    assert tape.writer is None and "No space left" in tape.problem and "bag" in tape.problem
+    monkeypatch.setattr(sink.writer, "write", full)
+    sink.write("/words", b"x", 10**9, 0)
+    assert sink.writer is None and "No space left" in sink.problem and "bag" in sink.problem
 
 
 def test_a_fault_ends_one_bag_and_not_recording(

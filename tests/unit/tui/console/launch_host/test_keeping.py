@@ -27,7 +27,7 @@ class Kept:
 def test_a_host_saves_the_last_minutes_where_it_keeps_them(past: Kept | None, ok: bool, text: str) -> None:
     ours, theirs = socket.socketpair()
     service: Any = SimpleNamespace(info=LaunchInfo, close=lambda: None)
-    host = LaunchHost(lambda record, printed: service, past=past)
+    host = LaunchHost(lambda record, printed: service, buffer=past)
     host.connect(theirs)
     launcher = HostedLauncher(ours, lambda *record: None, lambda *line: None, owner=False)
     answer = launcher.keep("/there").result(10)

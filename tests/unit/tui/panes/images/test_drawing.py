@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 from bot_console.tui.console.sights.model import Picture
 from bot_console.tui.panes.images.drawing import cost, half_blocks, letters, pixels_of, steady
-from bot_console.tui.panes.images.pace import BUDGET, Pace
+from bot_console.tui.panes.images.frame_limit import BUDGET, FrameLimit
 
 
 def grey(rows: list[list[int]]) -> np.ndarray:
@@ -40,16 +40,16 @@ def test_noise_changes_nothing_and_costs_nothing() -> None:
 
 
 def test_no_more_pictures_than_asked_for_and_no_more_bytes_than_the_budget() -> None:
-    pace, now, sent = Pace(2.0), 0.0, 0
+    limit, now, sent = FrameLimit(2.0), 0.0, 0
     times = []
     while now < 60.0:
-        if pace.due(now):
+        if limit.due(now):
             size = 20_000 if not times else 4000
-            pace.drawn(now, size)
+            limit.drawn(now, size)
             sent += size
             times.append(now)
         now += 0.1
     assert sent <= BUDGET * 60 + 20_000 and times[1] >= 4.0
     assert all(later - earlier >= 0.5 for earlier, later in pairwise(times))
-    pace.change(1000.0)
-    assert pace.rate == 10.0
+    limit.change(1000.0)
+    assert limit.rate == 10.0

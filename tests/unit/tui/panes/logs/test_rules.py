@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from bot_console.tui.console.model import LogRecord, Severity
 from bot_console.tui.console.query import parse
-from bot_console.tui.panes.logs.likeness import likenesses
 from bot_console.tui.panes.logs.rules import COLOURS, Rule, RuleBook, rule_of
+from bot_console.tui.panes.logs.similar_lines import similarities
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -56,13 +56,13 @@ def test_a_file_that_cannot_be_written_is_told(tmp_path: Path) -> None:
 )
 def test_every_likeness_holds_for_the_line_itself(text: str, node: str, file: str) -> None:
     record = line(text, node, file, 7)
-    for what, words in likenesses(record, node):
+    for what, words in similarities(record, node):
         assert rule_of(f"hide {words}").words == words.strip(), what
         if '"' not in node or "node" not in what:
             assert parse(words).passes(record), (what, words)
 
 
 def test_numbers_make_no_difference() -> None:
-    found = dict(likenesses(line("Obstacle at 0.31 m (-2)"), "/robot"))
+    found = dict(similarities(line("Obstacle at 0.31 m (-2)"), "/robot"))
     query = parse(found["this text, whatever the numbers"])
     assert query.passes(line("Obstacle at 12 m (4.5)")) and not query.passes(line("An obstacle at 12 m (4.5)"))

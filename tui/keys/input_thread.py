@@ -15,7 +15,7 @@ from codecs import getincrementaldecoder
 from functools import partial
 from typing import Any
 
-from bot_console.tui.keys.escaping import EscapeParser
+from bot_console.tui.keys.escape_parser import EscapeParser
 from bot_console.tui.keys.pasted import Pasted
 from textual._parser import ParseError
 

@@ -18,7 +18,7 @@ class Focus:
 
 
 @dataclass
-class Journey:
+class FocusHistory:
     """The history of the focus, backwards and forwards."""
 
     now: Focus = field(default_factory=Focus)

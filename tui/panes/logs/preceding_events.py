@@ -15,7 +15,7 @@ HISTORY, LAUNCH = "history", "launch"
 
 
 @dataclass(frozen=True)
-class Happened:
+class PrecedingEvent:
     """Something that happened, and the pane that tells more of it."""
 
     stamp: int
@@ -23,16 +23,16 @@ class Happened:
     pane: str
 
 
-def happened_before(stamp: int, changes: Iterable[Change], events: Iterable[LaunchEvent]) -> list[Happened]:
+def preceding_events(stamp: int, changes: Iterable[Change], events: Iterable[LaunchEvent]) -> list[PrecedingEvent]:
     """The last things that happened up to a moment (ns since the epoch), the newest first."""
     known = [
-        *(Happened(each.stamp, _change_text(each), HISTORY) for each in changes if each.stamp <= stamp),
-        *(Happened(each.stamp, f"launch: {each.text}", LAUNCH) for each in events if each.stamp <= stamp),
+        *(PrecedingEvent(each.stamp, _change_text(each), HISTORY) for each in changes if each.stamp <= stamp),
+        *(PrecedingEvent(each.stamp, f"launch: {each.text}", LAUNCH) for each in events if each.stamp <= stamp),
     ]
     return heapq.nlargest(MOST, known, key=lambda each: each.stamp)
 
 
-def options_of(found: Sequence[Happened], stamp: int, typed: str) -> list[Option]:
+def options_of(found: Sequence[PrecedingEvent], stamp: int, typed: str) -> list[Option]:
     """Those whose words have what was typed, each with how long before the moment it was."""
     words = typed.lower().split()
     return [

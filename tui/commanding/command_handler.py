@@ -18,14 +18,14 @@ from bot_console.tui.opening import Opening
 from bot_console.tui.own_program import own_program
 from bot_console.tui.safety.line_risk import risk_of
 from bot_console.tui.safety.stopping import Stopping
-from bot_console.tui.screens.door import screen_for
+from bot_console.tui.screens.question_screens import screen_for
 from bot_console.tui.widgets.command_line import CommandField
 from bot_console.tui.widgets.prompt.question import Choice
 from bot_console.tui.widgets.streams.panels import StreamPanels
 from textual.app import App
 
 
-class Desk:
+class CommandHandler:
     """Takes commands from a person and carries them out; implements `tui.commanding.runner.Host`."""
 
     def __init__(

@@ -8,7 +8,7 @@ FASTEST, SLOWEST = 10.0, 0.125
 """Pictures per second."""
 
 
-class Pace:
+class FrameLimit:
     """Says when the next picture may be drawn."""
 
     def __init__(self, rate: float = 2.0) -> None:

@@ -6,7 +6,7 @@ import asyncio
 from typing import Any
 
 import pytest
-from bot_console.tui.terminal.composing.veil import VeilScreen
+from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
 from bot_console.tui.terminal.output import HoldingScreen
 from rich.style import Style
 from rich.text import Text
@@ -31,7 +31,7 @@ class Counted(Static):
         return super().render_lines(crop)
 
 
-class Box(VeilScreen):
+class Box(DimmedScreen):
     """A box in the middle."""
 
     def __init__(self, word: str) -> None:
@@ -97,7 +97,7 @@ def test_what_is_below_is_dimmed_as_textual_does_it(
             ours = screen._compositor.render_update(full=True, screen_stack=app._background_screens)
             with monkeypatch.context() as textual:
                 for name in ("render_lines", "render_line"):
-                    textual.setattr(VeilScreen, name, getattr(ModalScreen, name), raising=False)
+                    textual.setattr(DimmedScreen, name, getattr(ModalScreen, name), raising=False)
                 for each in app.screen_stack:
                     compositor: Any = each._compositor
                     compositor.__class__ = Compositor

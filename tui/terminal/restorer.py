@@ -1,6 +1,6 @@
 """Puts the terminal right when the console was killed (-9) or has crashed, which it cannot do itself by then.
 
-    python -I -S guardian.py TERMINAL
+    python -I -S restorer.py TERMINAL
 
 `TERMINAL` is an inherited descriptor. On standard input comes, as JSON, how the terminal was before the console and,
 once it has begun, how the console has set it; then a full stop when it has ended well. Standard library only.

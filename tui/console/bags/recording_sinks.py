@@ -14,7 +14,7 @@ LOG = "/rosout"
 """A latching topic whose last message is no state: a line of the log."""
 
 
-class Tape:
+class RecordingSink:
     """A sink that knows how a bag must begin: with the topics, and the earlier messages of latching publishers."""
 
     def __init__(self) -> None:
@@ -42,7 +42,7 @@ class Tape:
                 bag.write(name, data, begin, 0)
 
 
-class BagTape(Tape):
+class BagSink(RecordingSink):
     """Records into a bag while there is one, in the recorder's thread."""
 
     def __init__(self) -> None:
@@ -98,7 +98,7 @@ class BagTape(Tape):
         self.problem = f"{folder} is recorded no further: {error.strerror or error}"
 
 
-class RingTape(Tape):
+class RingSink(RecordingSink):
     """Keeps the last minutes in memory until they are requested."""
 
     def __init__(self, ring: Ring) -> None:

@@ -1,4 +1,4 @@
-"""The guardian beside the console: what it is told."""
+"""The restorer beside the console: what it is told."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import subprocess
 from typing import Any
 
 import pytest
-from bot_console.tui.terminal import guarding
+from bot_console.tui.terminal import restorer_process
 
 PATIENCE = 60.0
 """Seconds after which a test gives up; nothing is measured by it."""
@@ -25,12 +25,12 @@ def test_it_goes_as_soon_as_the_terminal_is_right_again(monkeypatch: pytest.Monk
     monkeypatch.setattr(subprocess, "Popen", start)
     master, slave = pty.openpty()
     try:
-        with guarding.guarded(slave) as watch:
+        with restorer_process.restored_terminal(slave) as watch:
             watch.has_begun()
-            [guardian] = started
-            assert guardian.poll() is None
+            [restorer] = started
+            assert restorer.poll() is None
             watch.has_ended()
-            assert guardian.wait(PATIENCE) == 0, "while this program still has things to do"
+            assert restorer.wait(PATIENCE) == 0, "while this program still has things to do"
     finally:
         os.close(master)
         os.close(slave)

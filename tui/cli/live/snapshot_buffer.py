@@ -9,20 +9,20 @@ from bot_console.runtime.rosidl import type_hash
 from bot_console.runtime.rosidl.cdr import serialize
 from bot_console.tui.cli.system.domain import domain
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.bags.past import Past
+from bot_console.tui.console.bags.snapshot_buffer import SnapshotBuffer
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.recording import RingSize
 
 
-def overhear(size: RingSize) -> Past:
+def overhear(size: RingSize) -> SnapshotBuffer:
     """Keep what the nodes of this process publish, and what others send to them."""
-    past = Past(size, serialize, type_hash.text)
-    bus_of(domain()).overhear(past.hear)
-    return past
+    buffer = SnapshotBuffer(size, serialize, type_hash.text)
+    bus_of(domain()).overhear(buffer.hear)
+    return buffer
 
 
-class HostsPast:
+class HostedSnapshotBuffer:
     """The memory kept by the launch host of a console."""
 
     def __init__(self, kept_s: float) -> None:

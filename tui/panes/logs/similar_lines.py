@@ -14,11 +14,11 @@ ANY_NUMBER = r"[-+.\d]+"
 
 def options_like(record: LogRecord, node: str, typed: str) -> list[Option]:
     """The ways to be like a line that have what was typed."""
-    options = [Option(what, words, words) for what, words in likenesses(record, node)]
+    options = [Option(what, words, words) for what, words in similarities(record, node)]
     return [each for each in options if typed.lower() in f"{each.title} {each.about}".lower()]
 
 
-def likenesses(record: LogRecord, node: str) -> Iterator[tuple[str, str]]:
+def similarities(record: LogRecord, node: str) -> Iterator[tuple[str, str]]:
     """What a line has in common with others, in a word or two, and the filter that finds those; `node` is its name."""
     level = record.severity.name.lower()
     of_node = f"node:{_quoted(f'={node}')}" if node else ""

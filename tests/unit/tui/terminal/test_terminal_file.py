@@ -8,7 +8,7 @@ import pty
 import select
 import tty
 
-from bot_console.tui.terminal.gone import LastingFile
+from bot_console.tui.terminal.terminal_file import TerminalFile
 from textual.drivers._writer_thread import MAX_QUEUED_WRITES, WriterThread
 
 PATIENCE = 60.0
@@ -18,7 +18,7 @@ PATIENCE = 60.0
 def test_the_writer_outlives_its_terminal() -> None:
     far, near = pty.openpty()
     with contextlib.suppress(OSError), os.fdopen(near, "w") as file:  # closing writes what is left, to nobody
-        lasting = LastingFile(file)
+        lasting = TerminalFile(file)
         writer = WriterThread(lasting)
         writer.start()
         writer.write("before")
@@ -33,7 +33,7 @@ def test_the_writer_outlives_its_terminal() -> None:
 def test_what_is_written_arrives() -> None:
     far, near = pty.openpty()
     with os.fdopen(near, "w") as file:
-        lasting = LastingFile(file)
+        lasting = TerminalFile(file)
         assert lasting.write("two words") == 9
         lasting.flush()
         assert lasting.isatty() and lasting.fileno() == near
@@ -47,7 +47,7 @@ def test_a_terminal_that_somebody_has_made_not_to_block_gets_all_of_it() -> None
     os.set_blocking(near, False)
     text = "".join(f"{number:6d}" for number in range(50_000))
     with os.fdopen(near, "w") as file:
-        lasting = LastingFile(file)
+        lasting = TerminalFile(file)
         writer = WriterThread(lasting)
         writer.start()
         writer.write(text)

@@ -10,7 +10,7 @@ from bot_console.tui.console.model import LogFilter
 OpenView = Callable[[LogFilter, "LogView | None"], LogView]
 
 
-class Seeker:
+class MatchSearch:
     """Goes to the next line that passes a filter, or the one before; around the end."""
 
     def __init__(self, open_view: OpenView) -> None:

@@ -1,4 +1,4 @@
-"""Starts the guardian beside the console, see `guardian`."""
+"""Starts `restorer` as a process beside the console."""
 
 from __future__ import annotations
 
@@ -12,28 +12,28 @@ from collections.abc import Callable, Generator
 from pathlib import Path
 from typing import NamedTuple
 
-from bot_console.tui.terminal import guardian
+from bot_console.tui.terminal import restorer
 
 
-class Watch(NamedTuple):
-    """The notices to the guardian; calling one sends it."""
+class Restorer(NamedTuple):
+    """The process that restores the terminal, by the notices it is sent: calling one sends it."""
 
     has_begun: Callable[[], None]
     """The terminal is set for us."""
     has_ended: Callable[[], None]
-    """The terminal is as it was: the guardian goes, while this process does what else there is to do at its end."""
+    """The terminal is as it was: the restorer goes, while this process does what else there is to do at its end."""
 
 
 @contextlib.contextmanager
-def guarded(terminal: int) -> Generator[Watch]:
+def restored_terminal(terminal: int) -> Generator[Restorer]:
     """Have the terminal restored after the block, however this process ends, unless told that it is right."""
     try:
         process = subprocess.Popen(
-            [sys.executable, "-I", "-S", str(Path(guardian.__file__)), str(terminal)], pass_fds=[terminal],
+            [sys.executable, "-I", "-S", str(Path(restorer.__file__)), str(terminal)], pass_fds=[terminal],
             stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
         )  # fmt: skip
     except OSError:  # no process can be started: continue without
-        yield Watch(lambda: None, lambda: None)
+        yield Restorer(lambda: None, lambda: None)
         return
     assert process.stdin is not None
     pipe = process.stdin.fileno()
@@ -44,14 +44,14 @@ def guarded(terminal: int) -> Generator[Watch]:
 
     def has_begun() -> None:
         with contextlib.suppress(termios.error):
-            tell(json.dumps(guardian.settings_of(terminal)))
+            tell(json.dumps(restorer.settings_of(terminal)))
 
     def has_ended() -> None:
-        tell(guardian.WELL)
+        tell(restorer.WELL)
 
     has_begun()
     try:
-        yield Watch(has_begun, has_ended)
+        yield Restorer(has_begun, has_ended)
     finally:
         has_ended()
         with contextlib.suppress(OSError):

@@ -10,7 +10,7 @@ OFF = {"1": "22", "2": "22", "3": "23", "4": "24", "5": "25", "6": "25", "7": "2
 """The code that ends each attribute."""
 
 
-class Pen(NamedTuple):
+class SgrStyle(NamedTuple):
     """A parsed style: attributes, foreground and background, each as SGR codes; empty for the default."""
 
     attributes: frozenset[str]
@@ -19,7 +19,7 @@ class Pen(NamedTuple):
 
 
 @lru_cache(maxsize=4096)
-def parsed(codes: str) -> Pen:
+def parsed(codes: str) -> SgrStyle:
     """Parse SGR codes such as `1;38;2;1;2;3`."""
     attributes: set[str] = set()
     grounds = ["", ""]
@@ -40,7 +40,7 @@ def parsed(codes: str) -> Pen:
             attributes.add(number)
         at += length
     attributes -= {"39", "49"}
-    return Pen(frozenset(attributes), grounds[0], grounds[1])
+    return SgrStyle(frozenset(attributes), grounds[0], grounds[1])
 
 
 @lru_cache(maxsize=4096)

@@ -11,8 +11,8 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from bot_console.tui.keys import taking
-from bot_console.tui.keys.taking import Ending, ends_at_once
+from bot_console.tui.keys import input_thread
+from bot_console.tui.keys.input_thread import Ending, ends_at_once
 
 PATIENCE = 20.0
 """Seconds after which a test gives up; nothing is measured by it."""
@@ -63,7 +63,7 @@ class Rig:
 
 @pytest.fixture
 def rig(monkeypatch: pytest.MonkeyPatch) -> Iterator[Rig]:
-    monkeypatch.setattr(taking, "LOOK", 10 * PATIENCE)  # who waits for the next look never ends
+    monkeypatch.setattr(input_thread, "LOOK", 10 * PATIENCE)  # who waits for the next look never ends
     rig = Rig()
     yield rig
     rig.end()
@@ -106,7 +106,7 @@ def test_bytes_that_are_no_text_end_nothing(rig: Rig) -> None:
 
 
 def test_it_goes_on_when_a_program_has_closed_its_descriptors(rig: Rig, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(taking, "LOOK", 0.01)
+    monkeypatch.setattr(input_thread, "LOOK", 0.01)
     rig.types(b"a")
     ending = rig.driver.exit_event
     for each in list(ending._ends):

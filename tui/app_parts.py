@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from bot_console.tui.arrangement.stage import Stage
-from bot_console.tui.commanding.desk import Desk
+from bot_console.tui.commanding.command_handler import CommandHandler
 from bot_console.tui.console.command_line import CommandLine
 from bot_console.tui.console.connection.no_console import NoCommandLine
 from bot_console.tui.console.connection.read_only import ReadOnlyConsole
@@ -36,7 +36,7 @@ from textual.app import App
 from textual.widget import Widget
 
 
-class Crew:
+class AppParts:
     """Those parts, made for one app and one console."""
 
     def __init__(
@@ -58,14 +58,16 @@ class Crew:
         self.stopping = Stopping(app, console)
         self.late_stop = LateStop(self.stopping, stage.typing)
         self.leaving = Leaving(app, console, redraw, holds=not isinstance(console, ReadOnlyConsole))
-        self.desk = Desk(app, stage, self.stopping, console, lines or NoCommandLine(), open, self.leaving.run)
+        self.command_handler = CommandHandler(
+            app, stage, self.stopping, console, lines or NoCommandLine(), open, self.leaving.run
+        )
         self.safety_news = SafetyNews(console)
         self.faults = Faults(app, maker, changed)
         self.status = StatusBar()
 
     def widgets(self) -> Sequence[Widget]:
         """The widgets between the panes and the key bar, top to bottom."""
-        return StreamPanels(), self.desk.field(), self.status
+        return StreamPanels(), self.command_handler.field(), self.status
 
     def is_spent(self, event: events.Event, *, overtaken: bool) -> bool:
         """Whether an event means nothing any more, a key that was overtaken or not.
@@ -78,7 +80,7 @@ class Crew:
 
     def beat(self) -> None:
         """Ten times a second: take in what running command lines print, and show figures that were held back."""
-        self.desk.look()
+        self.command_handler.look()
         self.status.beat()
 
     def arrange(self) -> None:

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING, cast
 from textual.app import App
 
 if TYPE_CHECKING:
+    from bot_console.tui.app_parts import AppParts
     from bot_console.tui.arrangement.stage import Stage
-    from bot_console.tui.crew import Crew
     from bot_console.tui.panes.pane import Pane
 
 PLOT = "plot"
 
 
-class PaneWishes(App[None]):
+class PaneRequests(App[None]):
     """An app whose panes may ask it for what another part does."""
 
-    crew: Crew
+    parts: AppParts
     stage: Stage
 
     def action_pane(self, name: str) -> None:
@@ -35,7 +35,7 @@ class PaneWishes(App[None]):
     def on_pane_line_wanted(self, event: Pane.LineWanted) -> None:
         """Run a command line that a pane asks for."""
         event.stop()
-        self.crew.desk.runner.run(event.line)
+        self.parts.command_handler.runner.run(event.line)
 
     def on_pane_keys_changed(self, event: Pane.KeysChanged) -> None:
         """Update what the keys of the pane do."""
@@ -51,4 +51,4 @@ class PaneWishes(App[None]):
     def on_pane_edit_wanted(self, event: Pane.EditWanted) -> None:
         """Open a line of a file in the person's editor."""
         event.stop()
-        self.crew.leaving.edit(event.file, event.line)
+        self.parts.leaving.edit(event.file, event.line)

@@ -11,7 +11,7 @@ LOOK = 1.0
 """Seconds after which a terminal that takes nothing is tried again, though nothing was heard of it."""
 
 
-class LastingFile:
+class TerminalFile:
     """The file of a terminal that accepts text even after the terminal has gone or was made non-blocking.
 
     Textual's writer ends with the first error. Nobody empties its queue then, and whoever writes waits forever, the

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 NO_TUNER = "Nothing is tuned here: this console only looks on, or was given no simulator."
 
 
-class TuningDoor(App[None]):
+class TuningRequests(App[None]):
     """An app whose panes may request a tuning."""
 
     tuner: Tuner | None = None

@@ -13,7 +13,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.needed import Missing
 from bot_console.tui.console.bags.qos import noted
 from bot_console.tui.console.bags.recorder import CLOCK, Ring, in_order
-from bot_console.tui.console.bags.tape import RingTape
+from bot_console.tui.console.bags.recording_sinks import RingSink
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.console.recording import RingSize
 from bot_console.tui.files.save_file import NotSaved, typed_path
@@ -32,7 +32,7 @@ class Carried(Protocol):
     qos: Any
 
 
-class Past:
+class SnapshotBuffer:
     """Keeps the messages that it is given; methods may be called from any thread.
 
     The middleware passes on what it carries anyway, so this is no subscription: `topic info` does not count it, and a
@@ -45,14 +45,14 @@ class Past:
         self.kept_s = size.seconds
         self._serialize = serialize
         self._hash_of = hash_of
-        self._tape = RingTape(Ring(size.seconds, size.bytes))
+        self._sink = RingSink(Ring(size.seconds, size.bytes))
         self._waiting: deque[tuple[Carried, bytes, int, int, Any]] = deque(maxlen=WAITING)
         self._numbers: dict[bytes, int] = {}
         self._known: set[str] = set()
         self._last = 0
         self._lock = threading.Lock()
         self._closing = threading.Event()
-        threading.Thread(target=self._serve, name="past", daemon=True).start()
+        threading.Thread(target=self._serve, name="snapshot-buffer", daemon=True).start()
 
     def hear(self, by: Carried, source: bytes, number: int, sent: int, message: Any) -> None:
         """Keep a message: endpoint, the publisher's gid and sequence number, time of sending (ns), message or bytes."""
@@ -74,8 +74,8 @@ class Past:
             with self._lock:
                 self._turn()
                 writer = BagWriter(typed_path(folder))
-                count = self._tape.pour(writer)
-                span = self._tape.ring.span
+                count = self._sink.pour(writer)
+                span = self._sink.ring.span
             writer.close()
         except (Missing, NotSaved, OSError) as error:
             return Answer(False, f"not saved: {error}")
@@ -96,8 +96,8 @@ class Past:
             self._numbers[source] = number
             if by.topic not in self._known:
                 self._known.add(by.topic)
-                self._tape.topic(by.topic, by.message_class, noted([by.qos]), self._hash_of(by.message_class))
+                self._sink.topic(by.topic, by.message_class, noted([by.qos]), self._hash_of(by.message_class))
             found.append((sent, by.topic, message if isinstance(message, bytes) else self._serialize(message)))
         for received, topic, data, sent in in_order(found, time.time_ns(), self._last):
             self._last = received
-            self._tape.write(topic, data, received, sent)
+            self._sink.write(topic, data, received, sent)

@@ -21,7 +21,7 @@ from textual.screen import ModalScreen
 from textual.strip import Strip
 
 
-class VeilScreen(ModalScreen[None]):
+class DimmedScreen(ModalScreen[None]):
     """A modal screen that composes only changes, and takes the screen below as lines."""
 
     def __init__(self) -> None:
@@ -38,10 +38,10 @@ class VeilScreen(ModalScreen[None]):
         filters = self.get_line_filters()
         found: list[Strip] = []
         for strip in below.lines(crop.line_range):
-            veiled = veil(strip, color, base).adjust_cell_length(width, base)
+            dimmed = dim(strip, color, base).adjust_cell_length(width, base)
             for each in filters:
-                veiled = veiled.apply_filter(each, color)
-            found.append(veiled if crop.column_span == (0, width) else veiled.crop(*crop.column_span))
+                dimmed = dimmed.apply_filter(each, color)
+            found.append(dimmed if crop.column_span == (0, width) else dimmed.crop(*crop.column_span))
         return found
 
     def _below(self) -> PartwiseCompositor | None:
@@ -54,13 +54,13 @@ class VeilScreen(ModalScreen[None]):
         return compositor if isinstance(compositor, PartwiseCompositor) else None
 
 
-def veil(strip: Strip, color: Color, base: Style) -> Strip:
+def dim(strip: Strip, color: Color, base: Style) -> Strip:
     """A line behind a translucent colour, without links; `base` is the style of segments without one."""
-    segments = [Segment(text, _veiled(style, color, base)) for text, style, control in strip if not control]
+    segments = [Segment(text, _dimmed(style, color, base)) for text, style, control in strip if not control]
     return Strip(segments, strip.cell_length)
 
 
 @lru_cache(maxsize=4096)
-def _veiled(style: Style | None, color: Color, base: Style) -> Style:
-    veiled = next(iter(BackgroundScreen.process_segments([Segment(" ", style)], color))).style
-    return base + veiled if veiled else base
+def _dimmed(style: Style | None, color: Color, base: Style) -> Style:
+    dimmed = next(iter(BackgroundScreen.process_segments([Segment(" ", style)], color))).style
+    return base + dimmed if dimmed else base

@@ -7,8 +7,8 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from bot_console.tui.console.bags.past import Past
 from bot_console.tui.console.bags.reader import Bag
+from bot_console.tui.console.bags.snapshot_buffer import SnapshotBuffer
 from bot_console.tui.console.recording import RingSize
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message
@@ -25,15 +25,15 @@ def endpoint(topic: str, kind: Any = String, *, latching: bool = False) -> Any:
 
 
 def test_each_message_is_kept_once_in_the_order_of_sending_and_saved(tmp_path: Path) -> None:
-    past = Past(SIZE, serialize_message, lambda kind: f"RIHS01_{kind.__name__}")
+    buffer = SnapshotBuffer(SIZE, serialize_message, lambda kind: f"RIHS01_{kind.__name__}")
     words, echo, now = endpoint("/words"), endpoint("/echo"), time.time_ns()
-    past.hear(endpoint("/map_name", latching=True), OTHER, 1, now - 9000, String(data="office"))
-    past.hear(endpoint("/clock", Clock), b"3" * 16, 1, now - 8000, Clock())
-    past.hear(words, ONE, 2, now - 2000, serialize_message(String(data="second")))
-    past.hear(words, ONE, 2, now - 2000, serialize_message(String(data="second")))  # another subscription's
-    past.hear(echo, OTHER, 2, now - 3000, String(data="first"))
-    answer = past.keep(str(tmp_path / "bag")).result(10)
-    past.close()
+    buffer.hear(endpoint("/map_name", latching=True), OTHER, 1, now - 9000, String(data="office"))
+    buffer.hear(endpoint("/clock", Clock), b"3" * 16, 1, now - 8000, Clock())
+    buffer.hear(words, ONE, 2, now - 2000, serialize_message(String(data="second")))
+    buffer.hear(words, ONE, 2, now - 2000, serialize_message(String(data="second")))  # another subscription's
+    buffer.hear(echo, OTHER, 2, now - 3000, String(data="first"))
+    answer = buffer.keep(str(tmp_path / "bag")).result(10)
+    buffer.close()
     assert answer.ok and answer.text.startswith("the last 0 s, 3 messages, in ")
     bag = Bag(tmp_path / "bag")
     found = [(each.topic, deserialize_message(each.data, String).data) for each in bag.messages()]
@@ -42,9 +42,9 @@ def test_each_message_is_kept_once_in_the_order_of_sending_and_saved(tmp_path: P
 
 
 def test_a_folder_that_is_there_is_refused_and_keeping_goes_on(tmp_path: Path) -> None:
-    past = Past(SIZE, serialize_message, str)
-    past.hear(endpoint("/words"), ONE, 1, time.time_ns(), String(data="word"))
-    refused = past.keep(str(tmp_path)).result(10)
+    buffer = SnapshotBuffer(SIZE, serialize_message, str)
+    buffer.hear(endpoint("/words"), ONE, 1, time.time_ns(), String(data="word"))
+    refused = buffer.keep(str(tmp_path)).result(10)
     assert not refused.ok and "is there already" in refused.text
-    assert past.keep(str(tmp_path / "bag")).result(10).ok
-    past.close()
+    assert buffer.keep(str(tmp_path / "bag")).result(10).ok
+    buffer.close()
