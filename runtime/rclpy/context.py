@@ -12,6 +12,7 @@ from bot_console.runtime.domain_id import domain_id as environments_domain
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.bus import Bus, Thing
 from bot_console.runtime.rmw.middleware import bus_of
+from bot_console.runtime.rmw.zenoh.domain.discovery_range import why_range_is_ignored
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.reexports import reexporting
@@ -50,6 +51,7 @@ class Context:
         import sys
 
         from rclpy.impl.command_line import begin_log_file, parse_global
+        from rclpy.impl.rcutils_logger import RcutilsLogger
 
         with self._lock:
             if self._initialized:
@@ -60,6 +62,8 @@ class Context:
             elif domain_id < 0:
                 raise RuntimeError(f"Domain id ({domain_id}) should not be lower than zero.")
             self._domain = domain_id
+            if ignored := why_range_is_ignored():
+                RcutilsLogger("rcl").warning(ignored)
             self._bus = bus_of(domain_id)
             if initialize_logging:
                 self._log_file = begin_log_file(self.arguments)

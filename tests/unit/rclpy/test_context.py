@@ -81,6 +81,17 @@ def test_a_bad_domain() -> None:
         Context().init([], domain_id=-5)
 
 
+@pytest.mark.parametrize(("value", "warns"), [("OFF", False), ("SUBNET", False), ("", False), ("off", True)])
+def test_a_discovery_range_that_is_none(
+    value: str, warns: bool, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", value)
+    with Context():
+        pass
+    said = "[rcl]: Invalid value 'off' specified for 'ROS_AUTOMATIC_DISCOVERY_RANGE', assuming localhost only"
+    assert (said in capfd.readouterr().err) == warns
+
+
 @pytest.mark.parametrize(
     ("words", "kind", "text"),
     [
