@@ -152,6 +152,7 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
         """Choose the theme, lay out, and start polling."""
         self.ask()
         self.stage.resized(self.size)
+        self.theme_changed_signal.subscribe(self, lambda _: self.stage.recolour())
         if self._reached:
             self.begin_to_pull()
             self._open_first()

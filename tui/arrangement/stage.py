@@ -210,6 +210,12 @@ class Stage:
             words = pane.key_words if pane else NO_OTHERS
             screen.query_one(KeyBar).show(scopes, typing, self._primary(), self._extent.width, words)
 
+    def recolour(self) -> None:
+        """Write tabs and keys in the colour of another theme: their texts have it in them."""
+        if self._app.screen_stack:
+            self._tabs(self._shown())
+            self.show_keys()
+
     def _shown(self) -> Tree:
         tree = self._tree() if self._wanted == OVERVIEW else None
         return tree or (self._focused if self._wanted == OVERVIEW else self._wanted)

@@ -9,6 +9,8 @@ from bot_console.tui.keys.remapping import remap
 from bot_console.tui.look import Look
 from bot_console.tui.terminal.plain import plain_text
 from bot_console.tui.theme import THEMES
+from bot_console.tui.widgets.key_bar import KeyBar
+from bot_console.tui.widgets.tabs import Tabs
 from hypothesis import given
 from hypothesis import strategies as st
 from piloting import Session, run
@@ -27,6 +29,18 @@ def test_themes_follow_one_another_and_panes_are_drawn_in_each(digits: str) -> N
             for digit in digits:
                 await session.press(digit)
         assert sorted(seen) == sorted(each.name for each in THEMES.values())
+
+    run(live(), play, (120, 40))
+
+
+def test_tabs_and_keys_have_the_colour_of_the_theme_as_soon_as_it_is_chosen() -> None:
+    async def play(session: Session) -> None:
+        for _ in THEMES:
+            await session.press("ctrl+y")
+            primary = session.app.theme_variables["primary"].removeprefix("ansi_").lower()
+            for each in (KeyBar, Tabs):
+                styles = [span.style for span in session.app.query_one(each).content.spans if span.style]
+                assert {style.color.name for style in styles if style.color} == {primary}
 
     run(live(), play, (120, 40))
 
