@@ -18,6 +18,7 @@ from bot_console.tui.cli.system.domain import (
     domain,
     is_in_range,
     others_take_part,
+    robot_claim,
     robot_there,
     same_names_there,
     take_part,
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from bot_console.tui.cli.system.connected import Connected
 
 ATTACHED = "Attached to ROS domain {}: q ends the console alone, and what was started from it."
+STARTING = "Another bot-console is starting a robot in ROS domain {}: waiting for it ..."
 HOST_LOG = "launch-host.log"
 
 
@@ -46,14 +48,19 @@ def run(options: Options) -> int:
     if alone and options.attach:
         print(alone, file=sys.stderr)
         return 1
-    if not (alone or options.attach or options.launch) and others_take_part():
-        _prepare(options)
-        robot = robot_there()
-        there = robot or same_names_there(options.launch_arguments)
-        if there and not _attach_instead(there, robot=bool(robot)):
-            return 1
-        options = replace(options, attach=bool(there))
     with ExitStack() as hosts:
+        if not (alone or options.attach or options.launch) and is_in_range():
+            claim = robot_claim()
+            hosts.callback(claim.release)
+            if others_take_part() or not claim.held:
+                _prepare(options)
+                robot = claim.seen(robot_there, partial(print, STARTING.format(domain())))
+                there = robot or same_names_there(options.launch_arguments)
+                if there and not _attach_instead(there, robot=bool(robot)):
+                    return 1
+                if there:
+                    claim.release()  # once that robot has gone, another console may bring one
+                options = replace(options, attach=bool(there))
 
         def start() -> Host:
             host = _host(options)

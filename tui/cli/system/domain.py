@@ -9,9 +9,13 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Mapping
-from typing import NoReturn
+from pathlib import Path
+from typing import TYPE_CHECKING, NoReturn
 
 from bot_console.runtime.domain_id import domain_id
+
+if TYPE_CHECKING:
+    from bot_console.tui.cli.robot_claim import RobotClaim
 
 _taking_part = False
 
@@ -124,6 +128,14 @@ def nodes_there() -> list[str]:
 
     nodes = [each for table in bus_of(domain()).tables() for each in table.nodes()]
     return sorted(each.full_name for each in nodes if not each.name.startswith("_"))
+
+
+def robot_claim() -> RobotClaim:
+    """Claim the robot of this domain, for consoles that bring one of their own; only where `why_alone` is empty."""
+    from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
+    from bot_console.tui.cli.robot_claim import RobotClaim
+
+    return RobotClaim(Path(domain_folder(domain())))
 
 
 def same_names_there(arguments: Mapping[str, str]) -> list[str]:
