@@ -37,7 +37,7 @@ def test_colcon_has_nothing_to_do_and_names_the_packages_that_are_not_there():
 
 
 def test_colcon_names_the_packages_that_could_not_be_built(tmp_path, monkeypatch):
-    for name, setup in (("good", "setup()\n"), ("bad", "setup(\n")):
+    for name, setup in (("good", "from setuptools import setup\n\nsetup()\n"), ("bad", "setup(\n")):
         (tmp_path / name).mkdir()
         (tmp_path / name / "package.xml").write_text(f"<package><name>{name}</name></package>")
         (tmp_path / name / "setup.py").write_text(setup)
