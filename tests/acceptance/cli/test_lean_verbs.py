@@ -21,6 +21,7 @@ HEAVY = {
     "datetime",
     "importlib.metadata",
     "inspect",
+    "locale",
     "logging",
     "numpy",
     "pathlib",
