@@ -9,7 +9,7 @@ from collections.abc import Generator
 
 SOON = 1.0
 """Seconds an end may take without a word."""
-WAITING = "waiting for what was launched to end; unless a launch file says otherwise it is killed after 10 s"
+WAITING = "waiting for what was launched to end; it is killed after 10 s"
 
 
 @contextlib.contextmanager
