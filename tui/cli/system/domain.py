@@ -9,7 +9,6 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 from bot_console.runtime.domain_id import domain_id
@@ -132,6 +131,8 @@ def nodes_there() -> list[str]:
 
 def robot_claim() -> RobotClaim:
     """Claim the robot of this domain, for consoles that bring one of their own; only where `why_alone` is empty."""
+    from pathlib import Path
+
     from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
     from bot_console.tui.cli.robot_claim import RobotClaim
 
