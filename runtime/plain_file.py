@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 QUIET = (ast.Import, ast.ImportFrom, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef, ast.Assign, ast.AnnAssign)
 """Statements that only define something."""
@@ -20,8 +20,7 @@ QT_PLUGIN = (
 """What becomes of plug-ins of rqt."""
 
 
-@dataclass(frozen=True)
-class PlainFile:
+class PlainFile(NamedTuple):
     """`problem` says why a file cannot be run, `hint` what its reader should know; empty where there is none."""
 
     problem: str = ""

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 ATTRIBUTE = "launch_place"
 """The attribute of an exception that holds its `LaunchPlace`, if known."""
 
 
-@dataclass(frozen=True)
-class LaunchPlace:
+class LaunchPlace(NamedTuple):
     """What was being read or visited when an exception was raised."""
 
     file: str

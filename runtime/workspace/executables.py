@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from bot_console.runtime.workspace.demos import demo_packages, is_demo
 from bot_console.runtime.workspace.discover import workspace
 from bot_console.runtime.workspace.package import EntryPoint, Package
 
 
-@dataclass(frozen=True)
-class Executable:
+class Executable(NamedTuple):
     """Something that can be run: an entry point of a source package, or a file."""
 
     package: str

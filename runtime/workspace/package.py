@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
+from typing import NamedTuple
 
 from bot_console.runtime.workspace.cmake_lists import read_cmake_lists
 from bot_console.runtime.workspace.setup_cfg import read_setup_cfg
@@ -15,8 +16,7 @@ from bot_console.runtime.workspace.setup_py import SetupFile, read_setup_py
 INTERFACE_FOLDERS = ("msg", "srv", "action")
 
 
-@dataclass(frozen=True)
-class EntryPoint:
+class EntryPoint(NamedTuple):
     """A console script: the function `function` of the module `module`."""
 
     module: str

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from bot_console.runtime.process.fork_server import function_named
 
 
-@dataclass(frozen=True)
-class PythonProgram:
+class PythonProgram(NamedTuple):
     """The name of a function that returns the program, and its arguments."""
 
     function: str

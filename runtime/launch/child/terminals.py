@@ -5,11 +5,10 @@ from __future__ import annotations
 import os
 import pty
 import termios
-from dataclasses import dataclass
+from typing import NamedTuple
 
 
-@dataclass(frozen=True)
-class Stream:
+class Stream(NamedTuple):
     """Both ends of a pipe or pseudo terminal that a child prints to."""
 
     own_end: int

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from typing import NamedTuple
 
 SCREEN = {
     "default": "[{levelname}] [{name}]: {message}",
@@ -16,8 +16,7 @@ OUTPUT_ON_SCREEN = "{message}"
 OUTPUT_IN_LOG = "{created:.7f} {message}"
 
 
-@dataclass(frozen=True)
-class Format:
+class Format(NamedTuple):
     """A record format, by its text or name, with the style of its fields (`{`, `%` or `$`)."""
 
     text: str

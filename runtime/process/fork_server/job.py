@@ -5,8 +5,7 @@ from __future__ import annotations
 import importlib
 import json
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 
 def function_named(name: str) -> Callable[..., Any]:
@@ -15,8 +14,7 @@ def function_named(name: str) -> Callable[..., Any]:
     return getattr(importlib.import_module(module), function)
 
 
-@dataclass(frozen=True)
-class Job:
+class Job(NamedTuple):
     """A program and its environment at start."""
 
     name: str
@@ -31,7 +29,7 @@ class Job:
 
     def to_bytes(self) -> bytes:
         """Serialize for the socket; strings that are not valid Unicode (as file names may be) are preserved."""
-        return json.dumps(asdict(self)).encode()
+        return json.dumps(self._asdict()).encode()
 
     @classmethod
     def from_bytes(cls, data: bytes) -> Job:

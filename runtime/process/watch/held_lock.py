@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from .. import frames, real
 
@@ -23,8 +24,7 @@ _FRAME = re.compile(r'  File "(.*)", line (\d+) in (.*)')
 _ESCAPE = re.compile(r"\\(?:x[0-9a-f]{2}|u[0-9a-f]{4}|U[0-9a-f]{8})")
 
 
-@dataclass(frozen=True)
-class Held:
+class Held(NamedTuple):
     """The holder of the GIL."""
 
     ident: int
