@@ -33,8 +33,9 @@ class TopicEndpointInfo:
     __hash__ = None  # type: ignore[assignment] -- not hashable, as upstream
 
     def __init__(self, **kwargs: Any) -> None:
-        unknown = [name for name in kwargs if f"_{name}" not in self.__slots__]
-        assert not unknown, f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}"
+        assert all(f"_{name}" in self.__slots__ for name in kwargs), (
+            f"Invalid arguments passed to constructor: {kwargs.keys()}"
+        )
         self.node_name = kwargs.get("node_name", "")
         self.node_namespace = kwargs.get("node_namespace", "")
         self.topic_type = kwargs.get("topic_type", "")

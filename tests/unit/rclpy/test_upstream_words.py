@@ -232,3 +232,16 @@ def test_what_is_called_at_the_shutdown_is_kept_without_an_answer() -> None:
         context.on_shutdown(5)  # type: ignore[arg-type]
     assert answers == [None]
     assert refused.value.args == ("callback should be a callable, got {}", int)
+
+
+@pytest.mark.parametrize("given", [{"args": ("program",)}, {"args": "program"}, {"args": [], "domain_id": 1.0}])
+def test_a_context_is_initialised_with_a_list_and_a_number(given: Any) -> None:
+    context = Context()
+    with pytest.raises(TypeError, match=r"must be an? (list of strings|int), not (tuple|str|float)"):
+        context.init(**given)
+    assert not context.ok()
+
+
+def test_an_endpoint_names_all_that_it_was_given() -> None:
+    with pytest.raises(AssertionError, match=r"constructor: dict_keys\(\['node_name', 'nodename'\]\)"):
+        TopicEndpointInfo(node_name="a", nodename="b")
