@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.live.open_files import too_few_files
 from bot_console.tui.cli.live.own_host import Host, start_host
 from bot_console.tui.cli.live.session import Session
 from bot_console.tui.cli.system.domain import (
@@ -104,7 +105,7 @@ def _connect(options: Options, alone: str, own: Host | None, start: Callable[[],
 def _refusal() -> str:
     if not sys.stdout.isatty() or not sys.stdin.isatty():
         return "bot-console needs a terminal; without one, use --headless"
-    return unusable_domain()
+    return unusable_domain() or too_few_files()
 
 
 def _host(options: Options) -> Host:
