@@ -47,6 +47,8 @@ def own_parameter_arguments(
                 found.append((str(each), True))
             else:
                 logger.warning(f"Parameter file path is not a file: {each}")
+                if not each.is_absolute():
+                    logger.warning(f"{each} was looked for in {Path.cwd()}, the folder that launch was started in")
         else:
             found.append((_rule(*each.evaluate(context)), False))
     return found

@@ -110,6 +110,8 @@ def _parameter(word: str, value: str, parsed: Arguments) -> None:
         parsed.parameters.add_value(node, name, value[lexer.index :])
     except (GrammarError, ParameterYamlError) as error:
         mend = "" if ":=" in value or "=" not in value else f"write {word} {value.replace('=', ':=', 1)}, with a colon"
+        if value.endswith(":="):
+            mend = f"the value follows without a blank: {word} {value}VALUE"
         raise ArgumentsError(
             f"Couldn't parse parameter override rule: '{word} {value}'. Error: {error}", mend
         ) from None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 from bot_console.runtime.remote_address import is_remote
@@ -30,7 +31,8 @@ def read_parameter_file(path: str, overrides: ParameterOverrides) -> None:
     except (OSError, ValueError) as error:  # ValueError: an impossible file name
         if isinstance(error, IsADirectoryError):
             raise ParameterYamlError("Error parsing a event near line 0") from None
-        raise ParameterYamlError("Error opening YAML file") from None
+        why = getattr(error, "strerror", None) or error
+        raise ParameterYamlError("Error opening YAML file", f"{os.path.abspath(path)}: {why}") from None
     reader = _Reader(overrides)
     handlers = {
         yaml.ScalarEvent: reader.scalar,

@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterable, Sequence
 
 from bot_console.runtime.terse import is_read
 
+FEW = 8
+"""Names that fit a hint of one line or two."""
 _WRONG_TYPE = r"Wrong parameter type, expected 'Type\.(\w+)' got 'Type\.(\w+)'"
 
 
@@ -20,6 +22,24 @@ def advise(text: Callable[[], str]) -> None:
 def no_parameter(node: str, name: str, names: Iterable[str]) -> str:
     """The hint that a node does not declare a parameter, with the most similar name that it does declare."""
     return f"{node} has no parameter {name}{_meant(name, names) or f'; ros2 param list {node} shows those it has'}"
+
+
+def no_node(name: str, names: Sequence[str]) -> str:
+    """The hint that no node with the name runs, with the most similar one that does, or all of them if they are few."""
+    if not names:
+        return "no node runs in this ROS domain"
+    near = _meant(name, names)
+    listed = f"; there are: {', '.join(names)}" if len(names) <= FEW else ""
+    return f"no node {name} runs{near or listed}"
+
+
+def no_subscription(topic: str, kind: str, kinds: Iterable[str], subscribed: Iterable[str]) -> str:
+    """The hint why nobody receives what is published: subscriptions of other types, or a topic of a similar name."""
+    others = sorted(set(kinds) - {kind})
+    if others:
+        return f"{topic} is subscribed to as {', '.join(others)}, which does not match {kind}"
+    near = _meant(topic, subscribed)
+    return f"nobody subscribes to {topic}{near}" if near else ""
 
 
 def wrong_type(name: str, value: str, reason: str) -> str:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from rclpy.node import Node
+from ros2cli.advice import advise, no_node
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import DirectNode, NodeName, add_strategy_arguments, node_names
 from ros2cli.endpoints import action_names_and_types, without_actions
@@ -50,6 +51,7 @@ def _info(arguments: argparse.Namespace) -> Result:
         names = node_names(node, include_hidden=arguments.include_hidden)
         found = [each for each in names if each.full_name == arguments.node_name]
         if not found:
+            advise(lambda: no_node(arguments.node_name, sorted({each.full_name for each in names})))
             return f"Unable to find node '{arguments.node_name}'"
         if len(found) > 1:
             print(

@@ -13,7 +13,7 @@ from rcl_interfaces.msg import ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
 from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
-from ros2cli.advice import advise, no_parameter
+from ros2cli.advice import advise, no_node, no_parameter
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, NoAnswer, NodeName, absolute, call, node_names, wait_for_node
 
@@ -22,10 +22,13 @@ TYPE_WORDS = {NOT_SET: "not set", **{code: each.shown for code, each in BY_CODE.
 
 
 def found(node: Node, arguments: argparse.Namespace) -> bool:
-    """Whether the node that the arguments name exists, or appears within their time-out."""
+    """Whether the node that is named exists, or appears within the time-out; a person gets a hint if not."""
     name = absolute(arguments.node_name)
     hidden = arguments.include_hidden_nodes
-    return wait_for_node(node, name, include_hidden=hidden, timeout=arguments.timeout)
+    if wait_for_node(node, name, include_hidden=hidden, timeout=arguments.timeout):
+        return True
+    advise(lambda: no_node(name, sorted({each.full_name for each in node_names(node, include_hidden=hidden)})))
+    return False
 
 
 def values_of(node: Node, name: str, parameters: list[str]) -> list[ParameterValue]:

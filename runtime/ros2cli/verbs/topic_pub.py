@@ -7,11 +7,13 @@ import itertools
 import math
 import sys
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from typing import Any
 
 from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
 from rclpy.node import Node
+from ros2cli.advice import advise, no_subscription
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
 from ros2cli.qos_arguments import add_qos_arguments, profile
@@ -137,6 +139,7 @@ def _wait_for_subscriptions(node: Node, publisher: Any, arguments: argparse.Name
     wanted = int(arguments.once or arguments.times > 0) if wanted is None else wanted
     left: float = math.inf if arguments.max_wait_time_secs is None else arguments.max_wait_time_secs
     count: Callable[[], int] = publisher.get_subscription_count
+    hint: Callable[[], str] | None = partial(_unmatched, node, publisher, arguments.message_type)
     while count() < wanted:
         if left <= 0:
             # the misspelling is upstream's: scripts search for this line
@@ -144,7 +147,19 @@ def _wait_for_subscriptions(node: Node, publisher: Any, arguments: argparse.Name
         print(f"Waiting for at least {wanted} matching subscription(s)...")
         spin_until(node, lambda: count() >= wanted, min(left, 1.0))
         left -= 1.0
+        if hint and not count():
+            advise(hint)
+            hint = None
     return ""
+
+
+def _unmatched(node: Node, publisher: Any, message_type: str) -> str:
+    """Why nobody may receive it, for a person; empty if nothing is known."""
+    topic = publisher.topic_name
+    package, *_, name = message_type.split("/")
+    kinds = [each.topic_type for each in node.get_subscriptions_info_by_topic(topic)]
+    subscribed = [each for each, _ in node.get_topic_names_and_types() if node.count_subscribers(each)]
+    return no_subscription(topic, f"{package}/msg/{name}", kinds, subscribed)
 
 
 def _loop(node: Node, publisher: Any, messages: Iterator[_Filled], arguments: argparse.Namespace) -> None:

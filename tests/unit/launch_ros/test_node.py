@@ -189,6 +189,12 @@ def test_a_missing_file_is_only_a_warning(run: Launch) -> None:
     outcome = launched(run, action)
     assert "[WARNING] [launch_ros.actions.node]: Parameter file path is not a file: /no/such.yaml" in outcome.text
     assert words(action) == ["--ros-args"]
+    assert "was looked for in" not in outcome.text
+
+
+def test_where_a_relative_file_was_looked_for_is_told(run: Launch) -> None:
+    outcome = launched(run, node(parameters=[Path("config/no_such.yaml")]))
+    assert f"config/no_such.yaml was looked for in {Path.cwd()}, the folder that launch was started" in outcome.text
 
 
 def test_a_missing_file_for_all_ends_the_launch(run: Launch) -> None:
