@@ -1,5 +1,6 @@
 """Finds packages: in the prefixes of `AMENT_PREFIX_PATH`, then among the source packages of the workspace."""
 
+from ament_index_python.constants import RESOURCE_INDEX_SUBFOLDER
 from ament_index_python.packages import (
     PackageNotFoundError,
     get_package_prefix,
@@ -19,6 +20,7 @@ from ament_index_python.resources import (
 )
 
 __all__ = [
+    "RESOURCE_INDEX_SUBFOLDER",
     "InvalidResourceNameError",
     "InvalidResourceTypeNameError",
     "PackageNotFoundError",

@@ -28,6 +28,9 @@ def name_is_invalid(resource_name: str) -> bool:
 
 
 def _check(resource_type: str, resource_name: str = "any") -> None:
+    """Refuse an empty name by `AssertionError`, as upstream, and one that leads to another folder by its own error."""
+    assert resource_type, "The resource type must not be empty"
+    assert resource_name, "The resource name must not be empty"
     if name_is_invalid(resource_type):
         raise InvalidResourceTypeNameError(f"Resource type '{resource_type}' is invalid")
     if name_is_invalid(resource_name):
