@@ -15,16 +15,24 @@ RECOGNIZED = 60
 """Characters of a name that are shown where it is too long."""
 ENDED = "ExternalShutdownException"
 """What a wait raises when SIGTERM has ended the context; named, as not every command imports rclpy."""
+NO_THREAD = "can't start new thread"
+"""How Python puts that in a RuntimeError."""
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG)
 
 
 def place_fault(error: BaseException) -> str:
     """What to say of an error that names no file: of standard output, or of the working directory; else empty.
 
-    Of a file whose name is too long it is said, too: it is not even looked for.
+    Of a file whose name is too long it is said, too: it is not even looked for. So it is of limits of this process.
     """
     if isinstance(error, SystemError) and not _has_folder():  # so says an import of Python 3.13.0 there
         return DELETED
+    if isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno == errno.ENOMEM):
+        return "there is too little memory (a limit is shown by `ulimit -v`)"
+    if isinstance(error, RuntimeError) and str(error) == NO_THREAD:
+        return "no more threads can be started (limits are shown by `ulimit -v` and `ulimit -u`)"
+    if isinstance(error, OSError) and error.errno == errno.EMFILE:
+        return "too many files are open (the limit is shown by `ulimit -n`)"
     if isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG:
         return f"{_shortened(error.filename)} cannot be a file: its name is too long"
     if not isinstance(error, OSError) or error.filename is not None:
@@ -102,7 +110,9 @@ def told(run: Callable[[], int]) -> int:
     except BrokenPipeError:  # as of `head`, which has read enough
         _give_up_output()
         return code or 1
-    except (OSError, SystemError) as error:
+    except (OSError, SystemError, RuntimeError, MemoryError) as error:
+        if code := ended_code(error):
+            return code
         text = place_fault(error)
         if not text:
             raise

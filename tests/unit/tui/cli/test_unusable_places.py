@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 from pathlib import Path
@@ -153,3 +154,32 @@ def test_an_empty_name_is_no_bag(words: list[str], capsys: pytest.CaptureFixture
     with pytest.raises(SystemExit) as ended:
         main(["bag", *words])
     assert ended.value.code == 2 and "the name of the bag is empty" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("error", "word"),
+    [
+        (MemoryError(), "memory"),
+        (OSError(errno.ENOMEM, "Cannot allocate memory"), "memory"),
+        (OSError(errno.EMFILE, "Too many open files", "some file"), "ulimit -n"),
+        (RuntimeError("can't start new thread"), "ulimit -u"),
+    ],
+    ids=repr,
+)
+def test_a_limit_of_this_process_is_told_in_one_line(
+    error: Exception, word: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def run() -> int:
+        raise error
+
+    assert told(run) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert word in line
+
+
+def test_other_errors_are_raised_as_they_are() -> None:
+    def run() -> int:
+        raise RuntimeError("a mistake")
+
+    with pytest.raises(RuntimeError, match="a mistake"):
+        told(run)
