@@ -41,7 +41,7 @@ def all_commands(app: App[None], pane: Pane | None) -> Mapping[str, Command]:
 
 
 def options_for(commands: Mapping[str, Command], risk: Callable[[str], str], typed: str) -> Sequence[Option]:
-    """The commands whose words match, best first; a `ros2` line as it stands; everything while nothing is typed.
+    """The commands whose words match, those that begin so first; a `ros2` line as it stands; all while it is empty.
 
     `risk` says how a line would make the robot less safe, which is shown before it is run.
     """
@@ -50,7 +50,8 @@ def options_for(commands: Mapping[str, Command], risk: Callable[[str], str], typ
         return [Option(each.text, each.keys, id) for id, each in commands.items()]
     matcher = Matcher(words)
     scores = {id: matcher.match(each.text) for id, each in commands.items()}
-    best = sorted((id for id, score in scores.items() if score > 0), key=lambda id: -scores[id])
+    begin = {id for id, each in commands.items() if each.text.lower().startswith(words.lower())}
+    best = sorted((id for id, score in scores.items() if score > 0), key=lambda id: (id not in begin, -scores[id]))
     why = risk(words)
     about = f"⚠ {why}; run this command line" if why else "run this command line"
     line = [Option(words, about)] if words.startswith("ros2 ") or is_rqt(words.split()) else []

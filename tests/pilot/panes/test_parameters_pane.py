@@ -7,7 +7,7 @@ from dataclasses import replace
 from types import MappingProxyType
 
 import pytest
-from bot_console.tui.console.model import BEGUN_ANEW, Change, ChangeSource, SetOutcome
+from bot_console.tui.console.model import BEGUN_ANEW, Change, ChangeSource, JournalState, SetOutcome
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from piloting import Clock, Session, run
@@ -273,3 +273,18 @@ def test_an_empty_system_waits() -> None:
         assert "Waiting for nodes" in session.text()
 
     run(empty(), play)
+
+
+def test_that_a_value_is_saved_is_told_at_once() -> None:
+    key = ("/robot_navigator", "max_speed")
+
+    async def play(session: Session) -> None:
+        session.console.change(journal=JournalState(0, 2, unsaved=(key,)))
+        await session.press("1")
+        await go_to(session, "max_speed")
+        assert "not saved" in session.text()
+        session.console.change(journal=JournalState(0, 2))
+        await session.settle()
+        assert "not saved" not in session.text()
+
+    run(live(), play)

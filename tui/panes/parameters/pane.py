@@ -119,6 +119,7 @@ class ParametersPane(EditPane):
         if (unsaved, moved) != (shown.unsaved, shown.moved):
             shown.unsaved, shown.moved = unsaved, frozenset(moved)
             shown.refresh()
+            self._describe()
 
     def tick(self) -> None:
         """Let values that have changed stop flashing, and say which are waited for."""

@@ -13,6 +13,7 @@ from textual.fuzzy import Matcher
 MOST = 200
 """Options at most; who wants another one types more of it."""
 
+PATH = re.compile(r"(/\w+)+(/|:)\w[\w.\[\]]*")
 LAST_PATH = re.compile(r"(.*[-+*/%(,]\s*)(/[^\s()+*%,-]*)")
 
 
@@ -32,7 +33,7 @@ def suggested(known: Sequence[str], typed: str) -> list[Option]:
         completed = [Option(f"{opened[1]}{each}{close}") for each in _best(known, opened[2])]
         return [*completed, *_as_typed(text, completed)]
     found = [Option(each, _about(each)) for each in _best(known, text)]
-    return [*_as_typed(text, found), *found]
+    return [*_as_typed(text, found), *found, *_to_come(text, found)]
 
 
 def _as_typed(text: str, found: Sequence[Option]) -> list[Option]:
@@ -44,6 +45,13 @@ def _as_typed(text: str, found: Sequence[Option]) -> list[Option]:
     if isinstance(formula, Formula):
         return [Option(text, "worked out")]
     return [] if found else [Option(text)]
+
+
+def _to_come(text: str, found: Sequence[Option]) -> list[Option]:
+    """A path that is not there, behind those that only have its letters: it may come."""
+    if not found or any(text in each.title for each in found) or not PATH.fullmatch(text):
+        return []
+    return [Option(text, "is not there yet")]
 
 
 def _best(known: Sequence[str], typed: str) -> list[str]:
