@@ -28,7 +28,7 @@ class Quitting:
     def wanted(self) -> None:
         """End, or ask first; a second request while the question is open ends at once."""
         snapshot = self._console.snapshot()
-        if self.asking or not snapshot.journal.unsaved:
+        if self.asking or not lost_names(snapshot):
             self._app.exit()
             return
         self.asking = True
@@ -58,9 +58,14 @@ class Quitting:
             self._console.all_stop(False)  # which takes back no stop but this console's
 
 
+def lost_names(snapshot: ConsoleSnapshot) -> list[tuple[str, str]]:
+    """Node and name of the values that are in no file; those of nodes that have ended can no longer be saved."""
+    return [each for each in snapshot.journal.unsaved if each[0] in snapshot.parameters]
+
+
 def lost(snapshot: ConsoleSnapshot) -> str:
     """The values that are in no file, one per line."""
-    names = snapshot.journal.unsaved
+    names = lost_names(snapshot)
     lines = [f"{counted(len(names), 'value')} set here and saved nowhere:"]
     for node, name in names[:MOST]:
         tree = snapshot.parameters.get(node)

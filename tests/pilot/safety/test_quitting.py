@@ -48,6 +48,19 @@ def test_what_would_be_lost_is_named_and_the_robot_stands_until_no_is_said() -> 
     run(live(), play)
 
 
+def test_values_of_a_node_that_has_ended_cannot_be_saved_and_are_not_asked_about() -> None:
+    async def play(session: Session) -> None:
+        await edited(session)
+        here = session.console.current
+        left = {name: tree for name, tree in here.parameters.items() if name != NODE}
+        session.console.current = replace(here, parameters=left)
+        await session.settle()
+        await session.pilot.press("q")
+        assert ended(session) and stops(session) == []
+
+    run(live(), play)
+
+
 def test_where_no_robot_listens_nothing_is_stopped_for_the_question() -> None:
     async def play(session: Session) -> None:
         await edited(session)
