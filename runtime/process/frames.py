@@ -107,13 +107,27 @@ def trim(exception: BaseException) -> BaseException:
     return exception
 
 
+def formatted(exception: BaseException) -> str:
+    """The text that the interpreter prints of an uncaught exception, for a process that prints to `sys.stderr`."""
+    if sys.version_info < (3, 12) and isinstance(exception, (AttributeError, NameError)):
+        # Before Python 3.12 the interpreter's own hook alone adds `Did you mean`.
+        from contextlib import redirect_stderr
+        from io import StringIO
+
+        with redirect_stderr(StringIO()) as printed:
+            sys.__excepthook__(type(exception), exception, exception.__traceback__)
+        return printed.getvalue()
+    import traceback
+
+    return "".join(traceback.format_exception(exception))
+
+
 def print_exception(exception: BaseException) -> None:
     """Print an uncaught exception as the interpreter does, to the calling thread's `sys.stderr`."""
     trim(exception)
     hook = sys.excepthook
     if hook is sys.__excepthook__ and sys.stderr is not sys.__stderr__:
-        # The interpreter's own hook writes to the whole process's stream. Where that is meant, it is better: before
-        # Python 3.12 it alone adds `Did you mean`.
+        # The interpreter's own hook writes to the stream of the whole process.
         import traceback
 
         traceback.print_exception(type(exception), exception, exception.__traceback__)

@@ -15,7 +15,7 @@ from typing import TextIO
 from .. import data_pipe
 from ..crashes import explanation
 from ..current import MAIN
-from ..frames import trim
+from ..frames import formatted, trim
 from ..notices import notify, on_notice
 from ..watch.lock_watch import LockWatch
 from ..watch.main_watch import MainWatch
@@ -94,10 +94,10 @@ def _uncaught(kind: type[BaseException], exception: BaseException, trace: Traceb
     """Print an uncaught exception as the interpreter does, from the program's first line on; report it."""
     exception.__traceback__ = trace.tb_next if trace is not None else None  # without the line that called `main` here
     trim(exception)
-    lines = traceback.format_exception(kind, exception, exception.__traceback__)
-    sys.stderr.write("".join(lines))
+    text = formatted(exception)
+    sys.stderr.write(text)
     frames = traceback.extract_tb(exception.__traceback__)
     where = [(each.filename, each.lineno, each.name) for each in frames]
-    data_pipe.tell("uncaught", text="".join(lines), frames=where)
-    if threading.current_thread() is threading.main_thread() and (text := explanation(exception)):
-        notify(MAIN, text)
+    data_pipe.tell("uncaught", text=text, frames=where)
+    if threading.current_thread() is threading.main_thread() and (cause := explanation(exception)):
+        notify(MAIN, cause)

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable
+
+import pytest
+from bot_console.runtime.process.frames import formatted
 
 UNCAUGHT = """
 from bot_console.runtime.process.frames import print_exception
@@ -21,3 +25,24 @@ def test_a_mistyped_name_comes_with_the_interpreter_s_suggestion() -> None:
     assert printed.endswith(
         "AttributeError: 'Node' object has no attribute 'create_publsher'. Did you mean: 'create_publisher'?\n"
     )
+
+
+class Node:
+    """Something with a name to mistype."""
+
+    create_publisher = 1
+
+
+@pytest.mark.parametrize(
+    ("mistyped", "end"),
+    [
+        (lambda: getattr(Node(), "create_publsher"), "'create_publsher'. Did you mean: 'create_publisher'?\n"),  # noqa: B009 -- mistyped
+        (lambda: 1 // 0, "ZeroDivisionError: integer division or modulo by zero\n"),
+    ],
+)
+def test_the_text_of_an_exception_is_what_the_interpreter_prints(mistyped: Callable[[], object], end: str) -> None:
+    with pytest.raises(Exception) as caught:
+        mistyped()
+    text = formatted(caught.value)
+    assert text.startswith("Traceback (most recent call last):\n")
+    assert text.endswith(end)
