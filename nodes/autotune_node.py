@@ -10,10 +10,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from bot_console_robot.climbing import Climber
 from bot_console_robot.common.parameters import fixed, number, plain
 from bot_console_robot.common.running import CannotStart, run
 from bot_console_robot.common.scans import SCANS, nearest_return
+from bot_console_robot.hill_climbing import HillClimber
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import ParameterType
@@ -56,7 +56,7 @@ class AutoTune(Node):
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._group = ReentrantCallbackGroup()
         self._client = AsyncParameterClient(self, self._node, callback_group=self._group)
-        self._climber: Climber | None = None
+        self._climber: HillClimber | None = None
         self._before = math.nan
         self._sent = math.nan
         self._heard = -WATCHED_NS
@@ -158,7 +158,7 @@ class AutoTune(Node):
             self.get_logger().info(f"{self._name} was set to {now:g} by somebody else: going on from there")
         step = float(self.get_parameter("step").value) * (span[1] - span[0])
         self._suspended, self._before, self._sent = "", now, now
-        self._climber = Climber(span[0], span[1], now, step)
+        self._climber = HillClimber(span[0], span[1], now, step)
         self._forget()
         return True
 

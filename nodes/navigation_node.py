@@ -18,9 +18,9 @@ from bot_console_robot.common.parameters import fixed, number
 from bot_console_robot.common.running import run
 from bot_console_robot.navigation.driving import Point
 from bot_console_robot.navigation.goals import Goal, run_goal
-from bot_console_robot.navigation.knowledge import Knowledge
 from bot_console_robot.navigation.planner import NoWay
 from bot_console_robot.navigation.tasks import Spin, Straight, Task, Wait, Way
+from bot_console_robot.navigation.world_model import WorldModel
 from bot_console_robot.simulator.messages import heading_of, quaternion
 from geometry_msgs.msg import Pose, PoseStamped, Twist, TwistStamped
 from lifecycle_msgs.msg import State
@@ -59,7 +59,7 @@ class Navigator(Node):
         self._stamped = bool(self.get_parameter("enable_stamped_cmd_vel").value)
         self._commands = self.create_publisher(TwistStamped if self._stamped else Twist, "cmd_vel", 10)
         self._plans = self.create_publisher(Path, "plan", 1)
-        self._known = Knowledge(self, self._seconds)
+        self._known = WorldModel(self, self._seconds)
         self._current: Goal | None = None
         self.create_subscription(PoseStamped, "goal_pose", self._on_goal_pose, 10)
         for name in STANDS_FOR:

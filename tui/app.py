@@ -82,7 +82,7 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
         look = look or Look()
         self.theme = THEMES[look.theme].name
         self.use_colours()
-        self.plain, self.kept = look.plain, look.kept
+        self.plain, self.state_store = look.plain, look.state_store
         self.set_keymap({**look.keys})
         self._refresh_hz = refresh_hz
         self._opening = opening or Opening()

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from bot_console.tui.kept import Kept, KeptHere
 from bot_console.tui.layout.arrangement import Arrangement
+from bot_console.tui.state_store import MemoryStore, StateStore
 
 
 @dataclass(frozen=True)
@@ -20,6 +20,6 @@ class Look:
     """Whether ASCII letters take the place of lines and braille."""
     keys: Mapping[str, str] = field(default_factory=dict[str, str])
     """Other keys for actions, by the ids of `keymap.TABLE`, in which they stand already."""
-    kept: Kept = field(default_factory=KeptHere)
+    state_store: StateStore = field(default_factory=MemoryStore)
     """What the panes keep from run to run."""
     notes: tuple[str, ...] = ()

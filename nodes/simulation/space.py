@@ -9,8 +9,8 @@ from typing import Any
 import pymunk
 from bot_console_robot.simulation import engine
 from bot_console_robot.simulation.engine import ffi, lib, pointer
+from bot_console_robot.simulation.engine_memory import EngineMemory
 from bot_console_robot.simulation.geometry import Disc, Pose, closed
-from bot_console_robot.simulation.memory import Memory
 from bot_console_robot.simulation.moving import MovingObstacle
 from bot_console_robot.simulation.world import World
 
@@ -32,7 +32,7 @@ class Space:
     """
 
     def __init__(self, world: World, movers: list[MovingObstacle], pose: Pose, radius: float) -> None:
-        self._memory = Memory()
+        self._memory = EngineMemory()
         self._space = pymunk.Space()
         self._memory.take(self._space, self._space.static_body)
         self._space.collision_slop = SLOP

@@ -30,8 +30,8 @@ from bot_console.tui.panes.history.export import export
 from bot_console.tui.panes.plot.curves import Curve
 from bot_console.tui.panes.plot.save import picture, samples
 from bot_console.tui.panes.plot.view import Axes
-from bot_console.tui.settings.kept import FileKept
 from bot_console.tui.settings.layouts import FileLayouts
+from bot_console.tui.settings.state_files import StateFiles
 from bot_console.tui.widgets.diagram.drawing import draw
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
 from rclpy.serialization import deserialize_message, serialize_message
@@ -76,7 +76,7 @@ def history(folder: Path, number: int) -> None:
 
 def settings(folder: Path, number: int) -> None:
     FileLayouts(PANES).save("mine", beside(PANES[number % 2], "plot"))
-    FileKept().put("alarms", [number] * 200)
+    StateFiles().put("alarms", [number] * 200)
     LineHistory().add(f"set /n p {number}")
 
 
@@ -119,7 +119,7 @@ def assert_whole(folder: Path) -> None:
     assert FileLayouts(PANES).layouts()["mine"]
     labels = [each.partition("[")[2] for each in (folder / "graph.mmd").read_text().splitlines()[1:]]
     assert len(labels) == 200 and len(set(labels)) == 1
-    alarms = FileKept().get("alarms")
+    alarms = StateFiles().get("alarms")
     assert isinstance(alarms, list) and len(alarms) == 200 and len(set(alarms)) == 1
     assert LineHistory().file.read_text().endswith("\n")
     for each in (folder / "bags").iterdir():

@@ -14,9 +14,9 @@ from bot_console.tui.layout.form import NoLayout
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.look import Look
 from bot_console.tui.pane_table import PANES
-from bot_console.tui.settings.kept import FileKept
 from bot_console.tui.settings.layouts import FileLayouts
 from bot_console.tui.settings.settings import Settings, read_settings
+from bot_console.tui.settings.state_files import StateFiles
 
 LAST = "last"
 
@@ -34,7 +34,7 @@ def look_of(options: Options) -> Look:
         options.theme or settings.theme,
         _plain(options, settings),
         keys,
-        FileKept(_system(options)),
+        StateFiles(_system(options)),
         (*notes, *store.problems),
     )
 

@@ -13,8 +13,8 @@ from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console, Launcher
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.format import counted, harmless
-from bot_console.tui.kept import Kept, KeptHere
 from bot_console.tui.screens.question_screens import screen_for
+from bot_console.tui.state_store import MemoryStore, StateStore
 from bot_console.tui.time_cursor import TimeCursor
 from bot_console.tui.tuning.dial import Setting
 from bot_console.tui.tuning.question import Question as TuningQuestion
@@ -127,9 +127,9 @@ class Pane(LateParts):
         return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
 
     @property
-    def kept(self) -> Kept:
+    def state_store(self) -> StateStore:
         """The storage of what panes keep from run to run."""
-        return getattr(self.host, "kept", None) or KeptHere()
+        return getattr(self.host, "state_store", None) or MemoryStore()
 
     def caption(self, text: str) -> None:
         """Write into the lower edge of the frame."""

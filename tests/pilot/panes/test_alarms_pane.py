@@ -77,13 +77,13 @@ def test_alarms_are_kept_edited_and_taken_away() -> None:
     async def play(session: Session) -> None:
         await session.press("B")
         await add(session, f"fast: {SPEED} > 2")
-        assert session.app.kept.get("alarms") == [{"name": "fast", "condition": f"{SPEED} > 2"}]
+        assert session.app.state_store.get("alarms") == [{"name": "fast", "condition": f"{SPEED} > 2"}]
         await session.press("e", "backspace")
         await session.type("3")
         await session.press("enter")
-        assert session.app.kept.get("alarms") == [{"name": "fast", "condition": f"{SPEED} > 3"}]
+        assert session.app.state_store.get("alarms") == [{"name": "fast", "condition": f"{SPEED} > 3"}]
         await session.press("d")
-        assert session.app.kept.get("alarms") == [] and ("unwatch", SPEED) in session.console.asked
+        assert session.app.state_store.get("alarms") == [] and ("unwatch", SPEED) in session.console.asked
 
     run(live(), play)
 

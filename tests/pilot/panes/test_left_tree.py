@@ -25,10 +25,10 @@ def test_it_is_as_it_was_left() -> None:
         assert current(session) == ("/robot_navigator", "enable_safety")
         pane = session.pane(ParametersPane)
         pane.on_unmount()
-        kept["parameters"] = session.app.kept.get("parameters")
+        kept["parameters"] = session.app.state_store.get("parameters")
 
     async def come_back(session: Session) -> None:
-        session.app.kept.put("parameters", kept["parameters"])
+        session.app.state_store.put("parameters", kept["parameters"])
         pane = session.pane(ParametersPane)
         pane._chosen = False
         pane.on_mount()
@@ -43,7 +43,9 @@ def test_it_is_as_it_was_left() -> None:
 
 def test_a_filter_is_there_again_and_escape_takes_it_away() -> None:
     async def play(session: Session) -> None:
-        session.app.kept.put("parameters", {"filter": "turn", "at": ["/robot_navigator", "turn_rate", "turn_rate"]})
+        session.app.state_store.put(
+            "parameters", {"filter": "turn", "at": ["/robot_navigator", "turn_rate", "turn_rate"]}
+        )
         session.pane(ParametersPane).on_mount()
         await session.press("1")
         assert "/turn" in session.text() and current(session) == ("/robot_navigator", "turn_rate")
@@ -58,8 +60,8 @@ def test_the_graph_is_drawn_as_it_was_left() -> None:
         pane = session.pane(GraphPane)
         await session.press("3", "m", "D")
         pane.on_unmount()
-        kept = session.app.kept.get("graph")
-        session.app.kept.put("graph", {"mode": "NODES"})
+        kept = session.app.state_store.get("graph")
+        session.app.state_store.put("graph", {"mode": "NODES"})
         pane.on_mount()
         await session.press("1", "3", "o")
         assert kept == {**kept, "mode": "ALL", "debug": True} and pane._mode is Mode.NODES
@@ -69,7 +71,7 @@ def test_the_graph_is_drawn_as_it_was_left() -> None:
 
 def test_a_preselected_node_comes_before_what_was_left() -> None:
     async def play(session: Session) -> None:
-        session.app.kept.put("parameters", {"filter": "turn", "closed": ["/simulator"]})
+        session.app.state_store.put("parameters", {"filter": "turn", "closed": ["/simulator"]})
         pane = session.pane(ParametersPane)
         pane.on_mount()
         pane.go_to("/simulator")

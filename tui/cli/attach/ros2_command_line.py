@@ -14,8 +14,8 @@ from concurrent.futures import Future
 from bot_console.tui.cli.in_background import in_background
 from bot_console.tui.console.command_line import Stream
 from bot_console.tui.console.connection.no_console import done
-from bot_console.tui.console.lines import RunningLine, goes_on
 from bot_console.tui.console.model import ConsoleSnapshot
+from bot_console.tui.console.running_lines import RunningLine, goes_on
 
 COMMANDS = (
     "action",

@@ -7,12 +7,12 @@ from collections.abc import Callable, Sequence
 
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.hang_watch import HangWatch, hang_watch
 from bot_console.tui.cli.interpreter import collect_from_now_on, eager_switching
 from bot_console.tui.cli.live.descriptors import own_terminal
 from bot_console.tui.cli.live.ending_signals import ended_by_signals, hangup_as_signal
 from bot_console.tui.cli.live.for_panes import for_panes
 from bot_console.tui.cli.look import look_of
-from bot_console.tui.cli.standstill import Standstill, stacks_kept
 from bot_console.tui.cli.system.plugins import find_plugins
 from bot_console.tui.console.command_line import CommandLine
 from bot_console.tui.console.connection.ros_console import RosConsole
@@ -43,7 +43,7 @@ class AttachedSession:
         self._first_frame = on_first_frame
         self._on_close = on_close
         self._has_begun: Callable[[], None] = lambda: None
-        self._standstill: Standstill | None = None
+        self._hang_watch: HangWatch | None = None
         look = look_of(options)
         self.app = BotConsoleApp(
             *for_panes(console, launcher, command_line, read_only=options.read_only),
@@ -60,15 +60,15 @@ class AttachedSession:
             ended_by_signals(self._end),
             hangup_as_signal(),
             eager_switching(),
-            stacks_kept(state_folder(), self.app.how_it_draws, self._stood) as self._standstill,
+            hang_watch(state_folder(), self.app.how_it_draws, self._stood) as self._hang_watch,
         ):
             self._has_begun = watch.has_begun
             try:
                 self.app.run()
                 watch.has_ended()
             finally:
-                if self._standstill is not None:
-                    self._standstill.rest()
+                if self._hang_watch is not None:
+                    self._hang_watch.rest()
                 self.app.stage.arrangement.remember()
                 self._on_close()
                 self._console.close()
@@ -76,8 +76,8 @@ class AttachedSession:
 
     def _on_first_frame(self) -> None:
         self._has_begun()
-        if self._standstill is not None:
-            self._standstill.accompany(self.app)
+        if self._hang_watch is not None:
+            self._hang_watch.accompany(self.app)
         self._first_frame()
         collect_from_now_on()
         self._console.start()

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.runtime.importer import install
 from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.awake import wait_awake
+from bot_console.tui.cli.interruptible_wait import wait_interruptibly
 from bot_console.tui.cli.system.domain import (
     domain,
     robot_there,
@@ -83,7 +83,7 @@ def simulated(options: Options, observer: Observer | None = None) -> tuple[dict[
         launches = Launches(options, clock, observer.ask)
         launches.begin()
         with contextlib.suppress(KeyboardInterrupt):
-            _wait_for(observer, launches, duration, threading.Event.wait if options.fast else wait_awake)
+            _wait_for(observer, launches, duration, threading.Event.wait if options.fast else wait_interruptibly)
         report = observer.report()
         launches.stop(LAUNCH_GRACE)
         watching.stop(GRACE)

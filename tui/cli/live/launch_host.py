@@ -60,7 +60,7 @@ def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], N
     from bot_console.runtime.process.session_end import end_session
     from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
     from bot_console.runtime.rmw.zenoh.domain.sockets import lives
-    from bot_console.tui.cli.awake import wait_awake
+    from bot_console.tui.cli.interruptible_wait import wait_interruptibly
     from bot_console.tui.cli.live.process_news import tell_news
     from bot_console.tui.cli.system.domain import domain
     from bot_console.tui.console.launch_host.door import Door, remove_doors_of_the_dead
@@ -71,7 +71,7 @@ def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], N
     folder = domain_folder(domain())
     remove_doors_of_the_dead(folder, lives)
     door = Door(folder, host.connect)
-    wait_awake(host.over, seconds)
+    wait_interruptibly(host.over, seconds)
     door.close()
     forget()
     host.close()

@@ -15,9 +15,9 @@ from bot_console.tui.cli.started_lines import launched_by
 from bot_console.tui.cli.verbs.colcon import answers
 from bot_console.tui.commanding.completing import live_names
 from bot_console.tui.console.command_line import Stream
-from bot_console.tui.console.lines import RunningLine, goes_on
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Launcher
+from bot_console.tui.console.running_lines import RunningLine, goes_on
 
 LINE_LIMIT = 15.0
 """Seconds after which a line that does not end by itself, and was not expected to go on, is interrupted."""

@@ -8,12 +8,12 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.cli.hang_watch import HangWatch, hang_watch
 from bot_console.tui.cli.interpreter import collect_from_now_on, eager_switching
 from bot_console.tui.cli.live.descriptors import own_terminal
 from bot_console.tui.cli.live.ending_signals import ended_by_signals, hangup_as_signal
 from bot_console.tui.cli.look import look_of
 from bot_console.tui.cli.slow_end import slow_end_told
-from bot_console.tui.cli.standstill import Standstill, stacks_kept
 from bot_console.tui.files.folders import state_folder
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ class Session:
     def __init__(self, options: Options, connect: Callable[[], Connected] | None = None) -> None:
         """`connect` makes what is shown, all in this process unless it is given; it waits for the first frame."""
         self._has_begun: Callable[[], None] = lambda: None
-        self._standstill: Standstill | None = None
+        self._hang_watch: HangWatch | None = None
         self._options = options
         self._connect = connect or self._embedded
         self._closed = False
@@ -66,8 +66,8 @@ class Session:
 
     def _reach(self) -> System:
         self._has_begun()
-        if self._standstill is not None:
-            self._standstill.accompany(self.app)
+        if self._hang_watch is not None:
+            self._hang_watch.accompany(self.app)
         self.app.tuner = self.connected.tuner
         return self.connected.begin()
 
@@ -93,15 +93,15 @@ class Session:
             ended_by_signals(self._end),
             hangup_as_signal(),
             eager_switching(),
-            stacks_kept(state_folder(), self.app.how_it_draws, self._stood) as self._standstill,
+            hang_watch(state_folder(), self.app.how_it_draws, self._stood) as self._hang_watch,
         ):
             self._has_begun = watch.has_begun
             try:
                 self.app.run()
                 watch.has_ended()
             finally:
-                if self._standstill is not None:
-                    self._standstill.rest()
+                if self._hang_watch is not None:
+                    self._hang_watch.rest()
                 self.app.stage.arrangement.remember()
                 with slow_end_told():
                     self.close()

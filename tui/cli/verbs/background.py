@@ -20,7 +20,7 @@ from bot_console.runtime.rmw.zenoh.domain.discovery_range import RANGE_VARIABLE
 from bot_console.tui.cli.system.background_system import SWITCH
 from bot_console.tui.cli.system.domain import domain, frozen, is_in_range, robot_there, same_names_there, take_part
 from bot_console.tui.cli.system.named_launch import with_launch_file
-from bot_console.tui.cli.system.one_start import one_start
+from bot_console.tui.cli.system.start_lock import start_lock
 from bot_console.tui.cli.system.system_log import new_log
 from bot_console.tui.console.launch_host.door import DOOR
 from bot_console.tui.files.folders import OVERRIDE, state_folder
@@ -73,7 +73,7 @@ def up(words: Sequence[str]) -> int:
         return 1
     apart = options.launch or _known()
     robot = [] if apart else robot_there() or same_names_there(options.launch_arguments)
-    with one_start(_file().with_name("background.lock"), STARTING) as got:
+    with start_lock(_file().with_name("background.lock"), STARTING) as got:
         there = _known()
         if not got or there or robot:
             who = there.told() if there else ", ".join(robot) or "another one that is being started"

@@ -12,7 +12,7 @@ from types import FrameType
 from bot_console.runtime.rmw.zenoh.network.reach import PORT, Tls, place_of
 from bot_console.runtime.rmw.zenoh.session import Session, SessionError
 from bot_console.runtime.rmw.zenoh.settings import Serving
-from bot_console.tui.cli.awake import wait_awake
+from bot_console.tui.cli.interruptible_wait import wait_interruptibly
 
 HERE = f"tcp/127.0.0.1:{PORT}"
 LOOPBACK = ("127.", "localhost", "::1")
@@ -45,7 +45,7 @@ def run(words: Sequence[str]) -> int:
     what = "the programs of this ROS domain are reached" if given.mesh else "a router for nodes of rmw_zenoh"
     how = "; Ctrl-C ends it" if sys.stdin.isatty() else ""  # `up --serve` has none
     print(f"{what} at {', '.join(serving.endpoints)}{how}", flush=True)
-    wait_awake(over)
+    wait_interruptibly(over)
     session.close()
     return 0
 

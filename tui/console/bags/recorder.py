@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any, Protocol
 
 from bot_console.tui.console.bags.qos import noted
-from bot_console.tui.console.offered import OfferedSubscription
+from bot_console.tui.console.offered_qos import OfferedSubscription
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from bot_console.tui.console.launch.process_output import Add
-from bot_console.tui.console.offered import OfferedSubscription
+from bot_console.tui.console.offered_qos import OfferedSubscription
 from rcl_interfaces.msg import Log
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 from bot_console.tui.console.model import GraphInfo
-from bot_console.tui.console.offered import OfferedSubscription
+from bot_console.tui.console.offered_qos import OfferedSubscription
 from bot_console.tui.console.robot.beam_ends import FARTHEST, BeamEnds
 from bot_console.tui.console.robot.past_poses import PastPoses, heading
 from bot_console.tui.console.robot.robot_model import GridMap, Pose, WorldInfo

@@ -67,7 +67,7 @@ class AlarmsPane(ListPane):
 
     def on_mount(self) -> None:
         """Restore the alarms of the last run."""
-        for text in texts_of(self.kept.get(KEPT))[:MOST]:
+        for text in texts_of(self.state_store.get(KEPT))[:MOST]:
             self._alarms.append(Alarm.of(text))
             self._waiting |= dict.fromkeys(self._alarms[-1].paths, "not watched yet")
 
@@ -211,7 +211,7 @@ class AlarmsPane(ListPane):
             self.console.unwatch(path, ASKER)
 
     def _keep(self) -> None:
-        why = self.kept.put(KEPT, [each.text.data for each in self._alarms])
+        why = self.state_store.put(KEPT, [each.text.data for each in self._alarms])
         if why:
             self.notify(f"The alarms are not kept: {why}", severity="warning")
         self._arrange()

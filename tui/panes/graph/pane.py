@@ -92,13 +92,13 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     def on_mount(self) -> None:
         """Restore the view of the last run."""
-        left = view_state_of(self.kept.get(KEPT))
+        left = view_state_of(self.state_store.get(KEPT))
         self._mode, self._view, self._folds = left.mode, left.view, left.folds
         self._rates = {} if left.rates else None
 
     def on_unmount(self) -> None:
         """Save the view."""
-        self.kept.put(KEPT, ViewState(self._mode, self._view, self._folds, self._rates is not None).data)
+        self.state_store.put(KEPT, ViewState(self._mode, self._view, self._folds, self._rates is not None).data)
 
     def compose(self) -> ComposeResult:
         """The picture, details of the selected item, and a prompt."""

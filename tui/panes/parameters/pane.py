@@ -13,13 +13,13 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import BEGUN_ANEW, ConsoleSnapshot, Value, same
 from bot_console.tui.console.query import parse
 from bot_console.tui.format import command_of, counted, harmless
-from bot_console.tui.kept import LAST_FILE
 from bot_console.tui.panes.parameters.details import details
 from bot_console.tui.panes.parameters.edit_pane import EditPane
 from bot_console.tui.panes.parameters.memory import At, Left, left_of
 from bot_console.tui.panes.parameters.rows import Row, TreeRows, View, namesake, opened
 from bot_console.tui.panes.parameters.staging import Key
 from bot_console.tui.panes.parameters.table import ParameterRows
+from bot_console.tui.state_store import LAST_FILE
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Option
 from bot_console.tui.widgets.row_list import RowList
@@ -70,7 +70,7 @@ class ParametersPane(EditPane):
 
     def on_mount(self) -> None:
         """Open, filter and select what was so at the end of the last run; a preselected node comes before that."""
-        left = left_of(self.kept.get(KEPT))
+        left = left_of(self.state_store.get(KEPT))
         if left is not None and not self._expected:
             self._left = left.at
             self.words, self._view = left.words, left.view
@@ -80,7 +80,7 @@ class ParametersPane(EditPane):
     def on_unmount(self) -> None:
         """Keep how the tree is left."""
         at = self._left or self._at_cursor
-        self.kept.put(KEPT, Left(self.words, self._view, at).data)
+        self.state_store.put(KEPT, Left(self.words, self._view, at).data)
 
     def compose(self) -> ComposeResult:
         """The tree, what is known of the parameter at the cursor, and a prompt."""
@@ -330,7 +330,7 @@ class ParametersPane(EditPane):
         def save(path: Path) -> Answer:
             answer = self.console.save_parameters(str(path), nodes, only_changed=only_changed)
             if answer.ok:
-                self.kept.put(LAST_FILE, os.path.abspath(path))
+                self.state_store.put(LAST_FILE, os.path.abspath(path))
             return answer
 
         self.host.call_later(partial(self.ask_file, "save to", "parameters.yaml", save, replaces=False))

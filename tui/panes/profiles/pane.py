@@ -15,7 +15,6 @@ from bot_console.tui.console.parameters.file.node_keys import means
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.format import counted, value_text
-from bot_console.tui.kept import LAST_FILE
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.panes.profiles.asking import Asking
@@ -23,6 +22,7 @@ from bot_console.tui.panes.profiles.own import OwnProfiles
 from bot_console.tui.panes.profiles.presets import PresetMenu
 from bot_console.tui.panes.profiles.replacement import Replacement
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
+from bot_console.tui.state_store import LAST_FILE
 from bot_console.tui.widgets.prompt.common import wrong_path
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Confirmation, Line
@@ -234,7 +234,7 @@ class ProfilesPane(ListPane):
 
     def action_open_file(self) -> None:
         """Ask for a parameter file, the one saved or opened last at first, and show what it would change."""
-        last = self.kept.get(LAST_FILE)
+        last = self.state_store.get(LAST_FILE)
         text = last if isinstance(last, str) else ""
         self.ask(Line("parameter file, or https://", self._open, text=text, check=wrong_path))
 
@@ -247,7 +247,7 @@ class ProfilesPane(ListPane):
         else:
             answer = self.console.open_profile(place)
             if answer.ok:
-                self.kept.put(LAST_FILE, os.path.abspath(typed_path(place)))
+                self.state_store.put(LAST_FILE, os.path.abspath(typed_path(place)))
             self._opened(answer)
 
     def _opened(self, answer: Answer) -> None:

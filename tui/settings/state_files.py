@@ -15,7 +15,7 @@ HEADS = {"alarms": "# Alarms of bot-console: conditions over topics and paramete
 """What a person may write too, with its first lines; it stands in the folder of the settings."""
 
 
-class FileKept:
+class StateFiles:
     """One YAML file per name and, unless it is for people to edit, per system shown."""
 
     def __init__(self, system: str = "") -> None:

@@ -3,7 +3,7 @@
 import itertools
 
 import pytest
-from bot_console.tui.console.offered import OfferedSubscription, weakest
+from bot_console.tui.console.offered_qos import OfferedSubscription, weakest
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node

@@ -1,11 +1,11 @@
-"""Where each thread and task of a console stands is kept in a file: when its screen stands, and when SIGUSR1 asks.
+"""Writes to a file where each thread and task of a console is: when its screen hangs, and when SIGUSR1 asks.
 
-A screen that stands says nothing itself, and what it waits for is not known afterwards. A thread of ours writes the
+A screen that hangs says nothing itself, and what it waits for is not known afterwards. A thread of ours writes the
 stacks while it has the interpreter's lock: to walk through those of threads that run meanwhile can end the process. So
 no timer writes them without that lock, as it would when a stopped process goes on. Where no thread gets it, a signal
 that ends the process, such as SIGABRT, has them written.
 
-An app also stands when its event loop runs, but what deals with its messages waits for something that does not come, or
+An app also hangs when its event loop runs, but what deals with its messages waits for something that does not come, or
 a batch of changes stays open: then its tasks are written.
 """
 
@@ -39,7 +39,7 @@ FIRST = 100
 """Our descriptors begin here, beyond those that programs close or count."""
 
 
-class Standstill:
+class HangWatch:
     """Writes the stacks of all threads unless the drawing thread reports regularly."""
 
     def __init__(
@@ -134,7 +134,7 @@ class Standstill:
 
 
 @contextlib.contextmanager
-def stacks_kept(folder: Path, state: Callable[[], str], tell: Callable[[str], None]) -> Generator[Standstill | None]:
+def hang_watch(folder: Path, state: Callable[[], str], tell: Callable[[str], None]) -> Generator[HangWatch | None]:
     """Keep stacks in a folder when they are wanted; `state` says in a line how the screen is, in the main thread.
 
     None where the file cannot be written.
@@ -147,23 +147,23 @@ def stacks_kept(folder: Path, state: Callable[[], str], tell: Callable[[str], No
     except OSError:
         yield None
         return
-    standstill = Standstill(path, descriptor, tell)
+    watching = HangWatch(path, descriptor, tell)
 
     def asked(number: int, frame: FrameType | None) -> None:  # in the thread that draws: else it was written before
         faulthandler.dump_traceback(descriptor)
-        standstill.note(f"{state()}\n{waiting_tasks()}")
+        watching.note(f"{state()}\n{waiting_tasks()}")
 
     before = signal.signal(signal.SIGUSR1, asked)
     fatal = not faulthandler.is_enabled()
     if fatal:
         faulthandler.enable(descriptor)
-    standstill.beat()
-    watch = threading.Thread(target=standstill.watch, name="standstill", daemon=True)
+    watching.beat()
+    watch = threading.Thread(target=watching.watch, name="hang-watch", daemon=True)
     watch.start()
     try:
-        yield standstill
+        yield watching
     finally:
-        standstill.end()
+        watching.end()
         watch.join()
         if fatal:
             faulthandler.disable()

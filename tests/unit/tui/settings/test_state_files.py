@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from bot_console.tui.settings.kept import FileKept
+from bot_console.tui.settings.state_files import StateFiles
 
 
 @pytest.fixture(autouse=True)
@@ -15,19 +15,19 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_each_system_has_its_own_memory_and_alarms_are_everybodys() -> None:
-    one, other = FileKept("robot"), FileKept("/a/b.launch.py")
+    one, other = StateFiles("robot"), StateFiles("/a/b.launch.py")
     assert one.put("parameters", {"filter": "speed ä"}) == "" and one.put("alarms", [{"name": "low"}]) == ""
-    assert FileKept("robot").get("parameters") == {"filter": "speed ä"} and other.get("parameters") is None
+    assert StateFiles("robot").get("parameters") == {"filter": "speed ä"} and other.get("parameters") is None
     assert other.get("alarms") == [{"name": "low"}]
 
 
 def test_alarms_stand_beside_the_settings_with_a_word_on_what_they_are(folder: Path) -> None:
-    FileKept().put("alarms", [])
+    StateFiles().put("alarms", [])
     assert (folder / "config" / "alarms.yaml").read_text().startswith("# Alarms of bot-console")
 
 
 def test_what_cannot_be_read_or_written_hinders_nobody(folder: Path) -> None:
-    kept = FileKept()
+    kept = StateFiles()
     (folder / "config").mkdir()
     (folder / "config" / "alarms.yaml").write_text("a: [1\n")
     assert kept.get("alarms") is None

@@ -1,4 +1,4 @@
-"""Where the threads of a console stand is kept when its screen stands, and when a signal asks for it."""
+"""Where the threads of a console are is written when its screen hangs, and when a signal asks for it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from bot_console.tui.cli.standstill import DEAF, FILE, STANDS_S, Standstill, stacks_kept
+from bot_console.tui.cli.hang_watch import DEAF, FILE, STANDS_S, HangWatch, hang_watch
 
 HERE = "in test_"
 
@@ -25,24 +25,24 @@ class Clock:
 
 
 @pytest.fixture
-def kept(tmp_path: Path) -> Iterator[tuple[Standstill, Clock, list[str], Path]]:
+def kept(tmp_path: Path) -> Iterator[tuple[HangWatch, Clock, list[str], Path]]:
     clock, told, path = Clock(), list[str](), tmp_path / FILE
     with path.open("ab") as file:
-        watch = Standstill(path, file.fileno(), told.append, clock)
+        watch = HangWatch(path, file.fileno(), told.append, clock)
         yield watch, clock, told, path
         watch.rest()
 
 
 def test_a_signal_has_them_written_with_how_the_screen_is(tmp_path: Path) -> None:
     before = signal.getsignal(signal.SIGUSR1)
-    with stacks_kept(tmp_path / "new", lambda: "one screen", print):
+    with hang_watch(tmp_path / "new", lambda: "one screen", print):
         os.kill(os.getpid(), signal.SIGUSR1)
         text = (tmp_path / "new" / FILE).read_text()
     assert HERE in text and f"process {os.getpid()}: one screen" in text
     assert signal.getsignal(signal.SIGUSR1) == before
 
 
-def test_who_does_nothing_for_long_is_found_in_the_file_once(kept: tuple[Standstill, Clock, list[str], Path]) -> None:
+def test_who_does_nothing_for_long_is_found_in_the_file_once(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
     watch, clock, _, path = kept
     watch.beat()
     clock.now += STANDS_S - 1
@@ -62,8 +62,8 @@ def test_a_signal_that_ends_the_process_has_them_written_where_no_thread_may_run
     program = f"""
 from pathlib import Path
 import ctypes, os
-from bot_console.tui.cli.standstill import stacks_kept
-with stacks_kept(Path({str(tmp_path)!r}), str, print):
+from bot_console.tui.cli.hang_watch import hang_watch
+with hang_watch(Path({str(tmp_path)!r}), str, print):
     os.write(1, b"x")
     ctypes.PyDLL(None).sleep(60)  # with the interpreter's lock
 """
@@ -75,7 +75,7 @@ with stacks_kept(Path({str(tmp_path)!r}), str, print):
     assert process.returncode == -signal.SIGABRT and "Fatal Python error" in text and 'File "<string>"' in text
 
 
-def test_that_it_stood_is_told_when_it_goes_on(kept: tuple[Standstill, Clock, list[str], Path]) -> None:
+def test_that_it_stood_is_told_when_it_goes_on(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
     watch, clock, told, path = kept
     watch.beat()
     clock.now += STANDS_S - 1
@@ -88,7 +88,7 @@ def test_that_it_stood_is_told_when_it_goes_on(kept: tuple[Standstill, Clock, li
     assert "stood for 15 s" in path.read_text()
 
 
-def test_a_rest_is_no_standstill(kept: tuple[Standstill, Clock, list[str], Path]) -> None:
+def test_a_rest_is_no_standstill(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
     watch, clock, told, _ = kept
     watch.beat()
     watch.rest()
@@ -99,7 +99,7 @@ def test_a_rest_is_no_standstill(kept: tuple[Standstill, Clock, list[str], Path]
 
 def test_a_place_that_cannot_be_written_is_no_reason_to_have_no_console(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
-    with stacks_kept(tmp_path / "file", lambda: "", print) as watch:
+    with hang_watch(tmp_path / "file", lambda: "", print) as watch:
         assert watch is None
 
 
@@ -127,7 +127,7 @@ class App:
 
 @pytest.mark.parametrize("held", [False, True])
 def test_an_app_that_stands_while_its_loop_runs_is_found_with_what_it_waits_for(
-    kept: tuple[Standstill, Clock, list[str], Path], held: bool
+    kept: tuple[HangWatch, Clock, list[str], Path], held: bool
 ) -> None:
     watch, _, told, path = kept
     app = App()

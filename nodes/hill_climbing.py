@@ -8,7 +8,7 @@ FORGETTING = 0.1
 """Of the difference to the last judgement, how much the memory of the best one takes over in each period."""
 
 
-class Climber:
+class HillClimber:
     """Searches for the value with the highest score between `low` and `high`, from `value` in steps of `step`.
 
     A value that proved dangerous narrows the range for good: neither it nor anything beyond is tried again.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.lines import KEPT, RunningLine
+from bot_console.tui.console.running_lines import KEPT, RunningLine
 
 
 def test_pieces_become_lines_and_only_the_last_are_kept() -> None:

@@ -10,9 +10,9 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from bot_console.tui.cli.system import one_start as module
+from bot_console.tui.cli.system import start_lock as module
 from bot_console.tui.cli.system import system_log
-from bot_console.tui.cli.system.one_start import one_start
+from bot_console.tui.cli.system.start_lock import start_lock
 from bot_console.tui.cli.verbs import background
 
 if os.name == "nt":
@@ -27,10 +27,10 @@ def test_the_second_start_waits_for_the_first(tmp_path: Path, monkeypatch: pytes
     monkeypatch.setattr(module, "SIGNALS", [])  # which only a main thread may hold back
 
     def second() -> None:
-        with one_start(lock, PATIENCE) as got:
+        with start_lock(lock, PATIENCE) as got:
             seen.append(f"second {got}")
 
-    with one_start(lock, PATIENCE) as got:
+    with start_lock(lock, PATIENCE) as got:
         other = threading.Thread(target=second)
         other.start()
         assert waits.wait(PATIENCE)
@@ -40,7 +40,7 @@ def test_the_second_start_waits_for_the_first(tmp_path: Path, monkeypatch: pytes
 
 
 def test_one_that_never_ends_is_waited_for_no_longer_than_said(tmp_path: Path) -> None:
-    with one_start(tmp_path / "lock", 0.0), one_start(tmp_path / "lock", 0.0) as got:
+    with start_lock(tmp_path / "lock", 0.0), start_lock(tmp_path / "lock", 0.0) as got:
         assert not got
 
 

@@ -21,7 +21,7 @@ _FREE: tuple[tuple[type[Any], Callable[[Any], None]], ...] = (
 )
 
 
-class Memory:
+class EngineMemory:
     """What the engine holds for one space; `free` gives it back, after which none of it may be touched."""
 
     def __init__(self) -> None:

@@ -8,7 +8,7 @@ LAST_FILE = "parameter-file"
 """The name of the parameter file that was saved or opened last; its path is kept whole."""
 
 
-class Kept(Protocol):
+class StateStore(Protocol):
     """Plain data (texts, numbers, lists, mappings) by name."""
 
     def get(self, name: str) -> object:
@@ -20,7 +20,7 @@ class Kept(Protocol):
         ...
 
 
-class KeptHere:
+class MemoryStore:
     """Stores data for this run only."""
 
     def __init__(self) -> None:

@@ -28,7 +28,7 @@ SCAN_LIFE = 1.0
 """Seconds after which a scan says nothing any more, and the robot stands."""
 
 
-class Knowledge:
+class WorldModel:
     """Subscribes for a node.
 
     The pose is `ground_truth` if available, else odometry; it is republished as `amcl_pose`.

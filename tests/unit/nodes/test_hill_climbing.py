@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from bot_console_robot.climbing import Climber
+from bot_console_robot.hill_climbing import HillClimber
 from hypothesis import given
 from hypothesis import strategies as st
 
 
-def climbed(top: float, begin: float, periods: int = 60) -> Climber:
-    climber = Climber(0.0, 10.0, begin, 1.0)
+def climbed(top: float, begin: float, periods: int = 60) -> HillClimber:
+    climber = HillClimber(0.0, 10.0, begin, 1.0)
     for _ in range(periods):
         climber.judged(-abs(climber.value - top))
     return climber
@@ -21,7 +21,7 @@ def test_it_comes_near_to_the_top_from_anywhere(top: float, begin: float) -> Non
 
 @given(st.lists(st.tuples(st.floats(-5, 5), st.booleans()), max_size=40), st.floats(0, 10))
 def test_it_keeps_to_its_range_and_leaves_out_what_was_dangerous(steps: list[tuple[float, bool]], begin: float) -> None:
-    climber = Climber(0.0, 10.0, begin, 1.0)
+    climber = HillClimber(0.0, 10.0, begin, 1.0)
     for score, dangerous in steps:
         value = climber.danger() if dangerous else climber.judged(score)
         assert value == climber.value
@@ -29,7 +29,7 @@ def test_it_keeps_to_its_range_and_leaves_out_what_was_dangerous(steps: list[tup
 
 
 def test_a_collision_on_the_way_up_is_a_ceiling() -> None:
-    climber = Climber(0.0, 10.0, 5.0, 1.0)
+    climber = HillClimber(0.0, 10.0, 5.0, 1.0)
     assert climber.judged(1.0) == 6.0
     assert climber.danger() == 5.0
     assert climber.high == 5.0
@@ -38,7 +38,7 @@ def test_a_collision_on_the_way_up_is_a_ceiling() -> None:
 
 
 def test_a_place_that_has_become_slow_is_not_held_against_the_value() -> None:
-    climber = Climber(0.0, 10.0, 5.0, 1.0)
+    climber = HillClimber(0.0, 10.0, 5.0, 1.0)
     climber.judged(3.0)
     climber.judged(2.0)
     assert climber.value == 5.0

@@ -8,7 +8,7 @@ import threading
 from collections.abc import Iterator
 
 import pytest
-from bot_console.tui.cli.awake import wait_awake
+from bot_console.tui.cli.interruptible_wait import wait_interruptibly
 
 if os.name == "nt":
     pytest.skip("signals are handed to no threads there", allow_module_level=True)
@@ -45,11 +45,11 @@ def test_a_signal_that_another_thread_got_ends_the_waiting(elsewhere: None) -> N
     over = Waited()
     before = signal.signal(signal.SIGUSR1, lambda number, frame: over.set())
     try:
-        assert wait_awake(over, PATIENCE)
+        assert wait_interruptibly(over, PATIENCE)
     finally:
         signal.signal(signal.SIGUSR1, before)
 
 
 def test_it_waits_no_longer_than_said() -> None:
-    assert not wait_awake(threading.Event(), 0.0)
-    assert not wait_awake(threading.Event(), 0.01)
+    assert not wait_interruptibly(threading.Event(), 0.0)
+    assert not wait_interruptibly(threading.Event(), 0.01)

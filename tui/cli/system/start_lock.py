@@ -18,7 +18,7 @@ SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if 
 
 
 @contextlib.contextmanager
-def one_start(lock: Path, patience: float) -> Generator[bool]:
+def start_lock(lock: Path, patience: float) -> Generator[bool]:
     """Hold the lock, and the signals that would end this process, for the length of a `with` block.
 
     Gives whether the lock was got in so many seconds. A signal takes effect behind the block: amid it, a system could

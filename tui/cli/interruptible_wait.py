@@ -9,7 +9,7 @@ SLICE = 0.5
 """Seconds after which the main thread looks whether a signal has come."""
 
 
-def wait_awake(event: threading.Event, seconds: float | None = None) -> bool:
+def wait_interruptibly(event: threading.Event, seconds: float | None = None) -> bool:
     """Wait for an event as its `wait` does, and run the handlers of signals meanwhile, whoever has got them.
 
     A signal that comes while the process is frozen (SIGSTOP, Ctrl-Z) is handed to any of its threads when it goes on.
