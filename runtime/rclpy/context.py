@@ -56,12 +56,15 @@ class Context:
         with self._lock:
             if self._initialized:
                 raise RuntimeError("Context.init() must only be called once")
-            _check_kinds(args, domain_id)
+            if args is not None and not isinstance(args, list):
+                raise TypeError(f"args must be a list of strings, not {type(args).__name__}")
             self.arguments = parse_global(sys.argv if args is None else args)
             if domain_id is None:
                 domain_id = _domain_of_environment()
             elif domain_id < 0:
                 raise RuntimeError(f"Domain id ({domain_id}) should not be lower than zero.")
+            elif not isinstance(domain_id, int):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
+                raise TypeError(f"domain_id must be an int, not {type(domain_id).__name__}")
             self._domain = domain_id = int(domain_id)
             if ignored := why_range_is_ignored():
                 RcutilsLogger("rcl").warning(ignored)
@@ -232,14 +235,6 @@ class Context:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.try_shutdown()
-
-
-def _check_kinds(args: object, domain_id: object) -> None:
-    """Refuse by `TypeError` what the C extension takes for neither a list nor a number."""
-    if args is not None and not isinstance(args, list):
-        raise TypeError(f"args must be a list of strings, not {type(args).__name__}")
-    if domain_id is not None and not isinstance(domain_id, int):
-        raise TypeError(f"domain_id must be an int, not {type(domain_id).__name__}")
 
 
 def _domain_of_environment() -> int:
