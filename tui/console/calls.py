@@ -19,10 +19,13 @@ T = TypeVar("T")
 PATIENCE = 5.0
 """Seconds to wait for an answer from when it is asked for; a slow link answers late, a hung node never."""
 
-LOOKS = 5
+LOOKS, LONGEST_LOOK = 5, 1.0
 """How often the clock is looked at meanwhile. Each look counts once, however late it comes: while this program itself
 got no processor, nobody's answer could be taken, and none is overdue."""
 
+
+GONE = 2
+"""Looks in a row without a server, after which no answer comes: at one it may start anew, or answer as it leaves."""
 
 READY = 2.0
 """Seconds that a new client has to find a server that is in the graph: on a network that takes its time."""
@@ -116,13 +119,19 @@ class Calls:
         if not (client.service_is_ready() or await self._gets_ready(client, service)):
             raise NoAnswer(f"no service {service} is offered; has its node ended?")
         answer: RosFuture[Any] = client.call_async(request)
+        period, away = min(LONGEST_LOOK, patience / LOOKS), 0
         looks = itertools.count(1)
 
         def look() -> None:
-            if next(looks) >= LOOKS:
-                self._give_up(answer, client, service, patience)
+            nonlocal away
+            away = 0 if _is_there(client) else away + 1
+            if away >= GONE:
+                self._give_up(answer, client, f"{service} went away before it answered; has its node ended?")
+            elif next(looks) * period >= patience:
+                why = f"{service} did not answer within {patience:g} s; its node may be busy or hung"
+                self._give_up(answer, client, why)
 
-        timer = self._node.create_timer(patience / LOOKS, look)
+        timer = self._node.create_timer(period, look)
         try:
             return await answer
         finally:
@@ -151,12 +160,10 @@ class Calls:
             self._node.destroy_timer(timer)
 
     @staticmethod
-    def _give_up(answer: RosFuture[Any], client: Any, service: str, patience: float) -> None:
+    def _give_up(answer: RosFuture[Any], client: Any, why: str) -> None:
         if not answer.done():
             client.remove_pending_request(answer)
-            answer.set_exception(
-                NoAnswer(f"{service} did not answer within {patience:g} s; its node may be busy or hung")
-            )
+            answer.set_exception(NoAnswer(why))
 
     def _client(self, kind: Any, service: str) -> Any:
         key = (service, kind.__name__)
@@ -168,3 +175,11 @@ class Calls:
         """Drop the clients of all services that begin with a prefix, as of a node that has left."""
         for key in [key for key in self._clients if key[0].startswith(prefix)]:
             self._node.destroy_client(self._clients.pop(key))
+
+
+def _is_there(client: Any) -> bool:
+    """Whether the server of a client is in the graph."""
+    try:
+        return bool(client.service_is_ready())
+    except InvalidHandle:  # its node has left, see `forget`
+        return False

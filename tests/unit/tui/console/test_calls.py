@@ -10,13 +10,13 @@ class StubNode:
     """A node whose client never gets an answer, and whose timer fires when the test says so."""
 
     def __init__(self):
-        self.answer = Future()
+        self.answer, self.ready = Future(), True
 
     def create_client(self, kind, service):
         return self
 
     def service_is_ready(self):
-        return True
+        return self.ready
 
     def call_async(self, request):
         return self.answer
@@ -41,4 +41,18 @@ def test_time_in_which_the_console_itself_stood_still_takes_no_patience():
         assert not node.answer.done()
     node.fire()
     with pytest.raises(NoAnswer, match=r"/wait did not answer within 5 s"):
+        asking.send(None)
+
+
+def test_a_server_that_went_away_is_told_without_waiting_for_the_rest_of_the_time():
+    node = StubNode()
+    asking = Calls(node, None).ask(Trigger, "/home", Trigger.Request(), 30.0)
+    asking.send(None)
+    assert node.period == 1.0
+    for ready in (False, True, False):
+        node.ready = ready
+        node.fire()
+        assert not node.answer.done(), "one look without it may be a restart"
+    node.fire()
+    with pytest.raises(NoAnswer, match="/home went away before it answered; has its node ended"):
         asking.send(None)
