@@ -35,7 +35,9 @@ class Hosted:
         self.log = folder / "host.log"
         host = start_host(["--workspace", str(folder)], log=self.log)
         self.process = host.process
-        self.launcher = HostedLauncher(host.connection, lambda *record: None, lambda *line: self.printed.append(line))
+        self.launcher = HostedLauncher(
+            host.connection, lambda *record: None, lambda *line: self.printed.append(line), thaw=host.thaw
+        )
 
     def launch(self, *actions: str, **programs: str) -> Any:
         """Launch these programs, by name, and actions; the answer."""
@@ -161,6 +163,15 @@ def test_what_programs_have_started_themselves_ends_with_the_host(hosted: Hosted
     else:
         hosted.launcher.close()
     hosted.until(lambda: not any(map(is_running, pids)))
+
+
+def test_a_frozen_host_ends_what_it_started_and_itself(hosted: Hosted) -> None:
+    assert hosted.launch(waiter=WAITS).ok
+    hosted.up("waiter")
+    hosted.process.send_signal(signal.SIGSTOP)
+    hosted.launcher.close()
+    assert hosted.process.wait(PATIENCE) == 0
+    assert not any("has not ended" in text for *_, text in hosted.printed)
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")

@@ -80,14 +80,23 @@ def hosted(host: Host, buffer: HostedSnapshotBuffer | None) -> Callable[[RosCons
     """Through a launch host that this process owns, and that keeps the last minutes."""
 
     def make(console: RosConsole) -> HostedLauncher:
-        launcher = HostedLauncher(
-            host.connection, console.record, console.printed, learn=console.learn, hangs=why_it_hangs(host.process.pid)
-        )
+        launcher = _of_own(host, console)
         if buffer is not None:
             buffer.host = launcher
         return launcher
 
     return make
+
+
+def _of_own(host: Host, console: RosConsole) -> HostedLauncher:
+    return HostedLauncher(
+        host.connection,
+        console.record,
+        console.printed,
+        learn=console.learn,
+        hangs=why_it_hangs(host.process.pid),
+        thaw=host.thaw,
+    )
 
 
 def attached(start_own: Callable[[], Host]) -> Callable[[RosConsole], SeveralLaunchers]:
@@ -102,9 +111,7 @@ def attached(start_own: Callable[[], Host]) -> Callable[[RosConsole], SeveralLau
             )
 
         def own() -> HostedLauncher:
-            host = start_own()
-            hangs = why_it_hangs(host.process.pid)
-            return HostedLauncher(host.connection, console.record, console.printed, learn=console.learn, hangs=hangs)
+            return _of_own(start_own(), console)
 
         folder = domain_folder(domain())
         console_listens = partial(console.wait_ready, PATIENCE)

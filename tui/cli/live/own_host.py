@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import signal
 import socket
 import subprocess
 import threading
@@ -28,6 +29,10 @@ class Host:
     connection: socket.socket
     rest: threading.Thread
     """Ends what the host leaves behind, however it ends."""
+
+    def thaw(self) -> None:
+        """Let it go on if it is frozen: it could not end what it has started."""
+        self.process.send_signal(signal.SIGCONT)
 
     def end(self, patience: float = END_S) -> None:
         """Close the connection, which ends the host and all it started; waits, and kills it if that takes too long.

@@ -44,13 +44,16 @@ class HostedLauncher(ProcessVerbs):
         learn: Learn = lambda kind, facts: None,
         owner: bool = True,
         hangs: Callable[[], str] = lambda: "",
+        thaw: Callable[[], None] = lambda: None,
     ) -> None:
         """`learn` is given what programs and launches tell of parameters; `hangs` says why the host hears nothing.
 
+        `thaw` lets an owner's host that is frozen go on, so that it can end.
         An owner's `close` ends what runs, that of any other console only the connection.
         """
         self._learn = learn
         self._why_it_hangs = hangs
+        self._thaw = thaw
         self._record = record
         self._printed = printed
         self._owner = owner
@@ -118,6 +121,7 @@ class HostedLauncher(ProcessVerbs):
             self._ends = True
             hangs = bool(self._hangs)
         if self._owner and not hangs:
+            self._thaw()
             ended = self._ask("close")
             try:
                 ended.result(patience)
