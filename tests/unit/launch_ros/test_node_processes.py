@@ -17,6 +17,7 @@ from launch_ros.actions import ComposableNodeContainer, LifecycleNode, LoadCompo
 from launch_ros.descriptions import ComposableLifecycleNode, ComposableNode
 from launch_ros.event_handlers import OnStateTransition
 from launching import Launch
+from waiting_node import WAITS, once_up
 
 
 @pytest.fixture
@@ -87,34 +88,9 @@ def test_a_traceback_comes_before_the_end(run: Launch, script: Any) -> None:
     assert len(lines) == died + 1
 
 
-WAITS = """
-import rclpy
-from rclpy.node import Node
-rclpy.init()
-node = Node("x")
-
-def up():
-    timer.cancel()
-    print("up")
-
-timer = node.create_timer(0.001, up)
-try:
-    rclpy.spin(node)
-except KeyboardInterrupt:
-    print("interrupted")
-"""
-
-
-def on_line(node: Node, then: Any) -> RegisterEventHandler:
-    def seen(event: Any) -> Any:
-        return then if b"up" in event.text else None
-
-    return RegisterEventHandler(OnProcessIO(target_action=node, on_stdout=seen))
-
-
 def test_the_end_of_the_launch_interrupts_it(run: Launch, script: Any) -> None:
     node = Node(executable=script(WAITS), output="screen")
-    text = run([node, on_line(node, Shutdown())]).text
+    text = run([node, once_up(node, Shutdown())]).text
     assert lines_of(text) == ["up", "interrupted"]
     assert "sending signal 'SIGINT' to process[program-" in text
     assert "process has finished cleanly" in text
@@ -124,7 +100,7 @@ def test_one_of_two_is_shut_down(run: Launch, script: Any) -> None:
     first, second = (Node(executable=script(WAITS, each), output="screen") for each in ("first", "second"))
     only = EmitEvent(event=ShutdownProcess(process_matcher=matches_action(first)))
     rest = RegisterEventHandler(OnProcessExit(target_action=first, on_exit=[Shutdown()]))
-    text = run([first, second, on_line(first, only), rest]).text
+    text = run([first, second, once_up(first, only), rest]).text
     assert text.count("sending signal 'SIGINT'") == 2
     assert text.index("first-") < text.rindex("second-")
 
@@ -132,7 +108,7 @@ def test_one_of_two_is_shut_down(run: Launch, script: Any) -> None:
 def test_a_kill(run: Launch, script: Any) -> None:
     node = Node(executable=script(WAITS), output="screen")
     kill = EmitEvent(event=SignalProcess(signal_number="SIGKILL", process_matcher=matches_action(node)))
-    assert "exit code -9" in run([node, on_line(node, kill)]).text
+    assert "exit code -9" in run([node, once_up(node, kill)]).text
 
 
 def test_respawn_starts_a_fresh_program(run: Launch, script: Any, tmp_path: Path) -> None:

@@ -25,6 +25,7 @@ from launch.events.process import SignalProcess
 from launch.isolation import isolate_by_default
 from launch_ros.actions import Node
 from launching import Launch
+from waiting_node import WAITS, once_up
 
 PROCESS = {"isolation": "process"}
 
@@ -141,33 +142,9 @@ def test_a_crash_in_c_tells_the_line(run: Launch, script: Any, news: list[News])
     assert f'File "{path}", line 3 in <module>' in news[0].facts["text"] and news[0].process.startswith("program-")
 
 
-WAITS = """
-import rclpy
-from rclpy.node import Node
-rclpy.init()
-node = Node("x")
-
-def up():
-    timer.cancel()
-    print("up")
-
-timer = node.create_timer(0.001, up)
-try:
-    rclpy.spin(node)
-except KeyboardInterrupt:
-    print("interrupted")
-"""
-
-
-def on_line(node: Any, then: Any) -> RegisterEventHandler:
-    return RegisterEventHandler(
-        OnProcessIO(target_action=node, on_stdout=lambda event: then if b"up" in event.text else None)
-    )
-
-
 def test_the_end_of_the_launch_interrupts_it(run: Launch, script: Any) -> None:
     node = Node(executable=script(WAITS), output="screen")
-    text = run([node, on_line(node, Shutdown())], PROCESS).text
+    text = run([node, once_up(node, Shutdown())], PROCESS).text
     assert lines_of(text) == ["up", "interrupted"] and "process has finished cleanly" in text
 
 
@@ -179,7 +156,7 @@ def test_one_that_is_deaf_is_ended_by_escalation(run: Launch, script: Any, name:
     loop = "print('up', flush=True)\nwhile True:\n    pass\n"
     short = {"sigterm_timeout": "0.1", "sigkill_timeout": "0.1"}
     node = Node(executable=script(deaf + loop), output="screen", **short)
-    text = run([node, on_line(node, Shutdown())], PROCESS).text
+    text = run([node, once_up(node, Shutdown())], PROCESS).text
     assert f"exit code {-signal.Signals[name]}" in text and f"escalating to '{name}'" in text
 
 
@@ -187,7 +164,7 @@ def test_a_kill_and_a_start_again(run: Launch, script: Any) -> None:
     path = script(WAITS)
     node = Node(executable=path, output="screen", respawn=True, respawn_max_retries=1)
     kill = EmitEvent(event=SignalProcess(signal_number="SIGKILL", process_matcher=matches_action(node)))
-    text = run([node, on_line(node, kill)], PROCESS).text
+    text = run([node, once_up(node, kill)], PROCESS).text
     pids = re.findall(r"process started with pid \[(\d+)\]", text)
     assert text.count("exit code -9") == 2 and len(set(pids)) == 2
 
