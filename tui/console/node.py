@@ -13,8 +13,8 @@ from typing import Any
 import rclpy
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.calls import Calls, NoAnswer
-from bot_console.tui.console.graph.findings import mend, namesakes
 from bot_console.tui.console.graph.type_discovery import TypeSource
+from bot_console.tui.console.graph.warnings import SOURCE, GraphWarnings
 from bot_console.tui.console.graph.watch import FrozenNodes, GraphEvents, GraphWatch
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.logs.levels import LoggerLevels
@@ -23,7 +23,6 @@ from bot_console.tui.console.model import (
     ChangeSource,
     GraphInfo,
     LoggerLevel,
-    NodeInfo,
     ParameterTree,
     Profile,
     ProfileDifference,
@@ -79,8 +78,7 @@ class ConsoleNode:
         self.executor = SingleThreadedExecutor(context=self.context)
         self.executor.add_node(self.node)
         self._log = log
-        self._frozen: Sequence[tuple[str, int]] = ()
-        self._doubled: frozenset[str] = frozenset()
+        self._warnings = GraphWarnings(log)
         self._rosout = RosoutWatch(self.node, log, foreign=foreign)
         self.loggers = self._rosout.loggers
         """Names of the loggers that `/rosout` has brought lines of."""
@@ -119,26 +117,13 @@ class ConsoleNode:
         self.journal.close()
 
     def _graph_changed(self, graph: GraphInfo) -> None:
-        self._tell_frozen(graph.frozen)
-        self._tell_namesakes(graph.nodes)
+        self._warnings.follow(graph)
         self._rosout.follow()
         self.parameters.follow(graph)
         self.world.follow(graph)
         self._drive_node.follow(graph)
         self.traffic.follow(graph)
         self.sights.follow(graph)
-
-    def _tell_frozen(self, frozen: Sequence[tuple[str, int]]) -> None:
-        for node, pid in frozen:
-            if (node, pid) not in self._frozen:
-                self._log(time.time_ns(), Severity.WARN, "bot-console", f"{node} is frozen: {mend(pid)}", ("", "", 0))
-        self._frozen = frozen
-
-    def _tell_namesakes(self, nodes: Sequence[NodeInfo]) -> None:
-        doubled = {each.name: each for each in nodes if each.copies > 1 and not each.hidden}
-        for name in doubled.keys() - self._doubled:
-            self._log(time.time_ns(), Severity.WARN, "bot-console", namesakes(doubled[name]), ("", "", 0))
-        self._doubled = frozenset(doubled)
 
     def _parameter_changed(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
         self.plots.parameter_is(node, name, new)
@@ -156,7 +141,7 @@ class ConsoleNode:
         why = takes_safety(parameter, old, new) if parameter else ""
         if why:
             text = f"{node} {name} {old} -> {new} {why}"
-            self._log(time.time_ns(), Severity.WARN, "bot-console", text, ("", "", 0))
+            self._log(time.time_ns(), Severity.WARN, SOURCE, text, ("", "", 0))
 
     def learn(self, kind: str, facts: Mapping[str, Any]) -> None:
         """Take in a fact that a program or a launch reports about itself; from any thread."""

@@ -1,0 +1,53 @@
+"""What the log warns of when it appears in the graph."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import pytest
+from bot_console.tui.console.graph.warnings import GraphWarnings
+from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+
+CMD_VEL = (Endpoint("/cmd_vel", ("geometry_msgs/msg/Twist",)),)
+BASE = NodeInfo("/base", (), CMD_VEL)
+NAVIGATOR, TELEOP = NodeInfo("/navigator", CMD_VEL), NodeInfo("/teleop", CMD_VEL)
+HIDDEN = NodeInfo("/_bot_console", CMD_VEL)
+RIVALS = GraphInfo((BASE, NAVIGATOR, TELEOP))
+
+
+def logged(*graphs: GraphInfo) -> list[str]:
+    lines: list[str] = []
+    warnings = GraphWarnings(lambda *record: lines.append(record[3]))
+    for each in graphs:
+        warnings.follow(each)
+    return lines
+
+
+def test_two_that_command_one_robot_are_named_with_the_topic() -> None:
+    (line,) = logged(RIVALS)
+    assert line.startswith("/navigator and /teleop all publish /cmd_vel: a robot obeys whoever was last")
+
+
+@pytest.mark.parametrize("nodes", [(BASE, NAVIGATOR), (BASE, NAVIGATOR, HIDDEN), (NAVIGATOR, TELEOP)])
+def test_one_that_commands_a_console_beside_it_and_two_that_nobody_hears_are_none(nodes: Sequence[NodeInfo]) -> None:
+    assert not logged(GraphInfo(tuple(nodes)))
+
+
+def test_topics_of_other_types_may_have_several_publishers() -> None:
+    points = (Endpoint("/points", ("geometry_msgs/msg/Point",)),)
+    nodes = NodeInfo("/a", points), NodeInfo("/b", points), NodeInfo("/c", (), points)
+    assert not logged(GraphInfo(nodes))
+
+
+def test_a_warning_is_told_once_and_again_when_it_comes_back() -> None:
+    assert len(logged(RIVALS, RIVALS)) == 1
+    assert len(logged(RIVALS, GraphInfo((BASE, NAVIGATOR)), RIVALS)) == 2
+
+
+def test_nodes_of_one_name_and_frozen_ones_are_told() -> None:
+    doubled = GraphInfo((replace(BASE, copies=2),), frozen=(("/navigator", 42),))
+    lines = logged(doubled, doubled)
+    assert len(lines) == 2
+    assert any(line.startswith("two nodes are called /base") for line in lines)
+    assert any(line.startswith("/navigator is frozen") and "kill -CONT 42" in line for line in lines)

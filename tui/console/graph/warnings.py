@@ -1,0 +1,58 @@
+"""What the log warns of when it appears in the graph: frozen nodes, nodes of one name, two that command one robot."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Hashable, Iterator
+
+from bot_console.tui.console.graph.findings import mend, namesakes
+from bot_console.tui.console.launch.process_output import Add
+from bot_console.tui.console.model import GraphInfo, Severity
+from bot_console.tui.console.robot.command_topics import types_of
+
+SOURCE = "bot-console"
+
+
+class GraphWarnings:
+    """Logs each warning once, when it begins to hold; again only after it has ceased to."""
+
+    def __init__(self, log: Add) -> None:
+        self._log = log
+        self._told: frozenset[Hashable] = frozenset()
+
+    def follow(self, graph: GraphInfo) -> None:
+        """Log what holds of this graph and did not of the one before."""
+        found = dict(warnings(graph))
+        for key, text in found.items():
+            if key not in self._told:
+                self._log(time.time_ns(), Severity.WARN, SOURCE, text, ("", "", 0))
+        self._told = frozenset(found)
+
+
+def warnings(graph: GraphInfo) -> Iterator[tuple[Hashable, str]]:
+    """The warnings that hold of a graph, each with what it is told by."""
+    for node, pid in graph.frozen:
+        yield ("frozen", node, pid), f"{node} is frozen: {mend(pid)}"
+    for node in graph.nodes:
+        if node.copies > 1 and not node.hidden:
+            yield ("namesakes", node.name), namesakes(node)
+    for topic, nodes in _rivals(graph):
+        yield ("rivals", topic, nodes), rivals(topic, nodes)
+
+
+def rivals(topic: str, nodes: tuple[str, ...]) -> str:
+    """Says that several nodes command whoever listens to a velocity topic, and what that causes."""
+    return (
+        f"{', '.join(nodes[:-1])} and {nodes[-1]} all publish {topic}: a robot obeys whoever was last, and no limit of "
+        "one of them holds for the others; end one, or remap its topic"
+    )
+
+
+def _rivals(graph: GraphInfo) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Each velocity topic that somebody listens to and several nodes publish."""
+    nodes = [each for each in graph.nodes if not each.hidden]
+    heard = {end.name for node in nodes for end in node.subscriptions}
+    for topic in sorted(types_of(graph).keys() & heard):
+        senders = sorted(node.name for node in nodes if any(end.name == topic for end in node.publishers))
+        if len(senders) > 1:
+            yield topic, tuple(senders)
