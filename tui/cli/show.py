@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.live.open_files import too_few_files
 from bot_console.tui.cli.live.own_host import Host, start_host
 from bot_console.tui.cli.live.session import Session
+from bot_console.tui.cli.open_files import too_few_files
 from bot_console.tui.cli.system.domain import (
     domain,
     is_in_range,
