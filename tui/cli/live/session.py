@@ -8,13 +8,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.cli.hang_watch import HangWatch, hang_watch
-from bot_console.tui.cli.interpreter import collect_from_now_on, eager_switching
-from bot_console.tui.cli.live.descriptors import own_terminal
-from bot_console.tui.cli.live.ending_signals import ended_by_signals, hangup_as_signal
+from bot_console.tui.cli.interpreter import collect_from_now_on
+from bot_console.tui.cli.live.foreground import Foreground
 from bot_console.tui.cli.look import look_of
 from bot_console.tui.cli.slow_end import slow_end_told
-from bot_console.tui.files.folders import state_folder
 
 if TYPE_CHECKING:
     from bot_console.tui.arrangement.arrival import System
@@ -30,8 +27,6 @@ class Session:
 
     def __init__(self, options: Options, connect: Callable[[], Connected] | None = None) -> None:
         """`connect` makes what is shown, all in this process unless it is given; it waits for the first frame."""
-        self._has_begun: Callable[[], None] = lambda: None
-        self._hang_watch: HangWatch | None = None
         self._options = options
         self._connect = connect or self._embedded
         self._closed = False
@@ -43,6 +38,7 @@ class Session:
             look=look,
             plugins=self._plugins,
         )
+        self._foreground = Foreground(self.app, self._printed, self._end)
 
     @cached_property
     def connected(self) -> Connected:
@@ -65,9 +61,7 @@ class Session:
         return Connected(self._options)
 
     def _reach(self) -> System:
-        self._has_begun()
-        if self._hang_watch is not None:
-            self._hang_watch.accompany(self.app)
+        self._foreground.begin()
         self.app.tuner = self.connected.tuner
         return self.connected.begin()
 
@@ -81,31 +75,13 @@ class Session:
         if self._is_connected():  # before that nobody reads
             self.console.printed(severity, label, text)
 
-    def _stood(self, line: str) -> None:
-        from bot_console.tui.console.model import Severity
-
-        self._printed(Severity.WARN, "bot-console", line)
-
     def run(self) -> int:
         """Show the console until it is quit; the robot stands still when this returns, however it ended."""
-        with (
-            own_terminal(self._printed) as watch,
-            ended_by_signals(self._end),
-            hangup_as_signal(),
-            eager_switching(),
-            hang_watch(state_folder(), self.app.how_it_draws, self._stood) as self._hang_watch,
-        ):
-            self._has_begun = watch.has_begun
-            try:
-                self.app.run()
-                watch.has_ended()
-            finally:
-                if self._hang_watch is not None:
-                    self._hang_watch.rest()
-                self.app.stage.arrangement.remember()
-                with slow_end_told():
-                    self.close()
-        return self.app.return_code or 0
+        return self._foreground.run(self._close_told)
+
+    def _close_told(self) -> None:
+        with slow_end_told():
+            self.close()
 
     def _end(self, number: int) -> None:
         """Stop the robot, then end the app: on SIGINT from elsewhere, SIGTERM and SIGHUP (a closed terminal)."""

@@ -1,0 +1,55 @@
+"""The app in the foreground of this terminal: its descriptors, its signals, and the watch for hangs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.cli.hang_watch import HangWatch, hang_watch
+from bot_console.tui.cli.interpreter import eager_switching
+from bot_console.tui.cli.live.descriptors import Printed, own_terminal
+from bot_console.tui.cli.live.ending_signals import ended_by_signals, hangup_as_signal
+from bot_console.tui.files.folders import state_folder
+
+
+class Foreground:
+    """Shows an app; the terminal is put right after it, however this process ends."""
+
+    def __init__(self, app: BotConsoleApp, printed: Printed, end: Callable[[int], None]) -> None:
+        """`printed` is given lines for the log, `end` the number of a signal that ends the app."""
+        self._app = app
+        self._printed = printed
+        self._end = end
+        self._has_begun: Callable[[], None] = lambda: None
+        self._hang_watch: HangWatch | None = None
+
+    def begin(self) -> None:
+        """Note that the app has drawn its first frame: the terminal is set for it, and it may be watched."""
+        self._has_begun()
+        if self._hang_watch is not None:
+            self._hang_watch.accompany(self._app)
+
+    def run(self, close: Callable[[], None]) -> int:
+        """Show the app until it ends, then `close` what it showed; returns the app's exit code."""
+        with (
+            own_terminal(self._printed) as terminal,
+            ended_by_signals(self._end),
+            hangup_as_signal(),
+            eager_switching(),
+            hang_watch(state_folder(), self._app.how_it_draws, self._hung) as self._hang_watch,
+        ):
+            self._has_begun = terminal.has_begun
+            try:
+                self._app.run()
+                terminal.has_ended()
+            finally:
+                if self._hang_watch is not None:
+                    self._hang_watch.rest()
+                self._app.stage.arrangement.remember()
+                close()
+        return self._app.return_code or 0
+
+    def _hung(self, line: str) -> None:
+        from bot_console.tui.console.model import Severity  # after the first frame, which must not wait for it
+
+        self._printed(Severity.WARN, "bot-console", line)
