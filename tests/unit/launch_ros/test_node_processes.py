@@ -17,7 +17,7 @@ from launch_ros.actions import ComposableNodeContainer, LifecycleNode, LoadCompo
 from launch_ros.descriptions import ComposableLifecycleNode, ComposableNode
 from launch_ros.event_handlers import OnStateTransition
 from launching import Launch
-from waiting_node import WAITS, once_up
+from processes.waiting_node import WAITS, once_up
 
 
 @pytest.fixture

@@ -25,7 +25,7 @@ from launch.events.process import SignalProcess
 from launch.isolation import isolate_by_default
 from launch_ros.actions import Node
 from launching import Launch
-from waiting_node import WAITS, once_up
+from processes.waiting_node import WAITS, once_up
 
 PROCESS = {"isolation": "process"}
 
