@@ -16,7 +16,7 @@ import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from bot_console.tui.cli.hang_watch import FILE
+from bot_console.tui.cli.foreground.hang_watch import FILE
 from bot_console.tui.files.folders import state_folder
 
 PATIENCE = 60.0

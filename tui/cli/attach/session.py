@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.foreground import Foreground
+from bot_console.tui.cli.foreground.foreground import Foreground
 from bot_console.tui.cli.interpreter import collect_from_now_on
 from bot_console.tui.cli.live.for_panes import for_panes
 from bot_console.tui.cli.look import look_of

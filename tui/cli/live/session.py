@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.cli.foreground import Foreground
+from bot_console.tui.cli.foreground.foreground import Foreground
 from bot_console.tui.cli.interpreter import collect_from_now_on
 from bot_console.tui.cli.look import look_of
 from bot_console.tui.cli.slow_end import slow_end_told

@@ -6,7 +6,7 @@ import sys
 
 PROGRAM = """
 import os, sys
-from bot_console.tui.cli.live.descriptors import captured_descriptors
+from bot_console.tui.cli.foreground.descriptors import captured_descriptors
 
 told = []
 with captured_descriptors(lambda severity, label, text: told.append((label, text))):
@@ -46,7 +46,7 @@ def test_a_child_that_outlives_the_console_does_not_keep_it() -> None:
 
 
 def test_the_descriptors_are_as_before_afterwards() -> None:
-    from bot_console.tui.cli.live.descriptors import captured_descriptors
+    from bot_console.tui.cli.foreground.descriptors import captured_descriptors
 
     before = [os.fstat(number)[:3] for number in (1, 2)], sys.__stdout__, sys.__stderr__
     with captured_descriptors(lambda *line: None):

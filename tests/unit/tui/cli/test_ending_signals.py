@@ -6,7 +6,7 @@ import os
 import signal
 import threading
 
-from bot_console.tui.cli.live.ending_signals import ended_by_signals
+from bot_console.tui.cli.foreground.ending_signals import ended_by_signals
 
 PATIENCE = 20.0
 

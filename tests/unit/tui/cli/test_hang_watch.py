@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from bot_console.tui.cli.hang_watch import DEAF, FILE, STANDS_S, HangWatch, hang_watch
+from bot_console.tui.cli.foreground.hang_watch import DEAF, FILE, STANDS_S, HangWatch, hang_watch
 
 HERE = "in test_"
 
@@ -62,7 +62,7 @@ def test_a_signal_that_ends_the_process_has_them_written_where_no_thread_may_run
     program = f"""
 from pathlib import Path
 import ctypes, os
-from bot_console.tui.cli.hang_watch import hang_watch
+from bot_console.tui.cli.foreground.hang_watch import hang_watch
 with hang_watch(Path({str(tmp_path)!r}), str, print):
     os.write(1, b"x")
     ctypes.PyDLL(None).sleep(60)  # with the interpreter's lock

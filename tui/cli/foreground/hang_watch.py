@@ -24,7 +24,7 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
-from bot_console.tui.cli.waiting_tasks import waiting_tasks
+from bot_console.tui.cli.foreground.waiting_tasks import waiting_tasks
 
 FILE = "console-stacks.txt"
 STANDS_S = 15.0

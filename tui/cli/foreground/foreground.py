@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.cli.hang_watch import HangWatch, hang_watch
+from bot_console.tui.cli.foreground.descriptors import Printed, own_terminal
+from bot_console.tui.cli.foreground.ending_signals import ended_by_signals, hangup_as_signal
+from bot_console.tui.cli.foreground.hang_watch import HangWatch, hang_watch
 from bot_console.tui.cli.interpreter import eager_switching
-from bot_console.tui.cli.live.descriptors import Printed, own_terminal
-from bot_console.tui.cli.live.ending_signals import ended_by_signals, hangup_as_signal
 from bot_console.tui.files.folders import state_folder
 
 
