@@ -160,6 +160,13 @@ class Pane(LateParts):
     def tick(self) -> None:
         """Ten times a second, also while hidden: what does not come with a snapshot, such as samples and time-outs."""
 
+    def may_change(self) -> bool:
+        """Whether this console changes anything; says why not, before a person answers questions in vain."""
+        why = self.console.snapshot().capabilities.change
+        if why:
+            self.notify(why, severity="warning", markup=False)
+        return not why
+
     def ask(self, question: Question[Any]) -> None:
         """Ask the person something: a line at the foot of the pane, what needs more room over all panes."""
         if isinstance(question, Line):

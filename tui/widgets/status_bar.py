@@ -62,7 +62,7 @@ def status_text(
         parts.append(f"● REC {harmless(snapshot.recording.folder.rpartition('/')[2])}")
     if snapshot.recording.problem:
         parts.append(f"✗ {harmless(snapshot.recording.problem)}")
-    parts.append("" if snapshot.capabilities.change else drive_text(snapshot.drive))
+    parts.append("" if snapshot.capabilities.live else drive_text(snapshot.drive))
     if snapshot.active_profile:
         parts.append(profile_text(snapshot))
     if snapshot.link.to and not snapshot.link.silent_s:

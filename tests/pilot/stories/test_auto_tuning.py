@@ -109,14 +109,14 @@ def test_a_setting_is_saved_as_a_profile_and_leaving_ends_the_runs_when_said_twi
     run(live(), play)
 
 
-def test_without_a_tuner_it_is_said_why() -> None:
+def test_without_a_tuner_it_is_said_why_before_anything_is_asked() -> None:
     async def play(session: Session) -> None:
         await begin(session)
         session.app.tuner = None
         await session.press("escape")
         session.app.screen.dismiss()
         await session.settle()
-        await session.press("T", "enter", "enter", "enter")
-        assert "Nothing is tuned here" in session.text()
+        await session.press("T")
+        assert "Nothing is tuned here" in session.text() and "tune within" not in session.text()
 
     run(live(), play)

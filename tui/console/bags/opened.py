@@ -56,7 +56,7 @@ class PastReading:
             journal=JournalState(0, len(contents.changes)),
             world=contents.world,
             link=LinkInfo(f"recording {name}, {(contents.metadata.end - self._begin) / 1e9:.0f} s"),
-            capabilities=Capabilities(launch=WHY, change=WHY),
+            capabilities=Capabilities(launch=WHY, live=WHY, change=WHY),
         )
 
     def snapshot(self) -> ConsoleSnapshot:

@@ -10,7 +10,7 @@ from dataclasses import replace
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.command_line import CommandLine, Stream
 from bot_console.tui.console.connection.no_console import NoConsole, done
-from bot_console.tui.console.model import ConsoleSnapshot, LaunchArgument
+from bot_console.tui.console.model import Capabilities, ConsoleSnapshot, LaunchArgument
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.console.recording import Recording
 from bot_console.tui.console.sights.model import Sights
@@ -42,13 +42,17 @@ class ReadOnlyConsole(NoConsole):
         self._console = console
         self._tell = tell
         self._seen = self._shown = ConsoleSnapshot()
+        self._can, self._cannot = Capabilities(), Capabilities(change=WHY)
         self.snapshot = self._looked_at
 
     def _looked_at(self) -> ConsoleSnapshot:
-        """The newest snapshot, which says that nothing is steered from here; the same object when nothing changed."""
+        """The newest snapshot, which says that nothing is changed from here; the same object when nothing changed."""
         seen = self._console.snapshot()
+        if seen.capabilities is not self._can:
+            self._can, self._cannot = seen.capabilities, replace(seen.capabilities, change=WHY)
         if seen is not self._seen:
-            self._seen, self._shown = seen, replace(seen, drive=replace(seen.drive, refused=WHY))
+            drive = replace(seen.drive, refused=WHY)
+            self._seen, self._shown = seen, replace(seen, drive=drive, capabilities=self._cannot)
         return self._shown
 
     @property

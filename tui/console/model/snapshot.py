@@ -36,7 +36,10 @@ class Capabilities:
     launch: str = ""
     launched_elsewhere: str = ""
     world: str = ""
+    live: str = ""
+    """To show what happens now, which a recording does not."""
     change: str = ""
+    """To set, send, start and end things from here."""
 
 
 @dataclass(frozen=True, slots=True)

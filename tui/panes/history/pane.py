@@ -153,6 +153,8 @@ class HistoryPane(ListPane):
             self._ask({(change.node, change.name): change.old}, f"Put {change.name} back?")
 
     def _ask(self, then: Mapping[tuple[str, str], Value], question: str) -> None:
+        if not self.may_change():
+            return
         trees = self.console.snapshot().parameters
         found, missing = returns(then, trees)
         if not found:

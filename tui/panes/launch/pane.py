@@ -191,7 +191,7 @@ class LaunchPane(ListPane):
     def action_do(self, verb: str) -> None:
         """Start, stop, restart or kill what is at the cursor."""
         row = self._list.current
-        if row is None or self.launcher is None:
+        if row is None or self.launcher is None or not self.may_change():
             return
         info = self._info or LaunchInfo()
         chosen = [row.process] if row.process else [each for each in info.processes if _belongs(each, row.group)]
@@ -227,6 +227,8 @@ class LaunchPane(ListPane):
         """Choose a launch file, fill in its arguments, run it."""
         if self.launcher is None or self._why_not:
             self.notify(self._why_not or "There is no launcher.", severity="warning", markup=False)
+            return
+        if not self.may_change():
             return
         self.ask(
             Choice(

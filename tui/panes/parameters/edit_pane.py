@@ -16,6 +16,7 @@ from bot_console.tui.panes.parameters import editing, tuning
 from bot_console.tui.panes.parameters.staging import SETS, Key, Staging, by_node
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.parameters.unanswered import Unanswered
+from bot_console.tui.screens.tuning.requests import NO_TUNER
 from bot_console.tui.text.refusals import of_many
 from bot_console.tui.tuning.dial import Dial, Setting, find_dials
 from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Elements, Line
@@ -58,18 +59,18 @@ class EditPane(ListPane):
         parameter = row.parameter
         if parameter is None:
             self.action_fold(not row.folded)
-        elif parameter.kind in ARRAYS:
+        elif parameter.kind not in ARRAYS:
+            self.action_edit_text()
+        elif self.may_change():
             now = self._now(parameter)
             values = now if isinstance(now, tuple) else ()
             then, gone = partial(self._set, parameter), partial(self._gone, parameter)
             self.ask(Elements(editing.label(parameter), then, gone, values=values, kind=parameter.kind))
-        else:
-            self.action_edit_text()
 
     def action_edit_text(self) -> None:
         """Edit a value on one line; toggle a bool."""
         parameter = self._at()
-        if parameter is None:
+        if parameter is None or not self.may_change():
             return
         now = self._now(parameter)
         if parameter.kind is Kind.BOOL and isinstance(now, bool):
@@ -240,6 +241,9 @@ class EditPane(ListPane):
 
     def action_tune(self) -> None:
         """Ask for ranges, score and runs, then have settings of what is marked, else of this parameter, tried."""
+        if getattr(self.host, "tuner", None) is None:
+            self.notify(NO_TUNER, severity="warning")
+            return
         parameter = self._at()
         trees = self.console.snapshot().parameters
         known = [dial for tree in trees.values() for each in tree.parameters if (dial := tuning.dial_of(each))]

@@ -222,7 +222,7 @@ class ParametersPane(EditPane):
         if row is None:
             if self.words or self._view.only_changed:
                 return Text("Nothing matches. Press / to change the filter.", "dim")
-            fixed = self._snapshot.capabilities.change
+            fixed = self._snapshot.capabilities.live
             waiting = f"No parameters; {fixed}." if fixed else "Waiting for nodes with parameters ..."
             return Text(harmless(self._snapshot.problem) or waiting, "dim")
         if row.parameter is None:

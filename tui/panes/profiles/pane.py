@@ -177,7 +177,7 @@ class ProfilesPane(ListPane):
     def action_apply(self, reset_world: bool) -> None:
         """Apply the profile; a refusal, or what takes from the robot's safety, is asked about first."""
         profile = self._list.current
-        if profile is None or profile.problem:
+        if profile is None or profile.problem or not self.may_change():
             return
         self.action_again()
         if profile.launch:

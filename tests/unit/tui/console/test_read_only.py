@@ -22,7 +22,11 @@ def test_it_reads_what_there_is_and_changes_nothing(fake: FakeConsole) -> None:
     told: list[str] = []
     console = ReadOnlyConsole(fake, told.append)
     assert console.snapshot() is console.snapshot() and console.snapshot().graph is fake.snapshot().graph
-    assert console.snapshot().drive.refused == WHY
+    assert console.snapshot().drive.refused == console.snapshot().capabilities.change == WHY
+    fake.change(problem="another snapshot")
+    before = console.snapshot().capabilities
+    fake.change(problem="")
+    assert console.snapshot().capabilities is before, "what is the same needs not be drawn again"
     node = next(iter(fake.snapshot().parameters))
     name = fake.snapshot().parameters[node].parameters[0].name
     before = fake.snapshot().parameters

@@ -1,0 +1,33 @@
+"""A console that only looks on says so when a key is pressed, not after a question has been answered."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.console.connection.read_only import WHY
+from bot_console.tui.console.model import Capabilities, Kind
+from bot_console.tui.screens.question import QuestionScreen
+from bot_console.tui.widgets.prompt.line import Prompt
+from piloting import Session, run
+from samples import with_array
+
+KEYS = {
+    "a value": ("1", "slash", *"max_speed", "enter", "enter"),
+    "an array": ("1", "slash", *"a_list", "enter", "enter"),
+    "a way back": ("H", "down", "down", "u"),
+    "a profile": ("7", "enter"),
+    "an end": ("8", "down", "K"),
+    "a launch file": ("8", "o"),
+}
+
+
+@pytest.mark.parametrize("what", KEYS)
+def test_nothing_is_asked_whose_answer_would_be_refused(what: str) -> None:
+    async def play(session: Session) -> None:
+        session.console.change(capabilities=Capabilities(change=WHY))
+        await session.press(*KEYS[what])
+        assert not isinstance(session.app.screen, QuestionScreen), session.text()
+        assert not any(each.has_class("open") for each in session.app.screen.query(Prompt)), session.text()
+        assert [each.message for each in session.app._notifications] == [WHY], session.text()
+        assert not [each for each in session.console.asked if each[0] != "watch"] and session.launcher.asked == []
+
+    run(with_array(Kind.DOUBLE_ARRAY, (1.0, 2.0)), play, (120, 40))
