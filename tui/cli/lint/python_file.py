@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from bot_console.tui.cli.lint.finding import Finding
+from bot_console.tui.console.parameters.unit import is_dimensionless
 
 _CONTINUOUS = re.compile(r"speed|velocity|distance|radius|gain|rate|angle|tolerance|timeout|period|^k[pid](_|$)|scale")
 _UNIT = re.compile(r"(\([^()]*[A-Za-z°%][^()]*\)|\[[^\[\]]*[A-Za-z°%][^\[\]]*\])\s*$")
@@ -80,7 +81,7 @@ def _of_declaration(call: ast.Call, path: str, tree: ast.AST) -> Iterator[Findin
         yield Finding(path, call.lineno, "no description", name)
     if known and number is not None and not ranged:
         yield Finding(path, call.lineno, "no range", name)
-    if isinstance(number, float) and texts and not any(_UNIT.search(each) for each in texts):
+    if isinstance(number, float) and texts and not any(_UNIT.search(each) or is_dimensionless(each) for each in texts):
         yield Finding(path, call.lineno, "no unit", name)
     if type(number) is int and _CONTINUOUS.search(name.rpartition(".")[2]):
         yield Finding(path, call.lineno, "float as int", name)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bot_console.tui.console.model import Kind, ParameterInfo
+from bot_console.tui.console.parameters.unit import is_dimensionless
 
 NUMBERS = (Kind.INTEGER, Kind.DOUBLE)
 NO_DESCRIPTION = "no description"
@@ -17,7 +18,8 @@ def faults(parameter: ParameterInfo) -> tuple[str, ...]:
         found.append(NO_DESCRIPTION)
     if parameter.kind in NUMBERS and parameter.range is None and not parameter.read_only:
         found.append("no range")
-    if parameter.kind is Kind.DOUBLE and parameter.description.strip() and not parameter.unit:
+    described = parameter.description.strip()
+    if parameter.kind is Kind.DOUBLE and described and not parameter.unit and not is_dimensionless(described):
         found.append("no unit")
     return tuple(found)
 
@@ -25,7 +27,7 @@ def faults(parameter: ParameterInfo) -> tuple[str, ...]:
 MENDS = {
     NO_DESCRIPTION: "give declare_parameter a ParameterDescriptor(description=...)",
     "no range": "give the descriptor a floating_point_range or an integer_range, so that nonsense is refused",
-    "no unit": "end the description with the unit in brackets, such as (m/s)",
+    "no unit": "end the description with the unit in brackets, such as (m/s), or call the value a ratio or a share",
     "no validation": "add_on_set_parameters_callback, or ranges in the descriptors: now any value is taken",
     "accepts anything": "let the callback return successful=False with a reason for what it cannot work with",
     "float as int": "write the default with a point: 1 makes an integer parameter, and 0.5 is refused then",

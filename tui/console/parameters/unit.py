@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
+
+_DIMENSIONLESS = re.compile(r"\b(factor|fraction|probability|ratio|share)\b", re.IGNORECASE)
 
 
 @lru_cache(maxsize=20_000)
@@ -12,3 +15,8 @@ def unit_of(description: str) -> str:
     start = text.rfind({")": "(", "]": "["}.get(text[-1:], "\0"))
     inside = text[start + 1 : -1].split()[-1:] if start >= 0 else []
     return inside[0] if inside and any(letter.isalpha() for letter in inside[0]) and len(inside[0]) <= 6 else ""
+
+
+def is_dimensionless(description: str) -> bool:
+    """Whether the description calls the value a ratio, share or the like, which has no unit."""
+    return _DIMENSIONLESS.search(description) is not None

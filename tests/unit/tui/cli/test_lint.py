@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from bot_console.tui.cli.lint.run import files_of, lint_files, run
+from bot_console.tui.console.model import Kind, ParameterInfo
+from bot_console.tui.console.parameters.lint import faults
 from bot_console.tui.console.parameters.unit import unit_of
 
 NODE = """\
@@ -152,6 +155,15 @@ def test_a_unit_stands_in_either_brackets(tmp_path: Path, unit: str) -> None:
     path.write_text(NODE.replace("How far it sees", f"How far it sees {unit}"))
     assert [each.subject for each in lint_files([path]) if each.fault == "no unit"] == []
     assert unit_of(f"How far it sees {unit}") == "m"
+
+
+def test_a_ratio_needs_no_unit_in_source_nor_in_what_runs(tmp_path: Path) -> None:
+    path = tmp_path / "node.py"
+    path.write_text(NODE.replace("How far it sees", "Share of beams that get lost"))
+    assert [each.subject for each in lint_files([path]) if each.fault == "no unit"] == []
+    running = ParameterInfo("/lidar", "beams", Kind.DOUBLE, 0.1, description="Ratio of lost beams")
+    assert "no unit" not in faults(running)
+    assert "no unit" in faults(replace(running, description="How far it sees"))
 
 
 def test_our_own_robot_has_no_fault() -> None:
