@@ -108,7 +108,7 @@ def _package_folders(folder: str, depth: int, budget: list[int]) -> Iterator[str
         return
     if any(os.path.exists(entries[marker]) for marker in MARKERS & entries.keys()):
         return
-    if "package.xml" in entries and entries["package.xml"].is_file():
+    if "package.xml" in entries and os.path.isfile(entries["package.xml"]):  # its own method raises for some links
         yield folder
     elif depth:
         below = (name for name, each in entries.items() if each.is_dir(follow_symlinks=False))

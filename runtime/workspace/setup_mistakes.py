@@ -6,7 +6,9 @@ import ast
 import builtins
 from collections.abc import Iterator
 
-ALWAYS_THERE = frozenset(dir(builtins)) | {"__file__", "__name__", "__doc__"}
+ALWAYS_THERE = frozenset(dir(builtins)) | {"__file__", "__builtins__", "__annotations__", "__class__", "__qualname__"}
+OUT_OF_SIGHT = frozenset({"exec", "globals", "locals", "vars", "NameError"})
+"""What a file reads that defines names without writing them, as `exec` of a version file, or can do without one."""
 NEVER_CALLED = (ast.Tuple, ast.List, ast.Dict, ast.Constant, ast.JoinedStr)
 
 
@@ -31,25 +33,39 @@ def _undefined(tree: ast.Module) -> Iterator[tuple[int, str]]:
     """Names that are read and bound nowhere in the file, in whatever order: those that certainly fail."""
     bound = set(ALWAYS_THERE)
     read: list[ast.Name] = []
-    for each in ast.walk(tree):
-        if isinstance(each, ast.alias):
-            if each.name == "*":  # which names that brings is not known here
-                return
-            bound.add(each.asname or each.name.partition(".")[0])
-        elif isinstance(each, ast.Name):
+    for each in _evaluated(tree):
+        if isinstance(each, ast.Name):
             if isinstance(each.ctx, ast.Load):
                 read.append(each)
             else:
                 bound.add(each.id)
-        elif isinstance(each, ast.arg):
-            bound.add(each.arg)
-        elif isinstance(each, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)) or (
-            isinstance(each, ast.ExceptHandler) and each.name
-        ):
-            bound.add(str(each.name))
+        else:
+            bound.update(_bound_by(each))
+    if "*" in bound or any(name.id in OUT_OF_SIGHT for name in read):  # which names that brings is not known here
+        return
     for name in read:
         if name.id not in bound:
             yield name.lineno, f"name '{name.id}' is not defined{_import_of(name.id)}"
+
+
+def _evaluated(node: ast.AST) -> Iterator[ast.AST]:
+    """A node and all below it, except for annotations: of those only some are evaluated."""
+    yield node
+    for name, below in ast.iter_fields(node):
+        if name not in ("annotation", "returns"):
+            for each in below if isinstance(below, list) else (below,):
+                if isinstance(each, ast.AST):
+                    yield from _evaluated(each)
+
+
+def _bound_by(node: ast.AST) -> Iterator[str]:
+    """The names bound by a node that is no name: imports, arguments, definitions, exceptions, captures of `match`."""
+    if isinstance(node, ast.alias):
+        yield node.asname or node.name.partition(".")[0]
+    elif isinstance(node, ast.arg):
+        yield node.arg
+    else:
+        yield from (each for each in (getattr(node, "name", None), getattr(node, "rest", None)) if each)
 
 
 def _import_of(name: str) -> str:

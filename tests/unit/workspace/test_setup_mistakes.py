@@ -52,6 +52,13 @@ def test_other_mistakes(text, told):
         "import os.path as path\nprint([each for each in path.sep if (n := each)], n)",
         "def run(*words, **kinds):\n    try:\n        return words, kinds\n    except OSError as e:\n        raise e",
         "f = lambda x: x\nclass C: pass\nprint(f, C, __file__, __name__)",
+        "exec(open('version.py').read())\nprint(__version__)",
+        "globals()['version'] = '1'\nprint(version)",
+        "try:\n    unicode\nexcept NameError:\n    pass",
+        "def run(words):\n    match words:\n        case [a, *b]: return a, b\n        case {'c': 1, **d}: return d\n"
+        "        case _ as e: return e",
+        "from __future__ import annotations\ndef f(x: Path) -> Path:\n    y: Path = x\n    return y",
+        "class C:\n    name = __qualname__\n    def f(self): return __class__",
     ],
 )
 def test_what_python_would_run(text):

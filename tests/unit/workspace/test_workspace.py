@@ -103,6 +103,13 @@ def test_packages_are_found_as_colcon_does(tmp_path: Path) -> None:
     assert set(found) - set(demo_packages()) == {"one", "two", NAME}
 
 
+def test_a_link_that_leads_to_itself_is_no_package(tmp_path: Path) -> None:
+    make(tmp_path / "demo")
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "package.xml").symlink_to("package.xml")
+    assert {*Workspace([tmp_path]).packages} - {*demo_packages()} == {"demo", NAME}
+
+
 @pytest.mark.parametrize("name", [NAME, PAGE_NAME])
 def test_a_workspace_package_of_our_name_wins(name: str, tmp_path: Path) -> None:
     folder = make(tmp_path / "robot", name)
