@@ -35,6 +35,7 @@ class ForkServer:
         So must `prepare`, which the server calls with each job before it forks the child. The server is a new
         interpreter, or a fork `from_here`: of this process, which must have one thread only.
         """
+        _open_standard_streams()
         self._connection, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
         self._lock = threading.Lock()
         start = _forked if from_here else _interpreter
@@ -74,6 +75,16 @@ class ForkServer:
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
+
+
+def _open_standard_streams() -> None:
+    """Open those of the descriptors 0 to 2 that are closed, to nothing, here and for the server.
+
+    Else a socket or pipe gets such a number: it would be taken for a stream, and closed when a child gets its own.
+    """
+    while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
+        os.set_inheritable(descriptor, True)
+    os.close(descriptor)
 
 
 def _interpreter(_: socket.socket, connection: socket.socket, warm_up: str, prepare: str) -> subprocess.Popen[bytes]:

@@ -15,6 +15,10 @@ from collections.abc import Callable
 from types import ModuleType
 from typing import NoReturn
 
+from .shown_command import show_command
+
+NAME = "bot-console fork server"
+"""What system tools show."""
 DESCRIPTORS = "/dev/fd"
 """Where Linux and macOS list the open descriptors of a process."""
 
@@ -34,8 +38,9 @@ class Fork:
     def __init__(self, serve: Callable[[], object], kept: int) -> None:
         """Let the fork call `serve()` and end. Of all descriptors it has its output and `kept`."""
         for stream in (sys.stdout, sys.stderr):
-            with contextlib.suppress(OSError, ValueError):  # what is left in their buffers would be written twice
-                stream.flush()
+            if stream is not None:  # as where the descriptor is closed
+                with contextlib.suppress(OSError, ValueError):  # what is left in its buffer would be written twice
+                    stream.flush()
         self._lock = threading.Lock()
         self.returncode: int | None = None
         # Ctrl-C is for the parent, and in the fork nobody would take it before `setsid`.
@@ -83,6 +88,7 @@ def _live(serve: Callable[[], object], kept: int, signals: set[signal.Signals] |
         signal.pthread_sigmask(signal.SIG_SETMASK, signals)
         _close_all_but(kept)
         _forget_the_program()
+        show_command(NAME.split())
         serve()
         code = 0
     except BaseException:  # nothing may return into the parent's program

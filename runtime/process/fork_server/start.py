@@ -21,6 +21,7 @@ from ..watch.lock_watch import LockWatch
 from ..watch.main_watch import MainWatch
 from .job import function_named
 from .server import HELD_BACK, Birth
+from .shown_command import show_command
 
 LAST_PRIORITY = 500
 """OOM score adjustment (-1000 to 1000), so that the system kills this process before the console."""
@@ -41,6 +42,7 @@ def become(birth: Birth) -> Callable[[], object]:
     MAIN.locals.clear()
     MAIN.notices.clear()
     _name(job.name)
+    show_command(job.argv)
     random.seed()
     if "numpy.random" in sys.modules:  # otherwise it seeds itself on import, which takes as long as all of this
         sys.modules["numpy.random"].seed()

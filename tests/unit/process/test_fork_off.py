@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -50,12 +51,14 @@ print(json.dumps(facts), flush=True)
 """
 
 
-def ran(tmp_path: Path, child: str, parent: str = PARENT) -> subprocess.CompletedProcess[str]:
+def ran(
+    tmp_path: Path, child: str, parent: str = PARENT, before: Sequence[str] = ()
+) -> subprocess.CompletedProcess[str]:
     beside = tmp_path / "beside"
     beside.mkdir()
     (beside / "parent.py").write_text(parent)
     (tmp_path / "child.py").write_text(child)
-    command = [sys.executable, str(beside / "parent.py"), str(tmp_path / "child.py")]
+    command = [*before, sys.executable, str(beside / "parent.py"), str(tmp_path / "child.py")]
     return subprocess.run(command, capture_output=True, text=True, check=False, timeout=60, start_new_session=True)
 
 
@@ -104,3 +107,20 @@ def test_ctrl_c_is_for_the_parent_alone(tmp_path: Path) -> None:
     interrupted = "try:\n    os.killpg(0, 2)\n    while True:\n        pass\nexcept KeyboardInterrupt:\n    pass\n"
     done = ran(tmp_path, "print('child')", PARENT.replace(begun, begun + interrupted))
     assert (done.returncode, done.stderr, done.stdout.count("child")) == (0, "", 1)
+
+
+@pytest.mark.parametrize("how", ["True", "False"])
+@pytest.mark.parametrize("closed", ["<&-", ">&-", "<&- >&-"])
+def test_a_child_has_its_streams_where_those_of_the_program_are_closed(tmp_path: Path, closed: str, how: str) -> None:
+    parent = PARENT.replace("stdout=1", "stdout=2").replace('sys.stdout.write("once\\n")', "")
+    parent = parent.replace('held = os.open("/", os.O_RDONLY)', "held = os.dup(2)").replace("here=True", f"here={how}")
+    parent = parent.replace("server.close()", "server.close(); assert server._process.returncode == 0")
+    done = ran(tmp_path, "print('child')", parent, ["sh", "-c", f'exec "$@" {closed}', "sh"])
+    assert (done.returncode, done.stderr) == (0, "child\n")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="shown by Linux")
+def test_a_signal_to_all_programs_of_its_command_line_is_for_the_parent_alone(tmp_path: Path) -> None:
+    shown = "print(*open(f'/proc/{pid}/cmdline').read().split('\\0'))\n"
+    done = ran(tmp_path, f"import os\nfor pid in ('self', os.getppid()): {shown}")
+    assert {"x", "bot-console fork server"} < {each.strip() for each in done.stdout.splitlines()}
