@@ -79,7 +79,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(words: list[str]) -> Result:
-    parser = _top_parser()
+    parser = top_parser()
     name = next((word for word in words if not word.startswith("-")), "")
     command = load(name)
     if command is None:
@@ -89,7 +89,7 @@ def _run(words: list[str]) -> Result:
         parser.parse_args(words)
         parser.print_help()
         return 0
-    subparser = _add(parser, command, words)
+    subparser = add_command(parser, command, words)
     arguments = parser.parse_args(words)
     if command.main:
         arguments.parser = subparser
@@ -113,7 +113,8 @@ def load(name: str) -> Command | None:
     return importlib.import_module(COMMANDS[name][0]).COMMAND if name in COMMANDS else None
 
 
-def _top_parser() -> argparse.ArgumentParser:
+def top_parser() -> argparse.ArgumentParser:
+    """The parser of `ros2`, without any command."""
     parser = argparse.ArgumentParser(
         "ros2",
         description="ros2 is an extensible command-line tool for ROS 2.",
@@ -137,7 +138,7 @@ def _all_commands(parser: argparse.ArgumentParser) -> argparse._SubParsersAction
     return _subparsers(parser, "ros2", {name: text for name, (_, text) in COMMANDS.items()})
 
 
-def _add(parser: argparse.ArgumentParser, command: Command, words: Sequence[str]) -> argparse.ArgumentParser:
+def add_command(parser: argparse.ArgumentParser, command: Command, words: Sequence[str]) -> argparse.ArgumentParser:
     """Add a command's parser with all its verbs, and the arguments of those that `words` may be about."""
     commands = _all_commands(parser)
     subparser = commands.add_parser(command.name, description=command.description, formatter_class=HelpFormatter)

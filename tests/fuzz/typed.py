@@ -47,10 +47,10 @@ def verb_parsers() -> dict[str, Any]:
 
     found: dict[str, Any] = {}
     for name in command_line.COMMANDS:
-        top = command_line._top_parser()
+        top = command_line.top_parser()
         command = command_line.load(name)
         assert command is not None
-        command_line._add(top, command)
+        command_line.add_command(top, command, [each.name for each in command.verbs])
         found[name] = top
     return found
 

@@ -8,7 +8,7 @@ import re
 import shlex
 from pathlib import Path
 
-from bot_console.runtime.ros2cli.command_line import _add, _top_parser, load
+from bot_console.runtime.ros2cli.command_line import add_command, load, top_parser
 from bot_console.tui.cli import arguments
 from bot_console.tui.cli import main as program
 from bot_console.tui.cli.tune import run as tune
@@ -105,8 +105,8 @@ def _ros2(words: list[str]) -> str:
     command = load(words[0])
     if command is None:
         return f"there is no command {words[0]}"
-    parser = _top_parser()
-    _add(parser, command, words)
+    parser = top_parser()
+    add_command(parser, command, words)
     given = parser.parse_args(words)
     if words[0] == "launch" and given.package_name == PACKAGE:
         pairs = dict(each.split(":=", 1) for each in given.launch_arguments)
