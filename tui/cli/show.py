@@ -23,6 +23,7 @@ from bot_console.tui.cli.system.domain import (
     robot_there,
     same_names_there,
     take_part,
+    tell_of_other_start,
     unusable_domain,
     why_alone,
 )
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
     from bot_console.tui.cli.system.connected import Connected
 
 ATTACHED = "Attached to ROS domain {}: q ends the console alone, and what was started from it."
-STARTING = "Another bot-console is starting a robot in ROS domain {}: waiting for it ..."
 HOST_LOG = "launch-host.log"
 
 
@@ -55,7 +55,7 @@ def run(options: Options) -> int:
             hosts.callback(claim.release)
             if others_take_part() or not claim.held:
                 _prepare(options)
-                robot = claim.seen(robot_there, partial(print, STARTING.format(domain())))
+                robot = claim.seen(robot_there, tell_of_other_start)
                 there = robot or same_names_there(options.launch_arguments)
                 if there and not _attach_instead(there, robot=bool(robot)):
                     return 1

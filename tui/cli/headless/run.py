@@ -20,12 +20,14 @@ from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.interruptible_wait import wait_interruptibly
 from bot_console.tui.cli.system.domain import (
-    domain,
+    is_in_range,
+    robot_claim,
     robot_there,
     run_apart,
-    same_names_there,
     take_part,
+    tell_of_other_start,
     unusable_domain,
+    why_no_robot,
 )
 from bot_console.tui.cli.system.named_launch import with_launch_file
 from bot_console.tui.cli.system.workspaces import choose
@@ -98,9 +100,12 @@ def simulated(options: Options, observer: Observer | None = None) -> tuple[dict[
 def _meet_others(options: Options) -> None:
     """Join the domain, unless another robot is in it: the two would obey each other's commands."""
     problem = take_part()
-    if not problem and not options.launch and (there := robot_there() or same_names_there(options.launch_arguments)):
-        run_apart()
-        problem = f"a robot is in ROS domain {domain()} already ({', '.join(there)}), so this one runs apart"
+    if not problem and not options.launch and is_in_range():
+        claim = robot_claim()  # until this process ends
+        if why := why_no_robot(claim.seen(robot_there, tell_of_other_start), options.launch_arguments):
+            claim.release()
+            run_apart()
+            problem = f"{why}; so this one runs apart"
     if problem:
         print(problem, file=sys.stderr)
         return

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NoReturn
 
 from bot_console.runtime.domain_id import domain_id
@@ -106,8 +106,7 @@ def robot_there() -> list[str]:
     """The nodes of other processes that form a robot: they obey velocities, or publish scans or odometry.
 
     Tools and consoles, whose names begin with an underscore, only watch what a robot is sent and do not count. To be
-    called
-    after `take_part` and before anything runs in this process.
+    called after `take_part` and before anything runs in this process.
     """
     from bot_console.runtime.rmw.middleware import bus_of
     from bot_console.tui.console.robot.robot_wanted import SOURCES, VELOCITY
@@ -130,7 +129,7 @@ def nodes_there() -> list[str]:
 
 
 def robot_claim() -> RobotClaim:
-    """Claim the robot of this domain, for consoles that bring one of their own; only where `why_alone` is empty."""
+    """Claim the robot of this domain, for programs that bring one of their own; only where `why_alone` is empty."""
     from pathlib import Path
 
     from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
@@ -148,6 +147,23 @@ def same_names_there(arguments: Mapping[str, str]) -> list[str]:
 
     ours = SYSTEM_NODES - {NAVIGATOR} if "navigator" in arguments else SYSTEM_NODES
     return sorted(ours.intersection(nodes_there())) if others_take_part() else []
+
+
+def why_no_robot(robot: Sequence[str], arguments: Mapping[str, str]) -> str:
+    """Why our system, launched with these arguments, is not to join this domain, in one line; empty when it may.
+
+    `robot` is the one that is there. To be called like `robot_there`.
+    """
+    if robot:
+        return f"a robot runs already in ROS domain {domain()}: {', '.join(robot)}"
+    if there := same_names_there(arguments):
+        return f"nodes named as our robot's run already in ROS domain {domain()}: {', '.join(there)}"
+    return ""
+
+
+def tell_of_other_start() -> None:
+    """Say, on standard error, that this program waits for a robot that another one is starting."""
+    print(f"Another bot-console is starting a robot in ROS domain {domain()}: waiting for it ...", file=sys.stderr)
 
 
 def domain() -> int:

@@ -18,7 +18,16 @@ from pathlib import Path
 from bot_console.runtime.process.session_end import end_session
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import RANGE_VARIABLE
 from bot_console.tui.cli.system.background_system import SWITCH
-from bot_console.tui.cli.system.domain import domain, frozen, is_in_range, robot_there, same_names_there, take_part
+from bot_console.tui.cli.system.domain import (
+    domain,
+    frozen,
+    is_in_range,
+    robot_claim,
+    robot_there,
+    take_part,
+    tell_of_other_start,
+    why_no_robot,
+)
 from bot_console.tui.cli.system.named_launch import with_launch_file
 from bot_console.tui.cli.system.start_lock import start_lock
 from bot_console.tui.cli.system.system_log import new_log
@@ -71,13 +80,18 @@ def up(words: Sequence[str]) -> int:
     if problem := problem or alone:
         print(problem, file=sys.stderr)
         return 1
-    apart = options.launch or _known()
-    robot = [] if apart else robot_there() or same_names_there(options.launch_arguments)
-    with start_lock(_file().with_name("background.lock"), STARTING) as got:
-        there = _known()
-        if not got or there or robot:
-            who = there.told() if there else ", ".join(robot) or "another one that is being started"
-            print(f"a robot runs already in ROS domain {domain()}: {who}; bot-console attach shows it", file=sys.stderr)
+    with contextlib.ExitStack() as until_started:
+        claim = None if options.launch or _known() else robot_claim()
+        if claim is not None:
+            until_started.callback(claim.release)  # which the system has inherited by then
+            problem = why_no_robot(claim.seen(_robot_or_system, tell_of_other_start), options.launch_arguments)
+        got = until_started.enter_context(start_lock(_file().with_name("background.lock"), STARTING))
+        if there := _known():
+            problem = why_no_robot([there.told()], {})
+        elif not got:
+            problem = why_no_robot(["another one that is being started"], {})
+        if problem:
+            print(f"{problem}; bot-console attach shows it", file=sys.stderr)
             return 1
         try:
             log = new_log(os.getpid())
@@ -88,13 +102,20 @@ def up(words: Sequence[str]) -> int:
         line = [*own_program(SWITCH), str(log), *words]
         with log.open("ab") as output:
             process = subprocess.Popen(
-                line, stdin=subprocess.DEVNULL, stdout=output, stderr=output, start_new_session=True, close_fds=True
-            )
+                line, stdin=subprocess.DEVNULL, stdout=output, stderr=output, start_new_session=True, close_fds=True,
+                pass_fds=claim.descriptors if claim else (),
+            )  # fmt: skip
         # Its own file, which goes with the log: the system's takes turns, and would leave the router in an old one.
         router_log = log.with_name(f"{log.name}.router")
         started = Background(process.pid, tuple(words), str(log), _open_way_in(serving, router_log) if serving else 0)
         save_file(_file(), json.dumps(asdict(started)))
     return _await(process, started, launched=bool(options.launch), router_log=router_log if serving else None)
+
+
+def _robot_or_system() -> list[str]:
+    """The robot in the domain, or the system in the background that is starting one; for `RobotClaim.seen`."""
+    there = _known()
+    return [there.told()] if there else robot_there()
 
 
 def _await(process: subprocess.Popen[bytes], started: Background, *, launched: bool, router_log: Path | None) -> int:

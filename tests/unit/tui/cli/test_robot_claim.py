@@ -1,11 +1,18 @@
-"""Of consoles that start at the same moment only one brings a robot."""
+"""Of programs that start at the same moment only one brings a robot."""
 
 from __future__ import annotations
+
+import subprocess
+import sys
+from types import SimpleNamespace
 
 import pytest
 from bot_console.tui.cli import robot_claim, show
 from bot_console.tui.cli.arguments import parse
-from bot_console.tui.cli.robot_claim import RobotClaim
+from bot_console.tui.cli.headless import run as headless
+from bot_console.tui.cli.robot_claim import NAME, RobotClaim
+from bot_console.tui.cli.system import domain, system_log
+from bot_console.tui.cli.verbs import background
 
 
 @pytest.fixture(autouse=True)
@@ -44,6 +51,84 @@ def test_a_claim_without_a_robot_is_not_waited_for_without_end(tmp_path, monkeyp
     first.release()
 
 
+def test_a_folder_that_takes_no_lock_keeps_nobody_from_starting(tmp_path):
+    (tmp_path / NAME).mkdir()
+    claim = RobotClaim(tmp_path)
+    assert claim.held and claim.descriptors == () and claim.seen(lambda: [], list) == []
+    claim.release()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="descriptors are inherited on POSIX only")
+def test_a_process_that_has_inherited_the_claim_holds_it_until_it_ends(tmp_path):
+    claim = RobotClaim(tmp_path)
+    line = [sys.executable, "-c", "input()"]
+    with subprocess.Popen(line, stdin=subprocess.PIPE, pass_fds=claim.descriptors) as system:
+        claim.release()
+        assert not RobotClaim(tmp_path).held
+        system.communicate(b"\n")
+    assert RobotClaim(tmp_path).held
+
+
+@pytest.fixture
+def up(monkeypatch, tmp_path):
+    """What `up` starts: nothing real, by the options of the process."""
+    calls = []
+
+    def start(words, **options):
+        calls.append(options)
+        return SimpleNamespace(pid=1, poll=lambda: None)
+
+    for name, value in {
+        "take_part": lambda: "", "robot_claim": lambda: RobotClaim(tmp_path), "_file": lambda: tmp_path / "known.json",
+        "robot_there": lambda: ["/simulator"] if calls else [], "_is_program": lambda pid, word: bool(calls),
+    }.items():  # fmt: skip
+        monkeypatch.setattr(background, name, value)
+    monkeypatch.setattr(background.subprocess, "Popen", start)
+    monkeypatch.setattr(system_log, "state_folder", lambda: tmp_path)
+    return calls
+
+
+def test_up_hands_its_claim_to_the_system(up):
+    assert background.up([]) == 0
+    assert len(up[0]["pass_fds"]) == 1
+
+
+def test_up_beside_a_console_that_starts_a_robot_starts_none(up, tmp_path, monkeypatch, capsys):
+    first, looks = RobotClaim(tmp_path), iter([[], ["/simulator"]])
+    monkeypatch.setattr(background, "robot_there", lambda: next(looks))
+    assert background.up([]) == 1 and not up
+    told = capsys.readouterr().err
+    assert "Another bot-console is starting a robot" in told and "a robot runs already" in told and "/simulator" in told
+    first.release()
+
+
+@pytest.mark.parametrize("program", ["up", "--headless"])
+def test_nodes_that_only_have_our_names_are_not_called_a_robot(program, up, tmp_path, monkeypatch, capsys):
+    apart = []
+    for name, value in {
+        "take_part": lambda: "", "robot_claim": lambda: RobotClaim(tmp_path), "robot_there": list,
+        "run_apart": lambda: apart.append(1),
+    }.items():  # fmt: skip
+        monkeypatch.setattr(headless, name, value)
+    monkeypatch.setattr(domain, "same_names_there", lambda arguments: ["/sensor_handler"])
+    background.up([]) if program == "up" else headless._meet_others(parse(["--headless"]))
+    told = capsys.readouterr().err
+    assert told.startswith("nodes named as our robot's run already") and "/sensor_handler" in told and not up
+    assert bool(apart) == (program == "--headless") and RobotClaim(tmp_path).held
+
+
+def test_a_headless_robot_beside_a_console_that_starts_one_runs_apart(tmp_path, monkeypatch, capsys):
+    first, looks, apart = RobotClaim(tmp_path), iter([[], ["/simulator"]]), []
+    for name, value in {
+        "take_part": lambda: "", "robot_claim": lambda: RobotClaim(tmp_path), "robot_there": lambda: next(looks),
+        "run_apart": lambda: apart.append(1),
+    }.items():  # fmt: skip
+        monkeypatch.setattr(headless, name, value)
+    headless._meet_others(parse(["--headless"]))
+    assert apart and "runs apart" in capsys.readouterr().err
+    first.release()
+
+
 def test_a_console_that_starts_beside_another_shows_the_robot_of_that_one(tmp_path, monkeypatch, capsys):
     first, shown = RobotClaim(tmp_path), []
     looks = iter([[], ["/simulator"]])
@@ -63,6 +148,6 @@ def test_a_console_that_starts_beside_another_shows_the_robot_of_that_one(tmp_pa
         monkeypatch.setattr(show, name, value)
     monkeypatch.setattr("builtins.input", lambda question: "y")
     assert show.run(parse([])) == 0 and shown[0].attach
-    assert "Another bot-console is starting a robot" in capsys.readouterr().out
+    assert "Another bot-console is starting a robot" in capsys.readouterr().err
     first.release()
     assert RobotClaim(tmp_path).held, "who attached claims nothing"
