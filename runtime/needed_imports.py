@@ -25,20 +25,17 @@ WITH_ARRAYS = ("rclpy.action",)
 LARGEST = 1_000_000
 """Bytes of source text that are read at most."""
 
-_seen: set[tuple[str, int]] = set()
+_seen: set[tuple[str | None, int]] = set()
 
 
 def import_needed(job: Job) -> None:
     """Import what the program of a job will need; leaves faults to the program."""
-    path = _source(*job.arguments[1:])
-    if path is None:
-        importlib.import_module(UNKNOWN)
-        return
     with contextlib.suppress(Exception):  # the program meets the fault itself, and tells it
-        seen = path, os.stat(path).st_mtime_ns
+        path = _source(*job.arguments[1:])
+        seen = path, os.stat(path).st_mtime_ns if path else 0
         if seen not in _seen:
             _seen.add(seen)
-            for name in _needed(path):
+            for name in _needed(path) if path else (UNKNOWN,):
                 with contextlib.suppress(Exception):
                     importlib.import_module(name)
 

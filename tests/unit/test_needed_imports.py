@@ -72,3 +72,18 @@ def test_the_file_of_an_entry_point_and_a_program_without_one(tmp_path: Path) ->
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
     assert imported(elsewhere, "entry_point", [[], "json.tool:main", [str(tmp_path)]]) == ""
+
+
+def test_a_numpy_that_cannot_be_imported_does_not_end_the_server(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "numpy.py").write_text("raise ImportError('broken')")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    server = ForkServer(PLAIN, PREPARE)
+    null = os.open(os.devnull, os.O_RDWR)
+    words = ([], "bot_console.runtime.workspace.launched:entry_point", [[], "json.tool:main", []])
+    job = Job("x", "bot_console.runtime.own_processes:begun", words, ["x"], {}, str(tmp_path))
+    with os.fdopen(server.start(job, stdin=null, stdout=null, stderr=null, data=null), "rb") as report:
+        os.close(null)
+        assert report.read().startswith(b"pid ")
+    server.close()

@@ -7,6 +7,7 @@ import random
 import signal
 import sys
 import threading
+import time
 import traceback
 from collections.abc import Callable, Sequence
 from types import TracebackType
@@ -36,6 +37,7 @@ def become(birth: Birth) -> Callable[[], object]:
     os.chdir(job.cwd)
     os.environ.clear()
     os.environ.update(job.env)
+    time.tzset()  # the zone was read from the server's environment
     _add_python_path(job.env.get("PYTHONPATH", ""))
     sys.argv = MAIN.argv = list(job.argv)
     MAIN.pid = os.getpid()

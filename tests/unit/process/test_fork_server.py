@@ -190,6 +190,11 @@ def test_an_interrupt_right_after_the_start_is_not_lost(fork: Any) -> None:
     assert "fork_server" not in "".join(each.err for each in children)
 
 
+def test_the_zone_of_its_times_is_that_of_its_environment(fork: Any) -> None:
+    child = fork("import time\nprint(time.localtime(0).tm_hour, time.tzname[0])\n", TZ="XYZ-7")
+    assert child.end() == 0 and child.out == "7 XYZ\n"
+
+
 def test_random_numbers_are_its_own(fork: Any) -> None:
     text = "import random\nprint(random.random())\n"
     numbers = [fork(text) for _ in range(3)]
