@@ -76,6 +76,7 @@ class Photographer:
 
     async def select(self, name: str) -> None:
         """Move the cursor down to a parameter."""
+        await self.until(lambda: self._session.app.query(ParameterRows))  # the panes come after the first frame
         rows = self._session.app.query_one(ParameterRows)
         await self.until(lambda: any(each.name == name for each in rows.rows))
         for _ in rows.rows:

@@ -20,4 +20,4 @@ def too_few_files() -> str:
     if most == resource.RLIM_INFINITY or most >= LEAST:
         resource.setrlimit(resource.RLIMIT_NOFILE, (LEAST, most))
         return ""
-    return f"bot-console needs {LEAST} open files, and only {now} are allowed here: see `ulimit -Hn`"
+    return f"bot-console needs {LEAST} open files, and at most {most} are allowed here: see `ulimit -Hn`"

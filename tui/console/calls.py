@@ -19,10 +19,12 @@ T = TypeVar("T")
 PATIENCE = 5.0
 """Seconds to wait for an answer from when it is asked for; a slow link answers late, a hung node never."""
 
-LOOKS, LONGEST_LOOK = 5, 1.0
-"""How often the clock is looked at meanwhile. Each look counts once, however late it comes: while this program itself
-got no processor, nobody's answer could be taken, and none is overdue."""
+LOOKS = 5
+"""How often at least one looks meanwhile. Each look counts once, however late it comes: while this program itself got
+no processor, nobody's answer could be taken, and none is overdue."""
 
+LONGEST_LOOK = 1.0
+"""Seconds between two looks at most, so that a server that goes away is noticed soon."""
 
 GONE = 2
 """Looks in a row without a server, after which no answer comes: at one it may start anew, or answer as it leaves."""

@@ -23,7 +23,7 @@ def rate_text(rate: float | None) -> str:
 
 
 def coarse_rate(rate: float | None) -> str:
-    """Format a rate coarsely, so that the picture is not redrawn for small changes."""
+    """A rate with its unit, so coarse that what shows it is not redrawn for small changes."""
     if rate is None:
         return ""
     return f"{rate:.1f} Hz" if rate < 9.5 else f"{rate:.2g} Hz" if rate < 95 else f"{rate:.0f} Hz"

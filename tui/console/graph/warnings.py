@@ -7,7 +7,7 @@ from collections.abc import Hashable, Iterator
 
 from bot_console.tui.console.graph.findings import mend, namesakes
 from bot_console.tui.console.launch.process_output import Add
-from bot_console.tui.console.model import GraphInfo, Severity
+from bot_console.tui.console.model import GraphInfo, NodeInfo, Severity
 from bot_console.tui.console.robot.command_topics import types_of
 
 SOURCE = "bot-console"
@@ -30,7 +30,7 @@ class GraphWarnings:
 
 
 def warnings(graph: GraphInfo) -> Iterator[tuple[Hashable, str]]:
-    """The warnings that hold of a graph, each with what it is told by."""
+    """The warnings that hold of a graph, each with a key that tells it from all others."""
     for node, pid in graph.frozen:
         yield ("frozen", node, pid), f"{node} is frozen: {mend(pid)}"
     for node in graph.nodes:
@@ -49,10 +49,17 @@ def rivals(topic: str, nodes: tuple[str, ...]) -> str:
 
 
 def _rivals(graph: GraphInfo) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Each velocity topic that somebody listens to and several nodes publish."""
+    """Each velocity topic that somebody listens to and several nodes publish.
+
+    Nodes with a lifecycle that all publish one, as the servers of Nav2 do, have a manager that lets them take turns.
+    """
     nodes = [each for each in graph.nodes if not each.hidden]
     heard = {end.name for node in nodes for end in node.subscriptions}
     for topic in sorted(types_of(graph).keys() & heard):
-        senders = sorted(node.name for node in nodes if any(end.name == topic for end in node.publishers))
-        if len(senders) > 1:
-            yield topic, tuple(senders)
+        senders = [node for node in nodes if any(end.name == topic for end in node.publishers)]
+        if len(senders) > 1 and not all(map(_has_lifecycle, senders)):
+            yield topic, tuple(sorted(node.name for node in senders))
+
+
+def _has_lifecycle(node: NodeInfo) -> bool:
+    return any(end.name == f"{node.name}/change_state" for end in node.services)

@@ -49,6 +49,7 @@ class HostedLauncher(ProcessVerbs):
         """`learn` is given what programs and launches tell of parameters; `hangs` says why the host hears nothing.
 
         `thaw` lets an owner's host that is frozen go on, so that it can end.
+
         An owner's `close` ends what runs, that of any other console only the connection.
         """
         self._learn = learn
@@ -120,8 +121,9 @@ class HostedLauncher(ProcessVerbs):
                 return
             self._ends = True
             hangs = bool(self._hangs)
+        if self._owner:
+            self._thaw()  # also one that seems to hang: it may have been frozen with the interpreter's lock
         if self._owner and not hangs:
-            self._thaw()
             ended = self._ask("close")
             try:
                 ended.result(patience)

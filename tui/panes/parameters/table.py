@@ -157,8 +157,9 @@ class ParameterRows(ItemList[Row]):
                 self.post_message(self.Pressed(row))
             return
         own = columns(self._measures, self.across)
-        begin = MARKS + name_column(row, own, self.across) + GAP + own.value + GAP
-        slides = own.bar and begin == MARKS + own.name + GAP + own.value + GAP and not row.parameter.read_only
+        taken = name_column(row, own, self.across)
+        begin = MARKS + taken + GAP + own.value + GAP
+        slides = own.bar and taken == own.name and not row.parameter.read_only
         if slides and bar(row.parameter, own.bar) and begin <= event.x < begin + own.bar:
             self.post_message(self.Slid(row.parameter, (event.x - begin) / (own.bar - 1)))
         elif chosen:

@@ -24,7 +24,7 @@ print(resource.getrlimit(resource.RLIMIT_NOFILE)[0])
     [
         (300, 300, "", "300"),
         (64, 300, "", "256"),
-        (64, 200, "bot-console needs 256 open files, and only 64 are allowed here: see `ulimit -Hn`", "64"),
+        (64, 200, "bot-console needs 256 open files, and at most 200 are allowed here: see `ulimit -Hn`", "64"),
     ],
 )
 def test_a_low_limit(soft: int, hard: int, said: str, now: str) -> None:

@@ -34,6 +34,15 @@ def test_one_that_commands_a_console_beside_it_and_two_that_nobody_hears_are_non
     assert not logged(GraphInfo(tuple(nodes)))
 
 
+def test_servers_with_a_lifecycle_take_turns_unless_another_node_joins_them() -> None:
+    managed = tuple(
+        NodeInfo(name, CMD_VEL, services=(Endpoint(f"{name}/change_state", ("lifecycle_msgs/srv/ChangeState",)),))
+        for name in ("/behavior_server", "/controller_server")
+    )
+    assert not logged(GraphInfo((BASE, *managed)))
+    assert len(logged(GraphInfo((BASE, *managed, TELEOP)))) == 1
+
+
 def test_topics_of_other_types_may_have_several_publishers() -> None:
     points = (Endpoint("/points", ("geometry_msgs/msg/Point",)),)
     nodes = NodeInfo("/a", points), NodeInfo("/b", points), NodeInfo("/c", (), points)

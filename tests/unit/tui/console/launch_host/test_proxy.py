@@ -39,3 +39,15 @@ def test_another_ones_host_may_end() -> None:
         thread.join(PATIENCE)
     assert printed == [] and launcher.info().problem == ""
     launcher.close()
+
+
+def test_a_host_that_was_frozen_with_the_interpreters_lock_goes_on_when_it_is_to_end() -> None:
+    ours, theirs = socket.socketpair()
+    thawed: list[bool] = []
+    launcher = HostedLauncher(
+        ours, lambda *record: None, lambda *line: None, hangs=lambda: "it hangs", thaw=lambda: thawed.append(True)
+    )
+    assert launcher.info().problem == "it hangs"
+    launcher.close()
+    assert thawed == [True]
+    theirs.close()
