@@ -71,10 +71,10 @@ class Context:
             self._bus = bus_of(domain_id)
             if initialize_logging:
                 self._log_file = begin_log_file(self.arguments)
-            self._initialized = True
+            self._process = current()
+            self._forget_abandon = self._process.on_abandon(self._abandon)
+            self._initialized = True  # from here on a signal may shut it down
         remember_context(self)
-        self._process = current()
-        self._forget_abandon = self._process.on_abandon(self._abandon)
 
     def ok(self) -> bool:
         """Whether it has been initialised and not shut down."""

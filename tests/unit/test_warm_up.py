@@ -28,3 +28,10 @@ def test_one_thread_no_descriptor_and_an_empty_graph() -> None:
     environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
     done = subprocess.run([sys.executable, "-c", CODE], env=environment, capture_output=True, text=True, check=False)
     assert done.stdout.splitlines() == ["1 1", "[]", "[]", "[('first', '/')]"], done.stderr
+
+
+def test_what_is_imported_before_the_fork_has_no_exit_functions() -> None:
+    text = "import atexit\nfrom bot_console.runtime.warm_up import import_shared\nimport_shared()\n"
+    text += "print(atexit._ncallbacks())"  # the server drops them, as those of the program: `logging` would lose its own
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
+    assert done.stdout == "0\n"

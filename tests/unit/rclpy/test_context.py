@@ -130,6 +130,13 @@ def test_a_signal_ends_without_the_callbacks(ros: Any) -> None:
         executor.spin_once()
 
 
+def test_a_signal_while_it_is_being_initialised(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("rclpy.context.remember_context", Context.shut_down_by_signal)
+    context = Context()
+    context.init([])
+    assert context.ended_by_signal and not context.ok()
+
+
 def test_what_is_asked_before_init_is_called_as_well() -> None:
     context, got = Context(), []
     context.on_shutdown(lambda: got.append("called"))
