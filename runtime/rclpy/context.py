@@ -63,7 +63,7 @@ class Context:
                 domain_id = _domain_of_environment()
             elif domain_id < 0:
                 raise RuntimeError(f"Domain id ({domain_id}) should not be lower than zero.")
-            elif not isinstance(domain_id, int):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
+            elif not hasattr(domain_id, "__index__"):  # NumPy's integers have it, floats do not
                 raise TypeError(f"domain_id must be an int, not {type(domain_id).__name__}")
             self._domain = domain_id = int(domain_id)
             if ignored := why_range_is_ignored():

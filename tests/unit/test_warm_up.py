@@ -32,6 +32,6 @@ def test_one_thread_no_descriptor_and_an_empty_graph() -> None:
 
 def test_what_is_imported_before_the_fork_has_no_exit_functions() -> None:
     text = "import atexit\nfrom bot_console.runtime.warm_up import import_shared\nimport_shared()\n"
-    text += "print(atexit._ncallbacks())"  # the server drops them, as those of the program: `logging` would lose its own
+    text += "print(atexit._ncallbacks())"  # the server drops all, as those of its parent's program
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
     assert done.stdout == "0\n"

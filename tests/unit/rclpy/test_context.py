@@ -7,6 +7,7 @@ import threading
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
 import pytest
 import rclpy
 import rclpy.utilities
@@ -74,6 +75,13 @@ def test_a_context_of_ones_own(default: None) -> None:
         rclpy.shutdown(context=context)
     with pytest.raises(RuntimeError, match="must only be called once"):
         context.init([])
+
+
+def test_a_domain_of_numpy() -> None:
+    context = Context()
+    context.init([], domain_id=np.uint8(77))
+    assert type(context.get_domain_id()) is int and context.get_domain_id() == 77
+    context.shutdown()
 
 
 def test_a_bad_domain() -> None:
