@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import threading
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -78,8 +78,8 @@ def test_a_context_of_ones_own(default: None) -> None:
 
 
 def test_a_domain_of_numpy() -> None:
-    context = Context()
-    context.init([], domain_id=np.uint8(77))
+    context, number = Context(), cast(Any, np.uint8(77))
+    context.init([], domain_id=number)
     assert type(context.get_domain_id()) is int and context.get_domain_id() == 77
     context.shutdown()
 
