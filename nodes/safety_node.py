@@ -44,8 +44,7 @@ class SafetyMonitor(Node):
     """Publishes `cmd_vel`, and `diagnostics` about what was requested, what limited it and the result.
 
     While the emergency stop is locked it keeps publishing zero. While a person holds the steering only that person's
-    commands
-    count.
+    commands count.
     """
 
     def __init__(self) -> None:

@@ -1,8 +1,7 @@
 """Interfaces that are not installed here: definitions received from nodes, kept for the lifetime of this process.
 
 Only packages that are missing entirely are learned, so that nothing installed is shadowed, and only definitions whose
-hash
-matches the type in the graph.
+hash matches the type in the graph.
 """
 
 from __future__ import annotations

@@ -16,8 +16,7 @@ def without_collector() -> Generator[None]:
     """Switch the garbage collector off until `collect_from_now_on` or the end.
 
     What is imported and built for the screen stays: traversing it again and again delays the first frame and the first
-    keys
-    by tens of milliseconds each time.
+    keys by tens of milliseconds each time.
     """
     gc.disable()
     try:

@@ -1,8 +1,7 @@
 """A subscription with the QoS its publishers offer: one that asks for more receives nothing, and makes them warn.
 
 One that asks for less than is offered loses what it could have had, so neither is fixed; the offer changes as nodes
-come
-and go.
+come and go.
 """
 
 from __future__ import annotations

@@ -138,8 +138,7 @@ class Console(ConsoleReading, Protocol):
         """Set parameters of several nodes (by node and name), all or none; a single undo reverts all of them.
 
         `by` names the operation they belong to. If one node refuses, nodes that had already accepted are set back, and
-        every
-        outcome says why; a value that could not be set back has `accepted` set and a reason.
+        every outcome says why; a value that could not be set back has `accepted` set and a reason.
         """
         ...
 
@@ -174,9 +173,8 @@ class Console(ConsoleReading, Protocol):
         """Lock the robot's emergency stop, or withdraw this console's stop; either way send zero velocity now.
 
         A robot that others have stopped too stays locked until their stops are released. `DriveInfo.stop_confirmed`
-        tells
-        when the stop has been acknowledged. A robot without an emergency stop is sent zero velocities while it is held.
-        May be called from any thread.
+        tells when the stop has been acknowledged. A robot without an emergency stop is sent zero velocities while it is
+        held. May be called from any thread.
         """
         ...
 
@@ -242,8 +240,7 @@ class Console(ConsoleReading, Protocol):
         """Write a ROS parameter file; an existing file keeps its comments.
 
         With `only_changed` it holds only what differs from the declared values or, where those are unknown, from the
-        start
-        values.
+        start values.
         """
         ...
 

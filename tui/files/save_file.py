@@ -38,10 +38,8 @@ def save_file(path: Path, content: str | bytes, check: Callable[[bytes], None] |
     """Write a file, creating its folder if necessary; text is written as UTF-8 with the line ends it has.
 
     The content is written beside the file, synced to disk, read back, passed to `check`, and only then renamed: after a
-    full
-    disk, a crash or an error in `check` the old content is intact. A symbolic link stays a link; mode and owner stay; a
-    new
-    file follows the umask. Raises `NotSaved`, and whatever `check` raises.
+    full disk, a crash or an error in `check` the old content is intact. A symbolic link stays a link; mode and owner
+    stay; a new file follows the umask. Raises `NotSaved`, and whatever `check` raises.
     """
     try:
         _save(path, content.encode() if isinstance(content, str) else content, check)

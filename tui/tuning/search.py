@@ -1,8 +1,7 @@
 """Which settings to try next: on a grid, at random, or closer and closer to the best. Pure and repeatable.
 
 A search produces one generation at a time, from the seed and from what was tried: nothing depends on how many runs go
-on
-in parallel, nor on which of them ends first.
+on in parallel, nor on which of them ends first.
 """
 
 from __future__ import annotations

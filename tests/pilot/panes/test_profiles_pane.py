@@ -9,7 +9,7 @@ from pathlib import Path
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import done
-from bot_console.tui.console.model import Endpoint, Profile, SetOutcome
+from bot_console.tui.console.model import Capabilities, Endpoint, Profile, SetOutcome
 from bot_console.tui.panes.profiles.pane import ProfilesPane
 from bot_console.tui.panes.profiles.rows import ProfileRows
 from bot_console.tui.screens.confirm import ConfirmScreen
@@ -173,6 +173,21 @@ def test_a_node_that_can_be_asked_without_setting_is_asked_before_anything_is_ap
         assert "asked: would take it" in session.text()
         await session.press("a")
         assert applied(session) == [("competition", False)]
+
+    run((console, *rest), play, (120, 40))
+
+
+def test_a_console_that_only_looks_on_asks_no_node_and_blames_none() -> None:
+    console, *rest = live()
+    console.differences["competition"] = (HARMLESS,)
+    check = Endpoint(f"{HARMLESS.node}/check_parameters", ("rcl_interfaces/srv/SetParametersAtomically",))
+    services = (*console.current.graph.services, check)
+    console.change(graph=replace(console.current.graph, services=services), capabilities=Capabilities(change="no"))
+
+    async def play(session: Session) -> None:
+        await session.press("7", "down")
+        assert HARMLESS.name in session.text() and "asking ..." not in session.text() and "against it" not in session.text()
+        assert not [each for each in console.asked if each[0] == "call"]
 
     run((console, *rest), play, (120, 40))
 

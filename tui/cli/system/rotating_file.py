@@ -21,8 +21,7 @@ class RotatingFile(UnwritableLog, RotatingFileHandler):
     """Writes to a file until it has `most_bytes`; rotated files are named `.1` (the newest) and up.
 
     Descriptors in `followed` that refer to the file are redirected to the new one on rotation: otherwise what this
-    program
-    writes to standard output, past the log, would end up in a file that is soon deleted.
+    program writes to standard output, past the log, would end up in a file that is soon deleted.
     """
 
     def __init__(self, path: str | Path, most_bytes: int, parts: int, followed: tuple[int, ...] = ()) -> None:

@@ -44,8 +44,7 @@ class GraphWatch:
     """Keeps `info` up to date while the node spins, and calls `changed` with each new graph.
 
     What has not changed is not described again, and stays the same object. Where events report changes, nodes without
-    any are
-    not even queried.
+    any are not even queried.
     """
 
     def __init__(

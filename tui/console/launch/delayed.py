@@ -11,8 +11,7 @@ def delayed_starts(service: Any) -> int:
     """How many pending timers of a LaunchService will start something.
 
     Zero where the service does not tell what it waits for, as upstream's. What waits for an event, such as the end of
-    another
-    process, may never happen and does not count.
+    another process, may never happen and does not count.
     """
     from launch.actions import TimerAction
 

@@ -12,8 +12,7 @@ class GuardedStart(Action):
     """Makes an action, executes it, and waits for it as launch does.
 
     `begun` is called with the action once it was executed, `failed` with the reason if it was not. A launch that is
-    shutting
-    down executes nothing more.
+    shutting down executes nothing more.
     """
 
     def __init__(self, make: Callable[[], Any], begun: Callable[[Any], None], failed: Callable[[str], None]) -> None:

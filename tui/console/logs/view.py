@@ -1,8 +1,7 @@
 """A live search over the log, independent of the threads that draw and that log.
 
 A thread of its own searches in slices, the newest records first, then whatever has arrived since. The panes poll for
-what
-was found so far.
+what was found so far.
 """
 
 from __future__ import annotations

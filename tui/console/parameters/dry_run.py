@@ -2,8 +2,7 @@
 
 ROS 2 has no service for that, and setting values and putting them back is no dry run: the robot would have acted on
 them. A node that offers `~/check_parameters`, of the type of `set_parameters_atomically`, answers as that would and
-sets
-nothing. Nodes of `bot_console_robot` with rules of their own do. Pure.
+sets nothing. Nodes of `bot_console_robot` with rules of their own do. Pure.
 """
 
 from __future__ import annotations

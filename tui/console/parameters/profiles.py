@@ -152,8 +152,7 @@ def cannot_apply(profile: Profile, trees: Mapping[str, ParameterTree]) -> str:
     """Why a profile applies to nobody; empty when it applies.
 
     Without this check its name would stand for values that nobody has. A launch profile has no values: launching it is
-    applying
-    it.
+    applying it.
     """
     if profile.launch:
         return ""

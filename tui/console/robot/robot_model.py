@@ -84,8 +84,7 @@ class RobotStop:
     """One of the stops that hold the robot: the key that releases it, who made it, and why.
 
     `here`: this console made it. `by_node`: a node of the robot made it, not a person. `gone`: the process that made it
-    has
-    ended.
+    has ended.
     """
 
     key: str

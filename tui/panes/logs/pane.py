@@ -52,7 +52,7 @@ class LogsPane(LinePane):
         self._found: LogFindings | None = None
         self._match_search = MatchSearch(self._view_of)
         self._sought_for = ""
-        """What the seeker looks for, in words."""
+        """What the search looks for, in words."""
         self._looked_for: int | None = None
         """The record that was gone to by what was looked for: to stand on it is to read, not to follow."""
         self._moment: int | None = None

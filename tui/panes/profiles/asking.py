@@ -34,10 +34,13 @@ class Asking:
     _asked: dict[str, Asked] = field(default_factory=dict[str, "Asked"])
 
     def ask(self, differences: Sequence[ProfileDifference], snapshot: ConsoleSnapshot) -> None:
-        """Ask for these changes; a node that is to change and is as it was when it was asked is not asked again."""
+        """Ask for these changes; a node that is to change and is as it was when it was asked is not asked again.
+
+        A console that changes nothing asks nothing: its own refusal is not the node's.
+        """
         wanted: dict[str, dict[str, Value]] = {}
         for each in differences:
-            if not each.unknown:
+            if not each.unknown and not snapshot.capabilities.change:
                 wanted.setdefault(each.node, {})[each.name] = each.then
         refused = {each.node for each in differences if each.refusal and not each.unknown}
         open_to_it = can_be_asked(snapshot.graph)

@@ -1,8 +1,7 @@
 """A compositor that asks widgets only for the lines to be drawn.
 
 Textual asks every widget within the bounding box of all changes for all of its lines: a figure in the first line and
-one
-in the last cost what the whole screen costs, ten times a second.
+one in the last cost what the whole screen costs, ten times a second.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """Routes arrows through the channel between two columns. Pure.
 
 All arrows of one item share a trunk, a vertical line in the channel from which branches lead to the right. Trunks whose
-rows
-overlap get different tracks, ordered so that few lines cross.
+rows overlap get different tracks, ordered so that few lines cross.
 """
 
 from __future__ import annotations
