@@ -9,6 +9,7 @@ import os
 import sys
 import sysconfig
 import tempfile
+import threading
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
@@ -17,9 +18,8 @@ from bot_console.runtime.child_range import children_meet
 from bot_console.runtime.commands import BIN, COMMAND_VARIABLE, command
 from bot_console.runtime.importer import embedded_names
 from bot_console.runtime.process.scratch import scratch
+from bot_console.runtime.rmw.zenoh.domain.discovery_range import RANGE_VARIABLE
 from bot_console.runtime.workspace.program import source_folders
-
-RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 
 STAND_IN = '''\
 """Stands in for an embedded package until the embedded runtime is in place, and gives way to it."""
@@ -38,6 +38,8 @@ class ChildEnvironment:
     """Folders of this process for its children: executables, and a stand-in for each embedded package."""
 
     def __init__(self) -> None:
+        self._lock = threading.Lock()
+        """Held while the folders are filled: launches of one process may start programs at the same time."""
         self._stood_in: set[str] = set()
 
     def added_to(self, env: Mapping[str, str]) -> dict[str, str]:
@@ -58,13 +60,14 @@ class ChildEnvironment:
 
     def _stand_ins(self) -> Path:
         """The folder of stand-ins; a package that has come to the workspace since the last process gets one now."""
-        folder = self._folder / "python"
-        folder.mkdir(exist_ok=True)
-        new = [each for each in embedded_names() if each not in self._stood_in]
-        for name in new:  # links, as writing so many files would take longer than starting a process
-            os.symlink(self._stand_in, folder / f"{name}.py")
-        self._stood_in.update(new)
-        return folder
+        with self._lock:
+            folder = self._folder / "python"
+            folder.mkdir(exist_ok=True)
+            new = [each for each in embedded_names() if each not in self._stood_in]
+            for name in new:  # links, as writing so many files would take longer than starting a process
+                os.symlink(self._stand_in, folder / f"{name}.py")
+            self._stood_in.update(new)
+            return folder
 
     @cached_property
     def _stand_in(self) -> Path:

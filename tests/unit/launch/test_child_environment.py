@@ -6,6 +6,8 @@ import os
 import shutil
 import subprocess
 import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +16,7 @@ import pytest
 if os.name != "posix":
     pytest.skip("needs a shell", allow_module_level=True)
 
-from bot_console.runtime.child_environment import child_environment
+from bot_console.runtime.child_environment import ChildEnvironment, child_environment
 from bot_console.runtime.child_range import let_children_meet
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
 from bot_console.runtime.workspace import discover
@@ -97,3 +99,14 @@ def test_without_it_nothing_is_found(program: str) -> None:
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     done = subprocess.run([sys.executable, program], env=environment, capture_output=True, text=True, check=False)
     assert "No module named" in done.stderr
+
+
+def test_launches_that_start_at_the_same_time() -> None:
+    made, together = ChildEnvironment(), threading.Barrier(4)
+
+    def first(_: int) -> str:
+        together.wait()
+        return made.added_to({"PATH": "/bin"})["PYTHONPATH"]
+
+    with ThreadPoolExecutor(4) as pool:
+        assert len({*pool.map(first, range(4))}) == 1
