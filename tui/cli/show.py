@@ -128,6 +128,7 @@ def _attach_instead(there: list[str], *, robot: bool) -> bool:
     Two robots in one domain would obey each other's commands, and two nodes of one name share their parameters and log.
     """
     from bot_console.runtime.workspace.own import NAME
+    from bot_console.tui.cli.system.workspaces import NAVIGATOR
 
     number = domain()
     if robot:
@@ -136,7 +137,9 @@ def _attach_instead(there: list[str], *, robot: bool) -> bool:
         question = "Attach the console to the one that runs? [Y/n] "
     else:
         print(f"Nodes named as our robot's run already in ROS domain {number}: {', '.join(there)}.")
-        print(f"`bot-console --launch {NAME} simulator.launch.py` gives them a simulated robot and nothing else,")
+        if there == [NAVIGATOR]:
+            print("`bot-console navigator:=false` starts our robot without its own one,")
+        print(f"`bot-console --launch {NAME} simulator.launch.py` adds only a robot,")
         print(f"`ROS_DOMAIN_ID={number + 1} bot-console` starts ours apart from them.")
         question = "Attach the console to them, without a robot? [Y/n] "
     try:

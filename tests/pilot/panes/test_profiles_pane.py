@@ -186,7 +186,8 @@ def test_a_console_that_only_looks_on_asks_no_node_and_blames_none() -> None:
 
     async def play(session: Session) -> None:
         await session.press("7", "down")
-        assert HARMLESS.name in session.text() and "asking ..." not in session.text() and "against it" not in session.text()
+        text = session.text()
+        assert HARMLESS.name in text and "asking ..." not in text and "against it" not in text
         assert not [each for each in console.asked if each[0] == "call"]
 
     run((console, *rest), play, (120, 40))

@@ -91,7 +91,7 @@ def up(words: Sequence[str]) -> int:
         elif not got:
             problem = why_no_robot(["another one that is being started"], {})
         if problem:
-            print(f"{problem}; bot-console attach shows it", file=sys.stderr)
+            print(f"{problem}; bot-console attach shows what runs", file=sys.stderr)
             return 1
         try:
             log = new_log(os.getpid())

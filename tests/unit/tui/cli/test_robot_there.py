@@ -73,6 +73,8 @@ def test_the_question_before_a_second_node_of_one_name(monkeypatch, capsys, type
     told = capsys.readouterr().out
     assert "Nodes named as our robot's run already" in told and "/robot_navigator" in told
     assert "bot-console --launch bot_console_robot simulator.launch.py" in told
+    assert "`bot-console navigator:=false` starts our robot" in told, "which needs neither of the other two"
+    assert max(map(len, told.splitlines())) < 80
     assert asked == ["Attach the console to them, without a robot? [Y/n] "]
 
 
