@@ -18,8 +18,10 @@ from bot_console.runtime.child_range import children_meet
 from bot_console.runtime.commands import BIN, COMMAND_VARIABLE, command
 from bot_console.runtime.importer import embedded_names
 from bot_console.runtime.process.scratch import scratch
-from bot_console.runtime.rmw.zenoh.domain.discovery_range import RANGE_VARIABLE
 from bot_console.runtime.workspace.program import source_folders
+
+RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
+"""Not imported from `rmw`: launch, which uses this module, knows no middleware."""
 
 STAND_IN = '''\
 """Stands in for an embedded package until the embedded runtime is in place, and gives way to it."""
