@@ -134,7 +134,8 @@ def _make_streams_usable() -> None:
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         stream = getattr(sys, name)
         if stream is None:
-            setattr(sys, name, open(os.devnull, mode))  # noqa: SIM115 -- for as long as the process lives
+            # As the interpreter's own, it does not take its descriptor along: in a fork that has become that of a node.
+            setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), mode, closefd=False))
         elif isinstance(stream, io.TextIOWrapper) and mode == "w" and stream.errors == "strict":
             stream.reconfigure(errors="replace")
 

@@ -69,6 +69,23 @@ def test_streams_that_were_closed_are_no_fault(closed: str, tmp_path: Path) -> N
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 
+@pytest.mark.skipif(os.name == "nt", reason="a POSIX shell closes the streams")
+def test_launched_nodes_have_their_streams_where_those_of_the_launch_were_closed(tmp_path: Path) -> None:
+    (tmp_path / "node.py").write_text("import os\nos.fstat(0)\nprint('x')")
+    text = "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    text += "def generate_launch_description():\n    return LaunchDescription([Node(executable='./node.py')])\n"
+    (tmp_path / "a.launch.py").write_text(text)
+    program = "from bot_console.tui.cli.main import program; program()"
+    words = [sys.executable, "-c", program, "launch", "./a.launch.py"]
+    line = ["sh", "-c", 'exec "$0" "$@" <&- >&-', *words]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "ROS_LOG_DIR": str(tmp_path / "log")}
+    done = subprocess.run(
+        line, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=PATIENCE, check=False
+    )
+    logs = "".join(each.read_text() for each in (tmp_path / "log").rglob("*.log"))
+    assert done.returncode == 0 and "process has finished cleanly" in logs, (done.stderr, logs)
+
+
 def test_a_sign_that_the_terminal_does_not_have_is_no_fault(tmp_path: Path) -> None:
     done = command(["doctor"], tmp_path, env={"PYTHONIOENCODING": "ascii"}, stdout=subprocess.PIPE)
     assert "? domain" in done.stdout and done.stderr == ""
