@@ -26,12 +26,29 @@ class RobotClaim:
     """A lock on the robot of a domain, by a file in the domain's folder; where none can be kept, as if it were ours."""
 
     def __init__(self, folder: Path) -> None:
+        self._path = folder / NAME
         self._handle = -1
-        self.held = True
+        self.held = self._take()
         """Whether no other program has claimed the robot, or is starting one."""
-        with contextlib.suppress(OSError):  # of a folder or a file system that takes no lock
-            self._handle = os.open(folder / NAME, os.O_RDWR | os.O_CREAT | NO_LINK, 0o600)
-            self.held = try_lock(self._handle)
+
+    def _take(self) -> bool:
+        """Lock the file; true as well where no lock can be had, in a folder or on a file system that takes none."""
+        while True:
+            try:
+                handle = os.open(self._path, os.O_RDWR | os.O_CREAT | NO_LINK, 0o600)
+            except OSError:
+                return True
+            try:
+                got = try_lock(handle)
+            except OSError:
+                os.close(handle)
+                return True
+            if got and _is_at(self._path, handle):
+                self._handle = handle
+                return True
+            os.close(handle)
+            if not got:
+                return False
 
     @property
     def descriptors(self) -> tuple[int, ...]:
@@ -49,11 +66,26 @@ class RobotClaim:
                 tell()
             told = True
             time.sleep(POLL)
-            self.held = try_lock(self._handle)
+            self.held = self._take()
         return found
 
-    def release(self) -> None:
-        """Let another program bring the robot, unless a process holds the claim that has inherited it."""
+    def hand_over(self) -> None:
+        """Leave the claim to a process that has inherited it, which holds it until it ends."""
         if self._handle >= 0:
             os.close(self._handle)
         self._handle, self.held = -1, False
+
+    def release(self) -> None:
+        """Let another program bring the robot."""
+        if self._handle >= 0:
+            with contextlib.suppress(OSError):  # where an open file cannot be removed it stays, which harms nobody
+                self._path.unlink()
+        self.hand_over()
+
+
+def _is_at(path: Path, handle: int) -> bool:
+    """Whether an open file is the one at this path: whoever held it may have removed it since it was opened."""
+    try:
+        return os.path.samestat(os.fstat(handle), path.stat())
+    except OSError:
+        return False

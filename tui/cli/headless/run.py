@@ -5,6 +5,7 @@ Logs go to stderr in ROS's format; stdout gets one JSON object at the end.
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import gc
 import json
@@ -101,7 +102,8 @@ def _meet_others(options: Options) -> None:
     """Join the domain, unless another robot is in it: the two would obey each other's commands."""
     problem = take_part()
     if not problem and not options.launch and is_in_range():
-        claim = robot_claim()  # until this process ends
+        claim = robot_claim()
+        atexit.register(claim.release)
         if why := why_no_robot(claim.seen(robot_there, tell_of_other_start), options.launch_arguments):
             claim.release()
             run_apart()

@@ -83,7 +83,7 @@ def up(words: Sequence[str]) -> int:
     with contextlib.ExitStack() as until_started:
         claim = None if options.launch or _known() else robot_claim()
         if claim is not None:
-            until_started.callback(claim.release)  # which the system has inherited by then
+            until_started.callback(claim.release)
             problem = why_no_robot(claim.seen(_robot_or_system, tell_of_other_start), options.launch_arguments)
         got = until_started.enter_context(start_lock(_file().with_name("background.lock"), STARTING))
         if there := _known():
@@ -105,6 +105,8 @@ def up(words: Sequence[str]) -> int:
                 line, stdin=subprocess.DEVNULL, stdout=output, stderr=output, start_new_session=True, close_fds=True,
                 pass_fds=claim.descriptors if claim else (),
             )  # fmt: skip
+        if claim is not None:
+            claim.hand_over()
         # Its own file, which goes with the log: the system's takes turns, and would leave the router in an old one.
         router_log = log.with_name(f"{log.name}.router")
         started = Background(process.pid, tuple(words), str(log), _open_way_in(serving, router_log) if serving else 0)

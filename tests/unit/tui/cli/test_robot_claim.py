@@ -7,6 +7,7 @@ import sys
 from types import SimpleNamespace
 
 import pytest
+from bot_console.runtime.rmw.zenoh.domain.file_lock import try_lock
 from bot_console.tui.cli import robot_claim, show
 from bot_console.tui.cli.arguments import parse
 from bot_console.tui.cli.headless import run as headless
@@ -51,6 +52,30 @@ def test_a_claim_without_a_robot_is_not_waited_for_without_end(tmp_path, monkeyp
     first.release()
 
 
+def test_a_claim_that_is_given_up_leaves_no_file(tmp_path):
+    first, second = RobotClaim(tmp_path), RobotClaim(tmp_path)
+    second.release()
+    assert (tmp_path / NAME).exists(), "it is not theirs"
+    first.release()
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="an open file cannot be removed there")
+def test_a_file_that_its_holder_removes_while_it_is_being_locked_is_no_claim(tmp_path, monkeypatch):
+    first, got = RobotClaim(tmp_path), []
+
+    def lock(handle):
+        if not got:
+            first.release()
+        got.append(handle)
+        return try_lock(handle)
+
+    monkeypatch.setattr(robot_claim, "try_lock", lock)
+    second = RobotClaim(tmp_path)
+    assert second.held and len(got) == 2 and not RobotClaim(tmp_path).held
+    second.release()
+
+
 def test_a_folder_that_takes_no_lock_keeps_nobody_from_starting(tmp_path):
     (tmp_path / NAME).mkdir()
     claim = RobotClaim(tmp_path)
@@ -63,7 +88,7 @@ def test_a_process_that_has_inherited_the_claim_holds_it_until_it_ends(tmp_path)
     claim = RobotClaim(tmp_path)
     line = [sys.executable, "-c", "input()"]
     with subprocess.Popen(line, stdin=subprocess.PIPE, pass_fds=claim.descriptors) as system:
-        claim.release()
+        claim.hand_over()
         assert not RobotClaim(tmp_path).held
         system.communicate(b"\n")
     assert RobotClaim(tmp_path).held
