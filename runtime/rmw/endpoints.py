@@ -172,7 +172,19 @@ class SubscriptionEndpoint:
         self.matched = 0
 
 
-class ServiceEndpoint:
+class _ServiceEnd:
+    """One end of a service; `notify` is called when something has been put into its `queue`."""
+
+    def __init__(self, node: NodeId, name: str, type_name: str, notify: Notify, service_class: Any = None) -> None:
+        self.node = node
+        self.name = name
+        self.type_name = type_name
+        self.notify = notify
+        self.service_class = service_class
+        self.queue: deque[Any] = deque()
+
+
+class ServiceEndpoint(_ServiceEnd):
     """Answers requests: `queue` holds (client, sequence number, request). `type_hash` is set for another process's."""
 
     def __init__(
@@ -184,16 +196,11 @@ class ServiceEndpoint:
         service_class: Any = None,
         type_hash: str | None = None,
     ) -> None:
-        self.node = node
-        self.name = name
-        self.type_name = type_name
-        self.notify = notify
-        self.service_class = service_class
-        self.queue: deque[Any] = deque()
+        super().__init__(node, name, type_name, notify, service_class)
         self.type_hash = type_hash
 
 
-class ClientEndpoint:
+class ClientEndpoint(_ServiceEnd):
     """Sends requests: `queue` holds (sequence number, response)."""
 
     def __init__(
@@ -205,10 +212,5 @@ class ClientEndpoint:
         service_class: Any = None,
         gid: bytes | None = None,
     ) -> None:
-        self.node = node
-        self.name = name
-        self.type_name = type_name
-        self.notify = notify
-        self.service_class = service_class
-        self.queue: deque[Any] = deque()
+        super().__init__(node, name, type_name, notify, service_class)
         self.gid = gid or new_gid()

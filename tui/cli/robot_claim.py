@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from bot_console.runtime.rmw.zenoh.domain.file_lock import NO_LINK, try_lock
+from bot_console.runtime.rmw.zenoh.domain.file_lock import open_lock, try_lock
 
 NAME = "robot.lock"
 PATIENCE = 15.0
@@ -35,7 +35,7 @@ class RobotClaim:
         """Lock the file; true as well where no lock can be had, in a folder or on a file system that takes none."""
         while True:
             try:
-                handle = os.open(self._path, os.O_RDWR | os.O_CREAT | NO_LINK, 0o600)
+                handle = open_lock(self._path)
             except OSError:
                 return True
             try:

@@ -10,7 +10,7 @@ from collections.abc import Generator
 from pathlib import Path
 from types import FrameType
 
-from bot_console.runtime.rmw.zenoh.domain.file_lock import NO_LINK, try_lock
+from bot_console.runtime.rmw.zenoh.domain.file_lock import open_lock, try_lock
 
 POLL = 0.02
 """Seconds between two looks whether the other start is done."""
@@ -24,7 +24,7 @@ def start_lock(lock: Path, patience: float) -> Generator[bool]:
     Gives whether the lock was got in so many seconds. A signal takes effect behind the block: amid it, a system could
     run that nobody has written down, so that nobody could end it.
     """
-    handle = os.open(lock, os.O_RDWR | os.O_CREAT | NO_LINK, 0o600)
+    handle = open_lock(lock)
     try:
         deadline = time.monotonic() + patience
         while not (got := try_lock(handle)) and time.monotonic() < deadline:

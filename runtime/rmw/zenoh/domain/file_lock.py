@@ -11,6 +11,11 @@ NO_LINK = getattr(os, "O_NOFOLLOW", 0)
 """Flag that refuses to open a symbolic link; 0 if the system has no such flag."""
 
 
+def open_lock(path: str | os.PathLike[str]) -> int:
+    """Open the file to lock, creating it for this user alone; never follows a symbolic link. Raises `OSError`."""
+    return os.open(path, os.O_RDWR | os.O_CREAT | NO_LINK, 0o600)
+
+
 def try_lock(handle: int) -> bool:
     """Lock an open file until it is closed; return False if another process holds the lock.
 

@@ -7,7 +7,7 @@ import os
 import time
 from collections.abc import Generator
 
-from bot_console.runtime.rmw.zenoh.domain.file_lock import FOLDER_HOLDS_LOCKS, NO_LINK, try_lock
+from bot_console.runtime.rmw.zenoh.domain.file_lock import FOLDER_HOLDS_LOCKS, open_lock, try_lock
 from bot_console.runtime.rmw.zenoh.domain.sockets import is_stopped, live_sockets
 
 PATIENCE = 0.2
@@ -80,7 +80,7 @@ def _opened(folder: str) -> int:
     """Open what is locked: if possible the folder itself, as a lock file could be removed while somebody holds it."""
     if FOLDER_HOLDS_LOCKS:
         return os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
-    return os.open(os.path.join(folder, "joining.lock"), os.O_RDWR | os.O_CREAT | NO_LINK, 0o600)
+    return open_lock(os.path.join(folder, "joining.lock"))
 
 
 def _taken(handle: int, patience: float) -> bool:

@@ -11,7 +11,7 @@ import os
 import sys
 from typing import Any
 
-from bot_console.runtime.rmw.zenoh.domain.file_lock import NO_LINK, try_lock
+from bot_console.runtime.rmw.zenoh.domain.file_lock import NO_LINK, open_lock, try_lock
 
 VARIABLE = "BOT_CONSOLE_LOOPBACK"
 """Set to 1, it selects ports even if there are Unix sockets: for folders in which no socket can be made."""
@@ -35,7 +35,7 @@ class OpenPort:
 
     def __init__(self, path: str) -> None:
         self._path = path
-        self._lock = os.open(path + ".lock", os.O_RDWR | os.O_CREAT | NO_LINK, 0o600)
+        self._lock = open_lock(path + ".lock")
         try_lock(self._lock)
         self.endpoint = f"tcp/{HOST}:{_free_port()}"
         handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | NO_LINK, 0o600)

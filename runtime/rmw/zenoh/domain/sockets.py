@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from bot_console.runtime.process.real import getpid
 from bot_console.runtime.rmw.zenoh.domain import loopback
-from bot_console.runtime.rmw.zenoh.domain.file_lock import NO_LINK, try_lock
+from bot_console.runtime.rmw.zenoh.domain.file_lock import open_lock, try_lock
 from bot_console.runtime.rmw.zenoh.settings import SCHEME
 
 _NAME = re.compile(r"(\d+)\.([0-9a-f]{8})")
@@ -38,7 +38,7 @@ class Socket(NamedTuple):
     def is_dead(self) -> bool:
         """Whether nobody listens on the socket any more."""
         try:
-            handle = os.open(self.lock, os.O_RDWR | os.O_CREAT | NO_LINK, 0o600)
+            handle = open_lock(self.lock)
         except OSError:
             return False
         try:
