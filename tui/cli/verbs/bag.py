@@ -63,7 +63,7 @@ def _parser() -> argparse.ArgumentParser:
     play.add_argument("bag", type=_named)
     play.add_argument("-r", "--rate", type=_positive, default=1.0, help="how fast; 2 is twice as fast as it was")
     play.add_argument("-l", "--loop", action="store_true", help="begin again at the end")
-    play.add_argument("--topics", nargs="+", metavar="TOPIC", help="only these")
+    play.add_argument("--topics", nargs="+", metavar="TOPIC", help="only these; else all that control no robot")
     play.add_argument("--remap", "-m", nargs="+", default=[], metavar="OLD:=NEW", help="other names for topics")
     play.add_argument("--start-offset", type=float, default=0.0, metavar="S", help="leave out the first seconds")
     play.add_argument("--clock", nargs="?", type=_positive, const=40.0, default=0.0, help="publish /clock (40 Hz)")
@@ -192,7 +192,8 @@ def _snapshot(given: argparse.Namespace) -> int:
 def _play(given: argparse.Namespace) -> int:
     from bot_console.tui.console.bags.damage import NoBag
     from bot_console.tui.console.bags.definitions import class_of
-    from bot_console.tui.console.bags.player import Player, Playing
+    from bot_console.tui.console.bags.playing.control_topics import left_out_warning
+    from bot_console.tui.console.bags.playing.player import Player, Playing
     from bot_console.tui.console.bags.reader import Bag
 
     bag = Bag(given.bag)
@@ -205,6 +206,8 @@ def _play(given: argparse.Namespace) -> int:
     player = Player(node, bag, how, class_of)
     for name, why in player.unknown.items():
         node.get_logger().warning(f"Topic '{name}' is not played: {why}")
+    if player.left_out:
+        print(harmless(f"warning: {left_out_warning(player.left_out)}"), file=sys.stderr)
     stopped = threading.Event()
     damage: list[str] = []
 

@@ -18,7 +18,7 @@ from bot_console.tui.console.bags.contents import Contents
 from bot_console.tui.console.bags.damage import NoBag
 from bot_console.tui.console.bags.definitions import definition, type_name
 from bot_console.tui.console.bags.opened import OpenedBag
-from bot_console.tui.console.bags.player import Player, Playing
+from bot_console.tui.console.bags.playing.player import Player, Playing
 from bot_console.tui.console.bags.qos import noted, offered
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.recorder import OVERHEAD, Recorder, Ring, in_order

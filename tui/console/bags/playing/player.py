@@ -8,6 +8,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from bot_console.tui.console.bags.playing.control_topics import controls
 from bot_console.tui.console.bags.qos import offered
 from bot_console.tui.console.bags.reader import Bag
 from rclpy.node import Node
@@ -23,7 +24,7 @@ class Playing:
     """Seconds of the bag that are left out at its begin."""
     loop: bool = False
     topics: Collection[str] | None = None
-    """Those that are played; None: all."""
+    """Those that are played; None: all except those that control a robot, see `control_topics`."""
     remaps: Mapping[str, str] = field(default_factory=dict[str, str])
     """Other names for topics."""
     clock: float = 0.0
@@ -34,21 +35,32 @@ class Player:
     """Publishes the messages of a bag by a node."""
 
     def __init__(self, node: Node, bag: Bag, how: Playing, find: Callable[[str], Any]) -> None:
-        """`find` returns the class of a type name; topics of unknown types are listed in `unknown` and left out."""
+        """`find` returns the class of a type name; topics of unknown types are listed in `unknown` and left out.
+
+        Topics that control a robot are listed in `left_out`, unless `how.topics` names them. A topic that is remapped
+        to such a name counts as one.
+        """
         self._bag = bag
         self._how = how
         self._publishers: dict[str, Any] = {}
         self.unknown: dict[str, str] = {}
+        self.left_out: list[str] = []
         self.published = 0
+        named = None if how.topics is None else {_absolute(each) for each in how.topics}
+        remaps = {_absolute(old): new for old, new in how.remaps.items()}
         for name, topic in bag.metadata.topics.items():
-            if how.topics is not None and name not in how.topics:
+            target = remaps.get(name, name)
+            if named is not None and name not in named:
+                continue
+            if named is None and (controls(name, topic.type) or controls(target, topic.type)):
+                self.left_out.append(name)
                 continue
             try:
                 kind = find(topic.type)
             except (ImportError, AttributeError, ValueError) as error:
                 self.unknown[name] = f"its type {topic.type} is not here ({error})"
                 continue
-            self._publishers[name] = node.create_publisher(kind, how.remaps.get(name, name), offered(topic.qos))
+            self._publishers[name] = node.create_publisher(kind, target, offered(topic.qos))
         self._clock = Clock(node, how.clock) if how.clock > 0 else None
 
     def run(self, stopped: threading.Event) -> None:
@@ -75,6 +87,10 @@ class Player:
                 self._clock.tell(entry.received)
             self._publishers[entry.topic].publish(entry.data)
             self.published += 1
+
+
+def _absolute(topic: str) -> str:
+    return f"/{topic.lstrip('/')}"
 
 
 class Clock:

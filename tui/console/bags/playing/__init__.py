@@ -1,0 +1,1 @@
+"""Playing bags: which topics are published, and when."""

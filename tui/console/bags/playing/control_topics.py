@@ -1,0 +1,53 @@
+"""Which recorded topics command a robot, release its stop or acknowledge one: a bag is not played on them unasked."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+COMMAND_TYPES = frozenset(
+    {
+        "geometry_msgs/msg/Twist",
+        "geometry_msgs/msg/TwistStamped",
+        "ackermann_msgs/msg/AckermannDrive",
+        "ackermann_msgs/msg/AckermannDriveStamped",
+        "trajectory_msgs/msg/JointTrajectory",
+        "control_msgs/msg/JointJog",
+    }
+)
+"""Types whose messages move a robot under whatever name; robots are found by the first two of them."""
+SURE_WORDS = frozenset(["cmd", "command", "commands", "release", "steer", "teleop"])
+COMMAND_WORDS = frozenset(["goal", "goals", "initialpose", "joy", "request", "route", "trajectory", "waypoints"])
+STOP_WORDS = frozenset(
+    ["emergency", "estop", "lock", "locked", "locks", "locking", "pause", "protective", "stop", "stopped"]
+)
+"""Words in the last part of a topic's name: locks of twist_mux, for example, are `pause_navigation` and `e_stop`.
+
+`SURE_WORDS` count with every type, the others only where the type is no measurement.
+"""
+STOP_FOLDER = "emergency_stop"
+FIGURES = re.compile(r"(std_msgs/msg/(U?Int|Float)|sensor_msgs/msg/(?!Joy$)|nav_msgs/msg/Odometry)")
+"""Types of measurements: a counter named `stops`, or a scan, locks and commands nothing."""
+
+
+def controls(topic: str, type_name: str) -> bool:
+    """Whether messages on a topic command a robot, or lock, release or acknowledge its stop."""
+    if type_name in COMMAND_TYPES:
+        return True
+    parts = [each for each in topic.split("/") if each]
+    if STOP_FOLDER in parts[:-1]:
+        return True
+    last = parts[-1].lower().replace("e_stop", "estop") if parts else ""
+    words = set(last.split("_"))
+    if last.startswith("cmd") or words & SURE_WORDS:
+        return True
+    return not FIGURES.match(type_name) and bool(words & (COMMAND_WORDS | STOP_WORDS))
+
+
+def left_out_warning(topics: Sequence[str]) -> str:
+    """What is said about topics that are left out of a bag that is played."""
+    names = " ".join(sorted(topics))
+    return (
+        f"Not played, since they command a robot or concern its emergency stop: {names}. To play topics of this kind, "
+        f"name everything that is to be played: --topics {names} ..."
+    )
