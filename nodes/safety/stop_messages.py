@@ -90,4 +90,5 @@ def _values(message: DiagnosticStatus) -> dict[str, str]:
 
 
 def _short(text: str) -> str:
-    return text[:LONGEST]
+    """The beginning of a text, encodable: else no state that contains it could be published."""
+    return text[:LONGEST].encode("utf-8", "replace").decode()

@@ -6,14 +6,14 @@ For `std_msgs/msg/String` it is
         end = len(data)
         m = new(C1)
         m._check_fields = False
-        try:
-            n1, = S2.unpack_from(data, 4)
-            at = 8
-            if n1 > end - at: raise too_many(n1, end - at)
-            m._data = (data[at:at + n1 - 1] if n1 and not data[at + n1 - 1] else data[at:at + n1]).decode()
-        except UnicodeDecodeError as error:
-            raise no_text(at, error) from None
+        n1, = S2.unpack_from(data, 4)
+        at = 8
+        if n1 > end - at: raise too_many(n1, end - at)
+        raw = data[at:at + n1 - 1] if n1 and not data[at + n1 - 1] else data[at:at + n1]
+        m._data = raw.decode("utf-8", "replace")
         return m
+
+As in rclpy, bytes of a string that are not UTF-8 are replaced: a stop, or a log record, is not lost for its text.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class _Reading:
     """A reader being generated; `_codes` and `_targets` are the pending row of numbers."""
 
     def __init__(self, cls: Any, order: str, *, outermost: bool) -> None:
-        helpers = (fixed, flags, missing, no_text, octets, texts, too_many, wide)
+        helpers = (fixed, flags, missing, octets, texts, too_many, wide)
         names = {"array": array, "new": object.__new__, **{each.__name__: each for each in helpers}}
         begin = (START.behind(HEADER_SIZE), HEADER_SIZE) if outermost else (ANYWHERE, None)
         self.source = Source(names, order, *begin, shift=START.rest)
@@ -62,9 +62,6 @@ class _Reading:
         self._codes: list[str] = []
         self._targets: list[str] = []
         every = list(parts(cls))
-        self._has_text = any(
-            each.type.item == "string" and not (each.type.sequence or each.type.size) for each in every
-        )
         if outermost and any(not each.number for each in every):
             self.source.line("end = len(data)")
         if outermost and any(each.type.sequence or not each.type.primitive for each in every):
@@ -85,11 +82,7 @@ class _Reading:
     def lines(self) -> Sequence[str]:
         """Return the body of the function."""
         self.source.line("return m" if self._outermost else f"return m, {self.source.there}")
-        lines = self.source.lines()
-        if not self._has_text:
-            return lines
-        refused = ("except UnicodeDecodeError as error:", "    raise no_text(at, error) from None")
-        return ["try:", *("    " + line for line in lines), *refused]
+        return self.source.lines()
 
     def _end_row(self) -> None:
         """Emit the code that reads the pending numbers."""
@@ -135,9 +128,8 @@ class _Reading:
             self.source.land(ANYWHERE)
             return
         last = f"at + {count} - 1"
-        self.source.line(
-            f"{target} = (data[at:{last}] if {count} and not data[{last}] else data[at:at + {count}]).decode()"
-        )
+        self.source.line(f"raw = data[at:{last}] if {count} and not data[{last}] else data[at:at + {count}]")
+        self.source.line(f'{target} = raw.decode("utf-8", "replace")')
         self.source.leap(count, ANYWHERE)
 
     def _numbers(self, item: str, target: str, count: str) -> None:
@@ -191,11 +183,6 @@ def missing(at: int, stop: int) -> CdrError:
     return CdrError(f"{stop - at} bytes are missing at byte {at - HEADER_SIZE}: the data end there")
 
 
-def no_text(at: int, error: UnicodeDecodeError) -> CdrError:
-    """Return the error for an invalid string at a place."""
-    return CdrError(f"a string at byte {at - HEADER_SIZE} is not UTF-8: {error}")
-
-
 def texts(order: str, is_wide: bool, data: bytes, at: int, length: int, end: int) -> tuple[list[str], int]:
     """Strings."""
     lengths, found = LENGTHS[order], list[str]()
@@ -209,10 +196,7 @@ def texts(order: str, is_wide: bool, data: bytes, at: int, length: int, end: int
             text, at = wide(order, data, at, count, end)
         else:
             raw = data[at : at + count]
-            try:
-                text = (raw[:-1] if raw[-1:] == b"\0" else raw).decode()
-            except UnicodeDecodeError as error:
-                raise no_text(at, error) from None
+            text = (raw[:-1] if raw[-1:] == b"\0" else raw).decode("utf-8", "replace")
             at += count
         found.append(text)
     return found, at

@@ -11,7 +11,7 @@ from bot_console.runtime.rosidl.conversion import FieldTypeError
 from example_interfaces.msg import WString
 from example_interfaces.srv import AddTwoInts
 from geometry_msgs.msg import Point, PoseWithCovariance, Vector3
-from rcl_interfaces.msg import ParameterValue
+from rcl_interfaces.msg import ListParametersResult, ParameterValue
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Empty, Float64MultiArray, String
 from std_srvs.srv import Trigger
@@ -72,13 +72,18 @@ def test_any_buffer_is_read() -> None:
         ("0003 0000 00", "no CDR header of version 1: 00 03 00 00"),
         ("0001 0000", "4 bytes are too few for a String"),
         ("0001 0000 ffffffff 61", "no String: 4294967295 elements cannot be in the 1 bytes that are left"),
-        ("0001 0000 02000000 ff00", "no String: a string at byte 4 is not UTF-8"),
     ],
 )
 def test_what_is_no_message(digits: str, words: str) -> None:
     with pytest.raises(CdrError) as caught:
         deserialize(bytes.fromhex(digits), String)
     assert str(caught.value).startswith(words)
+
+
+def test_bytes_of_a_string_that_are_not_utf_8_are_replaced_as_in_rclpy() -> None:
+    assert deserialize(bytes.fromhex("0001 0000 04000000 61ff6200"), String).data == "a\ufffdb"
+    names = bytes.fromhex("0001 0000 01000000 03000000 ff620000 00000000")
+    assert deserialize(names, ListParametersResult).names == ["\ufffdb"]
 
 
 def test_a_wrong_field_is_refused_by_its_name() -> None:

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from bot_console.tui.console.robot.robot_model import RobotStop
+from bot_console.tui.text.encodable import encodable
 
 _PROCESS = re.compile(r"@(?P<machine>[^@]*) \(pid (?P<pid>[0-9]{1,9})\)")
 """At the end of a holder's name, as `stop_link.StopLink` writes it."""
@@ -24,7 +25,7 @@ def with_gone(stops: Sequence[RobotStop]) -> tuple[RobotStop, ...]:
 
 def _is_gone(holder: str) -> bool:
     found = _PROCESS.search(holder)
-    if not found or found.end() != len(holder) or found["machine"] != platform.node():
+    if not found or found.end() != len(holder) or found["machine"] != encodable(platform.node()):
         return False
     return not _lives(int(found["pid"]))
 

@@ -18,6 +18,7 @@ from functools import partial
 from typing import Any
 
 from bot_console.tui.console.robot.robot_model import RobotStop
+from bot_console.tui.text.encodable import encodable
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -59,8 +60,8 @@ class StopLink:
     def __init__(self, node: Node, holder: str = "", key: str = "") -> None:
         """`key` distinguishes this requester's stops from others'; a new one each time unless given."""
         self._node = node
-        self.holder = holder or f"bot-console of {user()} (pid {os.getpid()})"
-        self._key = key or uuid.uuid4().hex
+        self.holder = encodable(holder) or f"bot-console of {user()} (pid {os.getpid()})"
+        self._key = encodable(key) or uuid.uuid4().hex
         self._watching: dict[str, Any] = {}
         self._states: dict[str, dict[str, str]] = {}
         self._requests: dict[str, Any] = {}
@@ -180,27 +181,32 @@ class StopLink:
             self._send(self._wanted, self._reason)
 
     def _send(self, verb: str, reason: str) -> None:
+        for publisher in list(self._requests.values()):
+            try:
+                publisher.publish(self._message(verb, self.holder, reason))
+            except (TypeError, ValueError):  # a text that cannot be sent: the request counts, not by whom and why
+                publisher.publish(self._message(verb, "", ""))
+
+    def _message(self, verb: str, holder: str, reason: str) -> DiagnosticStatus:
         values = [KeyValue(key=REQUEST, value=verb)]
         if verb == RELEASE:
             values.append(KeyValue(key="of", value=json.dumps(self._of)))
-        message = DiagnosticStatus(
+        return DiagnosticStatus(
             level=DiagnosticStatus.WARN,
-            name=self.holder,
-            message=reason,
+            name=holder,
+            message=encodable(reason),
             hardware_id=self._key,
             values=values,
         )
-        for publisher in list(self._requests.values()):
-            publisher.publish(message)
 
 
 def user() -> str:
-    """The person at this machine, as others are to read it."""
+    """The person at this machine, as others read it; encodable, whatever the environment contains."""
     try:
         name = getpass.getuser()
     except (KeyError, OSError):  # a user id without a name, as in containers
         name = str(os.getuid())
-    return f"{name}@{platform.node()}"
+    return encodable(f"{name}@{platform.node()}")
 
 
 def _stops(state: Mapping[str, str], own: str) -> list[RobotStop]:

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import itertools
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import pytest
+from bot_console.tui.console.robot import stop_link
 from bot_console.tui.console.robot.stop_link import FOLDER, LATCHED, STATUS, StopLink
 from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
+from bot_console_robot.safety.stop_messages import state_message
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.serialization import deserialize_message, serialize_message
 
 _domains = itertools.count(3300)
 PATIENCE = 60.0
@@ -69,6 +72,51 @@ def test_it_is_held_when_every_lock_has_said_so(rig: Rig) -> None:
     rig.link.release()
     rig.settle()
     assert not (rig.link.info.stopped or arbiter.lock.held or base.lock.held)
+
+
+@pytest.mark.parametrize("cleans", [True, False], ids=["with the text replaced", "without it"])
+def test_text_that_cannot_be_encoded_does_not_prevent_a_stop(
+    cleans: bool, rig: Rig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("LOGNAME", "\udcff")
+    monkeypatch.setattr("platform.node", lambda: "\udcfe")
+    if not cleans:
+        monkeypatch.setattr(stop_link, "encodable", lambda text: text)
+    received: list[DiagnosticStatus] = []
+    lock = rig.lock("simulator", BASE, ARBITER)
+    rig.nodes[-1].create_subscription(DiagnosticStatus, FOLDER + "request", received.append, 10)
+    sending = StopLink(rig.node("sending"))
+    rig.settle()
+    sending.follow([f"{FOLDER}base"])
+    for publisher in sending._requests.values():
+        monkeypatch.setattr(publisher, "publish", encoding(publisher.publish))
+    sending.stop("\udcff too close")
+    rig.settle()
+    assert sending.info.confirmed and lock.lock.held
+    assert lock.lock.reason == ("\ufffd too close" if cleans else "")
+    assert [serialize_message(each) for each in received]
+
+
+def encoding(publish: Callable[[DiagnosticStatus], None]) -> Callable[[DiagnosticStatus], None]:
+    """Publish as to another process, for which every message is encoded."""
+
+    def encoded(message: DiagnosticStatus) -> None:
+        publish(deserialize_message(serialize_message(message), DiagnosticStatus))
+
+    return encoded
+
+
+def test_a_stop_whose_text_only_python_can_hold_is_reported_by_the_lock(rig: Rig) -> None:
+    lock = rig.lock("simulator", BASE, ARBITER)
+    rig.nodes[-1].create_publisher(DiagnosticStatus, FOLDER + "request", 10).publish(
+        DiagnosticStatus(
+            name="\ud800", message="\udcff", hardware_id="\udcff", values=[KeyValue(key="request", value="stop")]
+        )
+    )
+    rig.settle()
+    assert lock.lock.held
+    assert serialize_message(state_message(lock.lock, "base", "1", lock.steered_by))
+    assert rig.link.info.confirmed
 
 
 def test_another_console_sees_who_holds_it_and_releases_it_by_name_alone(rig: Rig) -> None:
