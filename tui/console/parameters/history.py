@@ -8,19 +8,30 @@ import sqlite3
 import threading
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from bot_console.tui.console.model import Change, ChangeSource, Value
+from bot_console.tui.files.folder_lock import folder_lock
+from bot_console.tui.text.encodable import encodable
 
 ROWS = 20_000
 """Rows that are kept; the oldest go."""
 TRIMMED_EVERY = 500
 """Rows after which the table is cut to its bound."""
-PATIENCE = 0.5
-"""Seconds that a write waits for another console that writes to the same file."""
+PATIENCE_S = 0.5
+"""Seconds for which a console waits for another one that writes to the same file."""
 SAME = 2_000_000_000
 """Nanoseconds within which the consoles of one system see the same change."""
 BROKEN = ".broken"
+UNSTORABLE = (
+    ValueError,
+    OverflowError,
+    TypeError,
+    sqlite3.InterfaceError,
+    sqlite3.ProgrammingError,
+    sqlite3.IntegrityError,
+)
+"""What SQLite raises for a row that it can never store."""
 
 _TABLE = """
 CREATE TABLE IF NOT EXISTS changes (
@@ -62,6 +73,9 @@ class History:
     def _open(self) -> None:
         try:
             self._file.parent.mkdir(parents=True, exist_ok=True)
+            if self._file.exists() and not self._file.is_file():
+                self.problem = f"changes are not kept: {self._file} is no regular file"
+                return
             self._link = _opened(self._file)
         except sqlite3.DatabaseError as error:
             if isinstance(error, sqlite3.OperationalError):
@@ -72,22 +86,37 @@ class History:
             self.problem = f"changes are not kept: {self._file}: {error.strerror}"
 
     def _begin_anew(self) -> None:
-        """Set aside a file that is not a database, so that nothing of it is lost, and start a new one."""
-        aside = self._file.with_name(f"{self._file.name}{BROKEN}-{self._run}")
+        """Set aside a file that is not a database, so that nothing of it is lost, and start a new one.
+
+        Of several consoles that find the same file, one does so; the others use the new one.
+        """
         try:
+            with folder_lock(self._file.parent, PATIENCE_S) as locked:
+                self.problem = self._replaced() if locked else "changes are not kept: another console repairs the file"
+        except (OSError, sqlite3.Error) as error:
+            self.problem = f"changes are not kept: {self._file}: {error}"
+
+    def _replaced(self) -> str:
+        """Replace the file by a new database unless somebody has done so; returns what to say of it."""
+        try:
+            self._link = _opened(self._file)
+        except sqlite3.OperationalError:
+            raise
+        except sqlite3.DatabaseError:
+            aside = self._file.with_name(f"{self._file.name}{BROKEN}-{self._run}")
             self._file.replace(aside)
             for suffix in ("-wal", "-shm"):
                 self._file.with_name(self._file.name + suffix).unlink(missing_ok=True)
             self._link = _opened(self._file)
-            self.problem = f"the history could not be read and begins anew; it lies in {aside}"
-        except (OSError, sqlite3.Error) as error:
-            self.problem = f"changes are not kept: {self._file}: {error}"
+            return f"the history could not be read and begins anew; it lies in {aside}"
+        return ""
 
     def add(self, change: Change) -> None:
         """Store a change; one that cannot be written now is retried with the next."""
         row = (
-            *(self._run, change.stamp, change.node, change.name, written(change.old), written(change.new)),
-            *(change.source.value, int(change.accepted), change.reason, change.by),
+            *(self._run, change.stamp, encodable(change.node), encodable(change.name)),
+            *(written(change.old), written(change.new)),
+            *(change.source.value, int(change.accepted), encodable(change.reason), encodable(change.by)),
         )
         with self._lock:
             if self._link is None:
@@ -95,12 +124,12 @@ class History:
             self._waiting = [*self._waiting, row][-self._rows :]
             try:
                 with self._link:
-                    self._link.executemany(_INSERT, self._waiting)
+                    lost = [each for each in self._waiting if not _inserted(self._link, each)]
                     self._added += len(self._waiting)
                     if self._added >= TRIMMED_EVERY:
                         self._trim(self._link)
                 self._waiting.clear()
-                self.problem = ""
+                self.problem = f"{len(lost)} changes cannot be kept: {self._file}" if lost else ""
             except sqlite3.Error as error:
                 self.problem = f"changes are not kept: {self._file}: {error}"
 
@@ -109,19 +138,30 @@ class History:
         link.execute("DELETE FROM changes WHERE number <= (SELECT MAX(number) FROM changes) - ?", (self._rows,))
 
     def earlier(self, most: int) -> Sequence[Change]:
-        """The newest changes of other runs, oldest first, numbered up to -1.
+        """The newest changes of other runs, oldest first, numbered up to -1; rows that cannot be read are left out.
 
         If two consoles saw the same change, the row of the one that made it stands for both.
         """
+        found: list[Change] = []
+        unreadable, ended = 0, ""
         with self._lock:
             if self._link is None:
                 return ()
             try:
-                found = self._link.execute(_EARLIER, (self._run, SAME, SAME, most)).fetchall()
-            except sqlite3.Error as error:
-                self.problem = f"the history cannot be read: {self._file}: {error}"
-                return ()
-        return [_change(-1 - at, row) for at, row in enumerate(found)][::-1]
+                for row in self._link.execute(_EARLIER, (self._run, SAME, SAME, most)):
+                    change = _change(-1 - len(found), row)
+                    if change is None:
+                        unreadable += 1
+                    else:
+                        found.append(change)
+            except sqlite3.Error as error:  # where the file is damaged; what was read before is good
+                ended = str(error)
+        if ended:
+            self.problem = f"the history cannot be read: {self._file}: {ended}"
+        elif unreadable:
+            rows = f"{unreadable} row{'s' * (unreadable > 1)} of the history cannot be read"
+            self.problem = f"{rows} and {'are' if unreadable > 1 else 'is'} left out: {self._file}"
+        return found[::-1]
 
     def close(self) -> None:
         """Close the file; a second call does nothing."""
@@ -134,11 +174,12 @@ class History:
 
 def _opened(file: Path) -> sqlite3.Connection:
     """A connection whose commits survive the program being killed."""
-    link = sqlite3.connect(file, timeout=PATIENCE, check_same_thread=False)
+    link = sqlite3.connect(file, timeout=PATIENCE_S, check_same_thread=False)
     try:
         # A write-ahead log is whole after a crash, and other consoles can read while one writes.
         link.execute("PRAGMA journal_mode = WAL")
         link.execute("PRAGMA synchronous = NORMAL")
+        link.text_factory = _text  # a byte that is not UTF-8 makes one row unreadable, not all
         with link:
             link.execute(_TABLE)
             link.execute("CREATE INDEX IF NOT EXISTS of_parameter ON changes (node, name, stamp)")
@@ -148,9 +189,30 @@ def _opened(file: Path) -> sqlite3.Connection:
     return link
 
 
-def _change(seq: int, row: tuple[Any, ...]) -> Change:
+def _text(data: bytes) -> str:
+    return data.decode("utf-8", "replace")
+
+
+def _inserted(link: sqlite3.Connection, row: tuple[Any, ...]) -> bool:
+    """Insert a row; returns False for one that can never be stored, which must not keep others from being stored."""
+    try:
+        link.execute(_INSERT, row)
+    except UNSTORABLE:
+        return False
+    return True
+
+
+def _change(seq: int, row: tuple[Any, ...]) -> Change | None:
+    """The change in a row; None if the row is none that was written here, whatever has written it."""
     stamp, node, name, old, new, source, accepted, reason, by, run = row
-    return Change(seq, stamp, node, name, read(old), read(new), _source(source), bool(accepted), reason, by, run)
+    if not all(isinstance(each, str) for each in (node, name, old, new, source, reason, by)):
+        return None
+    if not all(isinstance(each, int) for each in (stamp, accepted, run)):
+        return None
+    try:
+        return Change(seq, stamp, node, name, read(old), read(new), _source(source), bool(accepted), reason, by, run)
+    except (ValueError, TypeError, LookupError, RecursionError):
+        return None
 
 
 def _source(word: str) -> ChangeSource:
@@ -168,8 +230,18 @@ def written(value: Value) -> str:
 
 
 def read(text: str) -> Value:
-    """The value of such a text."""
+    """The value of such a text; raises `ValueError`, `TypeError`, `LookupError` or `RecursionError` for any other."""
     value: Any = json.loads(text)
     if isinstance(value, list):
-        return tuple(bytes([each["byte"]]) if isinstance(each, dict) else each for each in value)  # type: ignore[misc] -- JSON as it was written here
-    return value
+        return tuple(_element(each) for each in cast("list[Any]", value))
+    if value is not None and not isinstance(value, (bool, int, float, str)):
+        raise ValueError(f"{text[:40]} is no value of a parameter")
+    return encodable(value) if isinstance(value, str) else value
+
+
+def _element(value: Any) -> bool | int | float | str | bytes:
+    if isinstance(value, dict):
+        return bytes([cast("dict[str, Any]", value)["byte"]])
+    if not isinstance(value, (bool, int, float, str)):
+        raise ValueError(f"{value!r} is no element of a parameter")
+    return encodable(value) if isinstance(value, str) else value

@@ -44,14 +44,31 @@ class Journal:
 
     def __init__(self, capacity: int = 10_000, history: History | None = None) -> None:
         self._history = history
-        self._earlier = history.earlier(EARLIER) if history else ()
+        self._history_problem = ""
+        self._earlier = self._read_history()
         self._changes: deque[Change] = deque(maxlen=capacity)
         self._end = 0
         self._undo: deque[Step] = deque(maxlen=1_000)
         self._redo: list[Step] = []
         self._unsaved = Unsaved()
         self._lock = threading.Lock()
-        self._state = JournalState(problem=history.problem if history else "")
+        self._state = JournalState(problem=self._problem)
+
+    def _read_history(self) -> Sequence[Change]:
+        try:
+            return self._history.earlier(EARLIER) if self._history else ()
+        except Exception as error:
+            self._give_up_history(error)
+            return ()
+
+    def _give_up_history(self, error: Exception) -> None:
+        """Go on without the history: whatever is wrong with it ends nothing else, a stop least of all."""
+        self._history = None
+        self._history_problem = f"changes are not kept: {type(error).__name__}: {error}"
+
+    @property
+    def _problem(self) -> str:
+        return self._history_problem or (self._history.problem if self._history else "")
 
     @property
     def state(self) -> JournalState:
@@ -75,7 +92,10 @@ class Journal:
         old, new = values
         change = Change(self._end, stamp, node, name, old, new, source, not refusal, refusal, by)
         if self._history:
-            self._history.add(change)  # outside of the lock, so that nobody who reads waits for the disk
+            try:
+                self._history.add(change)  # outside of the lock, so that nobody who reads waits for the disk
+            except Exception as error:
+                self._give_up_history(error)
         with self._lock:
             self._changes.append(change)
             self._end += 1
@@ -145,9 +165,8 @@ class Journal:
 
     def _renew(self) -> None:
         first = self._end - len(self._changes)
-        problem = self._history.problem if self._history else ""
         steps = bool(self._undo), bool(self._redo)
-        self._state = JournalState(first, self._end, first, *steps, self._unsaved.names, problem)
+        self._state = JournalState(first, self._end, first, *steps, self._unsaved.names, self._problem)
 
 
 def _without(step: Step, node: str, name: str) -> Step:

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import os
 import sqlite3
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 from bot_console.tui.console.model import Change, ChangeSource, Value
+from bot_console.tui.console.parameters import history as history_module
 from bot_console.tui.console.parameters.file.patch import same
 from bot_console.tui.console.parameters.history import TRIMMED_EVERY, History
 from bot_console.tui.console.parameters.journal import Journal
+from bot_console.tui.files.folder_lock import folder_lock
 
 SECOND = 10**9
 
@@ -90,6 +95,127 @@ def test_a_file_that_is_no_database_is_put_aside_and_said(tmp_path: Path) -> Non
     history.add(change(1))
     history.close()
     assert len(kept(file)) == 1
+
+
+BAD_ROWS = {
+    "bytes that are not UTF-8": ("UPDATE changes SET reason = CAST(x'ff41' AS TEXT) WHERE number = 2", False),
+    "a blob": ("UPDATE changes SET node = x'ff' WHERE number = 2", True),
+    "a value that is no JSON": ("UPDATE changes SET new = '{' WHERE number = 2", True),
+    "a value of thousands of digits": ("UPDATE changes SET new = printf('%.*c', 5000, '9') WHERE number = 2", True),
+    "a value nested too deeply": ("UPDATE changes SET new = printf('%.*c', 200000, '[') WHERE number = 2", True),
+    "a mapping": ("UPDATE changes SET new = '{\"a\": 1}' WHERE number = 2", True),
+    "a list of mappings": ('UPDATE changes SET old = \'[{"byte": "a"}, {}]\' WHERE number = 2', True),
+    "a time that is a word": ("UPDATE changes SET stamp = 'noon' WHERE number = 2", True),
+    "a lone surrogate": ("UPDATE changes SET new = '\"\\ud800\"' WHERE number = 2", False),
+}
+
+
+@pytest.mark.parametrize(("statement", "left_out"), BAD_ROWS.values(), ids=BAD_ROWS)
+def test_a_row_that_cannot_be_read_costs_no_other(tmp_path: Path, statement: str, left_out: bool) -> None:
+    file = tmp_path / "h"
+    first = History(file, 1)
+    for number in (1, 2, 3):
+        first.add(change(number, float(number)))
+    first.close()
+    with sqlite3.connect(file) as link:
+        link.execute(statement)
+    link.close()
+    journal = Journal(history=History(file, 2))
+    numbers = [each.stamp // SECOND for each in journal.after(-10)]
+    assert numbers == ([1, 3] if left_out else [1, 2, 3])
+    assert [each.seq for each in journal.after(-10)] == list(range(-len(numbers), 0))
+    assert journal.state.problem == (f"1 row of the history cannot be read and is left out: {file}" if left_out else "")
+    for each in journal.after(-10):
+        assert str(each).encode()
+    journal.close()
+
+
+@pytest.mark.parametrize(
+    "bad", [change(1, reason="\udcff"), change(1, "\ud800"), change(2**70)], ids=["reason", "value", "time"]
+)
+def test_a_change_that_cannot_be_stored_costs_no_later_one(tmp_path: Path, bad: Change) -> None:
+    history = History(tmp_path / "h", 1)
+    history.add(bad)
+    history.add(change(2))
+    assert history.problem == ""
+    history.close()
+    assert kept(tmp_path / "h")[-1].stamp == 2 * SECOND
+
+
+def test_a_file_damaged_in_the_middle_gives_what_can_be_read(tmp_path: Path) -> None:
+    file = tmp_path / "h"
+    first = History(file, 1)
+    for number in range(400):
+        first.add(change(number, reason="x" * 200))
+    first.close()
+    data = bytearray(file.read_bytes())
+    middle = len(data) // 2 // 4096 * 4096
+    data[middle : middle + 4096] = b"\xff" * 4096
+    file.write_bytes(data)
+    journal = Journal(history=History(file, 2))
+    assert len(journal.after(-1000)) > 20 and journal.after(-1000)[-1].stamp == 399 * SECOND
+    assert "cannot be read" in journal.state.problem
+    journal.close()
+
+
+def test_what_is_no_regular_file_is_not_opened(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "folder").mkdir()
+    for name in ("pipe", "folder"):
+        history = History(tmp_path / name, 1)
+        history.add(change(1))
+        assert history.problem == f"changes are not kept: {tmp_path / name} is no regular file"
+
+
+def test_of_two_consoles_that_find_a_broken_file_one_sets_it_aside(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "h"
+    file.write_bytes(b"not a database" * 1000)
+    others: list[History] = []
+
+    @contextmanager
+    def other_first(folder: Path, patience_s: float) -> Iterator[bool]:
+        """The other console is through with it when this one gets the lock."""
+        monkeypatch.setattr(history_module, "folder_lock", folder_lock)
+        others.append(History(file, 1))
+        others[0].add(change(1))
+        with folder_lock(folder, patience_s) as locked:
+            yield locked
+
+    monkeypatch.setattr(history_module, "folder_lock", other_first)
+    late = History(file, 2)
+    late.add(change(2))
+    assert [each.name for each in tmp_path.glob("*.broken-*")] == ["h.broken-1"]
+    assert (late.problem, "begins anew" in others[0].problem) == ("", False)
+    for each in (*others, late):
+        each.close()
+    assert [each.stamp // SECOND for each in kept(file)] == [1, 2]
+
+
+def test_a_broken_file_that_another_console_repairs_is_left_to_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(history_module, "PATIENCE_S", 0.0)
+    (tmp_path / "h").write_bytes(b"not a database" * 1000)
+    with folder_lock(tmp_path, 0.0) as locked:
+        assert locked
+        assert "another console repairs" in History(tmp_path / "h", 1).problem
+    assert (tmp_path / "h").read_bytes().startswith(b"not a database")
+
+
+def test_a_history_that_fails_ends_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    journal = Journal(history=History(tmp_path / "h", 1))
+
+    def broken(*given: object) -> None:
+        raise RuntimeError("whatever it is")
+
+    monkeypatch.setattr(History, "add", broken)
+    journal.record(1, "/n", "p", (1, 2), ChangeSource.EDIT)
+    journal.record(2, "/n", "p", (2, 3), ChangeSource.EDIT)
+    assert len(journal.after(0)) == 2 and "whatever it is" in journal.state.problem
+    monkeypatch.setattr(History, "earlier", broken)
+    assert "whatever it is" in Journal(history=History(tmp_path / "h", 2)).state.problem
 
 
 def test_a_folder_that_cannot_be_made_costs_nothing_but_the_history(tmp_path: Path) -> None:

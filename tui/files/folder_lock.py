@@ -1,0 +1,45 @@
+"""One program at a time in a folder: for steps that two of them would undo for each other."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Generator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+POLL_S = 0.02
+"""Seconds between two attempts to lock."""
+
+
+@contextmanager
+def folder_lock(folder: Path, patience_s: float) -> Generator[bool]:
+    """Lock a folder for the length of a `with` block; gives whether that succeeded within so many seconds.
+
+    The lock leaves no file behind and ends with the program. Where folders cannot be locked, everybody has the lock.
+    Raises `OSError` for a folder that cannot be opened.
+    """
+    if os.name != "posix":
+        yield True
+        return
+    import fcntl
+
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        deadline = time.monotonic() + patience_s
+        while not (locked := _lock(fcntl, handle)) and time.monotonic() < deadline:
+            time.sleep(POLL_S)
+        yield locked
+    finally:
+        os.close(handle)
+
+
+def _lock(fcntl: Any, handle: int) -> bool:
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:  # a file system without locks
+        return True
+    return True
