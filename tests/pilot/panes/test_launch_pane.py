@@ -62,6 +62,25 @@ def test_on_a_group_the_keys_mean_all_of_it() -> None:
     run(live(), play)
 
 
+def test_on_a_group_a_process_that_is_stopping_is_started_and_nothing_to_do_is_said() -> None:
+    def with_states(state: ProcessState) -> LaunchInfo:
+        return replace(launched(), processes=tuple(replace(each, state=state) for each in launched().processes))
+
+    async def play(session: Session) -> None:
+        await session.press("8")
+        session.console.change(launch=with_states(ProcessState.STOPPING))
+        await session.settle()
+        await session.press("s")
+        assert [verb for verb, _ in session.launcher.asked] == ["start"] * 6
+        session.console.change(launch=with_states(ProcessState.EXITED))
+        await session.settle()
+        await session.press("x")
+        assert len(session.launcher.asked) == 6 and not isinstance(session.app.screen, ConfirmScreen)
+        assert "robot_system.launch.py: nothing to stop" in [each.message for each in session.app._notifications]
+
+    run(live(), play)
+
+
 def test_groups_fold_and_the_cursor_stays_on_its_process() -> None:
     async def play(session: Session) -> None:
         await session.press("8", "left")

@@ -186,16 +186,19 @@ class RosLauncher(ProcessVerbs):
             else:
                 self._tell(f"{run.title} has ended")
             for held in [each for each in self._held.values() if each.run is run]:
-                self._left_over(held)
+                self._left_over(held, "" if run.has_begun else problem)
         if of_file is not None:
             of_file.set_result(Answer(not problem, problem or f"{run.title} has ended"))
 
-    def _left_over(self, held: _Held) -> None:
-        """Take note that a run is over: later starts of its processes get runs of their own."""
-        if held.process.info.state is ProcessState.STARTING and not self._closed:
+    def _left_over(self, held: _Held, why: str) -> None:
+        """Take note that a run is over: later starts of its processes get runs of their own.
+
+        `why` says why the run could not begin; empty if it could.
+        """
+        if held.process.info.state is ProcessState.STARTING and not self._closed and not why:
             self._order(held, Order.START)
         else:
-            self._ended(held)
+            self._ended(held, why)
 
     def _want(self, verb: str, key: str) -> Future[Answer]:
         with self._lock:

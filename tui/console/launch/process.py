@@ -75,9 +75,10 @@ class LaunchedProcess:
         return self._tell_to_end() if self.info.state is ProcessState.RUNNING else Order.NOTHING
 
     def _want_ended(self, verb: str) -> Order:
-        if self._again and verb == "stop":
+        if self._again:
             self._again = False
-            self._settle(STARTS, Answer(False, f"{self.info.label} was stopped instead"))
+            done = "killed" if verb == "kill" else "stopped"
+            self._settle(STARTS, Answer(False, f"{self.info.label} was {done} instead"))
         if verb == "kill" and self._alive:
             self._tell_to_end()
             return Order.KILL

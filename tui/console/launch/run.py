@@ -54,6 +54,8 @@ class LaunchRun:
         self._listener = listener
         self._lock = threading.Lock()
         self._service: Any = None
+        self._early: list[Any] | None = []
+        """Events from before the launch runs, which it handles first; None as soon as it runs."""
         self._unwanted = False
         self._reason = ""
         self.logged = False
@@ -71,6 +73,7 @@ class LaunchRun:
         try:
             source.get_launch_description(LaunchContext())  # once more below, but from memory
         except (Exception, SystemExit) as error:  # a launch file is a program: whatever it raises is its reader's
+            self.ending = True
             return fault_text(error, path, reading=True)
         return self._run([IncludeLaunchDescription(source, launch_arguments=arguments.items())])
 
@@ -79,15 +82,18 @@ class LaunchRun:
         return self._run([self._guarded(make, failed)])
 
     def _run(self, entities: list[Any]) -> str:
+        from launch.actions import OpaqueFunction
+
         from launch import LaunchDescription, LaunchService
 
-        service = LaunchService(noninteractive=True)
-        with self._lock:
-            if self._unwanted:
-                return ""
-            self._service = service
-        service.include_launch_description(LaunchDescription([*self._handlers(), *entities]))
         try:
+            service = LaunchService(noninteractive=True)
+            with self._lock:
+                if self._unwanted:
+                    return ""
+                self._service = service
+            begun = OpaqueFunction(function=self._begun)
+            service.include_launch_description(LaunchDescription([*self._handlers(), begun, *entities]))
             code = service.run(shutdown_when_idle=True)
         finally:
             self.ending = True
@@ -96,6 +102,13 @@ class LaunchRun:
         if failure is not None:
             return self.fault(failure)
         return f"{self.path}: {self._reason.removeprefix(CAUGHT)}" if code else ""
+
+    def _begun(self, context: LaunchContext) -> None:
+        """Take what came before; from now on events go to the loop that calls this."""
+        with self._lock:
+            early, self._early = self._early or [], None
+        for event in early:
+            context.emit_event_sync(event)
 
     def fault(self, error: BaseException) -> str:
         """What went wrong, with file and line."""
@@ -157,10 +170,17 @@ class LaunchRun:
             future.add_done_callback(over)
 
     def _ends(self, event: Shutdown, context: LaunchContext) -> None:
+        if self.ending:
+            return
         self.ending = True
         self._reason = event.reason
         failed = event.reason.startswith(CAUGHT)  # which is told with file and line when it is over
         self._listener.ending(self, "" if failed else event.reason)
+
+    @property
+    def has_begun(self) -> bool:
+        """Whether launch has run at all; when it has not, it is no use to try the same again."""
+        return self._early is None
 
     @property
     def delayed_starts(self) -> int:
@@ -186,23 +206,26 @@ class LaunchRun:
     def emit(self, event: Any) -> None:
         """Queue an event without waiting for the launch, as `LaunchService.emit_event` would.
 
-        The caller may hold a lock that the launch is waiting for.
+        The caller may hold a lock that the launch is waiting for. A launch that does not run yet handles it as soon as
+        it does; one that is over does not: see `ending`.
         """
         with self._lock:
-            service = self._service
-        if service is None:
-            return
-        loop = service.event_loop
-        if loop is None:
-            service.context.emit_event_sync(event)
-            return
-        with contextlib.suppress(RuntimeError):  # it is over
-            loop.call_soon_threadsafe(service.context.emit_event_sync, event)
+            if self._early is not None:
+                self._early.append(event)
+                return
+        loop = self._service.event_loop
+        if loop is not None:
+            with contextlib.suppress(RuntimeError):  # it is over
+                loop.call_soon_threadsafe(self._service.context.emit_event_sync, event)
 
     def shut_down(self) -> None:
         """End everything, or never begin."""
+        from launch.events import Shutdown
+
         with self._lock:
             self._unwanted = True
             service = self._service
+            if self._early is not None:  # ROS 2 forgets a shutdown() that comes before its loop runs
+                self._early.append(Shutdown(reason="LaunchService.shutdown() called"))
         if service is not None:
             service.shutdown()

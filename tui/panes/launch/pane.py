@@ -29,6 +29,7 @@ from textual.app import ComposeResult
 EVENTS = 4
 """Launch events shown below the tree."""
 
+ALIVE = (ProcessState.RUNNING, ProcessState.STARTING, ProcessState.STOPPING)
 STYLES = {Severity.WARN: "warn", Severity.ERROR: "error", Severity.FATAL: "error"}
 
 
@@ -195,9 +196,13 @@ class LaunchPane(ListPane):
             return
         info = self._info or LaunchInfo()
         chosen = [row.process] if row.process else [each for each in info.processes if _belongs(each, row.group)]
-        chosen = [each for each in chosen if not row_is_pointless(verb, each)] if row.process is None else chosen
+        if row.process is None:
+            chosen = [each for each in chosen if not is_pointless(verb, each)]
+            if not chosen:
+                self.notify(f"{harmless(row.group[-1])}: nothing to {verb}", severity="warning", markup=False)
+                return
         if verb == "kill" or (row.process is None and verb != "start"):
-            names = "\n".join(each.label for each in chosen) or "nothing runs"
+            names = "\n".join(each.label for each in chosen)
             of = f" of {harmless(row.group[-1])}" if row.process is None and row.group else ""
             question = f"{verb.capitalize()} {counted(len(chosen), 'process').replace('processs', 'processes')}{of}?"
             then = partial(self._do, verb, chosen)
@@ -213,7 +218,7 @@ class LaunchPane(ListPane):
     def _ended(self, verb: str, processes: Sequence[ProcessInfo]) -> str:
         """Why a verb makes no sense any more: none of its processes is there, or has anything left to stop."""
         now = {each.key: each for each in self.console.snapshot().launch.processes}
-        if any(each.key in now and not row_is_pointless(verb, now[each.key]) for each in processes):
+        if any(each.key in now and not is_pointless(verb, now[each.key]) for each in processes):
             return ""
         who = processes[0].label if len(processes) == 1 else "All of them"
         return f"{who} ended meanwhile; nothing was done."
@@ -283,10 +288,16 @@ def files_for(files: Sequence[str], typed: str) -> Sequence[Option]:
     return [Option(Path(each).name, str(Path(each).parent), each) for each in found]
 
 
-def row_is_pointless(verb: str, process: ProcessInfo) -> bool:
-    """Whether a verb on a whole group has nothing to do for one of its processes."""
-    alive = process.state in (ProcessState.RUNNING, ProcessState.STARTING, ProcessState.STOPPING)
-    return alive if verb == "start" else (not alive if verb in ("stop", "kill") else False)
+def is_pointless(verb: str, process: ProcessInfo) -> bool:
+    """Whether a verb on a whole group has nothing to do for one of its processes.
+
+    One that is stopping can be started: it starts as soon as it has ended.
+    """
+    if process.state is ProcessState.MISSING:
+        return True
+    if verb == "start":
+        return process.state in (ProcessState.RUNNING, ProcessState.STARTING)
+    return verb != "restart" and process.state not in ALIVE
 
 
 def _belongs(process: ProcessInfo, group: tuple[str, ...]) -> bool:
