@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The system for one environment: its settings and its world."""
+"""The system in one environment: its parameters and its world."""
 
 from ament_index_python.packages import get_package_share_directory
 from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription, LogInfo

@@ -15,9 +15,13 @@ def generate_launch_description():
     """Describe the system."""
     return LaunchDescription(
         [
-            DeclareLaunchArgument("program", description="Path of a Python file that makes a node, or an executable"),
-            DeclareLaunchArgument("package", default_value="", description="Package of the executable"),
-            DeclareLaunchArgument("words", default_value="", description="Its command line, quoted as in a shell"),
+            DeclareLaunchArgument(
+                "program", description="Path of a Python file that contains a node, or the name of an executable"
+            ),
+            DeclareLaunchArgument("package", default_value="", description="Package that contains the executable"),
+            DeclareLaunchArgument(
+                "words", default_value="", description="Command-line arguments, quoted as in a shell"
+            ),
             OpaqueFunction(function=make_program),
         ]
     )
@@ -28,6 +32,6 @@ def make_program(context):
     words = shlex.split(LaunchConfiguration("words").perform(context))
     program = LaunchConfiguration("program").perform(context)
     options = {"package": name} if (name := LaunchConfiguration("package").perform(context)) else {}
-    if program.endswith(".py"):  # need not be executable
+    if program.endswith(".py"):  # The file need not be executable.
         options.update(prefix="python3", exec_name=os.path.basename(program))
     return [Node(executable=program, output="screen", arguments=words, **options)]

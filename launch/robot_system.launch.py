@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The whole robot system: simulator, navigator, sensors, motion controller, safety monitor and telemetry.
 
-Velocity commands go navigator -> motion controller -> safety monitor -> robot; a person's go to `cmd_vel_teleop`.
+Velocity commands go navigator -> motion controller -> safety monitor -> robot. A person's commands go to
+`cmd_vel_teleop`.
 """
 
 import os
@@ -27,7 +28,7 @@ def generate_launch_description():
     use_sim_time = {"use_sim_time": ParameterValue(LaunchConfiguration("use_sim_time"), value_type=bool)}
     follow_route = {"follow_route": ParameterValue(LaunchConfiguration("follow_route"), value_type=bool)}
 
-    # One of the two goes to a goal: the controller straight on, or the navigator of Nav2's goals over the map.
+    # Only one of the two may drive to a goal: the controller in a straight line, or Nav2's navigator over the map.
     goals = "goal_pose", PythonExpression(["'_direct_goal' if '", navigator, "' == 'goals' else 'goal_pose'"])
 
     def robot_node(executable, name, remappings=(), extra=None, **options):
@@ -49,29 +50,29 @@ def generate_launch_description():
             DeclareLaunchArgument(
                 "config_file",
                 default_value=[profiles, "/", profile, "_config.yaml"],
-                description="Path to robot configuration file; overrules profile",
+                description="Path to robot configuration file; takes precedence over profile",
             ),
-            DeclareLaunchArgument("seed", default_value="", description="Seed of the simulator; empty: the file's"),
-            DeclareLaunchArgument("world", default_value="", description="World of the simulator; empty: the file's"),
+            DeclareLaunchArgument("seed", default_value="", description="Seed of the simulator; empty: the profile's"),
             DeclareLaunchArgument(
-                "origin",
-                default_value="",
-                description="Where map and odom begin: corner of the world, or start of the robot; empty: the file's",
+                "world", default_value="", description="World of the simulator; empty: the profile's"
+            ),
+            DeclareLaunchArgument(
+                "origin", default_value="", description="Origin of map and odom: corner or start; empty: the profile's"
             ),
             DeclareLaunchArgument(
                 "navigator",
                 default_value="true",
-                description="Who drives: robot_navigator (true), nobody (false), Nav2's goals (goals), a Python file",
+                description="Who drives: robot_navigator (true), nobody (false), Nav2 goals (goals), or a Python file",
             ),
             DeclareLaunchArgument(
                 "follow_route", default_value="false", description="Drive along the world's waypoints"
             ),
             DeclareLaunchArgument(
-                "use_sim_time", default_value="false", description="Nodes follow /clock of the simulator"
+                "use_sim_time", default_value="false", description="Nodes use the simulator's /clock"
             ),
             OpaqueFunction(function=make_simulator),
             robot_node("sensor_node", "sensor_handler"),
-            # Without it the robot stands, locked; when it is back a person releases it.
+            # While it is down the robot stands still, locked; after it has restarted, a person has to release it.
             robot_node("safety_node", "safety_monitor", respawn=True, respawn_delay=1.0),
             robot_node("controller_node", "motion_controller", [("cmd_vel", "cmd_vel_nav"), goals], follow_route),
             robot_node("telemetry_node", "telemetry_publisher"),
@@ -81,14 +82,14 @@ def generate_launch_description():
 
 
 def make_navigator(context):
-    """Our navigator, the one for Nav2's goals, a file instead of them, or nothing."""
+    """The built-in navigator, the one for Nav2 goals, a Python file in its place, or nothing."""
     chosen = LaunchConfiguration("navigator").perform(context)
     if chosen.lower() in ("false", "0"):
         return []
     if chosen.lower() not in ("true", "1", "goals") and not chosen.endswith(".py"):
-        raise RuntimeError(f"navigator:={chosen}: take true, false, goals or a Python file")
+        raise RuntimeError(f"navigator:={chosen}: expected true, false, goals or a Python file")
     program = {"package": PACKAGE, "executable": "navigation_node" if chosen == "goals" else "robot_node"}
-    if chosen.endswith(".py"):  # need not be executable
+    if chosen.endswith(".py"):  # The file need not be executable.
         program = {"executable": chosen, "prefix": "python3", "exec_name": os.path.basename(chosen)}
     return [
         Node(
@@ -105,7 +106,7 @@ def make_navigator(context):
 
 
 def make_simulator(context):
-    """The simulator, with the given arguments; the others keep the values of its file."""
+    """The simulator with the given arguments; all other parameters come from its file."""
     given = {}
     if seed := LaunchConfiguration("seed").perform(context):
         given["seed"] = int(seed)

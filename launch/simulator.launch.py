@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The simulated robot alone, for nodes that are started elsewhere; also under the names of a TurtleBot."""
+"""Only the simulated robot, for nodes that are started elsewhere; also under a TurtleBot's topic names."""
 
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.conditions import IfCondition
@@ -11,13 +11,13 @@ from launch import LaunchDescription
 
 PACKAGE = "bot_console_robot"
 ALL_AROUND = 6.265732014659643
-"""The field of view (rad) of a TurtleBot's laser: beam 359 is not beam 0 again."""
+"""The field of view (rad) of a TurtleBot's laser, in which beam 359 does not coincide with beam 0."""
 MODELS = {
     "plain": ("indoor", 5.0, 3.141592653589793),
     "turtlebot3": ("arena", 0.22, ALL_AROUND),
     "turtlebot4": ("arena", 0.31, ALL_AROUND),
 }
-"""World, greatest speed (m/s) and field of view (rad)."""
+"""World, maximum speed (m/s) and field of view (rad)."""
 
 
 def generate_launch_description():
@@ -25,24 +25,24 @@ def generate_launch_description():
     return LaunchDescription(
         [
             DeclareLaunchArgument(
-                "world", default_value="", description="World of the simulator; empty: indoor, a TurtleBot's is arena"
+                "world", default_value="", description="World of the simulator; empty: indoor, or arena for a TurtleBot"
             ),
             DeclareLaunchArgument("seed", default_value="1", description="Seed of the simulator"),
             DeclareLaunchArgument(
                 "origin",
                 default_value="start",
                 choices=["start", "corner"],
-                description="Where map and odom begin: start of the robot, or lower left corner of the world",
+                description="Origin of map and odom: start pose of the robot, or lower left corner of the world",
             ),
             DeclareLaunchArgument(
                 "model",
                 default_value="plain",
                 choices=list(MODELS),
-                description="Whose names, speed and laser the robot has",
+                description="Robot whose topic names, speed and laser are simulated",
             ),
-            DeclareLaunchArgument("stamped", default_value="false", description="Take TwistStamped on cmd_vel"),
+            DeclareLaunchArgument("stamped", default_value="false", description="Accept TwistStamped on cmd_vel"),
             DeclareLaunchArgument(
-                "navigation", default_value="false", description="Offer navigate_to_pose and the other goals of Nav2"
+                "navigation", default_value="false", description="Provide navigate_to_pose and the other Nav2 actions"
             ),
             OpaqueFunction(function=make_simulator),
             Node(
@@ -58,12 +58,12 @@ def generate_launch_description():
 
 
 def stamped():
-    """The parameter for velocities with a time stamp."""
+    """The parameter that selects stamped velocity commands."""
     return {"enable_stamped_cmd_vel": ParameterValue(LaunchConfiguration("stamped"), value_type=bool)}
 
 
 def make_simulator(context):
-    """The simulator, as its model has it."""
+    """The simulator, configured for the chosen model."""
     model = LaunchConfiguration("model").perform(context)
     world, speed, view = MODELS[model]
     return [

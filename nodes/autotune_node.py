@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Node `autotune`: adjusts one parameter of another node while the robot drives, judging by its sensors.
+"""Node `autotune`: adjusts one parameter of another node while the robot drives, scoring each value from sensor data.
 
-It changes nothing without a safety monitor that says that it watches, and puts the value of before back when that falls
-silent or is stopped. The parameters of the safety monitor itself are out of its reach.
+It changes nothing unless a safety monitor reports that it is watching. If the monitor goes silent or stops the robot,
+the previous value is restored. The safety monitor's own parameters are never adjusted.
 """
 
 from __future__ import annotations
@@ -28,27 +28,31 @@ from std_msgs.msg import UInt32
 
 MONITOR = "safety_monitor"
 WATCHED_NS = 1_000_000_000
-"""The safety monitor's last word is believed for so long."""
+"""A report of the safety monitor is valid for this long."""
 LOCKED = "emergency stop"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 COLLISION = 2.0
-"""What a collision takes off the score, in m/s."""
+"""Score penalty for a collision, in m/s."""
 NEARNESS = 5.0
-"""What each m of missing room takes off the score, in m/s."""
+"""Score penalty per metre of missing clearance, in m/s."""
 DIGITS = 3
 
 
 class AutoTune(Node):
-    """Rates a value by the mean speed (m/s) over a period, less penalties for nearness and collisions."""
+    """Scores a value by the mean speed (m/s) over a period, minus penalties for low clearance and collisions."""
 
     def __init__(self) -> None:
         super().__init__("autotune")
         self.declare_parameter("target_node", "/robot_navigator", fixed("Node whose parameter is adjusted"))
-        self.declare_parameter("target_parameter", "max_speed", fixed("Which parameter of it, a double with a range"))
-        self.declare_parameter("period", 10.0, number("How long each value is judged (s)", 1.0, 600.0))
-        self.declare_parameter("step", 0.05, number("First step, as a share of the range", 0.001, 0.5))
-        self.declare_parameter("min_clearance", 0.35, number("Nearer returns of the LIDAR cost (m)", 0.0, 5.0))
-        self.declare_parameter("enabled", True, plain("Adjust; else the value stays"))
+        self.declare_parameter(
+            "target_parameter", "max_speed", fixed("Parameter of that node to adjust: a double with a range")
+        )
+        self.declare_parameter("period", 10.0, number("How long each value is evaluated (s)", 1.0, 600.0))
+        self.declare_parameter("step", 0.05, number("Initial step as a fraction of the range", 0.001, 0.5))
+        self.declare_parameter(
+            "min_clearance", 0.35, number("LIDAR returns closer than this are penalised (m)", 0.0, 5.0)
+        )
+        self.declare_parameter("enabled", True, plain("Adjust the parameter; if false, its value is kept"))
         self._node = "/" + str(self.get_parameter("target_node").value).strip("/")
         self._name = str(self.get_parameter("target_parameter").value)
         if self._node.rpartition("/")[2] == MONITOR:
@@ -70,10 +74,10 @@ class AutoTune(Node):
         self.create_subscription(UInt32, "collisions", self._on_collisions, LATCHED)
         self.create_subscription(DiagnosticArray, "diagnostics", self._on_diagnostics, 10)
         self.create_timer(0.5, self._look, self._group, clock=self._steady)
-        self.get_logger().info(f"Adjusting {self._node} {self._name} as soon as a safety monitor watches")
+        self.get_logger().info(f"Will adjust {self._node} {self._name} once a safety monitor is watching")
 
     def _forget(self) -> None:
-        """Start a new period."""
+        """Start a new evaluation period."""
         self._began = self._steady.now().nanoseconds
         self._speeds: list[float] = []
         self._nearest = math.inf
@@ -100,17 +104,19 @@ class AutoTune(Node):
                 self._locked = values.get("limited_by", "") == LOCKED
 
     def _hindrance(self) -> str:
-        """Why nothing may be adjusted now; empty when it may."""
+        """Why nothing may be adjusted now; empty if adjusting is allowed."""
         if not self.get_parameter("enabled").value:
             return "it is not enabled"
         if self._steady.now().nanoseconds - self._heard > WATCHED_NS:
-            return "no safety monitor is heard"
+            return "no safety monitor is reporting"
         if self._locked:
             return "the robot is stopped"
-        return "" if self._client.services_are_ready() else f"{self._node} does not run"
+        return "" if self._client.services_are_ready() else f"{self._node} is not running"
 
     async def _look(self) -> None:
-        """Twice a second: stop at once when it must not continue; after a period or a collision, set the next value."""
+        """Runs twice a second: stops at once if adjusting is not allowed, and moves on after a period or a
+        collision.
+        """
         if self._busy:
             return
         self._busy = True
@@ -121,7 +127,9 @@ class AutoTune(Node):
             elif await self._ready() and self._climber is not None:
                 elapsed = (self._steady.now().nanoseconds - self._began) * 1e-9
                 if self._bumps:
-                    self.get_logger().warning(f"Collision at {self._name} {self._climber.value:g}: not so far again")
+                    self.get_logger().warning(
+                        f"Collision at {self._name} {self._climber.value:g}: this value will not be exceeded again"
+                    )
                     await self._send(self._climber.danger())
                 elif elapsed >= float(self.get_parameter("period").value) and self._speeds:
                     await self._send(self._climber.judged(self._score()))
@@ -139,12 +147,12 @@ class AutoTune(Node):
         self._suspended = why
         if self._climber is not None and not math.isnan(self._before):
             back = await self._set(self._before)
-            told = f"{self._name} is {self._before:g} again" if not back else f"{self._name} stays: {back}"
+            told = f"{self._name} restored to {self._before:g}" if not back else f"{self._name} stays: {back}"
             self.get_logger().warning(f"Not adjusting, {why}: {told}")
         self._climber = None
 
     async def _ready(self) -> bool:
-        """Learn the parameter's value and range, if they are unknown or somebody else has set it."""
+        """Read the parameter's value and range if they are unknown or another client has set it."""
         now = await self._value()
         if now is None:
             return False
@@ -152,10 +160,10 @@ class AutoTune(Node):
             return True
         span = await self._range()
         if span is None:
-            await self._suspend(f"{self._node} {self._name} is no double with a range, or is read-only")
+            await self._suspend(f"{self._node} {self._name} is not a double with a range, or is read-only")
             return False
         if self._climber is not None:
-            self.get_logger().info(f"{self._name} was set to {now:g} by somebody else: going on from there")
+            self.get_logger().info(f"{self._name} was set to {now:g} by another client: continuing from there")
         step = float(self.get_parameter("step").value) * (span[1] - span[0])
         self._suspended, self._before, self._sent = "", now, now
         self._climber = HillClimber(span[0], span[1], now, step)
@@ -176,7 +184,7 @@ class AutoTune(Node):
         return (span.from_value, span.to_value) if span else None
 
     async def _send(self, value: float) -> None:
-        """Set a value and start a period with it."""
+        """Set a value and start an evaluation period with it."""
         value = round(value, DIGITS)
         score, before = self._score() if self._speeds else math.nan, self._sent
         refusal = await self._set(value)
@@ -189,7 +197,7 @@ class AutoTune(Node):
         self._forget()
 
     async def _set(self, value: float) -> str:
-        """Set a value; returns why the node refused, and an empty text when it accepted."""
+        """Set a value; returns the node's reason for refusing it, or an empty text if it was accepted."""
         answer: Any = await self._client.set_parameters([Parameter(self._name, value=value)])
         result = answer.results[0] if answer and answer.results else None
         if result is None or not result.successful:

@@ -1,4 +1,4 @@
-"""Where to drive after a scan: towards the best opening, and slower the less room there is ahead."""
+"""Chooses a velocity from a scan: towards the widest opening, slower the less room there is ahead."""
 
 from __future__ import annotations
 
@@ -12,27 +12,27 @@ import numpy.typing as npt
 Floats: TypeAlias = "npt.NDArray[np.float32]"
 
 HORIZON = 4.0
-"""Metres that count as free in every direction; openings beyond are all alike."""
+"""Distances (m) beyond this count as free; openings beyond it are not compared."""
 BRAKING = 1.5
-"""The deceleration in m/s² that the speed is planned with; less than a robot can do."""
+"""The deceleration in m/s² used for planning the speed; less than the robot is capable of."""
 DIRECTIONS = np.radians(np.arange(-90.0, 91.0, 6.0)).astype(np.float32)
-"""Headings that are compared, in rad from straight ahead."""
+"""Candidate headings, in rad from straight ahead."""
 AHEAD = len(DIRECTIONS) // 2
 STEERING = 2.0
 """Turn rate per rad of angle to the opening, in 1/s."""
 BEND = 0.9
-"""Metres of room that 1 rad of turn must gain to be worth it."""
+"""Extra room (m) that a turn of 1 rad must gain."""
 HABIT = 0.3
-"""Metres of room that a change of mind by 1 rad must gain."""
+"""Extra room (m) that changing the heading by 1 rad must gain."""
 WANDER = 0.55
-"""Rad to the side that the robot favours where nothing decides; without it, it would follow one wall for ever."""
+"""Heading offset (rad) that breaks ties; without it, the robot would follow the same wall for ever."""
 WANDER_PERIODS = (173.0, 282.0)
-"""Scans after which the favoured side comes back, in two waves that do not fit each other."""
+"""Periods, in scans, of the two waves of this offset; they share no common multiple worth mentioning."""
 
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """The navigator's parameters as they apply here: m/s, m, 0 to 255, rad/s."""
+    """The navigator's parameters as used here: m/s, m, 0 to 255, rad/s."""
 
     max_speed: float
     safety_distance: float
@@ -43,7 +43,7 @@ class Rules:
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """A velocity in m/s and rad/s, whether the way is blocked, and the distance of the nearest return in m or `inf`."""
+    """A velocity in m/s and rad/s, whether the way is blocked, and the distance to the nearest return in m or `inf`."""
 
     linear: float
     angular: float
@@ -52,7 +52,7 @@ class Decision:
 
 
 class Avoidance:
-    """Chooses a velocity for each scan; its only memory is which way it is turning."""
+    """Chooses a velocity for each scan; the only state is the direction in which it is turning."""
 
     def __init__(self) -> None:
         self._heading = 0.0
@@ -64,12 +64,12 @@ class Avoidance:
         self._sin = np.sin(DIRECTIONS)[:, None]
 
     def decide(self, ranges: Floats, intensities: Floats, first: float, increment: float, rules: Rules) -> Decision:
-        """The velocity for a scan whose beam 0 looks at `first` rad, with `increment` rad between beams."""
+        """Return the velocity for a scan whose beam 0 points at `first` rad, with `increment` rad between beams."""
         seen = (ranges > 0.0) & np.isfinite(ranges)
         if len(intensities) == len(ranges):
             seen &= intensities >= rules.detection_threshold
         cos, sin = self._beams(len(ranges), first, increment)
-        # What is beyond takes no room from any lane.
+        # Returns beyond the horizon block no lane.
         near = (seen & (ranges < HORIZON + rules.safety_distance)).nonzero()[0]
         depth = ranges.take(near)
         within = depth if len(near) else ranges[seen]
@@ -89,7 +89,7 @@ class Avoidance:
         return self._rotation
 
     def _room(self, x: Floats, y: Floats, half_width: float) -> Floats:
-        """How far a lane of twice `half_width` is free in each direction, in m."""
+        """Return how far a lane of width `2 * half_width` is free in each direction, in m."""
         if not len(x):
             return np.full(len(DIRECTIONS), HORIZON, np.float32)
         along, across = self._cos * x, self._cos * y
@@ -100,7 +100,7 @@ class Avoidance:
         return np.minimum(np.where(in_lane, along, HORIZON).min(axis=1), HORIZON)
 
     def _steer(self, room: Floats, rules: Rules) -> tuple[float, float]:
-        """The velocity towards the best direction."""
+        """Return the velocity towards the best direction."""
         self._scans += 1
         score = room - BEND * np.abs(DIRECTIONS - self._whim()) - HABIT * np.abs(DIRECTIONS - self._heading)
         self._heading = float(DIRECTIONS[int(score.argmax())])
@@ -112,13 +112,14 @@ class Avoidance:
         return fastest * max(0.2, math.cos(self._heading)), angular
 
     def _whim(self) -> float:
-        """The heading in rad that is preferred now."""
+        """Return the heading in rad that is preferred at present."""
         return 0.5 * WANDER * sum(math.sin(math.tau * self._scans / period) for period in WANDER_PERIODS)
 
     def _keep_side(self, ranges: Floats) -> float:
-        """Where to turn on the spot: +1 (left) or -1, at first to the more open side, then on until the way is free.
+        """Which way to turn on the spot, +1 (left) or -1: initially the more open side, then the same one until the
+        way is free.
 
-        Changing sides in a corner would never end.
+        Alternating between sides in a corner would never end.
         """
         if self._side == 0.0:
             capped = np.minimum(ranges, HORIZON)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `motion_controller`: ramps the robot's velocity towards what the navigator wants, or follows waypoints."""
+"""Node `motion_controller`: ramps the robot's velocity towards the navigator's request, or follows waypoints."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 PERIOD = 0.05
-"""Seconds between two commands."""
+"""Interval between commands, in s."""
 LIFETIME_NS = 500_000_000
-"""An input older than this is dead."""
+"""Inputs older than this are ignored."""
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -30,7 +30,7 @@ class MotionController(Node):
         self.declare_parameter("kp_linear", 3.0, number("Gain from speed or distance error (1/s)", 0.1, 20.0))
         self.declare_parameter("kp_angular", 6.0, number("Gain from turn rate or heading error (1/s)", 0.1, 20.0))
         self.declare_parameter("max_acceleration", 1.0, number("Maximum linear acceleration (m/s²)", 0.1, 10.0))
-        self.declare_parameter("follow_route", False, plain("Drive along the waypoints of the world, over and over"))
+        self.declare_parameter("follow_route", False, plain("Drive along the world's waypoints, repeatedly"))
         self.add_post_set_parameters_callback(self._apply)
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._velocity = VelocityController()
@@ -64,7 +64,7 @@ class MotionController(Node):
         following = bool(self.get_parameter("follow_route").value)
         self._follower.follow(self._route if following else [], loop=True)
         if following and not self._route:
-            self.get_logger().warning("follow_route is true, but no waypoints have come on topic 'route' yet")
+            self.get_logger().warning("follow_route is true, but no waypoints have been received on topic 'route' yet")
 
     def _on_route(self, route: Path) -> None:
         self._route = [(each.pose.position.x, each.pose.position.y) for each in route.poses]
@@ -80,7 +80,7 @@ class MotionController(Node):
         self.get_logger().info(f"Going to x = {place.x:.2f} m, y = {place.y:.2f} m")
 
     def _on_odometry(self, message: Odometry) -> None:
-        self._odometry = message  # looked at when there is somewhere to go: it comes 20 times a second
+        self._odometry = message  # Evaluated only when there is a goal: odometry arrives 20 times a second.
 
     def _on_desired(self, message: Twist) -> None:
         wanted = (message.linear.x, message.angular.z)
@@ -105,7 +105,7 @@ class MotionController(Node):
         self._publish(*self._velocity.step(*wanted, PERIOD, self._gains))
 
     def _fall_silent(self) -> None:
-        """Publish one zero, then nothing: a silent controller lets others drive."""
+        """Publish one zero velocity, then nothing, so that others can drive."""
         if not self._silent:
             self._silent = True
             self._velocity.reset()
@@ -118,14 +118,14 @@ class MotionController(Node):
 
 
 def _pose_of(message: Odometry) -> tuple[float, float, float] | None:
-    """x, y (m) and heading (rad); None if one of them is not finite."""
+    """Return x, y (m) and heading (rad), or None if one of them is not finite."""
     place = message.pose.pose
     pose = (place.position.x, place.position.y, _heading(place.orientation))
     return pose if all(map(math.isfinite, pose)) else None
 
 
 def _heading(q: Quaternion) -> float:
-    """The yaw (rad) of a quaternion."""
+    """Return the yaw (rad) of a quaternion."""
     return 2.0 * math.atan2(q.z, q.w)
 
 

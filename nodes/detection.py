@@ -1,4 +1,4 @@
-"""Filters the noise from a scan and finds obstacles: groups of neighbouring beams."""
+"""Filters the noise from a scan and detects obstacles: groups of neighbouring beams."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import numpy as np
 from bot_console_robot.common.scans import Floats
 
 SAME_THING = 0.35
-"""Neighbouring returns nearer to each other than this (m) belong to one thing."""
+"""Neighbouring returns closer than this (m) belong to the same object."""
 FEWEST = 3
-"""Beams that a thing must fill to be reported."""
+"""Minimum number of beams for an object to be reported."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +25,7 @@ class Detection:
 
 
 def median_of_three(ranges: Floats) -> Floats:
-    """Each range replaced by the median of itself and its neighbours, which removes single stray beams."""
+    """Replace each range by the median of itself and its neighbours, which removes single stray beams."""
     if len(ranges) < 3:
         return ranges
     result: Floats = np.array(ranges)
@@ -35,14 +35,14 @@ def median_of_three(ranges: Floats) -> Floats:
 
 
 def strong(ranges: Floats, intensities: Floats, threshold: int) -> Floats:
-    """The ranges without returns weaker than the threshold (`+inf`: nothing there)."""
+    """Return the ranges without returns weaker than the threshold (`+inf`: no return)."""
     if len(intensities) != len(ranges):
         return ranges
     return np.where(intensities >= threshold, ranges, np.float32(math.inf))
 
 
 def find(ranges: Floats, first: float, increment: float) -> list[Detection]:
-    """Groups of returns, from right to left."""
+    """Return groups of returns, from right to left."""
     index = (np.isfinite(ranges) & (ranges > 0.0)).nonzero()[0]
     if not len(index):
         return []

@@ -1,17 +1,17 @@
-"""Hill climbing on a live robot: change a value by a step, rate it for a while, then continue or turn back. Pure."""
+"""Hill climbing on a live robot: change a value by a step, score it for a period, then continue or turn back. Pure."""
 
 from __future__ import annotations
 
 SMALLEST = 0.25
-"""Of the first step, what is left at least: a place that changes is followed."""
+"""The smallest step as a fraction of the first one: the search never stops, because the optimum may move."""
 FORGETTING = 0.1
-"""Of the difference to the last judgement, how much the memory of the best one takes over in each period."""
+"""How much of the difference to the latest score the remembered best score adopts in each period."""
 
 
 class HillClimber:
     """Searches for the value with the highest score between `low` and `high`, from `value` in steps of `step`.
 
-    A value that proved dangerous narrows the range for good: neither it nor anything beyond is tried again.
+    A value that proved dangerous narrows the range permanently: neither it nor anything beyond it is tried again.
     """
 
     def __init__(self, low: float, high: float, value: float, step: float) -> None:
@@ -25,12 +25,12 @@ class HillClimber:
         self._best_score: float | None = None
 
     def judged(self, score: float) -> float:
-        """Take the score of the current value; returns the value to try next."""
+        """Record the score of the current value; returns the value to try next."""
         if self._best_score is None or score >= self._best_score:
             self.best, self._best_score = self.value, score
             return self._go(self.value)
         if self.value == self.best:
-            # The same value did worse than it once did: the place has changed, and so has what is to be expected.
+            # The same value did worse than before: conditions have changed, and so must the expectation.
             self._best_score = score
             return self._go(self.value)
         self._best_score -= FORGETTING * (self._best_score - score)
@@ -40,7 +40,7 @@ class HillClimber:
         return self.value
 
     def danger(self) -> float:
-        """Take note that the current value was dangerous; returns the value to go back to, a step nearer safety."""
+        """Record that the current value was dangerous; returns the value to go back to, a step towards safety."""
         if self.value > self.low and (self._direction > 0 or self.value >= self.best):
             self.high = max(self.low, self.value - self._step)
             self._direction = -1.0

@@ -8,13 +8,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 REACHED = 0.35
-"""Metres from a waypoint within which it counts as reached."""
+"""Distance in m from a waypoint at which it counts as reached."""
 CRUISE = 0.5
-"""The speed in m/s towards a waypoint when nobody says how fast the way allows."""
+"""The speed in m/s towards a waypoint if no limit is given."""
 DETOUR = 2.0
-"""Seconds for which an obstacle's way round it is kept, before the waypoint is aimed at again."""
+"""Seconds to keep avoiding an obstacle before heading for the waypoint again."""
 CREEP = 0.05
-"""An allowed speed in m/s below which the way is blocked."""
+"""An allowed speed in m/s below which the way counts as blocked."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,14 +27,14 @@ class Gains:
 
 
 class VelocityController:
-    """Ramps the velocity towards the requested one; slowing down is never delayed."""
+    """Ramps the velocity towards the requested one; deceleration is never delayed."""
 
     def __init__(self) -> None:
         self.linear = 0.0
         self.angular = 0.0
 
     def step(self, linear: float, angular: float, dt: float, gains: Gains) -> tuple[float, float]:
-        """The velocity (m/s, rad/s) to command after `dt` s of ramping towards the requested one."""
+        """Return the velocity (m/s, rad/s) to command after `dt` s of ramping towards the requested one."""
         if abs(linear) <= abs(self.linear) and linear * self.linear >= 0.0:
             self.linear = linear
         else:
@@ -45,12 +45,12 @@ class VelocityController:
         return self.linear, self.angular
 
     def reset(self) -> None:
-        """Forget the velocity, since somebody else has stopped the robot."""
+        """Reset the velocity to zero, because something else has stopped the robot."""
         self.linear = self.angular = 0.0
 
 
 class WaypointFollower:
-    """Steers to one waypoint after another; avoiding an obstacle takes precedence."""
+    """Drives to one waypoint after another; obstacle avoidance takes precedence."""
 
     def __init__(self) -> None:
         self._points: deque[tuple[float, float]] = deque()
@@ -69,7 +69,7 @@ class WaypointFollower:
         return self._points[0] if self._points else None
 
     def arrived(self, x: float, y: float) -> bool:
-        """Whether the target is reached from here; the next one becomes the target then."""
+        """Whether the target has been reached from here; if so, the next waypoint becomes the target."""
         if not self._points or math.dist((x, y), self._points[0]) > REACHED:
             return False
         point = self._points.popleft()
@@ -84,9 +84,9 @@ class WaypointFollower:
         dt: float,
         gains: Gains,
     ) -> tuple[float, float]:
-        """The velocity towards the target from x, y (m), heading (rad).
+        """Return the velocity towards the target from x, y (m), heading (rad).
 
-        `allowed` is what the navigator would do: no faster than it, and where it is blocked its way is taken.
+        `allowed` is the navigator's velocity: it limits the speed, and replaces the result where the way is blocked.
         """
         self._detour = max(0.0, self._detour - dt)
         if allowed and allowed[0] < CREEP:

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Node `bt_navigator`: Nav2's actions for our robot, under the names that programs use.
+"""Node `bt_navigator`: Nav2's actions for the built-in robot, under the names that programs use.
 
 `navigate_to_pose`, `navigate_through_poses`, `follow_waypoints`, `spin`, `backup`, `drive_on_heading`, `wait`,
-`compute_path_to_pose`, and `goal_pose` for a goal without an answer. It plans over the map and drives `cmd_vel`.
+`compute_path_to_pose`, and `goal_pose` for a goal without feedback. It plans on the map and publishes `cmd_vel`.
 """
 
 from __future__ import annotations
@@ -35,13 +35,13 @@ if TYPE_CHECKING:
 
 ACTIONS: Any = nav2_msgs.action  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- the same
 MESSAGES: Any = nav2_msgs.msg  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- the same
-"""Made when they are imported, so a type checker does not know them."""
+"""Generated at import time, so a type checker does not know them."""
 PERIOD = 0.05
-"""Seconds between two control steps."""
+"""Interval between control steps, in s."""
 NO_VALID_PATH = 208
 """Error code of Nav2."""
 STANDS_FOR = ("bt_navigator", "amcl")
-"""Nodes of Nav2 for whose `get_state` programs wait before they begin."""
+"""Nav2 nodes whose `get_state` service programs wait for before they start."""
 
 
 class Navigator(Node):
@@ -49,12 +49,16 @@ class Navigator(Node):
 
     def __init__(self) -> None:
         super().__init__("bt_navigator", enable_logger_service=True)
-        self.declare_parameter("max_speed", 0.4, number("Fastest on a way (m/s)", 0.05, 3.0))
-        self.declare_parameter("max_turn_rate", 1.0, number("Fastest turn (rad/s)", 0.1, 4.0))
-        self.declare_parameter("xy_goal_tolerance", 0.15, number("How near a goal counts as reached (m)", 0.02, 1.0))
-        self.declare_parameter("yaw_goal_tolerance", 0.1, number("How near its heading (rad)", 0.02, math.pi))
-        self.declare_parameter("robot_radius", 0.2, number("Radius of the robot, for ways (m)", 0.05, 1.0))
-        self.declare_parameter("enable_stamped_cmd_vel", False, fixed("Publish TwistStamped on cmd_vel, not Twist"))
+        self.declare_parameter("max_speed", 0.4, number("Maximum speed on a path (m/s)", 0.05, 3.0))
+        self.declare_parameter("max_turn_rate", 1.0, number("Maximum turn rate (rad/s)", 0.1, 4.0))
+        self.declare_parameter(
+            "xy_goal_tolerance", 0.15, number("Distance to a goal at which it counts as reached (m)", 0.02, 1.0)
+        )
+        self.declare_parameter("yaw_goal_tolerance", 0.1, number("Heading tolerance at a goal (rad)", 0.02, math.pi))
+        self.declare_parameter("robot_radius", 0.2, number("Radius of the robot, used for planning (m)", 0.05, 1.0))
+        self.declare_parameter(
+            "enable_stamped_cmd_vel", False, fixed("Publish TwistStamped on cmd_vel instead of Twist")
+        )
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._stamped = bool(self.get_parameter("enable_stamped_cmd_vel").value)
         self._commands = self.create_publisher(TwistStamped if self._stamped else Twist, "cmd_vel", 10)
@@ -120,11 +124,11 @@ class Navigator(Node):
         return self._current
 
     def _plan(self, poses: Sequence[Pose]) -> tuple[list[Point], float]:
-        """The path through all poses, and the heading of the last one; raises `NoWay`."""
+        """Return the path through all poses, and the heading of the last one; raises `NoWay`."""
         if not poses:
-            raise NoWay("no pose is given")
+            raise NoWay("no pose was given")
         if self._known.pose is None:
-            raise NoWay("nobody has told where the robot is: nothing on ground_truth or odom")
+            raise NoWay("the robot's position is unknown: nothing received on ground_truth or odom")
         here, points = self._known.pose[:2], list[Point]()
         for pose in poses:
             points += self._known.way(points[-1] if points else here, (pose.position.x, pose.position.y))
@@ -287,7 +291,7 @@ def _active(_: Any, response: GetState.Response) -> GetState.Response:
 
 
 def _left_of(poses: Sequence[Pose], task: Way, pose: tuple[float, float, float] | None) -> int:
-    """How many poses of a path are still ahead: those no farther from its end than the robot."""
+    """Return how many poses of a path are still ahead: those no farther from its end than the robot."""
     ahead, count = task.left(pose or (0.0, 0.0, 0.0)), 0
     for before, after in zip(poses[::-1], [poses[-1], *poses[::-1]], strict=False):
         a, b = before.position, after.position

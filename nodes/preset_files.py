@@ -19,23 +19,23 @@ _NAME = re.compile(r"\w[\w .+-]*")
 
 
 class PresetError(Exception):
-    """A preset cannot be read or written; the text says why and how to fix it."""
+    """A preset cannot be read or written; the message says why and how to fix it."""
 
 
 def default_folder() -> Path:
-    """The folder of the user's profiles on Linux, which the console shows and saves to."""
+    """Return the folder of the user's profiles on Linux, which the console shows and saves to."""
     given = os.environ.get("BOT_CONSOLE_USER_DIR")
     home = os.environ.get("XDG_CONFIG_HOME") or os.path.expanduser("~/.config")
     return (Path(given) / "config" if given else Path(home) / "bot-console") / "profiles"
 
 
 def names(folder: Path) -> list[str]:
-    """The presets in a folder."""
+    """Return the names of the presets in a folder."""
     return sorted(path.stem for path in folder.glob("*.yaml"))
 
 
 def title(folder: Path, name: str) -> str:
-    """The first comment line of a preset; empty if there is none."""
+    """Return the first comment line of a preset, or an empty text if there is none."""
     try:
         first = _path(folder, name).read_text(encoding="utf-8").partition("\n")[0]
     except (OSError, UnicodeDecodeError):
@@ -44,7 +44,7 @@ def title(folder: Path, name: str) -> str:
 
 
 def read(folder: Path, name: str) -> Values:
-    """The values of a preset, with dotted names for nested ones; raises `PresetError`."""
+    """Return the values of a preset, with dotted names for nested ones; raises `PresetError`."""
     path = _path(folder, name)
     found: Values = {}
     try:
@@ -89,7 +89,7 @@ def delete(folder: Path, name: str) -> None:
 
 def _path(folder: Path, name: str) -> Path:
     if not _NAME.fullmatch(name):
-        raise PresetError(f"'{name}' is no name for a preset: letters, digits, blanks, . + - _")
+        raise PresetError(f"'{name}' is not a valid preset name; use letters, digits, blanks and . + - _")
     return folder / f"{name}.yaml"
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Node `presets`: lists, saves, applies and deletes sets of parameters of other nodes, for any client.
 
-Services: `~/list` (`std_srvs/srv/Trigger`; a line for each preset), and `~/apply`, `~/save`, `~/delete`
-(`diagnostic_msgs/srv/AddDiagnostics`, whose one text, `load_namespace`, is the name of the preset).
+Services: `~/list` (`std_srvs/srv/Trigger`; one line per preset), and `~/apply`, `~/save`, `~/delete`
+(`diagnostic_msgs/srv/AddDiagnostics`, whose only field, `load_namespace`, is the name of the preset).
 """
 
 from __future__ import annotations
@@ -25,22 +25,26 @@ from rclpy.task import Future
 from std_srvs.srv import Trigger
 
 LEFT_OUT = ("use_sim_time", "start_type_description_service")
-"""What every node has and no preset is about."""
+"""Parameters that every node has and no preset contains."""
 LOOK, LOOKS = 0.05, 40
-"""Seconds between two looks whether a new client has found its services, and how many: on a network that takes time."""
+"""Interval in s at which a new client checks for its services, and number of checks: discovery takes time on a
+network.
+"""
 
 
 class Presets(Node):
-    """Applies presets all or nothing: if a node refuses, those that had already accepted are set back."""
+    """Applies presets all or nothing: if a node refuses, changes that other nodes have already accepted are
+    reverted.
+    """
 
     def __init__(self) -> None:
         super().__init__("presets", enable_logger_service=True)
-        self.declare_parameter(
-            "folder", str(preset_files.default_folder()), plain("Folder with a file for each preset")
-        )
+        self.declare_parameter("folder", str(preset_files.default_folder()), plain("Folder with one file per preset"))
         self.declare_parameter(
             "nodes",
-            descriptor=ParameterDescriptor(description="Nodes that save asks; empty: all that have parameters"),
+            descriptor=ParameterDescriptor(
+                description="Nodes whose parameters are saved; empty: all nodes that have parameters"
+            ),
             value=[""],
         )
         self._group = ReentrantCallbackGroup()
@@ -82,7 +86,7 @@ class Presets(Node):
             )
             if reason:
                 stuck = [each for each in reversed(done) if await self._set(each, before[each])]
-                told = f"; {', '.join(stuck)} could not be put back" if stuck else ""
+                told = f"; {', '.join(stuck)} could not be restored" if stuck else ""
                 raise PresetError(f"nothing was set: {node} refused: {reason}{told}")
             done.append(node)
         return sum(map(len, wanted.values()))
@@ -113,7 +117,7 @@ class Presets(Node):
         return response
 
     def _nodes(self) -> list[str]:
-        """The nodes to query: the named ones, else all whose parameters can be set."""
+        """Return the nodes to query: the configured ones, else all whose parameters can be set."""
         chosen = [str(each) for each in self.get_parameter("nodes").value or () if each]
         if chosen:
             return [f"/{each.lstrip('/')}" for each in chosen]
@@ -123,7 +127,7 @@ class Presets(Node):
         return sorted({each for each in known if f"{each}/set_parameters" in offered and each != own})
 
     async def _client(self, node: str) -> AsyncParameterClient:
-        """A client of a node's services, once it has found them; raises `PresetError`."""
+        """Return a client of a node's services once it has discovered them; raises `PresetError`."""
         if node not in self._clients:
             self._clients[node] = AsyncParameterClient(self, node, callback_group=self._group)
         client = self._clients[node]
@@ -133,7 +137,7 @@ class Presets(Node):
             if not self.count_services(f"{node}/set_parameters"):
                 break
             await self._moment()
-        raise PresetError(f"{node} does not run, or offers no parameter services")
+        raise PresetError(f"{node} is not running, or has no parameter services")
 
     async def _moment(self) -> None:
         """Let other callbacks run before the next check."""
@@ -148,7 +152,7 @@ class Presets(Node):
         self.destroy_timer(timer)
 
     async def _values(self, node: str, names: list[str]) -> dict[str, Any]:
-        """The values of some parameters of a node; None for those it does not have."""
+        """Return the values of some parameters of a node; None for those it does not have."""
         answer = await (await self._client(node)).get_parameters(names)
         found = [parameter_value_to_python(each) for each in answer.values] if answer else []
         return dict(zip(names, found or [None] * len(names), strict=False))
@@ -160,7 +164,7 @@ class Presets(Node):
         return {name: list(value) if _is_array(value) else value for name, value in values.items() if value is not None}
 
     async def _set(self, node: str, values: Mapping[str, Any]) -> str:
-        """Set values of one node together; returns why it refused, and an empty text when it did not."""
+        """Set values of one node together; returns its reason for refusing them, or an empty text if it accepted."""
         parameters = [Parameter(name, value=value) for name, value in values.items()]
         answer = await (await self._client(node)).set_parameters_atomically(parameters)
         if answer and answer.result.successful:
@@ -173,7 +177,7 @@ def _is_array(value: Any) -> bool:
 
 
 def _fitting(value: Any, now: Any) -> Any:
-    """A value converted to the parameter's type: `2` in a file is a double if one is declared."""
+    """Convert a value to the parameter's type: `2` in a file is a double if one is declared."""
     return float(value) if isinstance(now, float) and type(value) is int else value
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `robot_navigator`: drives where there is room; changes of its six parameters take effect at once."""
+"""Node `robot_navigator`: drives towards free space; changes of its six parameters take effect at once."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from rclpy.parameter import Parameter
 from sensor_msgs.msg import LaserScan
 
 TURNING_AGAIN = 1.0
-"""Seconds for which a blocked way is not reported again."""
+"""Minimum interval, in s, between two reports of a blocked way."""
 
 
 class RobotNavigator(Node):
-    """Turns scans into velocity commands."""
+    """Converts scans to velocity commands."""
 
     def __init__(self) -> None:
         super().__init__("robot_navigator", enable_logger_service=True)

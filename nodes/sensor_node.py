@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `sensor_handler`: publishes the newest scan, filtered, and the obstacles in it, at its own rate."""
+"""Node `sensor_handler`: publishes the filtered scan and the obstacles detected in it, at its own rate."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from sensor_msgs.msg import LaserScan
 
 
 class SensorHandler(Node):
-    """Publishes `scan_filtered` and `detections` if anybody subscribes."""
+    """Publishes `scan_filtered` and `detections` while they have subscribers."""
 
     def __init__(self) -> None:
         super().__init__("sensor_handler", enable_logger_service=True)
         self.declare_parameter("update_rate", 10.0, number("Rate of the filtered scan (Hz)", 0.5, 50.0))
-        self.declare_parameter("filter_enabled", True, plain("Take out single stray beams"))
+        self.declare_parameter("filter_enabled", True, plain("Remove stray beams"))
         self.declare_parameter(
-            "detection_threshold", 100, whole("Intensity from which a return counts as a thing (0-255)", 0, 255)
+            "detection_threshold", 100, whole("Intensity from which a return counts as an obstacle (0-255)", 0, 255)
         )
         self.add_post_set_parameters_callback(self._apply)
         self._newest: LaserScan | None = None
@@ -56,11 +56,11 @@ class SensorHandler(Node):
         self._count += 1
 
     def _look(self) -> Health:
-        """Count the scans since the last call, one second ago."""
+        """Report the number of scans in the last second."""
         count, self._count = self._count, 0
         beams, things = self._beams
         values = {"scans per second": count, "beams": beams, "things seen": things, "filtered": self._filter}
-        return (OK, f"{count} scans per second", values) if count else (ERROR, "no scan comes", values)
+        return (OK, f"{count} scans per second", values) if count else (ERROR, "no scans received", values)
 
     def _process(self) -> None:
         scan, self._newest = self._newest, None

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `simulator`: a robot in a world, in constant 10 ms steps on steady time, with services to hold and reset it."""
+"""Node `simulator`: a robot in a world, in constant 10 ms steps on steady time, with services to pause and reset it."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ from std_srvs.srv import SetBool, Trigger
 from visualization_msgs.msg import MarkerArray
 
 CATCH_UP = 25
-"""Steps made at once at most; what is missing beyond them is dropped, so that a stall does not become a storm."""
+"""Maximum number of steps made at once; any further lag is dropped, so that a stall does not cause a burst."""
 QUIET_NS = 60_000_000_000
-"""Without a lag for so long, the next one is told again."""
+"""After this long without a lag, the next one is reported again."""
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Simulator(Node):
-    """Takes `cmd_vel` and `initialpose`; publishes what a robot would, the truth beside it, and `/clock`.
+    """Takes `cmd_vel` and `initialpose`; publishes what a robot would, plus the ground truth and `/clock`.
 
     While its emergency stop is locked it obeys nobody, whoever publishes on `cmd_vel`.
     """
@@ -97,12 +97,12 @@ class Simulator(Node):
         self._routes = self.create_publisher(Path, "route", LATCHED)
 
     def _make(self) -> Simulation:
-        """A run from the start with the present parameters; raises `WorldError`."""
+        """Return a new run with the current parameters; raises `WorldError`."""
         world = find_world(str(self.get_parameter("world").value))
         return Simulation(world, int(self.get_parameter("seed").value), settings(self))
 
     def _begin(self) -> None:
-        """Tell the graph about a run that begins."""
+        """Announce a new run on the graph."""
         world, stamp = self._simulation.world, messages.time_of(0)
         self._bumped = False
         self._restart_time()
@@ -219,7 +219,7 @@ class Simulator(Node):
         self._done += due
 
     def _look(self) -> Health:
-        """Whether the simulation keeps up with real time, since the last look."""
+        """Report whether the simulation has kept up with real time since the last call."""
         left_out, self._left_out = self._left_out, 0.0
         simulation = self._simulation
         values: dict[str, object] = {
@@ -234,7 +234,7 @@ class Simulator(Node):
         return (WARN, f"{left_out:.2f} s left out", values) if left_out else (OK, "in real time", values)
 
     def _tell_lag(self, missing: float) -> None:
-        """Say so once; again only when all has been well for a while."""
+        """Report a lag once; report again only after a while without lag."""
         self._left_out += missing
         now = self._steady.now().nanoseconds
         if now - self._lagged > QUIET_NS:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `telemetry_publisher`: figures worth plotting, at a rate of its own."""
+"""Node `telemetry_publisher`: figures worth plotting, published at its own rate."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class TelemetryPublisher(Node):
         self._trip.update(stamp.sec + stamp.nanosec * 1e-9, message.twist.twist.linear.x)
 
     def _on_scan(self, scan: LaserScan) -> None:
-        self._scan = scan  # looked at when it is told: scans come ten times as often
+        self._scan = scan  # Evaluated only when published: scans arrive ten times as often.
 
     def _on_collisions(self, message: UInt32) -> None:
         self._collisions = message.data

@@ -1,17 +1,17 @@
-"""A trip computer: speed, way and stops from the speeds that odometry reports."""
+"""A trip computer: speed, distance and stops from the speeds reported by odometry."""
 
 from __future__ import annotations
 
 MOVING = 0.05
-"""A speed in m/s from which the robot drives."""
+"""A speed in m/s above which the robot counts as driving."""
 STANDING = 0.02
-"""A speed in m/s below which it stands."""
+"""A speed in m/s below which it stands still."""
 GAP = 1.0
-"""Seconds without odometry that are not counted as way."""
+"""Gaps in odometry longer than this, in s, do not count as distance."""
 
 
 class Trip:
-    """Sums over speeds with their times; starts anew when time runs backwards, as it does when a world is reset."""
+    """Accumulates speeds over time; restarts when time runs backwards, as it does when a world is reset."""
 
     def __init__(self) -> None:
         self.speed = 0.0
@@ -21,7 +21,7 @@ class Trip:
         self._driving = False
 
     def update(self, time: float, speed: float) -> None:
-        """Take a speed in m/s at a time in s."""
+        """Record a speed in m/s at a time in s."""
         if self._time is not None and time < self._time:
             self.distance, self.stops, self._driving = 0.0, 0, False
         elif self._time is not None and time - self._time <= GAP:

@@ -1,4 +1,4 @@
-"""A turtle that follows another one by its frame; drive the first with `turtle_teleop_key`."""
+"""A turtle that follows the frame of another one; drive the first with `turtle_teleop_key`."""
 
 from launch.actions import DeclareLaunchArgument
 from launch.substitutions import LaunchConfiguration

@@ -1,4 +1,4 @@
-"""Two fields with turtles, each in a namespace of its own."""
+"""Two turtlesim windows, each in its own namespace."""
 
 from launch_ros.actions import Node
 

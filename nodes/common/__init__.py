@@ -1,1 +1,1 @@
-"""What the nodes of this package share: parameters, scans, diagnostics, and startup and shutdown."""
+"""Code shared by the nodes of this package: parameters, scans, diagnostics, startup and shutdown."""

@@ -1,8 +1,7 @@
-"""A service that checks values without setting them, `~/check_parameters`, by the node's own rules.
+"""A service that checks values without setting them, `~/check_parameters`, using the node's own validation.
 
-ROS 2 has no service that asks a node's callback about values; this one answers as `set_parameters_atomically` would,
-and
-changes nothing.
+ROS 2 has no service that asks a node's callback about values. This one answers as `set_parameters_atomically` would,
+and changes nothing.
 """
 
 from __future__ import annotations
@@ -19,9 +18,9 @@ SERVICE = "check_parameters"
 
 
 def offer_check(node: Node, check: Callable[[list[Parameter]], SetParametersResult]) -> None:
-    """Offer the verdict of `check`, the node's on-set callback, which must not change anything itself.
+    """Offer the result of `check`, the node's on-set callback, which must not change anything itself.
 
-    Ranges are not checked: they are in the descriptors, which anybody can read.
+    Ranges are not checked, because clients can read them from the descriptors.
     """
 
     def answer(
@@ -29,12 +28,12 @@ def offer_check(node: Node, check: Callable[[list[Parameter]], SetParametersResu
     ) -> SetParametersAtomically.Response:
         asked = [Parameter.from_parameter_msg(each) for each in request.parameters]
         strange = next((each for each in asked if not _fits(node, each)), None)
-        response.result = refused(f"{strange.name} has another type, or is unknown") if strange else check(asked)
+        response.result = refused(f"{strange.name} is undeclared or has another type") if strange else check(asked)
         return response
 
     node.create_service(SetParametersAtomically, f"~/{SERVICE}", answer)
 
 
 def _fits(node: Node, asked: Parameter) -> bool:
-    """Whether a callback that relies on the declared types can be given the value."""
+    """Whether the value can be passed to a callback that relies on the declared types."""
     return node.has_parameter(asked.name) and node.get_parameter(asked.name).type_ == asked.type_

@@ -1,4 +1,4 @@
-"""Skips messages that nobody receives: most of a robot's topics are rarely subscribed to."""
+"""Skips messages that have no subscriber: most of a robot's topics are rarely subscribed to."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from rclpy.publisher import Publisher
 
 
 def wanted(publisher: Publisher) -> bool:
-    """Whether anybody receives what is published there now.
+    """Whether the publisher currently has a receiver.
 
-    A middleware with listeners that are not subscriptions, such as one that records the last minutes, says so itself.
+    A middleware may have receivers that are not subscriptions, such as a recorder of the last minutes; it reports those
+    itself.
     """
     is_heard: Callable[[], bool] | None = getattr(publisher, "_is_heard", None)
     return publisher.get_subscription_count() > 0 if is_heard is None else is_heard()

@@ -13,7 +13,7 @@ ERROR = DiagnosticStatus.ERROR
 
 
 def status(name: str, level: bytes, message: str, values: Mapping[str, object], stamp: Time) -> DiagnosticArray:
-    """An array with one status; numbers have up to four decimals."""
+    """Return an array with one status; numbers have up to four decimals."""
     pairs = [KeyValue(key=key, value=_text(value)) for key, value in values.items()]
     array = DiagnosticArray()
     array.header.stamp = stamp

@@ -1,4 +1,4 @@
-"""A node's own health, once a second on `diagnostics`, in the manner of `diagnostic_updater`."""
+"""A node's own health, published once a second on `diagnostics` in the manner of `diagnostic_updater`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ Health = tuple[bytes, str, Mapping[str, object]]
 
 
 class HealthReport:
-    """Publishes `<node>: <part>` with what `look` returns, to subscribers; `look` is called every second anyway."""
+    """Publishes `<node>: <part>` with the result of `look` while there are subscribers; `look` is called every second
+    anyway.
+    """
 
     def __init__(self, node: Node, part: str, look: Callable[[], Health]) -> None:
         self._node = node
@@ -32,5 +34,5 @@ class HealthReport:
 
     @property
     def wanted(self) -> bool:
-        """Whether anybody receives it."""
+        """Whether the status has a receiver."""
         return wanted(self._publisher)

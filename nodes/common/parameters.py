@@ -1,6 +1,7 @@
-"""Parameter descriptors with ranges, as every node of this package declares them.
+"""Parameter descriptors with ranges, as declared by every node of this package.
 
-A step of 0 makes a range continuous; a step would refuse values instead of rounding them. Descriptions end in the unit.
+A step of 0 makes a range continuous; any other step would refuse values instead of rounding them. Descriptions end with
+the unit.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ def fixed(description: str) -> ParameterDescriptor:
 
 
 def proposed(node: Node, changes: Iterable[Parameter], *names: str) -> list[float]:
-    """The values that some numeric parameters would have after the changes, for rules between parameters."""
+    """Return the values that some numeric parameters would have after the changes, for rules that span parameters."""
     after = {each.name: each.value for each in changes}
     return [float(after[name] if name in after else node.get_parameter(name).value) for name in names]
 

@@ -1,4 +1,4 @@
-"""The clock by which to judge a robot that may be simulated: one that lags behind real time is slow, not broken."""
+"""The clock for judging a robot that may be simulated: a simulation that lags behind real time is slow, not broken."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from rosgraph_msgs.msg import Clock as ClockMessage
 
 TOPIC = "/clock"
 FAR_NS = 5_000_000_000
-"""A clock so far from a scan's stamp is another one's."""
+"""A clock that differs from a scan's stamp by more than this is not the robot's."""
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 
 class RobotTime:
-    """Steady time, until a message is late and a simulator publishes the time of its world; that time from then on.
+    """Steady time, until a message is late while a simulator publishes its time; from then on, the simulator's time.
 
-    It costs nothing before it is asked for, and never goes back, even when a simulation restarts or its clock ends.
+    It costs nothing before it is needed, and never goes backwards, even if a simulation restarts or its clock ends.
     """
 
     def __init__(self, node: Node, steady: Clock) -> None:
@@ -36,9 +36,10 @@ class RobotTime:
         return self._anchor + self._simulated - self._origin
 
     def follow(self, stamp: int) -> None:
-        """Go by the simulation's time from now on, if there is a simulation and what the robot sends is stamped in it.
+        """Switch to simulated time, if there is a simulation and the robot's messages are stamped with its time.
 
-        `stamp` (ns) is that of the newest scan: a clock far from it, as of a bag that is played, is not the robot's.
+        `stamp` (ns) is that of the newest scan. A clock far from it, such as that of a bag being played, is not the
+        robot's.
         """
         self._stamp = stamp
         if self._subscription is None:
@@ -48,12 +49,13 @@ class RobotTime:
             )
 
     def _on_matched(self, matched: QoSSubscriptionMatchedInfo) -> None:
-        # To ask the graph for clocks would make this process follow all of it, when the machine is too busy already.
+        # Querying the graph for clocks would make this process track the whole graph when the machine is already too
+        # busy.
         if matched.current_count == 0:
             self._leave()
 
     def heard(self, stamp: int) -> None:
-        """Take note of the stamp (ns) of a scan, to compare a clock with."""
+        """Record the stamp (ns) of a scan for comparison with a clock."""
         self._stamp = stamp
 
     def _leave(self) -> None:

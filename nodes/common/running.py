@@ -1,4 +1,4 @@
-"""Runs a node of this package, from startup to a clean shutdown."""
+"""Runs a node of this package from startup to a clean shutdown."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from rclpy.node import Node
 
 
 class CannotStart(Exception):
-    """A node cannot work with what it was given; the text says why and how to fix it."""
+    """A node cannot work with its configuration; the message says why and how to fix it."""
 
 
 def run(make_node: Callable[[], Node], args: list[str] | None) -> None:
     """Spin a node until it is interrupted or its context is shut down.
 
-    A start value that is refused, or `CannotStart`, becomes one fatal log line and exit code 1.
+    A refused initial value, or `CannotStart`, becomes one fatal log line and exit code 1.
     """
     _interrupt_once()
-    with contextlib.suppress(KeyboardInterrupt):  # also where it comes while an error is looked at
+    with contextlib.suppress(KeyboardInterrupt):  # also if it arrives while an error is being handled
         _spin(make_node, args)
 
 
@@ -42,7 +42,8 @@ def _spin(make_node: Callable[[], Node], args: list[str] | None) -> None:
     except Exception:
         if rclpy.ok():
             raise
-        # A signal has shut the context down while a callback was about to publish: that is the end, and no fault.
+        # If a signal shuts the context down while a callback is about to publish, that is a normal end and not an
+        # error.
     finally:
         if node is not None:
             node.destroy_node()
@@ -50,7 +51,9 @@ def _spin(make_node: Callable[[], Node], args: list[str] | None) -> None:
 
 
 def _interrupt_once() -> None:
-    """Raise KeyboardInterrupt for the first Ctrl-C alone: more of them must not break into the end with tracebacks."""
+    """Raise KeyboardInterrupt only for the first Ctrl-C, so that further ones do not interrupt the shutdown with
+    tracebacks.
+    """
     raised = False
 
     def interrupt(number: int, frame: object) -> None:
@@ -59,5 +62,5 @@ def _interrupt_once() -> None:
             raised = True
             raise KeyboardInterrupt
 
-    with contextlib.suppress(ValueError):  # in another than the main thread
+    with contextlib.suppress(ValueError):  # not in the main thread
         signal.signal(signal.SIGINT, interrupt)

@@ -12,21 +12,23 @@ from sensor_msgs.msg import LaserScan
 
 Floats: TypeAlias = "npt.NDArray[np.float32]"
 SCANS = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
-"""How scans are listened to: drivers of real LIDARs offer best effort, and none of that comes to who asks for more."""
+"""QoS for subscribing to scans: drivers of real LIDARs offer best effort, which a reliable subscription never
+receives.
+"""
 
 
 def ranges_of(scan: LaserScan) -> Floats:
-    """The ranges in m; a view, which must not be modified."""
+    """Return the ranges in m as a view, which must not be modified."""
     return np.frombuffer(memoryview(scan.ranges), np.float32)
 
 
 def intensities_of(scan: LaserScan) -> Floats:
-    """The intensities, empty if the sensor provides none; a view, which must not be modified."""
+    """Return the intensities, empty if the sensor provides none, as a view, which must not be modified."""
     return np.frombuffer(memoryview(scan.intensities), np.float32)
 
 
 def nearest_return(scan: LaserScan) -> float:
-    """The distance in m to the nearest return; the sensor's maximum range if there is none."""
+    """Return the distance in m to the nearest return, or the sensor's maximum range if there is none."""
     ranges = ranges_of(scan)
     valid = ranges[(ranges > scan.range_min) & (ranges <= scan.range_max)]
     return float(valid.min()) if len(valid) else float(scan.range_max)

@@ -1,8 +1,10 @@
-"""The exceptions that reading YAML may raise."""
+"""The exceptions that reading YAML can raise."""
 
 from __future__ import annotations
 
 import yaml
 
 UNREADABLE = (yaml.YAMLError, ValueError, TypeError, AttributeError, LookupError, OverflowError, RecursionError)
-"""Besides its own errors those of the values that tags such as `!!timestamp` make, and of a text that holds itself."""
+"""Besides YAML's own errors, those raised for values of tags such as `!!timestamp` and for a document that contains
+itself.
+"""

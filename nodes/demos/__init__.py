@@ -1,1 +1,3 @@
-"""The nodes of ROS 2's tutorials, one folder per package; the importer serves this one as `bot_console_demos`."""
+"""The nodes of the ROS 2 tutorials, one folder per package; the importer provides this package as
+`bot_console_demos`.
+"""

@@ -1,4 +1,4 @@
-"""Velocities to follow a path, turn in place, or drive a distance."""
+"""Velocities for following a path, turning in place, and driving a distance."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ Velocity = tuple[float, float]
 """m/s, rad/s."""
 
 WAY_POINT = 0.25
-"""Metres from a corner of a way within which the next one is aimed at."""
+"""Distance in m from a corner of the path at which to head for the next one."""
 TURN_FIRST = 0.6
-"""Angle (rad) to the next point from which on the robot turns in place."""
+"""Angle (rad) to the next point above which the robot turns in place first."""
 GAIN = 2.0
-"""Turn rate for each rad of error (1/s)."""
+"""Turn rate per rad of error (1/s)."""
 
 
 @dataclass(frozen=True)
@@ -33,12 +33,12 @@ class Limits:
 
 
 def off(wanted: float, is_now: float) -> float:
-    """The angle (rad) from one heading to another, the shorter way round."""
+    """Return the angle (rad) from one heading to another, the shorter way round."""
     return math.remainder(wanted - is_now, 2.0 * math.pi)
 
 
 def turning(error: float, limits: Limits) -> Velocity:
-    """How to turn in place by an angle (rad)."""
+    """Return the velocity for turning in place by an angle (rad)."""
     rate = max(-limits.turn_rate, min(limits.turn_rate, GAIN * error))
     return 0.0, math.copysign(max(abs(rate), 0.15), error)
 
@@ -57,7 +57,7 @@ class WayFollower:
         return math.fsum(math.dist(a, b) for a, b in itertools.pairwise(places))
 
     def velocity(self, pose: Pose, ahead: float) -> Velocity | None:
-        """The velocity at a pose with so much room ahead (m); None when the goal is reached."""
+        """Return the velocity at a pose with this much room ahead (m); None when the goal is reached."""
         limits = self._limits
         while len(self.points) > 1 and math.dist(pose[:2], self.points[0]) < WAY_POINT:
             self.points.pop(0)

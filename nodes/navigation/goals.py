@@ -1,4 +1,4 @@
-"""An action goal, shared between its server, which waits for it, and the control loop, which executes it."""
+"""An action goal shared between its server, which awaits it, and the control loop, which executes it."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from rclpy.action.server import ServerGoalHandle
 
 FEEDBACK = 0.2
-"""Seconds between two messages of feedback."""
+"""Interval between feedback messages, in s."""
 PREEMPTED = 1
-"""Error code of a goal that another one took the place of."""
+"""Error code of a goal that was replaced by another one."""
 
 
 class Goal:
@@ -36,21 +36,21 @@ class Goal:
         return self._handle is not None and self._handle.is_cancel_requested
 
     def age(self, now: float) -> float:
-        """Seconds since it began."""
+        """Return the seconds since the goal started."""
         return now - self._began
 
     def duration(self, now: float) -> Duration:
-        """The same as a message."""
+        """Return the age as a message."""
         seconds, rest = divmod(int(max(0.0, self.age(now)) * 1e9), 1_000_000_000)
         return Duration(sec=seconds, nanosec=rest)
 
     def finish(self) -> None:
-        """Wake whoever waits for it."""
+        """Wake the coroutine that awaits the goal."""
         if not self.done.done():
             self.done.set_result(PREEMPTED if self.preempted else self.task.error_code)
 
     def settle(self) -> None:
-        """Report the outcome to the action."""
+        """Report the outcome to the action server."""
         if self._handle is None:
             return
         if self.cancelled and not self.preempted:
@@ -67,7 +67,7 @@ class Goal:
 
 
 async def run_goal(node: Node, goal: Goal, fill: Callable[[], None], message: Any) -> int:
-    """Wait for a goal, publishing feedback meanwhile; returns its error code. `fill` completes the feedback message."""
+    """Await a goal, publishing feedback meanwhile; returns its error code. `fill` completes the feedback message."""
 
     def tell() -> None:
         fill()

@@ -11,11 +11,11 @@ import numpy as np
 import numpy.typing as npt
 
 OCCUPIED = 50
-"""Percent from which a cell is taken; unknown cells, -1, are as well."""
+"""Occupancy in percent from which a cell is blocked; unknown cells (-1) are blocked too."""
 COARSE = 0.1
-"""Metres of a cell that ways are looked for on."""
+"""Cell size in m of the grid used for planning."""
 SHY = 0.3
-"""Metres beyond the clearance within which a way costs more."""
+"""Distance in m beyond the clearance within which a path costs more."""
 NEIGHBOURS = ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1))
 
 Point = tuple[float, float]
@@ -23,12 +23,12 @@ Cell = tuple[int, int]
 
 
 class NoWay(Exception):
-    """There is no path; the text says why."""
+    """There is no path; the message says why."""
 
 
 @dataclass(frozen=True)
 class Grid:
-    """An occupancy grid: rows from the lower left, the size of a cell and the position of its corner (m)."""
+    """An occupancy grid: rows from the lower left, the cell size and the position of its corner (m)."""
 
     cells: npt.NDArray[np.int8]
     resolution: float
@@ -47,13 +47,13 @@ class Planner:
         self._cost: npt.NDArray[np.float64] = np.where(near, 3.0, 1.0)
 
     def way(self, start: Point, goal: Point) -> list[Point]:
-        """The points (m) from the start, which is left out, to the goal; raises `NoWay`."""
+        """Return the points (m) of a path to the goal, without the start; raises `NoWay`."""
         if not all(map(math.isfinite, (*start, *goal))):
-            raise NoWay("a place is not a finite number")
+            raise NoWay("a position is not a finite number")
         first, last = self._free_near(start, "the robot"), self._free_near(goal, "the goal")
         cells = self._search(first, last)
         if cells is None:
-            raise NoWay(f"walls are all around x = {goal[0]:.2f} m, y = {goal[1]:.2f} m")
+            raise NoWay(f"x = {goal[0]:.2f} m, y = {goal[1]:.2f} m is enclosed by walls")
         places = [self._place(each) for each in self._straightened(cells)][1:]
         return [*places[:-1], goal] if self._cell(goal) == last else places
 
@@ -70,17 +70,17 @@ class Planner:
         return 0 <= cell[0] < rows and 0 <= cell[1] < columns and not self._blocked[cell]
 
     def _free_near(self, point: Point, what: str) -> Cell:
-        """The free cell nearest to a point, within half a metre: a robot may be too close to a wall."""
+        """Return the free cell nearest to a point, within half a metre: a robot may be too close to a wall."""
         row, column = self._cell(point)
         reach = math.ceil(0.5 / self._step)
         around = [(row + r, column + c) for r in range(-reach, reach + 1) for c in range(-reach, reach + 1)]
         free = [each for each in around if self._free(each)]
         if not free:
-            raise NoWay(f"{what} is in a wall or outside: x = {point[0]:.2f} m, y = {point[1]:.2f} m")
+            raise NoWay(f"{what} is inside a wall or outside the map: x = {point[0]:.2f} m, y = {point[1]:.2f} m")
         return min(free, key=lambda each: math.dist(each, (row, column)))
 
     def _search(self, first: Cell, last: Cell) -> list[Cell] | None:
-        """A* over eight neighbours; diagonals do not cut corners."""
+        """A* over eight neighbours; diagonal moves do not cut corners."""
         known: dict[Cell, float] = {first: 0.0}
         came: dict[Cell, Cell] = {}
         waiting: list[tuple[float, Cell]] = [(0.0, first)]
@@ -111,7 +111,7 @@ class Planner:
                 yield after, math.sqrt(2.0) if diagonal else 1.0
 
     def _straightened(self, cells: list[Cell]) -> list[Cell]:
-        """The corners of a path, without points between two that see each other."""
+        """Return the corners of a path, without intermediate points that have a direct line of sight."""
         kept, at = [cells[0]], 0
         while at < len(cells) - 1:
             after = len(cells) - 1
@@ -122,7 +122,7 @@ class Planner:
         return kept
 
     def _sees(self, a: Cell, b: Cell) -> bool:
-        """Whether all cells between two are free, and cost no more than the costlier of the two."""
+        """Whether all cells between two are free, and none costs more than the costlier of the two."""
         count = 2 * max(abs(a[0] - b[0]), abs(a[1] - b[1])) + 1
         rows = np.rint(np.linspace(a[0], b[0], count)).astype(int)
         columns = np.rint(np.linspace(a[1], b[1], count)).astype(int)
@@ -139,7 +139,7 @@ def _traced(came: dict[Cell, Cell], cell: Cell) -> list[Cell]:
 
 
 def _coarse(grid: Grid, step: float) -> npt.NDArray[np.bool_]:
-    """Which cells of size `step` are occupied."""
+    """Return which cells of size `step` are occupied."""
     taken = (grid.cells >= OCCUPIED) | (grid.cells < 0)
     rows, columns = (math.ceil(length * grid.resolution / step) for length in taken.shape)
     result = np.zeros((max(rows, 1), max(columns, 1)), np.bool_)
@@ -150,7 +150,7 @@ def _coarse(grid: Grid, step: float) -> npt.NDArray[np.bool_]:
 
 
 def _grown(taken: npt.NDArray[np.bool_], reach: float) -> npt.NDArray[np.bool_]:
-    """The occupied cells and everything within `reach` cells of them; the edge of the grid counts as occupied."""
+    """Return the occupied cells and all within `reach` cells of them; the edge of the grid counts as occupied."""
     cells = math.ceil(reach)
     padded = np.pad(taken, cells, constant_values=True)
     result = np.zeros_like(taken)

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from bot_console_robot.navigation.driving import Limits, Point, Pose, Velocity, WayFollower, off, turning
 
 STUCK = 10.0
-"""Seconds without progress after which a goal is given up."""
+"""Seconds without progress after which a goal is aborted."""
 PROGRESS = 0.1
-"""Metres, or rad, that count as progress."""
+"""Distance in m, or angle in rad, that counts as progress."""
 FAILED_TO_MAKE_PROGRESS, COLLISION_AHEAD, TIMEOUT = 105, 714, 711
 """Error codes of Nav2."""
 
@@ -27,7 +27,7 @@ class Seen:
 
 
 class Task:
-    """An active goal. It is `done`, with an `error_code` of 0, when it is reached."""
+    """An active goal. It is `done`, with an `error_code` of 0, when the goal is reached."""
 
     def __init__(self) -> None:
         self.done = False
@@ -35,7 +35,7 @@ class Task:
         self._mark: tuple[float, Pose] | None = None
 
     def step(self, seen: Seen) -> Velocity:
-        """The velocity for this step."""
+        """Return the velocity for this step."""
         if self._mark is None or _moved(self._mark[1], seen.pose):
             self._mark = seen.time, seen.pose
         if seen.time - self._mark[0] > STUCK:
@@ -45,11 +45,11 @@ class Task:
         return wanted or (0.0, 0.0)
 
     def wanted(self, seen: Seen) -> Velocity | None:
-        """The velocity towards the goal; None when it is reached."""
+        """Return the velocity towards the goal, or None when it is reached."""
         raise NotImplementedError
 
     def fail(self, error_code: int) -> Velocity:
-        """Abort."""
+        """Abort the goal."""
         self.done, self.error_code = True, error_code
         return 0.0, 0.0
 
@@ -70,7 +70,7 @@ class Way(Task):
         return self._follower.left(pose)
 
     def wanted(self, seen: Seen) -> Velocity | None:
-        """See `WayFollower`."""
+        """See `WayFollower.velocity`."""
         return self._follower.velocity(seen.pose, seen.ahead)
 
 
@@ -85,7 +85,7 @@ class Spin(Task):
         self._before: float | None = None
 
     def wanted(self, seen: Seen) -> Velocity | None:
-        """The velocity for the remaining turn."""
+        """Return the velocity for the remaining turn."""
         self.turned += 0.0 if self._before is None else off(seen.pose[2], self._before)
         self._before = seen.pose[2]
         left = self._angle - self.turned
@@ -105,7 +105,7 @@ class Straight(Task):
         self._start: tuple[float, Pose] | None = None
 
     def wanted(self, seen: Seen) -> Velocity | None:
-        """Straight ahead until the distance is covered, an obstacle is in the way, or time is up."""
+        """Drive straight ahead until the distance is covered, an obstacle is in the way, or time is up."""
         if self._start is None:
             self._start = seen.time, seen.pose
         self.travelled = math.dist(self._start[1][:2], seen.pose[:2])
@@ -128,7 +128,7 @@ class Wait(Task):
         self._duration = duration
 
     def step(self, seen: Seen) -> Velocity:
-        """Standing still; here that is the goal, not a failure."""
+        """Return zero; standing still is the goal here, not a failure."""
         self._end = seen.time + self._duration if self._end is None else self._end
         self.left = max(0.0, self._end - seen.time)
         self.done = self.left == 0.0

@@ -1,4 +1,4 @@
-"""What navigation knows: the map, the robot's pose, and the free room around it."""
+"""The navigator's knowledge: the map, the robot's pose, and the free room around it."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ from sensor_msgs.msg import LaserScan
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 CLEARANCE = 0.05
-"""Metres between the hull and what stands there, on ways and ahead."""
+"""Distance in m to keep between the hull and obstacles, on paths and ahead."""
 CORRIDOR = 0.25
-"""Half the width (m) of what lies ahead or behind."""
+"""Half the width (m) of the area checked ahead and behind."""
 SCAN_LIFE = 1.0
-"""Seconds after which a scan says nothing any more, and the robot stands."""
+"""Seconds after which a scan is outdated and the robot stands still."""
 
 
 class WorldModel:
-    """Subscribes for a node.
+    """Subscribes to the sensors on behalf of a node.
 
     The pose is `ground_truth` if available, else odometry; it is republished as `amcl_pose`.
     """
@@ -86,7 +86,9 @@ class WorldModel:
         self._scan = self._seconds(), ahead, behind
 
     def seen(self) -> Seen | None:
-        """The current state; None without a pose. Without a recent scan, there is no free room ahead or behind."""
+        """Return the current state, or None without a pose. Without a recent scan, there is no free room ahead or
+        behind.
+        """
         if self.pose is None:
             return None
         now = self._seconds()
@@ -95,15 +97,15 @@ class WorldModel:
         return Seen(now, self.pose, ahead, behind)
 
     def way(self, start: Point, goal: Point) -> list[Point]:
-        """A path on the map, or a straight line if there is no map. Raises `NoWay`."""
+        """Return a path on the map, or a straight line if there is no map. Raises `NoWay`."""
         if self._planner is None:
             if not all(map(math.isfinite, goal)):
-                raise NoWay("a place is not a finite number")
+                raise NoWay("a position is not a finite number")
             return [goal]
         return self._planner.way(start, goal)
 
     def limits(self) -> Limits:
-        """Speeds and tolerances, from the current parameters."""
+        """Return speeds and tolerances from the current parameters."""
 
         def value(name: str) -> float:
             return float(self._node.get_parameter(name).value)

@@ -1,4 +1,4 @@
-"""Arrays of numbers as this package uses them."""
+"""Array types of this package."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Ints: TypeAlias = "npt.NDArray[np.int64]"
 
 
 def table(rows: Iterable[Sequence[float]], columns: int) -> Floats:
-    """Rows of equal length as an array with that many columns, also when there are none."""
+    """Return rows of equal length as an array with that many columns, even if there are no rows."""
     result: Floats = np.empty((0, columns), np.float64)
     listed = list(rows)
     return np.array(listed, np.float64) if listed else result

@@ -1,18 +1,18 @@
-"""Collisions as events: one touch is one event, however long the robot scrapes along."""
+"""Collisions as events: one contact is one event, however long the robot scrapes along."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 TOUCH = 0.003
-"""A gap in m below which the robot touches; pymunk lets bodies sink into one another by about 1 mm."""
+"""A gap in m below which the robot touches; pymunk lets bodies overlap by about 1 mm."""
 PAUSE = 0.5
-"""Seconds without a touch after which the next touch is a new collision."""
+"""Seconds without contact after which the next contact is a new collision."""
 
 
 @dataclass(frozen=True, slots=True)
 class Collision:
-    """A touch that began at `time` (s), at `speed` (m/s), against a kind of thing (`a wall` ...)."""
+    """A contact that began at `time` (s), at `speed` (m/s), with a kind of object (`a wall` ...)."""
 
     time: float
     x: float
@@ -22,7 +22,7 @@ class Collision:
 
 
 class CollisionLog:
-    """Finds collisions in the stream of gaps and keeps their count and the last one."""
+    """Detects collisions in the series of gaps; keeps their count and the latest one."""
 
     def __init__(self) -> None:
         self.count = 0
@@ -31,7 +31,7 @@ class CollisionLog:
         self._last_touch = -PAUSE
 
     def update(self, time: float, gap: float, x: float, y: float, speed: float, what: str) -> bool:
-        """Take the gap in m at a time in s; whether a new collision began."""
+        """Record the gap in m at a time in s; returns whether a new collision began."""
         self.touching = gap < TOUCH
         if not self.touching:
             return False

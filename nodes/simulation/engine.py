@@ -1,4 +1,4 @@
-"""The physics engine below pymunk, for what is done in each step: pymunk's own layer costs more than the physics."""
+"""The physics engine below pymunk, for the operations of each step: pymunk's own layer costs more than the physics."""
 
 from __future__ import annotations
 
@@ -11,22 +11,23 @@ ffi, lib = _engine.ffi, _engine.lib
 
 
 def pointer(item: pymunk.Space | pymunk.Body | pymunk.Shape) -> Any:
-    """Where the engine has an object of pymunk; the same in all of pymunk 7."""
+    """Return the engine's pointer to a pymunk object; valid for every release of pymunk 7."""
     name = "_space" if isinstance(item, pymunk.Space) else "_body" if isinstance(item, pymunk.Body) else "_shape"
     return getattr(item, name)
 
 
-# What each step calls, looked up once and called as it is: a layer in between would cost as much again. All take what
-# `pointer` gives, which may not be used when the space is gone. A vector goes in as a tuple, and has `x` and `y`.
+# Functions called in every step, looked up once and called directly: a wrapper would double their cost. All take the
+# result of `pointer`, which must not be used after the space has been freed. A vector is passed as a tuple, and
+# returned with `x` and `y`.
 set_position: Any = lib.cpBodySetPosition
 set_velocity: Any = lib.cpBodySetVelocity
 set_force: Any = lib.cpBodySetForce
-"""For the next step alone, in N; as the torque, in Nm."""
+"""For the next step only, in N; the torque likewise, in Nm."""
 set_torque: Any = lib.cpBodySetTorque
 position: Any = lib.cpBodyGetPosition
 angle: Any = lib.cpBodyGetAngle
-"""In rad; goes on growing beyond a turn."""
+"""In rad; keeps growing beyond a full turn."""
 velocity: Any = lib.cpBodyGetVelocity
 turn_rate: Any = lib.cpBodyGetAngularVelocity
 step: Any = lib.cpSpaceStep
-"""Let s pass in a space."""
+"""Advance a space by this many seconds."""

@@ -1,4 +1,4 @@
-"""Where the frames `map` and `odom` begin in the world, whose own origin is its lower left corner."""
+"""Where the frames `map` and `odom` originate in the world, whose own origin is its lower left corner."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from bot_console_robot.simulation.geometry import Point, Pose
 from bot_console_robot.simulation.world import World
 
 ORIGINS = ("corner", "start")
-"""`corner`: both frames are the world's. `start`: both begin where the robot does, as on a robot that is switched on;
-`odom` also looks where the robot looks, while `map` stays upright."""
+"""`corner`: both frames are the world's. `start`: both originate at the start pose, as on a robot that is switched on;
+`odom` also has the robot's initial heading, while `map` keeps the world's orientation.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,26 +25,26 @@ class Frames:
 
     @classmethod
     def of(cls, world: World, origin: str) -> Frames:
-        """Those of a world by the name of an origin."""
+        """Return the frames of a world by the name of an origin."""
         return cls() if origin == "corner" else cls((world.start.x, world.start.y), world.start)
 
     def in_map(self, pose: Pose) -> Pose:
-        """A pose of the world in `map`."""
+        """Convert a pose of the world to `map`."""
         return Pose(pose.x - self.map[0], pose.y - self.map[1], pose.heading)
 
     def in_world(self, pose: Pose) -> Pose:
-        """A pose of `map` in the world."""
+        """Convert a pose of `map` to the world."""
         return Pose(pose.x + self.map[0], pose.y + self.map[1], pose.heading)
 
     def in_odom(self, pose: Pose) -> Pose:
-        """A pose of the world in `odom`."""
+        """Convert a pose of the world to `odom`."""
         x, y = pose.x - self.odom.x, pose.y - self.odom.y
         cosine, sine = math.cos(self.odom.heading), math.sin(self.odom.heading)
         heading = math.remainder(pose.heading - self.odom.heading, 2.0 * math.pi)
         return Pose(cosine * x + sine * y, cosine * y - sine * x, heading)
 
     def rows_in_map(self, rows: Floats) -> Floats:
-        """Rows that begin with x, y (m) of the world, in `map`."""
+        """Convert rows that begin with x, y (m) of the world to `map`."""
         moved = np.array(rows)
         moved[:, :2] -= self.map
         return moved

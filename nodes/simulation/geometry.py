@@ -1,4 +1,4 @@
-"""The shapes a world is made of, in metres and radians, seen from above."""
+"""The shapes that make up a world, in metres and radians, seen from above."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Point: TypeAlias = "tuple[float, float]"
 TURN = 2 * math.pi
 """A full turn in rad."""
 CORNER_STEP = math.radians(22.5)
-"""The bend between two pieces of a rounded corner."""
+"""The angle between two segments of a rounded corner."""
 
 
 class Pose(NamedTuple):
@@ -24,7 +24,7 @@ class Pose(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Wall:
-    """A thin wall along a line of points; `reflectivity` is the share of light that a LIDAR gets back, 0 to 1."""
+    """A thin wall along a line of points; `reflectivity` is the fraction of light returned to a LIDAR, 0 to 1."""
 
     points: tuple[Point, ...]
     reflectivity: float = 0.9
@@ -52,7 +52,7 @@ class Disc:
 class Mover:
     """A round obstacle that drives along `route` repeatedly, or to random places in `area` (x0, y0, x1, y1).
 
-    It comes no nearer than `keep_off` m to the robot's hull, and turns back when the robot does not move on.
+    It keeps `keep_off` m away from the robot's hull, and turns back if the robot does not move on.
     """
 
     radius: float
@@ -64,14 +64,14 @@ class Mover:
 
 
 def rectangle(x: float, y: float, width: float, height: float, angle: float = 0.0) -> tuple[Point, ...]:
-    """The corners of a box around its centre, turned by `angle` (rad), counter-clockwise."""
+    """Return the corners of a box around its centre, turned by `angle` (rad), counter-clockwise."""
     cos, sin = math.cos(angle), math.sin(angle)
     half = ((-width / 2, -height / 2), (width / 2, -height / 2), (width / 2, height / 2), (-width / 2, height / 2))
     return tuple((x + dx * cos - dy * sin, y + dx * sin + dy * cos) for dx, dy in half)
 
 
 def rounded_rectangle(width: float, height: float, radius: float) -> tuple[Point, ...]:
-    """The outline of a `width` by `height` rectangle from the origin, its corners rounded, counter-clockwise."""
+    """Return the outline of a `width` by `height` rectangle from the origin with rounded corners, counter-clockwise."""
     if radius <= 0.0:
         return ((0.0, 0.0), (width, 0.0), (width, height), (0.0, height))
     centres = (
@@ -89,7 +89,7 @@ def rounded_rectangle(width: float, height: float, radius: float) -> tuple[Point
 
 
 def signed_area(points: tuple[Point, ...]) -> float:
-    """The area inside an outline in m², negative when it runs clockwise."""
+    """Return the area inside an outline in m², negative if it runs clockwise."""
     pairs = zip(points, points[1:] + points[:1], strict=True)
     return 0.5 * sum(ax * by - bx * ay for (ax, ay), (bx, by) in pairs)
 
@@ -105,5 +105,5 @@ def is_convex(points: tuple[Point, ...]) -> bool:
 
 
 def closed(points: tuple[Point, ...]) -> tuple[Point, ...]:
-    """The outline with its first point once more at the end."""
+    """Return the outline with its first point repeated at the end."""
     return (*points, points[0])

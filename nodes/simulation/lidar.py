@@ -1,7 +1,7 @@
 """A planar LIDAR: ray casting by angular spans in numpy, then noise, dropout and false returns.
 
-The angle that a surface fills says which beams meet it; only for these is it reckoned where. Ranges follow REP 117: no
-return is `+inf`, too near to measure is `-inf`.
+The angle that a surface spans tells which beams hit it; only for those beams is the distance computed. Ranges follow
+REP 117: no return is `+inf`, too near to measure is `-inf`.
 """
 
 from __future__ import annotations
@@ -15,15 +15,15 @@ from bot_console_robot.simulation.geometry import TURN, Pose
 from bot_console_robot.simulation.world import World
 
 EDGE = 1e-9
-"""Radians by which a span is widened, so that rounding never opens a slit between two walls."""
+"""Radians by which a span is widened, so that rounding never opens a gap between two walls."""
 END_ON = 1e-6
-"""Radians; an edge that fills less is seen end-on, and where a ray would meet its line is mostly rounding."""
+"""Radians; an edge spanning less is seen end-on, where the intersection with its line is mostly rounding error."""
 FULL_SCALE = 255.0
 """The intensity of a white surface right in front of the sensor."""
 DUST = (10.0, 80.0)
-"""Intensities of false returns: dust and rain send little light back."""
+"""Intensities of false returns: dust and rain reflect little light."""
 DUST_NEAREST = 0.4
-"""False returns start at this distance in m."""
+"""Minimum distance of false returns, in m."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +58,7 @@ class Scan:
 
 
 class Surfaces:
-    """What light can meet, as arrays: straight edges first, then circles that stand still, then those that move."""
+    """Everything that reflects light, as arrays: straight edges first, then static circles, then moving circles."""
 
     def __init__(self, world: World) -> None:
         edges, circles = world.edges(), (*world.discs, *world.movers)
@@ -66,7 +66,7 @@ class Surfaces:
         points = [begin for begin, _, _ in edges] + [end for _, end, _ in edges] + centres
         self.edges = len(edges)
         self.points: Floats = np.array(([x for x, _ in points], [y for _, y in points]), np.float64)
-        """x and y (m) of where edges begin, of where they end, and of the circles' centres."""
+        """x and y (m) of the starts of edges, of their ends, and of the circles' centres."""
         self.radius: Floats = np.array([each.radius for each in circles], np.float64)
         shine = [shine for _, _, shine in edges] + [each.reflectivity for each in circles]
         self.reflectivity: Floats = np.array(shine, np.float64)
@@ -76,12 +76,12 @@ class Surfaces:
         return self.edges + len(self.radius)
 
     def move(self, places: Floats) -> None:
-        """Where the moving circles are now: rows that begin with x, y (m)."""
+        """Update the positions of the moving circles: rows that begin with x, y (m)."""
         self._moving[:] = np.transpose(places[:, :2])
 
 
 class Lidar:
-    """A LIDAR in the robot's centre; `scan` is what it reports, `cast` is the truth behind it."""
+    """A LIDAR at the robot's centre; `scan` is what it reports, `cast` is the ground truth."""
 
     def __init__(self, settings: LidarSettings, surfaces: Surfaces) -> None:
         self.settings = settings
@@ -92,11 +92,11 @@ class Lidar:
         self._place: Floats = np.empty((2, 1))
         self._step = settings.increment or 1.0
         self._nothing: Floats = np.full(settings.beams, math.inf)
-        # A span that runs past a full turn comes round again at the first beams: each surface counts twice.
+        # A span that extends past a full turn continues at the first beams, so each surface counts twice.
         self._owners: Ints = np.arange(len(surfaces)).repeat(2)
 
     def scan(self, pose: Pose, rng: np.random.Generator) -> Scan:
-        """What the sensor reports from a pose."""
+        """Return the sensor's reading from a pose."""
         settings = self.settings
         ranges, intensities = self.cast(pose)
         if settings.noise > 0.0:
@@ -121,7 +121,9 @@ class Lidar:
         intensities[hit] = (DUST[0] + (DUST[1] - DUST[0]) * draw[2])[hit]
 
     def cast(self, pose: Pose) -> tuple[Floats, Floats]:
-        """True distances in m along each beam (`inf` beyond the last surface), and the reflectivity met there."""
+        """Return true distances in m along each beam (`inf` beyond the last surface), and the reflectivity of the
+        surface hit.
+        """
         surfaces, edges = self._surfaces, self._surfaces.edges
         self._place[:, 0] = pose.x, pose.y
         points = surfaces.points - self._place
@@ -131,7 +133,7 @@ class Lidar:
         owner, beam = self._pairs(start, span, pose.heading)
         turned = self._ahead * math.cos(pose.heading) + self._aside * math.sin(pose.heading)
         rays = turned.take(beam, 1)
-        split = owner.searchsorted(edges)  # pairs of edges come before those of circles
+        split = owner.searchsorted(edges)  # pairs of edges precede those of circles
         depth = np.empty(len(owner))
         depth[:split] = _edge_depth(starts, ends - starts, owner[:split], rays[:, :split])
         depth[split:] = _circle_depth(centres, surfaces.radius, distance, owner[split:] - edges, rays[:, split:])
@@ -143,25 +145,26 @@ class Lidar:
         return ranges, shine
 
     def _pairs(self, start: Floats, span: Floats, heading: float) -> tuple[Ints, Ints]:
-        """Which surface is met by which beam: two arrays of indices in the order of surfaces, from spans in rad."""
+        """Return which surface is hit by which beam: two index arrays ordered by surface, from spans in rad."""
         settings, step = self.settings, self._step
-        past = np.empty((len(start), 2))  # the first beam past where a span begins
+        past = np.empty((len(start), 2))  # the first beam after the start of a span
         past[:, 0] = np.mod(start - (heading + settings.first_angle + EDGE), TURN) / step + 1.0
         past[:, 1] = past[:, 0] - TURN / step
         end = np.minimum(past + ((span + 2.0 * EDGE) / step)[:, None], settings.beams).astype(np.int64).ravel()
         first = np.maximum(past, 0.0).astype(np.int64).ravel()
         count = np.maximum(end - first, 0)
-        # The place among all pairs, less that of the span's first pair, is how far on from its first beam it is.
+        # The index among all pairs, minus that of the span's first pair, is the offset from its first beam.
         beam = (first - count.cumsum() + count).repeat(count)
         beam += np.arange(len(beam))
         return self._owners.repeat(count), beam
 
 
 def _spans(angle: Floats, edges: int, ratio: Floats) -> tuple[Floats, Floats]:
-    """Start and width in rad of the angle that each edge, then each circle, fills; what is seen end-on fills none.
+    """Return start and width in rad of the angle spanned by each edge, then each circle; anything seen end-on spans
+    none.
 
-    `angle` is that of where edges begin, of where they end, and of the circles' centres; `ratio` is that of a circle's
-    radius to its distance.
+    `angle` is that of the starts of edges, of their ends, and of the circles' centres; `ratio` is that of a
+    circle's radius to its distance.
     """
     start, span = np.empty((2, edges + len(ratio)))
     begin, centre = angle[:edges], angle[2 * edges :]
@@ -178,7 +181,7 @@ def _spans(angle: Floats, edges: int, ratio: Floats) -> tuple[Floats, Floats]:
 
 
 def _edge_depth(starts: Floats, along: Floats, owner: Ints, rays: Floats) -> Floats:
-    """Where rays along (x, y) meet the lines of their edges, in m."""
+    """Return the distances in m at which rays along (x, y) intersect the lines of their edges."""
     (x, y), (along_x, along_y) = starts, along
     moment = x * along_y - y * along_x
     (along_x, along_y), (dx, dy) = along.take(owner, 1), rays
@@ -186,12 +189,12 @@ def _edge_depth(starts: Floats, along: Floats, owner: Ints, rays: Floats) -> Flo
 
 
 def _circle_depth(centres: Floats, radius: Floats, distance: Floats, owner: Ints, rays: Floats) -> Floats:
-    """Where rays along (x, y) meet their circles, in m; 0 from inside."""
+    """Return the distances in m at which rays along (x, y) intersect their circles; 0 from inside."""
     (x, y), (dx, dy) = centres.take(owner, 1), rays
     along = x * dx + y * dy
     chord = (radius * radius).take(owner) - ((distance * distance).take(owner) - along * along)
-    depth = along - np.sqrt(np.maximum(chord, 0.0))  # at the rim rounding may have it just miss
+    depth = along - np.sqrt(np.maximum(chord, 0.0))  # at the rim, rounding may make it just miss
     around = distance <= radius
-    if np.count_nonzero(around):  # half of what `any` costs
+    if np.count_nonzero(around):  # takes half as long as `any`
         depth[around.take(owner)] = 0.0
     return depth

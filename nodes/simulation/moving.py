@@ -1,4 +1,4 @@
-"""Moving obstacles: people and carts that give way to the robot, and turn back when it does not move on."""
+"""Moving obstacles: people and carts that give way to the robot, and turn back if it does not move on."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ PATIENCE = 2.0
 
 
 class MovingObstacle:
-    """One mover on its way; its body is kinematic, so nothing pushes it."""
+    """One moving obstacle; its body is kinematic, so nothing pushes it."""
 
     def __init__(self, mover: Mover, rng: np.random.Generator) -> None:
         self.mover = mover
@@ -31,7 +31,7 @@ class MovingObstacle:
 
     @property
     def place(self) -> Point:
-        """Where it is now (m)."""
+        """The current position (m)."""
         return self._place
 
     def _random_place(self) -> Point:
@@ -40,7 +40,7 @@ class MovingObstacle:
         return float(self._rng.uniform(x0, x1)), float(self._rng.uniform(y0, y1))
 
     def advance(self, dt: float, robot: Point, radius: float) -> None:
-        """Go on for `dt` s, unless that comes too near to the robot's hull of `radius` m."""
+        """Move on for `dt` s, unless that comes too close to the robot's hull of `radius` m."""
         mover, begin = self.mover, self._place
         begin_x, begin_y = begin
         target_x, target_y = place = self._target
@@ -57,7 +57,8 @@ class MovingObstacle:
         else:
             self._waited = 0.0
             self._place = place
-        # The engine moves the body by its velocity; the place it moves from is set, so that rounding never adds up.
+        # The engine moves the body by its velocity; setting the start position prevents rounding errors from
+        # accumulating.
         set_position(self._pointer, begin)
         set_velocity(self._pointer, ((place[0] - begin_x) / dt, (place[1] - begin_y) / dt))
 

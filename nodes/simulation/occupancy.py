@@ -1,4 +1,4 @@
-"""A world as an occupancy grid, as `nav_msgs/OccupancyGrid` wants it."""
+"""A world as an occupancy grid, as in `nav_msgs/OccupancyGrid`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ FREE, OCCUPIED, UNKNOWN = 0, 100, -1
 
 
 def occupancy_grid(world: World, resolution: float) -> npt.NDArray[np.int8]:
-    """Cells of `resolution` m, rows from the lower left: 100 where a thing that stands still is, -1 outside."""
+    """Return cells of `resolution` m, rows from the lower left: 100 for static obstacles, -1 outside."""
     columns, rows = (math.ceil(length / resolution) for length in world.size)
     xs: Floats = (np.arange(columns, dtype=np.float64) + 0.5) * resolution
     ys: Floats = (np.arange(rows, dtype=np.float64) + 0.5) * resolution
@@ -30,7 +30,7 @@ def occupancy_grid(world: World, resolution: float) -> npt.NDArray[np.int8]:
 
 
 def _inside(outline: tuple[Point, ...], xs: Floats, ys: Floats) -> npt.NDArray[np.bool_]:
-    """Which cell centres lie within an outline (even-odd rule)."""
+    """Return which cell centres lie within an outline (even-odd rule)."""
     hit = np.zeros((len(ys), len(xs)), np.bool_)
     y = ys[:, None]
     for (ax, ay), (bx, by) in zip(outline, outline[1:] + outline[:1], strict=True):

@@ -1,4 +1,4 @@
-"""What the wheels say about where the robot is: the way they turned, with an error that grows with the way."""
+"""Wheel odometry: integrates wheel motion with an error that grows with distance."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from bot_console_robot.simulation.geometry import TURN, Pose
 
 @dataclass(frozen=True, slots=True)
 class OdometryNoise:
-    """Standard deviations after 1 m of way (m) and after 1 rad of turn (rad); they grow with the square root."""
+    """Standard deviations after 1 m of travel (m) and after 1 rad of turning (rad); they grow with the square root."""
 
     distance: float = 0.01
     heading: float = 0.02
 
 
 class Odometry:
-    """A pose summed up from noisy wheel turns; it drifts away from the truth for good."""
+    """A pose integrated from noisy wheel motion; its drift is never corrected."""
 
     def __init__(self, pose: Pose, noise: OdometryNoise, rng: np.random.Generator) -> None:
         self._x, self._y, self._heading = pose
@@ -27,7 +27,7 @@ class Odometry:
 
     @property
     def pose(self) -> Pose:
-        """Where the robot would be if its wheels never slipped (m, m, rad)."""
+        """The estimated pose (m, m, rad)."""
         return Pose(self._x, self._y, self._heading)
 
     @pose.setter
@@ -35,7 +35,7 @@ class Odometry:
         self._x, self._y, self._heading = pose
 
     def advance(self, way: float, turn: float) -> None:
-        """Add a forward way in m and a turn in rad, driven as an arc."""
+        """Add forward travel in m and a turn in rad, driven as an arc."""
         if way == 0.0 and turn == 0.0:
             return
         noise, draw = self.noise, self._draw

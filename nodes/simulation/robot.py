@@ -1,4 +1,4 @@
-"""A differential drive with limits: what its wheels do with a velocity command."""
+"""A differential drive with limits: how its wheels respond to a velocity command."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class DriveLimits:
 
 
 class DifferentialDrive:
-    """Speeds of the wheels, as linear (m/s) and angular (rad/s) velocity, one time step after the other."""
+    """The speeds of the wheels as linear (m/s) and angular (rad/s) velocity, advanced in time steps."""
 
     def __init__(self, limits: DriveLimits) -> None:
         self._limits = limits
@@ -31,7 +31,7 @@ class DifferentialDrive:
 
     @property
     def limits(self) -> DriveLimits:
-        """What the drive can do."""
+        """The limits of the drive."""
         return self._limits
 
     @limits.setter
@@ -40,13 +40,13 @@ class DifferentialDrive:
         self._feasible = feasible(*self._asked, limits)
 
     def command(self, linear: float, angular: float) -> None:
-        """Take a new command; it holds until the next one or until it is older than `command_timeout`."""
+        """Set a new command; it holds until the next one or until it is older than `command_timeout`."""
         self._asked = (linear, angular)
         self._feasible = feasible(linear, angular, self._limits)
         self._age = 0.0
 
     def advance(self, dt: float) -> None:
-        """Let `dt` s pass: the wheels change speed towards the command as fast as they may."""
+        """Advance by `dt` s: the wheels accelerate towards the command within their limits."""
         limits, before = self._limits, self.linear
         linear, angular = (0.0, 0.0) if self._age > limits.command_timeout else self._feasible
         self._age += dt
@@ -59,7 +59,7 @@ class DifferentialDrive:
 
 
 def feasible(linear: float, angular: float, limits: DriveLimits) -> tuple[float, float]:
-    """A command within the speed limits, slowed on its own curve where the outer wheel could not keep up."""
+    """Return a command within the speed limits, slowed along its own curve if the outer wheel could not keep up."""
     linear, angular = _clamp(linear, limits.max_speed), _clamp(angular, limits.max_turn_rate)
     outer = abs(linear) + 0.5 * limits.wheel_separation * abs(angular)
     share = min(1.0, limits.max_speed / outer) if outer > 0.0 else 1.0

@@ -18,15 +18,15 @@ from bot_console_robot.simulation.space import FAR, Space
 from bot_console_robot.simulation.world import World, WorldError, inside, populated
 
 STEP = 0.01
-"""The constant physics step in s. Elapsed wall time decides at most how many steps are made, never how long one is."""
+"""The constant physics step in s. Elapsed wall time limits how many steps are made, never how long one is."""
 STEP_NS = 10_000_000
 SLACK = 1e-9
-"""Metres by which a gap that is reckoned from an earlier one may be off."""
+"""Possible error in m of a gap that is computed from an earlier one."""
 
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """Everything about the robot that is not the world."""
+    """The robot's settings, without the world."""
 
     limits: DriveLimits = field(default_factory=DriveLimits)
     lidar: LidarSettings = field(default_factory=LidarSettings)
@@ -76,7 +76,7 @@ class Simulation:
             self.lidar = Lidar(settings.lidar, self._surfaces)
 
     def command(self, linear: float, angular: float) -> None:
-        """Ask for a velocity in m/s and rad/s; raises `ValueError` for NaN and infinity."""
+        """Request a velocity in m/s and rad/s; raises `ValueError` for NaN and infinity."""
         if not (math.isfinite(linear) and math.isfinite(angular)):
             raise ValueError("a velocity must be a finite number")
         self.drive.command(linear, angular)
@@ -102,12 +102,14 @@ class Simulation:
         self.pose = Pose(x, y, heading)
         metrics = self.metrics
         metrics.update(x, y, heading, speed)
-        # Nothing comes nearer than by the way that was driven: most steps need no look at what is around.
+        # Nothing can come closer than the distance driven, so most steps need no search of the surroundings.
         self._least_gap = gap = self._least_gap - (math.hypot(dx, dy) + self._movers_way)
         return (gap < TOUCH or gap < metrics.min_clearance) and self._look_around()
 
     def _look_around(self) -> bool:
-        """Whether a collision began; called whenever something may touch, or be nearer than anything was before."""
+        """Search the surroundings; returns whether a collision began. Called when a contact or a new minimum is
+        possible.
+        """
         x, y, _ = self.pose
         gap, what = self._space.nearest(x, y)
         self._least_gap = min(gap, FAR - self.drive.limits.radius) - SLACK
@@ -116,29 +118,29 @@ class Simulation:
 
     @property
     def clearance(self) -> float:
-        """The room in m around the robot's hull now; 0 where it touches."""
+        """Return the current clearance in m around the robot's hull; 0 on contact."""
         return max(0.0, self._space.nearest(self.pose.x, self.pose.y)[0])
 
     def scan(self) -> Scan:
-        """What the LIDAR reports now."""
+        """Return the current reading of the LIDAR."""
         if self._movers:
             self._surfaces.move(self.moving())
         return self.lidar.scan(self.pose, self._rng)
 
     def moving(self) -> Floats:
-        """The moving obstacles now, one row x, y, radius (m) each."""
+        """The moving obstacles, one row x, y, radius (m) each."""
         return table([(*each.place, each.mover.radius) for each in self._movers], 3)
 
     def true_range(self, angle: float, reach: float) -> float:
-        """The distance in m to the first thing in a direction of the map (rad), found by pymunk."""
+        """Return the distance in m to the first obstacle in a direction of the map (rad), found by pymunk."""
         return self._space.distance_ahead(self.pose.x, self.pose.y, angle, reach)
 
     def gap_at(self, x: float, y: float) -> float:
-        """The room in m around a robot placed somewhere; negative if it does not fit."""
+        """Return the clearance in m around a robot placed somewhere; negative if it does not fit."""
         return self._space.nearest(x, y)[0] if inside(self.world.boundary, x, y) else -math.inf
 
     def place(self, pose: Pose) -> None:
-        """Put the robot somewhere at rest; odometry follows. Raises `ValueError` when it does not fit there."""
+        """Place the robot at rest; odometry follows. Raises `ValueError` if it does not fit there."""
         if self.gap_at(pose.x, pose.y) <= 0.0:
             raise ValueError("the robot does not fit there")
         self._space.place(pose)
@@ -149,7 +151,7 @@ class Simulation:
         self.drive.command(0.0, 0.0)
 
     def report(self) -> dict[str, float | int | str | None]:
-        """The figures of the run so far, ready for JSON."""
+        """Return the figures of the run so far, ready for JSON."""
         return {
             "world": self.world.name,
             "seed": self.seed,

@@ -1,4 +1,4 @@
-"""A world as a pymunk space: what stands still, what moves by itself, and the robot's body."""
+"""A world as a pymunk space: static obstacles, moving obstacles, and the robot's body."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ OBSTACLE = pymunk.ShapeFilter(categories=0b01)
 ROBOT = pymunk.ShapeFilter(categories=0b10)
 OBSTACLES_ONLY = pymunk.ShapeFilter(mask=0b01)
 FAR = 5.0
-"""Distances in m beyond which nothing is looked for."""
+"""Distances in m beyond which obstacles are not searched."""
 NEAR = 0.25
-"""How much further (m) than the last distance it is looked at first: in one step nothing comes from beyond that."""
+"""Margin (m) added to the last distance for the first search: nothing farther away can arrive within one step."""
 MASS = 10.0
 SLOP = 0.001
 
@@ -28,7 +28,7 @@ SLOP = 0.001
 class Space:
     """The physics of one world with a round robot in it; the caller sets its velocity before each step.
 
-    It owns the bodies of the movers too: they may not be used when it is gone.
+    It also owns the bodies of the movers, which must not be used after it is freed.
     """
 
     def __init__(self, world: World, movers: list[MovingObstacle], pose: Pose, radius: float) -> None:
@@ -75,7 +75,7 @@ class Space:
         self._space.add(*parts)
 
     def place(self, pose: Pose) -> None:
-        """Put the robot somewhere, at rest."""
+        """Place the robot somewhere, at rest."""
         robot = self._robot
         robot.position, robot.angle = (pose.x, pose.y), pose.heading
         robot.velocity, robot.angular_velocity = (0.0, 0.0), 0.0
@@ -83,14 +83,14 @@ class Space:
         self._angle = pose.heading
 
     def step(self, dt: float, linear: float, angular: float) -> tuple[float, float, float]:
-        """Let `dt` s pass with the robot's wheels driving at m/s and rad/s; walls hold it back.
+        """Advance by `dt` s with the robot's wheels driving at m/s and rad/s; walls hold it back.
 
-        Returns where it then is: x, y (m), and the angle (rad), which goes on growing beyond a turn.
+        Returns the new pose: x, y (m), and the angle (rad), which keeps growing beyond a full turn.
         """
         body = self._body
         velocity, turning = engine.velocity(body), engine.turn_rate(body)
-        # A step moves bodies first and resolves contacts after, so a velocity set here would pass through walls.
-        # As a force it is resolved against them; the heading is that of the middle of the move it leads to.
+        # A step moves bodies first and resolves contacts afterwards, so a velocity set here would pass through walls.
+        # As a force it is resolved against them; the heading used is that at the middle of the resulting move.
         heading = self._angle + (turning + 0.5 * angular) * dt
         push = MASS / dt
         force = (linear * math.cos(heading) - velocity.x) * push, (linear * math.sin(heading) - velocity.y) * push
@@ -102,8 +102,10 @@ class Space:
         return place.x, place.y, angle
 
     def nearest(self, x: float, y: float) -> tuple[float, str]:
-        """The gap in m between a robot standing there and the nearest thing, negative within it, and its kind."""
-        # What is found within a short reach is the nearest within any, and far fewer shapes are looked at for it.
+        """Return the gap in m between a robot at that position and the nearest obstacle, negative inside it, and its
+        kind.
+        """
+        # The nearest obstacle within a short reach is the nearest overall, and far fewer shapes have to be checked.
         found = self._find(x, y, self._reach)
         if not found and self._reach < FAR:
             found = self._find(x, y, FAR)
@@ -115,12 +117,12 @@ class Space:
         return distance - self._radius, self._kinds[found]
 
     def _find(self, x: float, y: float, reach: float) -> Any:
-        """The nearest shape within a reach, or nothing; more of it is in `_found`."""
+        """Return the nearest shape within a reach, or None; details are in `_found`."""
         self._place.x, self._place.y = x, y
         return lib.cpSpacePointQueryNearest(self._pointer, self._place[0], reach, self._obstacles[0], self._found)
 
     def distance_ahead(self, x: float, y: float, angle: float, reach: float) -> float:
-        """The distance in m to the first surface in a direction, one beam at a time; `inf` beyond `reach`."""
+        """Return the distance in m to the first surface in a direction, one beam at a time; `inf` beyond `reach`."""
         end = (x + reach * math.cos(angle), y + reach * math.sin(angle))
         found = self._space.segment_query_first((x, y), end, 0.0, OBSTACLES_ONLY)
         return math.inf if found is None else found.alpha * reach

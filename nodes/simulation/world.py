@@ -1,4 +1,4 @@
-"""A world as data: outline, obstacles, start, route; and the random obstacles that belong to one seed."""
+"""A world as data: outline, obstacles, start, route, and the random obstacles that depend on the seed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bot_console_robot.simulation.arrays import Floats, table
 from bot_console_robot.simulation.geometry import Block, Disc, Mover, Point, Pose, Wall, closed
 
 TRIES = 400
-"""Random places tried for each scattered disc before it is left out."""
+"""Random positions tried for each scattered disc before it is omitted."""
 
 
 class WorldError(ValueError):
@@ -21,7 +21,9 @@ class WorldError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Scatter:
-    """Random discs: at most `count` of a radius in m within `radius`, nothing nearer than `gap` m to one."""
+    """Random discs: at most `count`, with a radius in m within `radius`, and at least `gap` m apart from anything
+    else.
+    """
 
     count: int
     radius: tuple[float, float]
@@ -31,7 +33,7 @@ class Scatter:
 
 @dataclass(frozen=True, slots=True)
 class World:
-    """A closed place with its lower left corner at the origin; sizes in m, angles in rad."""
+    """A closed area with its lower left corner at the origin; sizes in m, angles in rad."""
 
     name: str
     size: tuple[float, float]
@@ -47,7 +49,7 @@ class World:
     boundary_reflectivity: float = 0.9
 
     def edges(self) -> tuple[tuple[Point, Point, float], ...]:
-        """All straight surfaces that stand still: both ends and the reflectivity."""
+        """All static straight surfaces: both ends and the reflectivity."""
         lines = [(closed(self.boundary), self.boundary_reflectivity)]
         lines += [(wall.points, wall.reflectivity) for wall in self.walls]
         lines += [(closed(block.points), block.reflectivity) for block in self.blocks]
@@ -55,7 +57,7 @@ class World:
 
 
 def populated(world: World, rng: np.random.Generator) -> World:
-    """The world with its scattered discs in the places that this generator gives."""
+    """Return the world with its scattered discs placed by this generator."""
     discs = list(world.discs)
     edges = table([(*a, *b) for a, b, _ in world.edges()], 4)
     for scatter in world.scatter:
@@ -90,7 +92,7 @@ def _distance(line: tuple[Point, ...], x: float, y: float) -> float:
 
 
 def distance_to_edges(edges: Floats, x: float, y: float) -> float:
-    """The distance in m from a point to the nearest of some lines given as rows of x0, y0, x1, y1."""
+    """Return the distance in m from a point to the nearest of some lines given as rows of x0, y0, x1, y1."""
     start, along = edges[:, :2], edges[:, 2:] - edges[:, :2]
     offset = np.array((x, y)) - start
     length = np.maximum((along * along).sum(axis=1), 1e-12)

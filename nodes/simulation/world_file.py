@@ -1,4 +1,4 @@
-"""Reads a world from YAML; every mistake in the file becomes one sentence that names the place."""
+"""Reads a world from YAML; every mistake in the file becomes one sentence that names its location."""
 
 from __future__ import annotations
 
@@ -31,27 +31,27 @@ KEYS = {
 }  # fmt: skip
 
 LARGEST = 1e6
-"""Of any number in a world, in m or in what else it counts."""
+"""Limit for any number in a world, in its unit."""
 
 
 def load_world(path: Path) -> World:
-    """The world of a YAML file, named after the file; raises `WorldError`."""
+    """Return the world of a YAML file, named after the file; raises `WorldError`."""
     try:
         data = yaml.load(path.read_text(encoding="utf-8"), getattr(yaml, "CSafeLoader", yaml.SafeLoader))
     except OSError as error:
         raise WorldError(f"{path}: cannot be read: {error.strerror}") from error
     except UNREADABLE as error:
-        raise WorldError(f"{path}: is not YAML: {error}") from error
+        raise WorldError(f"{path}: is not valid YAML: {error}") from error
     try:
         return parse_world(path.stem, data)
     except WorldError as error:
         raise WorldError(f"{path}: {error}") from None
-    except ValueError:  # from the words of a refusal: Python writes no whole number of more than 4,300 digits
+    except ValueError:  # Raised when formatting an error message: Python converts no integer of more than 4,300 digits.
         raise WorldError(f"{path}: a whole number has thousands of digits") from None
 
 
 def parse_world(name: str, data: object) -> World:
-    """The world that a loaded YAML document describes; raises `WorldError`."""
+    """Return the world described by a loaded YAML document; raises `WorldError`."""
     entry = _mapping("the file", data)
     unknown = sorted(set(entry) - KEYS)
     if unknown:
@@ -79,7 +79,7 @@ def parse_world(name: str, data: object) -> World:
 
 
 def _boundary(value: object, width: float, height: float) -> tuple[Point, ...]:
-    """A number is the corner radius of the rectangle of `size`, a list is the outline itself."""
+    """Return the outline: a number is the corner radius of the rectangle of `size`, a list is the outline itself."""
     if not isinstance(value, list):
         radius = _number("boundary", value, 0.0, min(width, height) / 2)
         return rounded_rectangle(width, height, radius)

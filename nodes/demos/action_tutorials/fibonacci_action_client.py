@@ -1,4 +1,4 @@
-"""Nodes `fibonacci_action_client`: ask for ten numbers of the sequence, and end with the result."""
+"""Nodes `fibonacci_action_client`: request ten numbers of the sequence, and exit with the result."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ORDER = 10
 
 @dataclass(frozen=True)
 class Words:
-    """What a tutorial's client says; numbers are put after `next` and `result`."""
+    """The log texts of a tutorial's client; numbers follow `next` and `result`."""
 
     accepted: str
     rejected: str
@@ -25,7 +25,7 @@ class Words:
     result: str
     sending: str = ""
     spaced: bool = False
-    """Whether numbers stand there with blanks between them, not as a list."""
+    """Whether numbers are separated by blanks instead of printed as a list."""
 
 
 PYTHON = Words("Goal accepted :)", "Goal rejected :(", "Received feedback: ", "Result: ")
@@ -40,7 +40,7 @@ CPP = Words(
 
 
 class Client(Node):
-    """Sends the goal; `done` when there is a result or a refusal."""
+    """Sends the goal; `done` becomes true on a result or a rejection."""
 
     def __init__(self, words: Words) -> None:
         super().__init__("fibonacci_action_client")
@@ -49,7 +49,7 @@ class Client(Node):
         self.done = False
 
     def send(self) -> None:
-        """Wait for the server and ask."""
+        """Wait for the server and send the goal."""
         self._client.wait_for_server()
         if self._words.sending:
             self.get_logger().info(self._words.sending)
@@ -84,10 +84,10 @@ def _run(words: Words, args: list[str] | None) -> None:
 
 
 def main_py(args: list[str] | None = None) -> None:
-    """The one of `action_tutorials_py`."""
+    """Entry point of `action_tutorials_py`."""
     _run(PYTHON, args)
 
 
 def main_cpp(args: list[str] | None = None) -> None:
-    """The one of `action_tutorials_cpp`."""
+    """Entry point of `action_tutorials_cpp`."""
     _run(CPP, args)

@@ -1,4 +1,4 @@
-"""Nodes `fibonacci_action_server`: one more number of the sequence each second."""
+"""Nodes `fibonacci_action_server`: compute one more number of the sequence each second."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rclpy.task import Future
 
 
 class PythonServer(Node):
-    """As the Python tutorial's: the next number is worked out in the callback, which sleeps."""
+    """Behaves like the Python tutorial's server: computes the sequence in the callback, which sleeps."""
 
     def __init__(self) -> None:
         super().__init__("fibonacci_action_server")
@@ -32,7 +32,7 @@ class PythonServer(Node):
 
 
 class CppServer(Node):
-    """As the C++ tutorial's: goals run beside each other, and can be cancelled."""
+    """Behaves like the C++ tutorial's server: goals run concurrently and can be cancelled."""
 
     def __init__(self) -> None:
         super().__init__("fibonacci_action_server")
@@ -70,7 +70,7 @@ class CppServer(Node):
         return Fibonacci.Result(sequence=sequence)
 
     async def _second(self) -> None:
-        """Let a second go by without keeping the executor."""
+        """Wait for a second without blocking the executor."""
         done: Future[None] = Future()
         timer = self.create_timer(1.0, lambda: done.set_result(None) if not done.done() else None)
         try:
@@ -80,10 +80,10 @@ class CppServer(Node):
 
 
 def main_py(args: list[str] | None = None) -> None:
-    """The one of `action_tutorials_py`."""
+    """Entry point of `action_tutorials_py`."""
     run(PythonServer, args)
 
 
 def main_cpp(args: list[str] | None = None) -> None:
-    """The one of `action_tutorials_cpp`."""
+    """Entry point of `action_tutorials_cpp`."""
     run(CppServer, args)

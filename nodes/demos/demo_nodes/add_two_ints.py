@@ -26,7 +26,7 @@ class Server(Node):
 
 
 def _ask(name: str, a: int, b: int, told: str, args: list[str] | None) -> None:
-    """Wait for the server, ask, log what is `told` and the sum, and end."""
+    """Wait for the server, call it, log `told` and the sum, and exit."""
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
         node = rclpy.create_node(name)
         client = node.create_client(AddTwoInts, "add_two_ints")
@@ -42,20 +42,20 @@ def _ask(name: str, a: int, b: int, told: str, args: list[str] | None) -> None:
 
 
 def serve(args: list[str] | None = None) -> None:
-    """The server of both demo packages."""
+    """Entry point of the server in both demo packages."""
     run(partial(Server, "add_two_ints_server"), args)
 
 
 def ask(args: list[str] | None = None) -> None:
-    """The clients of both demo packages."""
+    """Entry point of the clients in both demo packages."""
     _ask("add_two_ints_client", 2, 3, "", args)
 
 
 def serve_minimal(args: list[str] | None = None) -> None:
-    """Both services of `examples_rclpy_minimal_service`."""
+    """Entry point of both services of `examples_rclpy_minimal_service`."""
     run(partial(Server, "minimal_service"), args)
 
 
 def ask_minimal(args: list[str] | None = None) -> None:
-    """Every client of `examples_rclpy_minimal_client`."""
+    """Entry point of every client of `examples_rclpy_minimal_client`."""
     _ask("minimal_client", 41, 1, "for 41 + 1 = ", args)

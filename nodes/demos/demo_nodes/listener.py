@@ -12,7 +12,7 @@ from std_msgs.msg import String
 
 
 class Listener(Node):
-    """Logs each message, between two brackets or quotes."""
+    """Logs each message, between brackets or quotes."""
 
     def __init__(self, name: str, topic: str = "chatter", qos: QoSProfile | int = 10, marks: str = "[]") -> None:
         super().__init__(name)
@@ -25,7 +25,7 @@ class Listener(Node):
 
 
 class QosListener(Listener):
-    """Says how it subscribes before it begins."""
+    """Logs its reliability before it subscribes."""
 
     def __init__(self, reliable: bool) -> None:
         super().__init__("listener_qos", qos=10 if reliable else qos_profile_sensor_data)
@@ -33,7 +33,7 @@ class QosListener(Listener):
 
 
 class SerializedListener(Node):
-    """Logs each message as the bytes that it travels as."""
+    """Logs each message in its serialized form."""
 
     def __init__(self) -> None:
         super().__init__("serialized_subscriber")
@@ -44,26 +44,26 @@ class SerializedListener(Node):
 
 
 def main(args: list[str] | None = None) -> None:
-    """The one of both packages."""
+    """Entry point in both packages."""
     run(partial(Listener, "listener"), args)
 
 
 def main_best_effort(args: list[str] | None = None) -> None:
-    """The one of `demo_nodes_cpp` that takes what arrives."""
+    """Entry point of the best-effort listener of `demo_nodes_cpp`."""
     run(partial(Listener, "listener", qos=qos_profile_sensor_data), args)
 
 
 def main_qos(args: list[str] | None = None) -> None:
-    """The one of `demo_nodes_py` that takes `--reliable`, and `-n` for how long it goes on."""
+    """Entry point of the listener of `demo_nodes_py` with the options `--reliable` and `-n` (number of callbacks)."""
     reliable, cycles = qos_options(args, "max number of spin_once iterations")
     run(partial(QosListener, reliable), args, cycles)
 
 
 def main_serialized(args: list[str] | None = None) -> None:
-    """The one of `demo_nodes_py` that wants bytes."""
+    """Entry point of the serialized listener of `demo_nodes_py`."""
     run(SerializedListener, args)
 
 
 def main_minimal(args: list[str] | None = None) -> None:
-    """Every subscriber of `examples_rclpy_minimal_subscriber`."""
+    """Entry point of every subscriber of `examples_rclpy_minimal_subscriber`."""
     run(partial(Listener, "minimal_subscriber", "topic", marks='""'), args)

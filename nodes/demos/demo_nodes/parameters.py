@@ -8,7 +8,7 @@ from rclpy.parameter import Parameter
 
 
 class Blackboard(Node):
-    """Takes every parameter."""
+    """Accepts every parameter."""
 
     def __init__(self) -> None:
         super().__init__(

@@ -7,11 +7,11 @@ import argparse
 from rclpy.utilities import remove_ros_args
 
 CYCLES = 20
-"""After so many callbacks both end, unless another number is asked for."""
+"""Default number of callbacks after which both exit."""
 
 
 def qos_options(args: list[str] | None, cycles_text: str) -> tuple[bool, int]:
-    """Whether it is to be reliable, and after how many callbacks it ends; other words end the program with usage."""
+    """Return whether to be reliable, and the number of callbacks; unknown arguments exit with the usage."""
     parser = argparse.ArgumentParser(formatter_class=argparse.ArgumentDefaultsHelpFormatter)
     parser.add_argument("--reliable", action="store_true", help="set qos profile to reliable")
     parser.add_argument("-n", "--number_of_cycles", type=int, default=CYCLES, help=cycles_text)

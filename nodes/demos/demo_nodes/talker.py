@@ -1,4 +1,4 @@
-"""Nodes that publish a greeting repeatedly; those of the C++ package count from 1."""
+"""Nodes that publish a greeting repeatedly; those of the C++ package start counting at 1."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from std_msgs.msg import String
 
 @dataclass(frozen=True)
 class Manner:
-    """How a talker talks; `quote` stands around what it logs, `period` is in s."""
+    """How a talker behaves: `quote` surrounds the logged text, `period` is in s."""
 
     name: str = "talker"
     topic: str = "chatter"
@@ -29,7 +29,7 @@ MINIMAL = Manner("minimal_publisher", "topic", 0.5)
 
 
 class Talker(Node):
-    """Counts greetings."""
+    """Publishes numbered greetings."""
 
     def __init__(self, manner: Manner) -> None:
         super().__init__(manner.name)
@@ -45,7 +45,7 @@ class Talker(Node):
 
 
 class QosTalker(Talker):
-    """Says how it publishes before it begins."""
+    """Logs its reliability before it publishes."""
 
     def __init__(self, reliable: bool) -> None:
         super().__init__(Manner("talker_qos", qos=10 if reliable else qos_profile_sensor_data))
@@ -53,21 +53,21 @@ class QosTalker(Talker):
 
 
 def main_cpp(args: list[str] | None = None) -> None:
-    """The one of `demo_nodes_cpp`."""
+    """Entry point of `demo_nodes_cpp`."""
     run(partial(Talker, CPP), args)
 
 
 def main_py(args: list[str] | None = None) -> None:
-    """The one of `demo_nodes_py`."""
+    """Entry point of `demo_nodes_py`."""
     run(partial(Talker, Manner()), args)
 
 
 def main_qos(args: list[str] | None = None) -> None:
-    """The one of `demo_nodes_py` that takes `--reliable`, and `-n` for how long it goes on."""
+    """Entry point of the talker of `demo_nodes_py` with the options `--reliable` and `-n` (number of callbacks)."""
     reliable, cycles = qos_options(args, "number of sending attempts")
     run(partial(QosTalker, reliable), args, cycles)
 
 
 def main_minimal(args: list[str] | None = None) -> None:
-    """Every publisher of `examples_rclpy_minimal_publisher`, which differ in how they are written."""
+    """Entry point of every publisher of `examples_rclpy_minimal_publisher`, which differ only in their source code."""
     run(partial(Talker, MINIMAL), args)

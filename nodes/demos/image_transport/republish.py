@@ -1,4 +1,4 @@
-"""Program `republish`: images of one transport (`in`, `in/compressed`), sent on by another one (`out` ...)."""
+"""Program `republish`: forwards images of one transport (`in`, `in/compressed`) through another one (`out` ...)."""
 
 from __future__ import annotations
 
@@ -19,7 +19,9 @@ QUEUE = 10
 
 
 class Republisher(Node):
-    """Listens only while somebody listens to what it sends; without a transport for that, by all there are."""
+    """Subscribes only while its output has subscribers; without a given output transport, it offers all available
+    ones.
+    """
 
     def __init__(self, given: list[str]) -> None:
         super().__init__("image_republisher")
@@ -36,7 +38,7 @@ class Republisher(Node):
             name: self.create_publisher(TRANSPORTS[name], topic_of("out", name), QUEUE, event_callbacks=events)
             for name in ([chosen] if chosen else available())
         }
-        self.get_logger().info(f"Images by {self._from} become images by {', '.join(self._publishers_by)}")
+        self.get_logger().info(f"Republishing {self._from} images as {', '.join(self._publishers_by)}")
 
     def _follow(self) -> None:
         wanted = any(each.get_subscription_count() for each in self._publishers_by.values())
@@ -58,19 +60,19 @@ class Republisher(Node):
 
 
 def check(transport: str) -> None:
-    """End the program with the reason where a transport is not to be had."""
+    """Exit with the reason if a transport is not available."""
     if transport in available():
         return
     why = (
         "it needs OpenCV: pip install 'bot-console[opencv]'" if transport in TRANSPORTS
-        else f"there are: {', '.join(TRANSPORTS)}"
+        else f"available transports: {', '.join(TRANSPORTS)}"
     )  # fmt: skip
     get_logger("image_republisher").fatal(f"no transport '{transport}': {why}")
     sys.exit(1)
 
 
 def main(args: list[str] | None = None) -> None:
-    """Send on until it is stopped."""
+    """Republish until stopped."""
     words = remove_ros_args(args)[1:]
     if len(words) > 2 or any(each.startswith("-") for each in words):
         print(USAGE.format(", ".join(TRANSPORTS)), file=sys.stderr)
@@ -79,7 +81,7 @@ def main(args: list[str] | None = None) -> None:
 
 
 def list_transports(args: list[str] | None = None) -> None:
-    """Print the transports, and what brings those that do not work here."""
+    """Print the transports, and what to install for those that are unavailable."""
     print("Declared transports:")
     for name in TRANSPORTS:
         print(f"image_transport/{name}{'' if name in available() else ' (*): pip install bot-console[opencv]'}")

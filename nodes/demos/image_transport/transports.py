@@ -10,22 +10,22 @@ from sensor_msgs.msg import CompressedImage, Image
 
 RAW, COMPRESSED = "raw", "compressed"
 TRANSPORTS: dict[str, type] = {RAW: Image, COMPRESSED: CompressedImage}
-"""The messages of each transport."""
+"""The message type of each transport."""
 _BRIDGE = CvBridge()
 
 
 def topic_of(base: str, transport: str) -> str:
-    """The topic that a transport uses for the images of another one."""
+    """Return the topic that a transport uses for the images of a base topic."""
     return base if transport == RAW else f"{base}/{transport}"
 
 
 def available() -> list[str]:
-    """The transports that work here."""
+    """Return the transports that are available."""
     return [RAW, COMPRESSED] if importlib.util.find_spec("cv2") else [RAW]
 
 
 def encoded(image: Image, transport: str) -> Any:
-    """An image as a transport sends it; raises `CvBridgeError` for encodings that JPEG has no place for."""
+    """Return an image encoded for a transport; raises `CvBridgeError` for encodings that JPEG does not support."""
     if transport == RAW:
         return image
     target = "mono8" if image.encoding.startswith("mono") else "bgr8"
@@ -36,7 +36,7 @@ def encoded(image: Image, transport: str) -> Any:
 
 
 def decoded(message: Any, transport: str) -> Image:
-    """The image that a transport has sent; raises `CvBridgeError` for data that is none."""
+    """Return the image decoded from a transport's message; raises `CvBridgeError` for invalid data."""
     if transport == RAW:
         return message
     pixels = _BRIDGE.compressed_imgmsg_to_cv2(message)

@@ -25,7 +25,7 @@ from tf2_ros import (
 )
 
 CHECK = 0.01
-"""Seconds between two looks for what goals wait for."""
+"""Interval, in s, at which pending goals are checked."""
 ERRORS: dict[type[TransformException], int] = {
     LookupException: TF2Error.LOOKUP_ERROR,
     ConnectivityException: TF2Error.CONNECTIVITY_ERROR,
@@ -36,7 +36,7 @@ ERRORS: dict[type[TransformException], int] = {
 
 
 class BufferServer(Node):
-    """Answers a goal as soon as its transform is available, or at its time-out with the reason why it is not."""
+    """Answers a goal when its transform becomes available, or on timeout with the reason."""
 
     def __init__(self) -> None:
         super().__init__("tf_buffer")

@@ -23,7 +23,7 @@ TURN, ANGLES = ("qx", "qy", "qz", "qw"), ("roll", "pitch", "yaw")
 
 
 class Publisher(Node):
-    """Broadcasts the transform, and keeps it there for those who come later."""
+    """Broadcasts the transform, and keeps it available for late subscribers."""
 
     def __init__(self, frame: TransformStamped) -> None:
         letters = "".join(secrets.choice(string.ascii_letters + string.digits) for _ in range(16))
@@ -41,7 +41,7 @@ class Publisher(Node):
 
 
 def read(words: Sequence[str]) -> TransformStamped:
-    """The transform that a command line describes; ends the program with a usage where it describes none."""
+    """Return the transform described by a command line; exits with the usage if it is invalid."""
     words = _in_new_style(words)
     parser = argparse.ArgumentParser(NAME, description="Publish a static transform from one frame to another.")
     for name in "xyz":
@@ -65,7 +65,7 @@ def read(words: Sequence[str]) -> TransformStamped:
         x, y, z, w = (default if each is None else each for each, default in zip(by_turn, (0, 0, 0, 1), strict=True))
         length = math.sqrt(x * x + y * y + z * z + w * w)
         if not length:
-            parser.error("a quaternion of zeros is no rotation")
+            parser.error("a quaternion of zeros is not a rotation")
         frame.transform.rotation = Quaternion(x=x / length, y=y / length, z=z / length, w=w / length)
     else:
         frame.transform.rotation = quaternion(*(each or 0.0 for each in by_angles))
@@ -73,7 +73,7 @@ def read(words: Sequence[str]) -> TransformStamped:
 
 
 def _in_new_style(words: Sequence[str]) -> Sequence[str]:
-    """Words with options for the old style, `x y z yaw pitch roll FRAME CHILD` or with a quaternion of four."""
+    """Convert the old-style arguments, `x y z yaw pitch roll FRAME CHILD` or with a quaternion of four, to options."""
     names = {8: ("x", "y", "z", "yaw", "pitch", "roll"), 9: ("x", "y", "z", *TURN)}.get(len(words))
     if names is None or any(each.startswith("--") for each in words):
         return words
@@ -83,7 +83,7 @@ def _in_new_style(words: Sequence[str]) -> Sequence[str]:
 
 
 def main(args: list[str] | None = None) -> None:
-    """Publish until it is stopped."""
+    """Publish until stopped."""
     frame = read(remove_ros_args(args)[1:])
     if frame.header.frame_id == frame.child_frame_id:
         get_logger(NAME).error(

@@ -1,4 +1,4 @@
-"""Program `tf2_echo`: prints the transform between two frames again and again."""
+"""Program `tf2_echo`: repeatedly prints the transform between two frames."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tf_transformations import euler_from_quaternion, quaternion_matrix
 
 
 class Echo(Node):
-    """Prints at a rate (Hz); says once a second what it waits for."""
+    """Prints at a rate (Hz); reports once a second what it is waiting for."""
 
     def __init__(self, source: str, target: str, rate: float) -> None:
         super().__init__("tf2_echo")
@@ -36,7 +36,7 @@ class Echo(Node):
 
 
 def described(found: TransformStamped) -> str:
-    """A transform with its rotation in each of the usual ways."""
+    """Format a transform with its rotation in each of the usual representations."""
     stamp, move, turn = found.header.stamp, found.transform.translation, found.transform.rotation
     rotation = (turn.x, turn.y, turn.z, turn.w)
     angles = euler_from_quaternion(rotation)
@@ -61,11 +61,11 @@ def _listed(values: tuple[float, ...]) -> str:
 
 
 def main(args: list[str] | None = None) -> None:
-    """Print until it is stopped."""
+    """Print until stopped."""
     parser = argparse.ArgumentParser("tf2_echo", description="Print the transform between two frames.")
-    parser.add_argument("source_frame", help="frame in which the other one is told")
-    parser.add_argument("target_frame", help="frame that is looked at")
-    parser.add_argument("rate", nargs="?", type=float, default=1.0, help="prints a second (Hz)")
+    parser.add_argument("source_frame", help="target frame, in which the source frame is expressed")
+    parser.add_argument("target_frame", help="source frame")
+    parser.add_argument("rate", nargs="?", type=float, default=1.0, help="rate at which to print (Hz)")
     given = parser.parse_args(remove_ros_args(args)[1:])
     if not 0.0 < given.rate < math.inf:
         parser.error("the rate must be more than 0 Hz")

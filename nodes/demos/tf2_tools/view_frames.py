@@ -25,7 +25,7 @@ class FrameListener(Node):
 
 
 def main(args: list[str] | None = None) -> None:
-    """Listen, write `frames_<time>.gv` here, and a PDF of it where Graphviz is installed."""
+    """Listen, then write `frames_<time>.gv` to the current directory, and a PDF of it if Graphviz is installed."""
     rclpy.init(args=args)
     node = FrameListener()
     try:
@@ -48,7 +48,7 @@ def main(args: list[str] | None = None) -> None:
 
 
 def _draw(graph: Path) -> bool:
-    """Whether Graphviz has made a PDF of it."""
+    """Whether Graphviz has created a PDF."""
     dot = shutil.which("dot")
     if dot is None:
         return False

@@ -1,4 +1,4 @@
-"""Node `static_turtle_tf2_broadcaster`: a frame that stays where the command line puts it in `world`."""
+"""Node `static_turtle_tf2_broadcaster`: a static frame in `world`, placed by the command line."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ $ ros2 run turtle_tf2_py static_turtle_tf2_broadcaster child_frame_name x y z ro
 
 
 class StaticFramePublisher(Node):
-    """Broadcasts once; who comes later hears it as well."""
+    """Broadcasts once; late subscribers receive it as well."""
 
     def __init__(self, child: str, x: float, y: float, z: float, roll: float, pitch: float, yaw: float) -> None:
         super().__init__("static_turtle_tf2_broadcaster")
@@ -33,7 +33,7 @@ class StaticFramePublisher(Node):
 
 
 def main(args: list[str] | None = None) -> None:
-    """Run the node with the words of the command line."""
+    """Run the node with the arguments of the command line."""
     words = remove_ros_args(args)[1:]
     logger = get_logger("rclpy")
     try:

@@ -11,7 +11,7 @@ from turtlesim.msg import Pose
 
 
 class FramePublisher(Node):
-    """Broadcasts each pose that it hears of."""
+    """Broadcasts each pose that it receives."""
 
     def __init__(self) -> None:
         super().__init__("turtle_tf2_frame_publisher")

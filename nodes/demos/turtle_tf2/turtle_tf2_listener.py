@@ -14,11 +14,11 @@ from turtlesim.srv import Spawn
 
 FOLLOWER = "turtle2"
 ROTATION_RATE, FORWARD_SPEED = 1.0, 0.5
-"""How strongly an angle (1/s) and a distance (1/s) become a velocity."""
+"""Gains from angle to turn rate (1/s), and from distance to speed (1/s)."""
 
 
 class FrameListener(Node):
-    """Looks once a second where the target is from the follower, and drives there."""
+    """Looks up the target relative to the follower once a second, and drives there."""
 
     def __init__(self) -> None:
         super().__init__("turtle_tf2_frame_listener")

@@ -1,4 +1,4 @@
-"""The turtles' drawing, as pixels."""
+"""The turtles' drawing as pixels."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ Color = tuple[int, int, int]
 """Red, green and blue, 0 to 255."""
 
 BLANK: Color = (255, 255, 255)
-"""What a colour sensor sees where nobody has drawn; the background lies behind and is not seen."""
+"""The colour that a sensor reports where nothing has been drawn; the background is not visible to it."""
 
 
 @dataclass(frozen=True)
 class Pen:
-    """What a turtle draws with; `width` in pixels."""
+    """A turtle's pen; `width` in pixels."""
 
     color: Color = (0xB3, 0xB8, 0xFF)
     width: int = 3
@@ -26,16 +26,16 @@ class Pen:
 
 
 class Canvas:
-    """A picture of `PIXELS` by `PIXELS`; places are m from the upper left corner, y downwards."""
+    """A picture of `PIXELS` by `PIXELS`; positions are in m from the upper left corner, y downwards."""
 
     def __init__(self) -> None:
         self._pixels: npt.NDArray[np.uint8] = np.zeros((PIXELS, PIXELS, 4), np.uint8)
         self.changes = 0
-        """Counts what has been drawn or wiped away."""
+        """Counts drawing and clearing operations."""
         self.clear()
 
     def clear(self) -> None:
-        """Wipe everything away."""
+        """Clear the drawing."""
         self._pixels[:] = (*BLANK, 0)
         self.changes += 1
 
@@ -57,13 +57,13 @@ class Canvas:
         self.changes += 1
 
     def color(self, place: tuple[float, float]) -> Color:
-        """The colour at a place inside the field."""
+        """Return the colour at a position inside the field."""
         column, row = (round(each * METRE) for each in place)
         red, green, blue, _ = self._pixels[row, column].tolist()
         return red, green, blue
 
     def picture(self, background: Color) -> npt.NDArray[np.uint8]:
-        """Rows of red, green, blue and whether somebody has drawn there (255 or 0), over a background."""
+        """Return rows of red, green, blue and drawn (255 or 0), over a background."""
         picture: npt.NDArray[np.uint8] = np.array(self._pixels)
         picture[picture[:, :, 3] == 0] = (*background, 0)
         return picture

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `draw_square`: resets the field, then drives `turtle1` along a square of 2 m, again and again."""
+"""Node `draw_square`: resets the field, then drives `turtle1` along a square of 2 m, repeatedly."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ NEAR, ALIGNED, AT_REST = 0.1, 0.01, 0.0001
 
 
 class DrawSquare(Node):
-    """Goes from one state to the next when a goal is reached and the turtle stands still."""
+    """Advances to the next state when a goal is reached and the turtle stands still."""
 
     def __init__(self) -> None:
         super().__init__("draw_square")

@@ -8,15 +8,15 @@ from types import TracebackType
 from typing import Any
 
 PATIENCE = 0.1
-"""Seconds after which a look for a key gives up."""
+"""Seconds to wait for a key."""
 
 
 class NoKeyboard(Exception):
-    """Standard input is no terminal."""
+    """Standard input is not a terminal."""
 
 
 class Keyboard:
-    """Gives keys as they are pressed, unseen; use it in a `with`. Raises `NoKeyboard` on the way in."""
+    """Reads keys as they are pressed, without echo; a context manager that raises `NoKeyboard` on entry."""
 
     def __enter__(self) -> Keyboard:
         if sys.stdin is None or not sys.stdin.isatty():
@@ -38,7 +38,8 @@ class Keyboard:
             termios.tcsetattr(sys.stdin.fileno(), termios.TCSADRAIN, self._before)
 
     def read(self) -> str:
-        """A byte of what was typed as a letter, so that an arrow is three; empty when nothing came for a while.
+        """Return a typed byte as a character, so that an arrow key takes three reads; empty if nothing was typed in
+        time.
 
         Raises `EOFError` when the terminal is gone.
         """
@@ -57,7 +58,7 @@ def _from_terminal(file: int) -> str:
 
 
 WINDOWS_ARROWS = {"H": "A", "P": "B", "M": "C", "K": "D"}
-"""Second letters of Windows' arrow keys, and those of a terminal's."""
+"""Second characters of Windows' arrow keys, and the final characters of a terminal's."""
 
 
 def _from_windows() -> str:

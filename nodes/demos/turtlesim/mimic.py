@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `turtle_mimic`: makes one turtle move as another does. Remap `input/pose` and `output/cmd_vel`."""
+"""Node `turtle_mimic`: makes one turtle imitate another. Remap `input/pose` and `output/cmd_vel`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from turtlesim.msg import Pose
 
 
 class Mimic(Node):
-    """Turns the pose of a turtle into the velocity of another."""
+    """Converts the pose of one turtle to the velocity of another."""
 
     def __init__(self) -> None:
         super().__init__("turtle_mimic")

@@ -1,4 +1,4 @@
-"""How a turtle moves. Pure; step, rounding and walls are those of turtlesim, so that its paths are the same."""
+"""How a turtle moves. Pure; step, rounding and walls match turtlesim, so that paths are identical."""
 
 from __future__ import annotations
 
@@ -8,36 +8,36 @@ from dataclasses import dataclass
 import numpy as np
 
 FRAME = 0.016
-"""Seconds of a step."""
+"""Duration of a step in s."""
 PIXELS = 500
 """Width and height of the field."""
 METRE = 45.0
-"""Pixels of a metre: the height of a turtle."""
+"""Pixels per metre: the height of a turtle."""
 SIDE = float(np.float32((PIXELS - 1) / METRE))
 """Width and height of the field in m."""
 COMMAND_LIFE = 1.0
-"""Seconds after which a velocity command is dead."""
+"""Seconds after which a velocity command expires."""
 ROTATION_SPEED = 1.0
-"""Turn rate (rad/s) towards the goal of a rotation."""
+"""Turn rate (rad/s) towards the target of a rotation."""
 ROTATION_TOLERANCE = 0.02
-"""Angle (rad) to the goal at which a rotation is done."""
+"""Angle (rad) to the target at which a rotation is complete."""
 PI = 3.14159265
-"""As turtlesim writes it: to the eighth digit, which shows in angles."""
+"""Truncated as in turtlesim, which affects angles."""
 
 
 def single(value: float) -> float:
-    """A number as a float of 32 bits holds it."""
+    """Round a number to a 32-bit float."""
     return float(np.float32(value))
 
 
 def normalized(angle: float) -> float:
-    """The same direction between -pi and pi."""
+    """Normalize an angle to the range -pi to pi."""
     return angle - 2.0 * PI * math.floor((angle + PI) / (2.0 * PI))
 
 
 @dataclass
 class Motion:
-    """Place and velocity of a turtle: m from the upper left corner, y downwards; rad counter-clockwise from +x."""
+    """Position and velocity of a turtle: m from the upper left corner, y downwards; rad counter-clockwise from +x."""
 
     x: float
     y: float
@@ -48,12 +48,12 @@ class Motion:
 
     @property
     def position(self) -> tuple[float, float]:
-        """Where the turtle is (m), y upwards, as its pose says."""
+        """The position (m), y upwards, as in the turtle's pose."""
         return self.x, SIDE - self.y
 
     @property
     def speed(self) -> float:
-        """How fast it goes (m/s); never negative."""
+        """The speed (m/s); never negative."""
         return math.sqrt(self.forward * self.forward + self.sideways * self.sideways)
 
     def command(self, forward: float, sideways: float, turn: float) -> None:
@@ -75,7 +75,9 @@ class Motion:
         self.y -= math.sin(self.heading) * distance
 
     def step(self) -> tuple[float, float] | None:
-        """Move for one frame; where a wall is in the way the place (m, y downwards) that would have been reached."""
+        """Move for one frame; if a wall is in the way, return the position (m, y downwards) that would have been
+        reached.
+        """
         self.heading = normalized(self.heading + self.turn * FRAME)
         cosine, sine = math.cos(self.heading), math.sin(self.heading)
         self.x += cosine * self.forward * FRAME - sine * self.sideways * FRAME
@@ -87,7 +89,7 @@ class Motion:
 
 @dataclass
 class Rotation:
-    """A goal of the action `rotate_absolute`: the direction to face (rad), and where it began."""
+    """A goal of the action `rotate_absolute`: the direction to face (rad), and the initial direction."""
 
     goal: float
     start: float
@@ -95,7 +97,7 @@ class Rotation:
     delta: float = 0.0
 
     def drive(self, motion: Motion) -> bool:
-        """Turn the turtle towards the goal; True and a turtle at rest when it faces it."""
+        """Turn the turtle towards the goal; when it faces the goal, stop it and return True."""
         heading, goal = single(motion.heading), normalized(self.goal)
         self.remaining = normalized(goal - heading)
         self.delta = normalized(single(self.start - motion.heading))

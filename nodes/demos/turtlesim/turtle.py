@@ -1,4 +1,4 @@
-"""A turtle in the graph: its topics, services and its action."""
+"""A turtle in the graph: its topics, services and action."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def _accept(_: Any) -> CancelResponse:
 
 
 class Turtle:
-    """Moves as it is told and draws on the canvas; `update` once a frame."""
+    """Moves as commanded and draws on the canvas; call `update` once per frame."""
 
     def __init__(self, node: Node, name: str, x: float, y: float, heading: float) -> None:
         self._node = node
@@ -54,7 +54,7 @@ class Turtle:
         )
 
     def destroy(self) -> None:
-        """Leave the graph."""
+        """Remove the turtle from the graph."""
         if self._rotation is not None:
             self._rotation[2].cancel()
             self._rotation = None
@@ -77,7 +77,7 @@ class Turtle:
         if request.off:
             self._pen = replace(self._pen, down=False)
         else:
-            # A pen without a width is Qt's own, which draws one pixel.
+            # Qt draws a pen without a width one pixel wide.
             self._pen = Pen((request.r, request.g, request.b), request.width or 1)
         return response
 
@@ -108,7 +108,7 @@ class Turtle:
         done.set_result(rotation.delta)
 
     def _rotate(self) -> None:
-        """One frame of the action's goal, if there is one."""
+        """Advance the action's goal by one frame, if there is one."""
         if self._rotation is None:
             return
         goal, rotation, _ = self._rotation
@@ -126,7 +126,7 @@ class Turtle:
             self._commanded = self._node.get_clock().now()
 
     def update(self, canvas: Canvas) -> None:
-        """Move for one frame, tell pose and colour, and draw."""
+        """Move for one frame, publish pose and colour, and draw."""
         motion = self._motion
         for request in self._teleports:
             before = motion.x, motion.y

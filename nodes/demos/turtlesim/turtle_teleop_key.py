@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `teleop_turtle`: drives `turtle1` with the arrow keys, and turns it by goals of `rotate_absolute`."""
+"""Node `teleop_turtle`: drives `turtle1` with the arrow keys, and turns it with goals of `rotate_absolute`."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ Use arrow keys to move the turtle.
 Use g|b|v|c|d|e|r|t keys to rotate to absolute orientations. 'f' to cancel a rotation.
 'q' to quit."""
 NO_KEYBOARD = (
-    "turtle_teleop_key reads the keyboard, but its standard input is no terminal. Run it in a terminal of its own: "
+    "turtle_teleop_key reads the keyboard, but its standard input is not a terminal. Run it in a terminal of its own: "
     "bot-console run turtlesim turtle_teleop_key"
 )
 MOVES = {"A": (1.0, 0.0), "B": (-1.0, 0.0), "C": (0.0, -1.0), "D": (0.0, 1.0)}
-"""Forward and turn by the last letter of an arrow key."""
+"""Forward and turn velocity by the final character of an arrow key."""
 DIRECTIONS = {
     "g": 0.0, "t": 0.7854, "r": 1.5708, "e": 2.3562, "d": 3.1416, "c": -2.3562, "v": -1.5708, "b": -0.7854,
 }  # fmt: skip
-"""Headings (rad) by keys, which lie around the `f` as the directions do."""
+"""Headings (rad) by key; on the keyboard the keys surround `f` in these directions."""
 
 
 class TeleopTurtle(Node):
-    """Turns keys into velocities and goals."""
+    """Converts keys to velocities and goals."""
 
     def __init__(self) -> None:
         super().__init__("teleop_turtle")
@@ -46,7 +46,7 @@ class TeleopTurtle(Node):
         self._goal: Any = None
 
     def take(self, key: str) -> None:
-        """Do what a key asks for."""
+        """Handle a key."""
         if key in MOVES:
             forward, turn = MOVES[key]
             twist = Twist()

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `turtlesim`: a field on which turtles walk and draw. The World pane of the console shows it."""
+"""Node `turtlesim`: a field on which turtles move and draw. The console's World pane shows it."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ from turtlesim.srv import Kill, Spawn
 BACKGROUND = {"background_r": ("Red", 0x45), "background_g": ("Green", 0x56), "background_b": ("Blue", 0xFF)}
 """Parameters of the background: the name of the channel, and its default."""
 PICTURE_EVERY = 12
-"""Frames between two pictures at least: five a second are enough to look at."""
-WHERE_TO_LOOK = "The turtle shows in another terminal: bot-console attach --pane world"
+"""Minimum number of frames between two pictures: five pictures per second are enough."""
+WHERE_TO_LOOK = "To see the turtle, run in another terminal: bot-console attach --pane world"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class TurtleSim(Node):
-    """Spawns and kills turtles and moves them once a frame.
+    """Spawns and kills turtles and moves them once per frame.
 
-    What they have drawn is on the hidden topic `~/_canvas`, for who wants to show it: upstream has a window for that.
+    The drawing is published on the hidden topic `~/_canvas`, where upstream has a window.
     """
 
     def __init__(self) -> None:
@@ -67,7 +67,7 @@ class TurtleSim(Node):
             self._background = self._read_background()
 
     def _spawn(self, name: str, x: float, y: float, heading: float) -> str:
-        """The name of a new turtle at a place (m, rad); empty where there is one of that name."""
+        """Return the name of a new turtle at a position (m, rad); empty if the name is taken."""
         if name in self._turtles:
             return ""
         while not name or name in self._turtles:
@@ -110,14 +110,14 @@ class TurtleSim(Node):
     def _update(self) -> None:
         self._frames += 1
         if self._frames == 1:
-            return  # as upstream: the first frame only begins
+            return  # as upstream: the first frame only starts the clock
         for _, turtle in sorted(self._turtles.items()):
             turtle.update(self._canvas)
         if self._frames % PICTURE_EVERY == 0 and self._pictures.get_subscription_count():
             self._show()
 
     def _show(self) -> None:
-        """Publish what has been drawn, where it is another picture than the last one."""
+        """Publish the drawing if it has changed."""
         now = self._canvas.changes, self._background
         if now == self._shown:
             return

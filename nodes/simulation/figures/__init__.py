@@ -1,1 +1,1 @@
-"""What is told about a run."""
+"""The figures reported about a run."""

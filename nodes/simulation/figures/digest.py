@@ -1,4 +1,4 @@
-"""The digest of a run: equal for two runs in which the robot was at the same places, bit by bit."""
+"""The digest of a run: equal for two runs in which the robot's poses are identical bit by bit."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import hashlib
 import struct
 
 _BATCH = 3 * 256
-"""How many numbers are kept before they are hashed together: the hash is of the bytes one after the other."""
+"""How many numbers are collected before they are hashed together; the hash covers their bytes in order."""
 
 
 class PoseDigest:
@@ -17,7 +17,7 @@ class PoseDigest:
         self._kept: list[float] = []
 
     def add(self, x: float, y: float, heading: float) -> None:
-        """Take the next pose: m, m, rad."""
+        """Add a pose: m, m, rad."""
         kept = self._kept
         kept += (x, y, heading)
         if len(kept) >= _BATCH:
@@ -29,6 +29,6 @@ class PoseDigest:
 
     @property
     def hex(self) -> str:
-        """32 digits."""
+        """The digest as 32 hexadecimal digits."""
         self._take_in()
         return self._hash.hexdigest()

@@ -1,4 +1,4 @@
-"""Figures about a run, from the true poses: how far, how fast, how near, how often it stood."""
+"""Figures about a run, computed from the true poses: distance, speed, clearance, standstill."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ import math
 from bot_console_robot.simulation.figures.digest import PoseDigest
 
 MOVING = 0.05
-"""A speed in m/s from which the robot drives."""
+"""A speed in m/s above which the robot counts as driving."""
 STANDING = 0.02
-"""A speed in m/s below which it stands; turning in place is standing."""
+"""A speed in m/s below which it stands still; turning in place counts as standing."""
 
 
 class Metrics:
@@ -27,7 +27,7 @@ class Metrics:
         self._longest = 0
 
     def update(self, x: float, y: float, heading: float, speed: float) -> None:
-        """Take the true state after a step: m, m, rad, m/s."""
+        """Record the true state after a step: m, m, rad, m/s."""
         self.steps += 1
         self._digest.add(x, y, heading)
         speed = abs(speed)
@@ -43,7 +43,7 @@ class Metrics:
         self._longest = max(self._longest, self.steps - self._standing_since)
 
     def pass_by(self, clearance: float) -> None:
-        """Take the room in m from the hull to the nearest thing, where it may be less than it ever was."""
+        """Record the clearance in m from the hull to the nearest obstacle, if it may be the smallest so far."""
         self.min_clearance = min(self.min_clearance, clearance)
 
     @property
@@ -53,7 +53,7 @@ class Metrics:
 
     @property
     def mean_speed(self) -> float:
-        """The distance driven over time, in m/s."""
+        """The distance driven divided by time, in m/s."""
         return self.distance / self.duration if self.steps else 0.0
 
     @property
@@ -67,7 +67,7 @@ class Metrics:
         return self._digest.hex
 
     def report(self) -> dict[str, float | int | str | None]:
-        """The figures by name, ready for JSON; `min_clearance` is None while nothing was near."""
+        """Return the figures by name, ready for JSON; `min_clearance` is None while nothing was near."""
         near = self.min_clearance
         return {
             "duration": round(self.duration, 6),

@@ -29,7 +29,7 @@ def monitor(monkeypatch: pytest.MonkeyPatch) -> Iterator[SafetyMonitor]:
         ({"warning_distance": 0.2}, "must be greater than emergency_stop_distance"),
         ({"warning_distance": 0.2, "emergency_stop_distance": 0.1}, ""),
         ({"warning_distance": "far"}, "another type"),
-        ({"distance": 0.2}, "unknown"),
+        ({"distance": 0.2}, "undeclared"),
     ],
 )
 def test_the_rule_answers_and_nothing_is_set(monitor: SafetyMonitor, values: dict[str, object], refused: str) -> None:

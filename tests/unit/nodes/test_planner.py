@@ -64,10 +64,10 @@ def test_every_way_reaches_its_goal_and_hits_nothing(start: tuple[float, float],
 @pytest.mark.parametrize(
     ("goal", "why"),
     [
-        ((2.0, 0.0), "the goal is in a wall or outside"),
-        ((90.0, 0.0), "the goal is in a wall or outside"),
+        ((2.0, 0.0), "the goal is inside a wall or outside the map"),
+        ((90.0, 0.0), "the goal is inside a wall or outside the map"),
         ((math.nan, 0.0), "not a finite number"),
-        ((4.0, 0.0), "walls are all around"),
+        ((4.0, 0.0), "is enclosed by walls"),
     ],
 )
 def test_where_there_is_no_way_it_is_said_why(goal: tuple[float, float], why: str) -> None:
