@@ -95,7 +95,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
     "world": (
         Key("world.in", "plus,equals_sign", "zoom_map(1)", "Zoom in", footer=True, shown="+"),
         Key("world.out", "minus", "zoom_map(-1)", "Zoom out", footer=True, shown="-"),
-        Key("world.next", "n", "next_place", "Next place: the robot's, or a field of turtles", short="Place"),
+        Key("world.next", "n", "next_place", "Next place: another robot's, or a field of turtles", short="Place"),
         Key("world.fit", "f", "fit", "Whole map, or follow the robot", footer=True, short="Fit"),
     ),
     "graph": (

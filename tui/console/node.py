@@ -143,6 +143,11 @@ class ConsoleNode:
             text = f"{node} {name} {old} -> {new} {why}"
             self._log(time.time_ns(), Severity.WARN, SOURCE, text, ("", "", 0))
 
+    def choose_robot(self, robot: str) -> None:
+        """Steer another robot, and watch its surroundings."""
+        self.drive.choose(robot)
+        self.executor.create_task(self.world.choose, robot)
+
     def learn(self, kind: str, facts: Mapping[str, Any]) -> None:
         """Take in a fact that a program or a launch reports about itself; from any thread."""
         node = self.provenance.learn(kind, facts)

@@ -294,6 +294,29 @@ def test_topics_that_take_commands_are_counted_and_not_robots() -> None:
     run(live(), play, (80, 24))
 
 
+def test_limits_and_dead_man_time_are_kept_per_robot_and_arming_is_not() -> None:
+    async def play(session: Session) -> None:
+        async def steer(robot: str) -> None:
+            drive = session.console.current.drive
+            change = {"robot": robot, "topic": f"{robot.rstrip('/')}/cmd_vel", "robots": ("/", "/robot2")}
+            session.console.change(drive=replace(drive, **change))
+            await session.settle()
+
+        await steer("/")
+        await session.press("6", "v", *"0.2", "space", *"0.4", "enter", "t", "enter", "w")
+        ours = steering(session).state
+        assert ours.armed and (ours.typed, ours.deadman) == ((0.2, 0.4), 5.0)
+        await steer("/robot2")
+        theirs = steering(session).state
+        assert not ours.armed and not theirs.armed and "Disarmed: another robot" in session.text()
+        assert (theirs.typed, theirs.deadman, theirs.linear) == (None, 2.0, 0.0)
+        assert stops(session)[-2:] == [("all_stop", True), ("steer", False)], "it stands, locked"
+        await steer("/")
+        assert steering(session).state is ours and ours.linear == 0.0
+
+    run(live(), play, (100, 30))
+
+
 def test_what_limits_the_command_is_named() -> None:
     async def play(session: Session) -> None:
         await session.press("6")

@@ -76,6 +76,32 @@ def test_a_field_of_turtles_is_a_place_beside_the_robots() -> None:
     run(live(), play, (120, 30))
 
 
+def test_n_goes_from_robot_to_robot_and_to_the_turtles() -> None:
+    async def play(session: Session) -> None:
+        def see(robot: str) -> None:
+            field = TurtleField("/turtlesim", (Turtle("turtle1", Pose(5.5, 5.5, 0.0)),))
+            seen = replace(world(), robot=robot, robots=("/", "/robot2"), fields=(field,))
+            session.console.change(world=seen)
+
+        def chosen() -> list[str]:
+            return [each[1] for each in session.console.asked if each[0] == "choose_robot"]
+
+        see("/")
+        await session.press("5")
+        assert "/  x" in session.text() and "n: next of 3 places" in session.text()
+        await session.press("n")
+        assert chosen() == ["/robot2"]
+        see("/robot2")
+        await session.settle()
+        assert "/robot2  x" in session.text()
+        await session.press("n")
+        assert "/turtlesim: turtle1" in session.text() and len(chosen()) == 1
+        await session.press("n")
+        assert chosen() == ["/robot2", "/"]
+
+    run(live(), play, (120, 30))
+
+
 def test_turtles_alone_need_no_key() -> None:
     async def play(session: Session) -> None:
         session.console.change(

@@ -199,8 +199,8 @@ class LinkedConsole:
         self._node.drive.stop(False, "", others)
 
     def choose_robot(self, robot: str) -> None:
-        """Steer another robot."""
-        self._node.drive.choose(robot)
+        """Steer another robot, and show what it sees."""
+        self._node.choose_robot(robot)
 
     def steer(self, hold: bool) -> None:
         """Hold the steering, or hand it back."""

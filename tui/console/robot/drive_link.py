@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -18,9 +18,8 @@ from bot_console.tui.console.robot.command_topics import (
     STAMPED,
     TELEOP,
     CommandTopics,
-    robots_of,
-    types_of,
 )
+from bot_console.tui.console.robot.fleet import Fleet, Published, Scope, steered_of
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 from bot_console.tui.console.robot.stop_holders import with_gone
 from bot_console.tui.console.robot.stop_link import STATUS, StopLink
@@ -34,6 +33,8 @@ HOLD_PERIOD = 0.1
 
 VERDICT = "diagnostics"
 DIAGNOSTICS = "diagnostic_msgs/msg/DiagnosticArray"
+VERDICT_LIFETIME_S = 2.0
+"""Without news for so long a verdict is no longer shown: diagnostics are published at least once a second."""
 SILENCE = 0.5
 """Seconds after which a velocity command is dead, and the robot stops by itself."""
 CLOCK = "/clock"
@@ -58,24 +59,21 @@ class Verdict:
 class Surroundings:
     """The robots in a graph."""
 
-    types: Mapping[str, str]
-    """The type of each topic of velocities."""
-    robots: tuple[CommandTopics, ...]
+    fleet: Fleet
     locks: frozenset[str]
     """Topics of the type in which locks tell of themselves."""
-    verdicts: frozenset[str]
+    verdicts: Published
     """Topics of the type in which arbiters tell of their decisions."""
     simulated: bool
 
     @classmethod
     def of(cls, graph: GraphInfo) -> Surroundings:
         """Find the robots of a graph."""
-        published = [each for node in graph.nodes for each in node.publishers]
+        fleet = Fleet(graph)
         return cls(
-            types_of(graph),
-            robots_of(graph),
-            frozenset(each.name for each in published if STATUS in each.types),
-            frozenset(each.name for each in published if DIAGNOSTICS in each.types),
+            fleet,
+            frozenset(fleet.published(STATUS)),
+            fleet.published(DIAGNOSTICS),
             any(each.name == CLOCK for each in graph.topics),
         )
 
@@ -86,21 +84,24 @@ class DriveLink:
     `drive` and `stop` may be called from any thread.
     """
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, now: Callable[[], float] = time.monotonic) -> None:
+        """`now` returns seconds, to measure the age of what has been heard."""
         self._node = node
+        self._now = now
         self._publishers: dict[tuple[str, Any], Any] = {}
         self._watching: dict[str, Any] = {}
         self._seen: dict[str, Velocity] = {}
         self._stop = StopLink(node)
         self._zeros = False
         self._verdict = Verdict()
-        self._heard = 0.0
+        self._heard: dict[str, float] = {}
         self._info = DriveInfo()
-        self._robots: tuple[CommandTopics, ...] = ()
+        self._found = Surroundings.of(GraphInfo())
+        self._scope = Scope("/")
         self._robot = NOBODY
         self._chosen = ""
-        self._types: Mapping[str, str] = {}
-        self._simulated = False
+        self._replaced = False
+        """Whether the steered robot has left and another one taken its place while somebody was steering."""
         self._acted = False
         self._arbitrated = False
         node.create_timer(HOLD_PERIOD, self._repeat)
@@ -111,24 +112,26 @@ class DriveLink:
 
     def take(self, found: Surroundings) -> None:
         """Take in what was found in a graph; in the thread that serves the node."""
-        self._types, self._robots, self._simulated = found.types, found.robots, found.simulated
+        self._found = found
+        before = self._robot.robot
         self._follow_robot()
+        self._replaced |= self._stop.steering and before not in ("", self._robot.robot)
         self._stop.follow(found.locks)
-        self._watch(VERDICT, _topic(found.verdicts, VERDICT))
 
     def _follow_robot(self) -> None:
-        usual = (each for each in self._robots if each.standard)
-        robot = next((each for each in self._robots if each.robot == self._chosen), next(usual, NOBODY))
+        found = self._found
+        robot = steered_of(found.fleet.robots, self._chosen)
         before, self._robot = self._robot, robot
+        self._scope = found.fleet.scope(robot)
         if before.robot not in ("", robot.robot):
             self._arbitrated = False
         if before.get(TELEOP) and not robot.get(TELEOP):
             self.zero()  # it need not wait until its last command is dead
         self._arbitrated = bool(robot.get(TELEOP)) or (self._arbitrated and bool(robot.get(FINAL)))
-        space = robot.robot.rstrip("/") if robot.standard else ""
+        named = {each for each in found.fleet.types if self._scope.owns(each)}
         for token in (FINAL, ASKED):
-            named = {each for each in self._types if each.startswith(space + "/")}
             self._watch(token, robot.get(FINAL) if not robot.standard and token == FINAL else _topic(named, token))
+        self._watch(VERDICT, _topic(self._scope.own(found.verdicts), VERDICT))
         for each in (TELEOP, FINAL):
             if robot.get(each):
                 self._publisher(robot.get(each))  # now, since a first message may be too early for whoever listens
@@ -139,6 +142,7 @@ class DriveLink:
             if self._acted:
                 self.zero()
             self._chosen = robot
+            self._replaced = False
             self._follow_robot()
 
     def _watch(self, token: str, topic: str) -> None:
@@ -149,6 +153,7 @@ class DriveLink:
             self._node.destroy_subscription(now)
             del self._watching[token]
             self._seen.pop(token, None)
+            self._heard.pop(token, None)
         if token == VERDICT:
             self._verdict = Verdict()
             if topic:
@@ -164,16 +169,16 @@ class DriveLink:
             values = {each.key: each.value for each in status.values}
             if "limited_by" in values:
                 self._verdict = Verdict(values["limited_by"], _velocity(values, "asked"), _velocity(values, "final"))
+                self._heard[VERDICT] = self._now()
 
     def _kind(self, topic: str) -> Any:
-        return TwistStamped if self._types.get(topic) == STAMPED else Twist
+        return TwistStamped if self._found.fleet.types.get(topic) == STAMPED else Twist
 
     def _saw(self, token: str, message: Any) -> None:
         twist = getattr(message, "twist", message)
         velocity = (twist.linear.x, twist.angular.z)
         self._seen[token] = velocity
-        if token == FINAL:
-            self._heard = time.monotonic()
+        self._heard[token] = self._now()
         if token == FINAL and self._holds_by_zeros and velocity != (0.0, 0.0):
             # Somebody else drives on; without an arbiter the last word counts, so ours follows at once.
             self._send(FINAL, 0.0, 0.0)
@@ -195,7 +200,7 @@ class DriveLink:
         """Publish one command (m/s, rad/s), unless the robot is held; raises `ValueError` for NaN and infinity."""
         if not (math.isfinite(linear) and math.isfinite(angular)):
             raise ValueError("a velocity must be a finite number")
-        if not (self._stop.info.stopped or self._zeros):
+        if not (self._stop.info.stopped or self._zeros or self._replaced):
             self._acted = True
             self._send(self._token, linear, angular)
 
@@ -217,6 +222,7 @@ class DriveLink:
             self._stop.steer()
         else:
             self._stop.hand_back()
+            self._replaced = False
 
     def close(self, patience: float = 0.0) -> None:
         """Send zero velocity, and lock the robot if this console leaves while it holds the steering.
@@ -255,7 +261,7 @@ class DriveLink:
 
     def _each_robot(self) -> Iterable[CommandTopics]:
         """All robots with the usual topic names, and the steered one."""
-        every = {each.robot: each for each in (*self._robots, self._robot)}
+        every = {each.robot: each for each in (*self._found.fleet.robots, self._robot)}
         return [each for each in every.values() if each.standard or each is self._robot]
 
     def _zero_all(self) -> None:
@@ -293,28 +299,37 @@ class DriveLink:
         message = self._kind(topic)()
         twist = getattr(message, "twist", message)
         twist.linear.x, twist.angular.z = float(linear), float(angular)
-        if twist is not message and not self._simulated:
+        if twist is not message and not self._found.simulated:
             # In simulated time a stamp of ours would be from another time; zero means now.
             message.header.stamp = self._node.get_clock().now().to_msg()
         self._publisher(topic).publish(message)
 
+    def _recent(self, token: str, lifetime_s: float) -> bool:
+        """Whether something was heard of a kind, and is not older than so many seconds."""
+        heard = self._heard.get(token)
+        return heard is not None and self._now() - heard <= lifetime_s
+
     def info(self, world: WorldInfo) -> DriveInfo:
         """The command chain as known now, the robot's own report included; the same object while nothing changes."""
-        silent = FINAL in self._seen and time.monotonic() - self._heard > SILENCE
-        gone = silent and world.silent_s > 0
-        why = NO_COMMAND if silent else self._verdict.limited_by
+        here = world.robot in ("", self._robot.robot)
+        final, asked = (self._recent(token, SILENCE) for token in (FINAL, ASKED))
+        silent = FINAL in self._seen and not final
+        gone = silent and here and world.silent_s > 0
+        verdict = self._verdict if self._recent(VERDICT, VERDICT_LIFETIME_S) else Verdict()
+        why = NO_COMMAND if silent else verdict.limited_by
         if self._arbitrated and not self._robot.get(TELEOP):
             why = NO_ARBITER
         stop = self._stop.info
         info = DriveInfo(
             topic=self.topic,
             robot=self._robot.robot,
-            robots=tuple(each.robot for each in self._robots),
-            asked=None if gone else self._verdict.asked or self._seen.get(ASKED),
-            limited=None if gone else self._verdict.limited,
-            final=None if silent else self._seen.get(FINAL),
-            actual=(world.speed, world.turn) if world.pose and not world.silent_s else None,
-            silent_s=world.silent_s,
+            robots=tuple(each.robot for each in self._found.fleet.robots),
+            others=self._scope.others,
+            asked=None if gone else verdict.asked or (self._seen[ASKED] if asked else None),
+            limited=None if gone else verdict.limited,
+            final=self._seen[FINAL] if final else None,
+            actual=(world.speed, world.turn) if here and world.pose and not world.silent_s else None,
+            silent_s=world.silent_s if here else 0,
             limited_by=why,
             stopped=stop.stopped or self._zeros,
             stop_confirmed=stop.confirmed,

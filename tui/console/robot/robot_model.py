@@ -77,6 +77,10 @@ class WorldInfo:
     """Fields with turtles, beside or instead of a robot."""
     silent_s: int = 0
     """For how many seconds the robot has told no pose and speed; 0 while it does. What is known is then that old."""
+    robot: str = ""
+    """Which robot this is about, as `DriveInfo.robot`; empty where none listens for velocities."""
+    robots: tuple[str, ...] = ()
+    """The robots that have odometry of their own, each of which can be shown."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,6 +116,8 @@ class DriveInfo:
     """Which robot is steered, by its namespace."""
     robots: tuple[str, ...] = ()
     """All that listen for velocities."""
+    others: frozenset[str] = frozenset()
+    """Namespaces, each with a slash at its end, of robots that are not part of the steered one."""
     armed: bool = False
     asked: tuple[float, float] | None = None
     limited: tuple[float, float] | None = None

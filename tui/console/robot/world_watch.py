@@ -16,6 +16,8 @@ import numpy as np
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.offered_qos import OfferedSubscription
 from bot_console.tui.console.robot.beam_ends import FARTHEST, BeamEnds
+from bot_console.tui.console.robot.command_topics import NOBODY
+from bot_console.tui.console.robot.fleet import Fleet, steered_of
 from bot_console.tui.console.robot.past_poses import PastPoses, heading
 from bot_console.tui.console.robot.robot_model import GridMap, Pose, WorldInfo
 from bot_console.tui.console.robot.turtle_watch import TurtleWatch
@@ -34,9 +36,10 @@ SILENT_S = 1.0
 
 SENSOR = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+MAP, ODOMETRY = "nav_msgs/msg/OccupancyGrid", "nav_msgs/msg/Odometry"
 PREFERRED: Mapping[str, tuple[str, ...]] = {
-    "nav_msgs/msg/OccupancyGrid": ("map",),
-    "nav_msgs/msg/Odometry": ("ground_truth", "odom"),
+    MAP: ("map",),
+    ODOMETRY: ("ground_truth", "odom"),
     "sensor_msgs/msg/LaserScan": ("scan",),
 }
 
@@ -58,18 +61,58 @@ class WorldWatch:
         self._turtles = TurtleWatch(node)
         self._fresh = False
         self._info = WorldInfo()
+        self._chosen = ""
+        self._robot = NOBODY
+        self._shown = ""
+        """The robot that what is known is about; it stays when that robot leaves, as its last news does."""
+        self._robots: tuple[str, ...] = ()
+        self._fleet = Fleet(GraphInfo())
 
     def follow(self, graph: GraphInfo) -> None:
-        """Subscribe to new topics with the QoS they offer, and drop those that have left."""
+        """Subscribe to new topics of the chosen robot with the QoS they offer, and drop those that have left."""
+        self._fleet = Fleet(graph)
         for each in self._subscriptions.values():
             each.follow()
-        for type_name, wanted in PREFERRED.items():
-            offered = {each.name for each in self._publishers(graph) if type_name in each.types}
-            self._use(type_name, best(offered, wanted))
         self._turtles.follow(graph)
+        self._follow_robot()
 
-    def _publishers(self, graph: GraphInfo) -> list[Any]:
-        return [each for node in graph.nodes for each in node.publishers]
+    def choose(self, robot: str) -> None:
+        """Watch another robot, by the name that `DriveInfo.robots` has for it; in the thread that serves the node."""
+        self._chosen = robot
+        self._follow_robot()
+
+    def _follow_robot(self) -> None:
+        before, self._robot = self._robot, steered_of(self._fleet.robots, self._chosen)
+        if self._robot.robot and self._robot.robot != self._shown:
+            if self._shown:
+                self._forget()
+            self._shown = self._robot.robot
+        scope = self._fleet.scope(self._robot)
+        for type_name, wanted in PREFERRED.items():
+            own = scope.own(self._fleet.published(type_name), shared=type_name == MAP)
+            self._use(type_name, best(own, wanted))
+        robots = self._with_odometry()
+        if (robots, self._robot.robot) != (self._robots, before.robot):
+            self._robots, self._fresh = robots, True
+
+    def _with_odometry(self) -> tuple[str, ...]:
+        """The robots that have odometry; of several names for one robot the chosen one, else the first."""
+        published = self._fleet.published(ODOMETRY)
+        found: dict[str, str] = {}
+        for each in self._fleet.robots:
+            topic = best(self._fleet.scope(each).own(published), PREFERRED[ODOMETRY])
+            if topic and (topic not in found or each.robot == self._robot.robot):
+                found[topic] = each.robot
+        return tuple(found.values())
+
+    def _forget(self) -> None:
+        """Nothing that is known of one robot is shown as another's."""
+        for each in self._subscriptions.values():
+            each.destroy()
+        self._subscriptions.clear()
+        self._map = self._odometry = self._scan = None
+        self._trail.clear()
+        self.past = PastPoses()
 
     def _use(self, type_name: str, topic: str) -> None:
         now = self._subscriptions.get(type_name)
@@ -80,8 +123,8 @@ class WorldWatch:
             del self._subscriptions[type_name]
         if topic:
             kinds: dict[str, tuple[type[Any], Callable[[Any], None], QoSProfile]] = {
-                "nav_msgs/msg/OccupancyGrid": (OccupancyGrid, self._on_map, LATCHED),
-                "nav_msgs/msg/Odometry": (Odometry, self._on_odometry, SENSOR),
+                MAP: (OccupancyGrid, self._on_map, LATCHED),
+                ODOMETRY: (Odometry, self._on_odometry, SENSOR),
                 "sensor_msgs/msg/LaserScan": (LaserScan, self._on_scan, SENSOR),
             }
             kind, callback, qos = kinds[type_name]
@@ -134,6 +177,8 @@ class WorldWatch:
             turn,
             ends.nearest if ends is not None else None,
             self._turtles.fields(),
+            robot=self._robot.robot,
+            robots=self._robots,
         )
 
 

@@ -49,6 +49,9 @@ class SteeringPane(Pane):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self.state = Steering()
+        self._states: dict[str, Steering] = {}
+        """Limits, dead-man time and command of each robot that was steered, by its name."""
+        self._robot = ""
         self._snapshot = ConsoleSnapshot()
         self.can_focus = True
         self._dragging = self._on_pad = False
@@ -65,13 +68,25 @@ class SteeringPane(Pane):
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Draw what became of the command; the all-stop zeroes it."""
         before, self._snapshot = self._snapshot, snapshot
-        if snapshot.parameters is not before.parameters or snapshot.drive.topic != before.drive.topic:
+        drive = snapshot.drive
+        if drive.robot != self._robot:
+            self._take_robot(drive.robot)
+        whose = (drive.topic, drive.others)
+        if snapshot.parameters is not before.parameters or whose != (before.drive.topic, before.drive.others):
             self._limit()
         if snapshot.drive.stopped and not before.drive.stopped and self.state.armed:
             self._steer_no_more()
         if snapshot.link.silent_s and self.state.armed:
             self._disarm("Disarmed: the robot does not answer.")
         self._draw()
+
+    def _take_robot(self, robot: str) -> None:
+        """Go on with what was set for a robot; keys that were meant for another one never move it."""
+        if self._robot and self.state.armed:
+            self._disarm("Disarmed: another robot is steered now." if robot else "Disarmed: the robot has left.")
+        self._robot = robot
+        if robot:
+            self.state = self._states.setdefault(robot, Steering() if self._states else self.state)
 
     def _draw(self) -> None:
         picture = self.query_one(Picture)
@@ -88,8 +103,8 @@ class SteeringPane(Pane):
 
     def _limit(self) -> None:
         """The limits that were typed, else those of the robot's parameters."""
-        trees, topic = self._snapshot.parameters.values(), self._snapshot.drive.topic
-        self.state.limit(self.state.typed or greatest_of(trees, topic))
+        trees, drive = self._snapshot.parameters.values(), self._snapshot.drive
+        self.state.limit(self.state.typed or greatest_of(trees, drive.topic, drive.others))
 
     def action_limits(self) -> None:
         """Ask for limits."""

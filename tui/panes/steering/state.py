@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from bot_console.tui.console.model import Kind, ParameterTree
+from bot_console.tui.console.robot.fleet import Scope
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.format import parse_number
 
@@ -134,12 +135,16 @@ def parse_limits(text: str) -> tuple[float, float] | None:
     return speed, turn
 
 
-def greatest_of(trees: Iterable[ParameterTree], topic: str = "") -> tuple[float, float]:
-    """The limits of speed and turn that the parameters of the robot in the topic's namespace give, else of any node."""
+def greatest_of(trees: Iterable[ParameterTree], topic: str = "", others: Collection[str] = ()) -> tuple[float, float]:
+    """The limits of speed and turn that the parameters of the steered robot give.
+
+    Nodes in the namespace of the topic come first, then any that belong to no other robot; `others` are the namespaces
+    of the other robots.
+    """
     found = {SPEED_PARAMETER: GREATEST[0], TURN_PARAMETER: GREATEST[1]}
-    space = topic.rpartition("/")[0]
-    every = list(trees)
-    own = [each for each in every if space and each.node.startswith(f"{space}/")]
+    scope = Scope(f"{topic.rpartition('/')[0]}/", frozenset(others))
+    every = [each for each in trees if not scope.is_foreign(each.node)]
+    own = [each for each in every if scope.owns(each.node)]
     for tree in own or every:
         for parameter in tree.parameters:
             value = parameter.value

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.robot.robot_model import Pose, TurtleField, WorldInfo
-from bot_console.tui.format import clock_text, figure
+from bot_console.tui.format import clock_text, figure, harmless
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.live_words import LiveWords
 from bot_console.tui.widgets.picture import Picture
@@ -40,7 +40,8 @@ class WorldMap(Picture):
         self._told: object = None
         """What the lines tell; None where they show something else."""
         self._age = -1
-        self._place = 0
+        self._field = ""
+        """The node of the field that is shown; empty for a robot's place."""
         self.zoom = 1.0
         self.scale = ""
         self.scale_within: Callable[[int], str] = lambda room: ""
@@ -55,22 +56,33 @@ class WorldMap(Picture):
         self.draw()
 
     @property
-    def places(self) -> list[TurtleField | None]:
-        """What can be shown: None for the robot's place, if there is a robot, and each field of turtles."""
+    def places(self) -> list[str | TurtleField]:
+        """What can be shown: each robot, by its name, and each field of turtles."""
         world = self._world
-        robot: list[TurtleField | None] = [None] if world.pose or world.map or not world.fields else []
-        return robot + list(world.fields)
+        here = [world.robot] if world.pose or world.map or not world.fields else []
+        return [*(world.robots if len(world.robots) > 1 else here), *world.fields]
+
+    @property
+    def place(self) -> str | TurtleField:
+        """The place that is shown: the steered robot's, unless a field was chosen or is all there is."""
+        world = self._world
+        chosen = next((each for each in world.fields if each.node == self._field), None)
+        first = self.places[0]
+        return chosen or (first if isinstance(first, TurtleField) else world.robot)
 
     @property
     def field(self) -> TurtleField | None:
-        """The field that is shown; None for the robot's place."""
-        places = self.places
-        return places[self._place % len(places)]
+        """The field that is shown; None for a robot's place."""
+        place = self.place
+        return place if isinstance(place, TurtleField) else None
 
-    def next_place(self) -> None:
-        """Show the next one of `places`."""
-        self._place = (self._place + 1) % len(self.places)
+    def next_place(self) -> str:
+        """Go to the next one of `places`; returns the robot that is to be shown, empty for a field."""
+        places, now = self.places, self.place
+        place = places[(places.index(now) + 1) % len(places) if now in places else 0]
+        self._field = place.node if isinstance(place, TurtleField) else ""
         self.draw()
+        return "" if isinstance(place, TurtleField) else place
 
     def draw(self) -> None:
         """Make the lines for the size that there is."""
@@ -84,7 +96,7 @@ class WorldMap(Picture):
             self._field_drawing = self._field_drawing or FieldDrawing()
             self.set_lines(self._field_drawing.rows(self.field, width, height))
             return
-        if self._world == WorldInfo():
+        if replace(self._world, robot="", robots=()) == WorldInfo():
             self._told = None
             self.set_lines(())
             return
@@ -108,7 +120,8 @@ class WorldPane(Pane):
     HELP = (
         "The map, the robot as an arrow, where it has been, and where its LIDAR beams end. + zooms in, f shows all. "
         "While another moment is looked at (plot, log, history) it stands where it was then. "
-        "A field of turtlesim shows with its turtles and what they draw; n shows the next place."
+        "Of several robots the steered one is shown: n takes the next, and Steering and the status line follow. "
+        "A field of turtlesim shows with its turtles and what they draw; n goes there after the robots."
     )
     BINDINGS = keymap.bindings("world")
     DEFAULT_CSS = """
@@ -180,6 +193,8 @@ class WorldPane(Pane):
             near = "free" if world.nearest is None else f"{figure(world.nearest)} m"
             where = f"x {pose.x:6.1f}  y {pose.y:6.1f}" if pose else "pose unknown"
             speed = f"SILENT for {world.silent_s} s" if world.silent_s else f"{figure(world.speed, '+')} m/s"
+            whose = f"{harmless(world.robot)}  " if len(world.robots) > 1 else ""
+            where = f"{whose}{where}"
             text = f"{where}  {speed}  nearest {near}  "
             width = self.query_one(LiveWords).content_size.width
             room = width - cell_len(text + more)
@@ -192,8 +207,10 @@ class WorldPane(Pane):
         (facts.say_live if live else facts.say_now)(text)
 
     def action_next_place(self) -> None:
-        """The robot's place, or a field of turtles."""
-        self.query_one(WorldMap).next_place()
+        """The next robot, or a field of turtles."""
+        robot = self.query_one(WorldMap).next_place()
+        if robot and robot != self._snapshot.world.robot:
+            self.console.choose_robot(robot)
         self._facts()
 
     def action_zoom_map(self, step: int) -> None:

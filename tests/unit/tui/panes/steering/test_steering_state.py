@@ -76,3 +76,14 @@ def test_disarmed_it_says_zero_even_if_it_said_so_before() -> None:
 def test_limits_come_from_parameters_that_are_positive_numbers(parameters, expected) -> None:
     infos = tuple(ParameterInfo("/r", name, kind, value) for name, kind, value in parameters)
     assert greatest_of([ParameterTree("/r", infos)]) == expected
+
+
+def test_limits_are_those_of_the_steered_robot_and_never_another_robots() -> None:
+    def tree(node: str, speed: float) -> ParameterTree:
+        return ParameterTree(node, (ParameterInfo(node, "max_speed", Kind.DOUBLE, speed),))
+
+    fleet = [tree("/navigator", 0.5), tree("/robot2/navigator", 2.0), tree("/robot20/navigator", 4.0)]
+    assert greatest_of(fleet, "/cmd_vel", {"/robot2/", "/robot20/"})[0] == 0.5
+    assert greatest_of(fleet, "/robot2/cmd_vel", {"/", "/robot20/"})[0] == 2.0
+    assert greatest_of(fleet, "/robot3/cmd_vel", {"/", "/robot2/", "/robot20/"}) == GREATEST
+    assert greatest_of(fleet[:1], "/base/cmd_vel")[0] == 0.5, "of one robot, wherever its nodes are"

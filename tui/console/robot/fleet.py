@@ -1,0 +1,130 @@
+"""The robots on a graph: which topics, nodes and parameters belong to which of them.
+
+A robot is known by the topics on which it takes velocities. What lies in its namespace is its own, and so is what is
+published by the nodes that obey these topics, directly or through further velocity topics (a multiplexer, a stamper).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.robot.command_topics import NOBODY, CommandTopics, robots_of, types_of
+
+Published = Mapping[str, Collection[str]]
+"""Topics, each with the names of its publishers' nodes."""
+
+
+def steered_of(robots: Iterable[CommandTopics], chosen: str) -> CommandTopics:
+    """The robot with the chosen name, else the first one whose topics have the usual names."""
+    every = list(robots)
+    usual = (each for each in every if each.standard)
+    return next((each for each in every if each.robot == chosen), next(usual, NOBODY))
+
+
+@dataclass(frozen=True)
+class Scope:
+    """What belongs to one robot, and what to others."""
+
+    namespace: str
+    """Ends in a slash."""
+    others: frozenset[str] = frozenset()
+    """Namespaces of robots that this one neither drives nor is driven by; each ends in a slash."""
+    nodes: frozenset[str] = frozenset()
+    """Nodes that obey its commands, directly or through others."""
+    foreign_nodes: frozenset[str] = frozenset()
+    """Nodes that obey only the commands of others."""
+
+    def owns(self, name: str) -> bool:
+        """Whether a topic or node lies in the namespace of this robot, and not in a longer one of another."""
+        return self._space(name) == self.namespace
+
+    def is_foreign(self, name: str) -> bool:
+        """Whether a topic or node lies in the namespace of another robot."""
+        space = self._space(name)
+        return space != self.namespace and space in self.others
+
+    def _space(self, name: str) -> str:
+        """The longest known namespace that holds a name; a name equal to a namespace lies in it."""
+        space = f"{name}/"
+        while space and space != self.namespace and space not in self.others:
+            space = space[: space.rstrip("/").rfind("/") + 1]
+        return space
+
+    def own(self, published: Published, *, shared: bool = False) -> set[str]:
+        """Which topics are this robot's; the surest kind only.
+
+        With `shared`, what no other robot's nodes publish may serve several robots, such as the map of a map server.
+        """
+        mine = {topic for topic, nodes in published.items() if not self.nodes.isdisjoint(nodes)}
+        free = {topic for topic, nodes in published.items() if not nodes or not self.foreign_nodes.issuperset(nodes)}
+        inside = {topic for topic in free if self.owns(topic)}
+        if self.namespace in self.others and inside & mine:
+            return inside & mine
+        left = {topic for topic in free if not self.is_foreign(topic) or (shared and self._space(topic) == "/")}
+        return inside or mine or left
+
+
+class Fleet:
+    """The robots of one graph."""
+
+    def __init__(self, graph: GraphInfo) -> None:
+        self.robots: Sequence[CommandTopics] = robots_of(graph)
+        self.types: Mapping[str, str] = types_of(graph)
+        """The type of each velocity topic."""
+        self._graph = graph
+        self._listening: dict[str, set[str]] = {}
+        self._driving: dict[str, set[str]] = {}
+        for node in graph.nodes:
+            if node.hidden:
+                continue
+            for end in node.subscriptions:
+                if end.name in self.types:
+                    self._listening.setdefault(end.name, set()).add(node.name)
+            for end in node.publishers:
+                if end.name in self.types:
+                    self._driving.setdefault(node.name, set()).add(end.name)
+        self._reached = {each.robot: self._reach(each.topics.values()) for each in self.robots}
+
+    def published(self, type_name: str) -> Published:
+        """All published topics of a type."""
+        found: dict[str, set[str]] = {}
+        for node in self._graph.nodes:
+            for end in node.publishers:
+                if type_name in end.types:
+                    found.setdefault(end.name, set()).add(node.name)
+        return found
+
+    def scope(self, robot: CommandTopics) -> Scope:
+        """What belongs to a robot; without one, everything does."""
+        if robot.robot not in self._reached:
+            return Scope("/")
+        nodes, topics = self._reached[robot.robot]
+        given = set(robot.topics.values())
+        others = [
+            each
+            for each in self.robots
+            if topics.isdisjoint(each.topics.values()) and given.isdisjoint(self._reached[each.robot][1])
+        ]
+        foreign = {node for each in others for node in self._reached[each.robot][0]} - nodes
+        spaces = frozenset(_namespace(each) for each in others)
+        return Scope(_namespace(robot), spaces, frozenset(nodes), frozenset(foreign))
+
+    def _reach(self, topics: Iterable[str]) -> tuple[set[str], set[str]]:
+        """The nodes that obey velocity topics, and all velocity topics on the way, these included."""
+        reached, nodes = set(topics), set[str]()
+        left = list(reached)
+        while left:
+            for node in self._listening.get(left.pop(), ()):
+                if node not in nodes:
+                    nodes.add(node)
+                    new = self._driving.get(node, set[str]()) - reached
+                    reached |= new
+                    left += new
+        return nodes, reached
+
+
+def _namespace(robot: CommandTopics) -> str:
+    space = robot.robot if robot.standard else robot.robot.rpartition("/")[0]
+    return f"{space.rstrip('/')}/"
