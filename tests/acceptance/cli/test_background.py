@@ -19,9 +19,9 @@ if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
+from bot_console.tui.console.launch_host.combined import CombinedLauncher, OtherHosts
 from bot_console.tui.console.launch_host.door import doors, knock
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
-from bot_console.tui.console.launch_host.several import SeveralLaunchers
 from bot_console.tui.console.model import ProcessInfo, ProcessState
 from launcher_bench import WAITS
 
@@ -93,7 +93,7 @@ def generate_launch_description():
 """
 
 
-def process(launcher: SeveralLaunchers) -> ProcessInfo | None:
+def process(launcher: CombinedLauncher) -> ProcessInfo | None:
     """The one process."""
     return next(iter(launcher.info().processes), None)
 
@@ -121,8 +121,8 @@ def test_its_processes_are_seen_and_steered_from_consoles_that_come_and_go(state
             connection, lambda *record: None, lambda severity, name, text: lines.append(text), owner=False
         )
 
-    def attached() -> SeveralLaunchers:
-        return SeveralLaunchers(never, tuple, lambda: doors(folder), enter)
+    def attached() -> CombinedLauncher:
+        return CombinedLauncher(never, tuple, OtherHosts(lambda: doors(folder), enter))
 
     first, second = attached(), attached()
     begun = until(lambda: process(first), "the process")
@@ -141,7 +141,7 @@ def test_its_processes_are_seen_and_steered_from_consoles_that_come_and_go(state
     second.close()
 
 
-def never() -> HostedLauncher:
+def never() -> tuple[str, HostedLauncher]:
     """Nothing is launched from these consoles."""
     raise AssertionError
 

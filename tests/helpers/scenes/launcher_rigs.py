@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Protocol
 
 import pytest
-from bot_console.tui.cli.attach.launchers import HostLaunchers
+from bot_console.tui.cli.attach.launchers import launcher_of_machine
+from bot_console.tui.console.launch_host.combined import CombinedLauncher
 from bot_console.tui.console.launch_host.host import LaunchHost
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
-from bot_console.tui.console.launch_host.several import SeveralLaunchers
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo
 from bot_console.tui.console.protocol import Launcher
 from fakes.console import FakeConsole
@@ -132,17 +132,15 @@ class AttachedRig(HostedRig):
 
     def __init__(self, folder: Path) -> None:
         super().__init__(folder)
-        self.launcher = self._several = SeveralLaunchers(
-            lambda: self._proxy, self._proxy.files, tuple, lambda door: None
-        )
+        self.launcher = self._combined = CombinedLauncher(lambda: ("own", self._proxy), self._proxy.files)
 
     def info(self) -> LaunchInfo:
         """What is known to the console."""
-        return self._several.info()
+        return self._combined.info()
 
     def close(self) -> None:
         """Close the launcher."""
-        self._several.close()
+        self._combined.close()
         self._host.close()
 
 
@@ -162,7 +160,7 @@ class MachineRig:
         self._up = 0
         self._patch = pytest.MonkeyPatch()
         self._patch.setenv("AMENT_PREFIX_PATH", str(folder), prepend=os.pathsep)
-        self.launcher: Launcher = HostLaunchers(lambda *record: None, self._heard)
+        self.launcher: Launcher = launcher_of_machine(lambda *record: None, self._heard)
 
     def _heard(self, severity: int, label: str, text: str) -> None:
         self._up += text == "up"

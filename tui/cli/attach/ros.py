@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from bot_console.tui.cli.attach.launchers import HostLaunchers
+from bot_console.tui.cli.attach.launchers import launcher_of_machine
 from bot_console.tui.cli.attach.options import AttachOptions
 from bot_console.tui.cli.attach.ros2_command_line import MachineCommandLine
 from bot_console.tui.cli.attach.session import AttachedSession
@@ -26,7 +26,7 @@ def run_ros(options: AttachOptions, described: str) -> int:
         return launchers.info()
 
     console = RosConsole(launch_info=launched, profile_folders=[PROFILES], capabilities=CAPABILITIES, foreign=True)
-    launchers = HostLaunchers(console.record, console.printed)
+    launchers = launcher_of_machine(console.record, console.printed)
     said = [(Severity.INFO, SAID.format(described, os.environ.get("RMW_IMPLEMENTATION", "as installed")))]
     session = AttachedSession(
         console, MachineCommandLine(), options.look, launcher=launchers, said=said, on_close=launchers.close

@@ -14,9 +14,9 @@ from bot_console.tui.cli.system.domain import domain
 from bot_console.tui.cli.system.workspaces import launch_environment, launch_files
 from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.launch.process_output import Add
-from bot_console.tui.console.launch_host.door import doors, knock, pid_behind
+from bot_console.tui.console.launch_host.combined import CombinedLauncher, OtherHosts
+from bot_console.tui.console.launch_host.door import door_of, doors, knock, pid_behind
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
-from bot_console.tui.console.launch_host.several import SeveralLaunchers
 from bot_console.tui.console.model import LaunchInfo
 from bot_console.tui.console.protocol import Launcher
 
@@ -99,10 +99,10 @@ def _of_own(host: Host, console: RosConsole) -> HostedLauncher:
     )
 
 
-def attached(start_own: Callable[[], Host]) -> Callable[[RosConsole], SeveralLaunchers]:
+def attached(start_own: Callable[[], Host]) -> Callable[[RosConsole], CombinedLauncher]:
     """Through the hosts of all other programs in the domain, and one of its own once it launches something itself."""
 
-    def make(console: RosConsole) -> SeveralLaunchers:
+    def make(console: RosConsole) -> CombinedLauncher:
         def enter(door: str) -> HostedLauncher | None:
             connection = knock(door)
             hangs = why_it_hangs(pid_behind(door))
@@ -110,11 +110,12 @@ def attached(start_own: Callable[[], Host]) -> Callable[[RosConsole], SeveralLau
                 connection, console.record, console.printed, owner=False, learn=console.learn, hangs=hangs
             )
 
-        def own() -> HostedLauncher:
-            return _of_own(start_own(), console)
+        def own() -> tuple[str, HostedLauncher]:
+            host = start_own()
+            return door_of(folder, host.process.pid), _of_own(host, console)
 
         folder = domain_folder(domain())
-        console_listens = partial(console.wait_ready, PATIENCE)
-        return SeveralLaunchers(own, launch_files, lambda: doors(folder), enter, console_listens)
+        others = OtherHosts(lambda: doors(folder), enter, partial(console.wait_ready, PATIENCE))
+        return CombinedLauncher(own, launch_files, others)
 
     return make

@@ -20,7 +20,7 @@ class Door:
 
     def __init__(self, folder: str, enter: Callable[[socket.socket], None]) -> None:
         """`enter` receives each connection; raises `OSError` if the folder cannot hold a socket."""
-        self.path = os.path.join(folder, f"{os.getpid()}{DOOR}")
+        self.path = door_of(folder, os.getpid())
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self._enter = enter
         early = f"{self.path}.new"
@@ -46,6 +46,11 @@ class Door:
         with contextlib.suppress(OSError):
             self._socket.shutdown(socket.SHUT_RDWR)  # wakes the thread
         self._socket.close()
+
+
+def door_of(folder: str, pid: int) -> str:
+    """The path of the door of a process."""
+    return os.path.join(folder, f"{pid}{DOOR}")
 
 
 def doors(folder: str) -> list[str]:
