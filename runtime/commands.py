@@ -8,8 +8,10 @@ import sys
 from pathlib import Path
 
 BIN = Path(__file__).resolve().parent / "bin"
-"""`ros2` and `colcon` in `ros2/`, and the programs of rqt in `rqt/`: scripts, `timeout` and `watch` find these, and no
-shell functions."""
+"""`ros2` and `colcon` in `ros2/`, the programs of rqt in `rqt/`, `bot-console` in `bot_console/`.
+
+They are files because scripts, `timeout` and `watch` do not find shell functions.
+"""
 
 COMMAND_VARIABLE = "BOT_CONSOLE_COMMAND"
 """Tells them which `bot-console` they are, whatever environment is active where they are called."""

@@ -186,7 +186,7 @@ TABLES: dict[str, Callable[[], str]] = {
     **{f"keys:{scope}": partial(keys, scope) for scope in TABLE},
     **{f"parameters:{each.__name__}": partial(parameters, each) for each in NODES},
     **{f"arguments:{each}": partial(arguments, each) for each in LAUNCH_FILES},
-    "options:bot-console": lambda: options(console_arguments._parser()),
+    "options:bot-console": lambda: options(console_arguments.option_parser()),
     "options:run": lambda: options(console_run._parser()),
     "options:launch": lambda: options(launch_parser()),
     "tutorials": tutorials,

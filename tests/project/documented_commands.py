@@ -24,7 +24,7 @@ INLINE = re.compile(
 """A command in a sentence; fewer words only name one."""
 OWN = set(["stop", "release", "reset", "check", "up", "down", "status", "attach", "doctor", "router", "lint", "graph"])
 """Commands of ours whose words are not looked at."""
-ELSEWHERE = {"python3", "pip", "eval", "pytest", "tmux", "cd", "export", "set"}
+ELSEWHERE = {"source", "python3", "pip", "eval", "pytest", "tmux", "cd", "export", "set"}
 PACKAGE, SYSTEM = "bot_console_robot", "robot_system.launch.py"
 ENVIRONMENT = re.compile(r"[A-Z_]+=.*")
 

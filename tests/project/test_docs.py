@@ -17,14 +17,15 @@ HEADING = re.compile(r"^#+ (.+)$", re.MULTILINE)
 FENCED = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
 
 
-def load_tables():
-    spec = importlib.util.spec_from_file_location("documentation_tables", ROOT / "tools" / "tables.py")
+def load_tool(name):
+    spec = importlib.util.spec_from_file_location(f"documentation_{name}", ROOT / "tools" / f"{name}.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
 
 
-tables = load_tables()
+tables = load_tool("tables")
+man_page = load_tool("man_page")
 named = pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.name)
 
 
@@ -41,6 +42,10 @@ def anchors(path):
 @named
 def test_tables_are_those_of_the_code(path):
     assert tables.filled(text_of(path)) == text_of(path), "run: python tools/tables.py"
+
+
+def test_manual_page_matches_the_options_and_commands():
+    assert man_page.manual_page() == text_of(man_page.PAGE), "run: python tools/man_page.py"
 
 
 def test_every_table_stands_in_a_document():

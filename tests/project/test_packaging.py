@@ -1,6 +1,5 @@
 """What is installed: one package, with everything that a run needs."""
 
-import importlib.util
 import shutil
 import subprocess
 import sys
@@ -15,8 +14,6 @@ ROOT = Path(__file__).resolve().parents[2]
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory):
     """The names in a wheel built from a copy of this tree: a build writes modules that other tests import."""
-    if importlib.util.find_spec("hatchling") is None:
-        pytest.skip("hatchling is not installed, and an isolated build needs the network")
     folder = tmp_path_factory.mktemp("wheel")
     copy = folder / "tree"
     shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(".git", ".venv", "build", "generated", "__pycache__"))
@@ -26,8 +23,21 @@ def wheel(tmp_path_factory):
         return archive.namelist()
 
 
+SHARED = {
+    "man/man1/bot-console.1",
+    "bash-completion/completions/bot-console",
+    "zsh/site-functions/_bot-console",
+    "fish/vendor_completions.d/bot-console.fish",
+}
+
+
 def test_the_wheel_holds_one_package(wheel):
-    assert {name.split("/")[0] for name in wheel if ".dist-info" not in name} == {"bot_console"}
+    names = [name.split("/")[0] for name in wheel]
+    assert {name for name in names if not name.endswith((".dist-info", ".data"))} == {"bot_console"}
+
+
+def test_wheel_installs_manual_page_and_shell_completion(wheel):
+    assert {name.partition(".data/data/share/")[2] for name in wheel if ".data/" in name} == SHARED
 
 
 @pytest.mark.parametrize(

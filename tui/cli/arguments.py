@@ -112,7 +112,7 @@ def _with_perspective(opening: Opening, given: argparse.Namespace) -> Opening:
 
 def parse(words: Sequence[str]) -> Options:
     """Read a command line; ends the program with exit code 2 for wrong usage."""
-    parser = _parser()
+    parser = option_parser()
     opening, words = rqt_opening(words) if is_rqt(words) else (None, words)
     given = parser.parse_args(words)
     _check_pane(parser, given.pane)
@@ -195,7 +195,8 @@ def profile_names() -> list[str]:
 SIMULATOR_HELP = "whether the simulated robot runs beside it; else it does when nodes want a robot and nobody gives one"
 
 
-def _parser() -> argparse.ArgumentParser:
+def option_parser() -> argparse.ArgumentParser:
+    """Return the parser of a `bot-console` without a command."""
     parser = argparse.ArgumentParser(
         "bot-console",
         description="rqt for the terminal, with the robot included.",

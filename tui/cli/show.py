@@ -102,9 +102,16 @@ def _connect(options: Options, alone: str, own: Host | None, start: Callable[[],
     return Connected(options, said, hosted(own, buffer), buffer)
 
 
+NO_TERMINAL = """\
+bot-console needs a terminal, and its input or output is not one. Without a terminal:
+  bot-console --headless --duration 60   run the robot for a minute and print a report
+  bot-console up                         start the robot in the background; see also status and down
+  ssh -t HOST bot-console                open the console on another machine"""
+
+
 def _refusal() -> str:
     if not sys.stdout.isatty() or not sys.stdin.isatty():
-        return "bot-console needs a terminal; without one, use --headless"
+        return NO_TERMINAL
     return unusable_domain() or too_few_files()
 
 

@@ -29,7 +29,7 @@ def run(words: Sequence[str]) -> int:
 def _needs_terminal() -> int:
     if sys.stdout.isatty() and sys.stdin.isatty():
         return 0
-    print("bot-console needs a terminal; without one, use `bot-console doctor` or the verbs of ros2", file=sys.stderr)
+    print("bot-console needs a terminal; without one, use `bot-console doctor` or the `ros2` commands", file=sys.stderr)
     return 1
 
 

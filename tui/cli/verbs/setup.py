@@ -5,10 +5,13 @@ from __future__ import annotations
 import shlex
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
 from bot_console.runtime.commands import BIN, COMMAND_VARIABLE, command
 
-HINT = "# For each new shell, put this line into {}: {}"
+HINT = "# To have this in every new shell, add this line to {}: {}"
+
+_SHELL_FOLDER = Path(__file__).resolve().parents[1] / "shell"
 
 _FILES = {"bash": "~/.bashrc", "zsh": "~/.zshrc", "fish": "~/.config/fish/config.fish"}
 
@@ -17,34 +20,7 @@ export {variable}={command}
 export ROS_DISTRO="${{ROS_DISTRO:-jazzy}}" ROS_VERSION=2 ROS_PYTHON_VERSION=3
 case ":$PATH:" in *:{rqt}:*) ;; *) export PATH={rqt}:"$PATH" ;; esac
 command -v ros2 >/dev/null 2>&1 || export PATH="$PATH":{ros2}
-"""
-
-_BASH = """\
-_bot_console_complete() {
-  local words line="${COMP_LINE:0:COMP_POINT}" IFS=' '
-  read -ra words <<<"$line"
-  [[ "$line" == *' ' ]] && words+=('')
-  local IFS=$'\\n'
-  COMPREPLY=($("$BOT_CONSOLE_COMMAND" complete "${words[@]}" 2>/dev/null))
-  [[ ${#COMPREPLY[@]} -eq 0 ]] && compopt -o default
-  [[ "${COMPREPLY[0]}" == *= ]] && compopt -o nospace
-  return 0
-}
-complete -F _bot_console_complete bot-console
-if [[ "$(command -v ros2)" == {ros2}/ros2 ]]; then complete -F _bot_console_complete ros2; fi
-"""
-
-_ZSH = """\
-_bot_console_complete() {
-  local -a found
-  found=("${(@f)$("$BOT_CONSOLE_COMMAND" complete "${(@)words[1,CURRENT]}" 2>/dev/null)}")
-  local -a joined
-  [[ "${found[1]}" == *= ]] && joined=(-S '')
-  [[ -n "${found[1]}" ]] && compadd -Q "${joined[@]}" -a found || _files
-}
-(( ${+functions[compdef]} )) || { autoload -Uz compinit && compinit; }
-compdef _bot_console_complete bot-console
-if [[ "$(command -v ros2)" == {ros2}/ros2 ]]; then compdef _bot_console_complete ros2; fi
+command -v bot-console >/dev/null 2>&1 || export PATH="$PATH":{own}
 """
 
 _FISH = """\
@@ -54,18 +30,17 @@ set -gx ROS_VERSION 2
 set -gx ROS_PYTHON_VERSION 3
 contains -- {rqt} $PATH; or set -gx PATH {rqt} $PATH
 command -q ros2; or set -gx PATH $PATH {ros2}
-function __bot_console_complete
-    set -l words (commandline -opc) (commandline -ct)
-    set -l found ($BOT_CONSOLE_COMMAND complete $words 2>/dev/null)
-    if set -q found[1]
-        printf '%s\n' $found
-    else
-        __fish_complete_path (commandline -ct)
-    end
-end
-complete -c bot-console -f -a '(__bot_console_complete)'
-test (command -s ros2) = {ros2}/ros2; and complete -c ros2 -f -a '(__bot_console_complete)'
+command -q bot-console; or set -gx PATH $PATH {own}
 """
+
+_COMPLETION = {"bash": "bot-console.bash", "zsh": "_bot-console", "fish": "bot-console.fish"}
+"""Files in `shell`, which a wheel installs for the shells as well."""
+
+_COMPLETE_ROS2 = {
+    "bash": 'if [[ "$(command -v ros2)" == {ros2}/ros2 ]]; then complete -F _bot_console_complete ros2; fi\n',
+    "zsh": 'if [[ "$(command -v ros2)" == {ros2}/ros2 ]]; then compdef _bot_console_complete ros2; fi\n',
+    "fish": "test (command -s ros2) = {ros2}/ros2; and complete -c ros2 -f -a '(__bot_console_complete)'\n",
+}
 
 
 def run(words: Sequence[str]) -> int:
@@ -84,29 +59,23 @@ def run(words: Sequence[str]) -> int:
 
 
 def code(shell: str) -> str:
-    """The code that a shell evaluates."""
+    """Return the code that a shell evaluates."""
+    environment = _FISH if shell == "fish" else _POSIX
+    completion = (_SHELL_FOLDER / _COMPLETION[shell]).read_text(encoding="utf-8")
     places = {
         "variable": COMMAND_VARIABLE,
         "command": shlex.quote(command()),
         "rqt": shlex.quote(str(BIN / "rqt")),
         "ros2": shlex.quote(str(BIN / "ros2")),
+        "own": shlex.quote(str(BIN / "bot_console")),
     }
-    if shell == "fish":
-        return _filled(_FISH, places)
-    return _filled(_POSIX.replace("{{", "{").replace("}}", "}"), places) + _filled(
-        _BASH if shell == "bash" else _ZSH, places
-    )
+    return environment.format_map(places) + completion + _COMPLETE_ROS2[shell].format_map(places)
 
 
 def evaluation(shell: str) -> str:
-    """The line that evaluates the code in a shell."""
-    return "bot-console setup fish | source" if shell == "fish" else f'eval "$(bot-console setup {shell})"'
-
-
-def _filled(text: str, places: dict[str, str]) -> str:
-    for name, value in places.items():
-        text = text.replace(f"{{{name}}}", value)
-    return text
+    """Return the line that evaluates the code in a shell; its path is absolute, so that it works in any shell."""
+    program = shlex.quote(command())
+    return f"{program} setup fish | source" if shell == "fish" else f'eval "$({program} setup {shell})"'
 
 
 def _usage() -> str:

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
+from bot_console.tui import __version__
 from bot_console.tui.cli.main import main
 from bot_console.tui.cli.verbs import setup
 
@@ -114,4 +115,11 @@ def test_fish_completes_files_where_there_are_no_names(home: Path):
 def test_no_shell_or_an_unknown_one_prints_what_to_type(capsys: pytest.CaptureFixture[str]):
     for words in (["setup"], ["setup", "tcsh"]):
         assert main(words) == 2
-        assert 'eval "$(bot-console setup bash)"' in capsys.readouterr().err
+        assert setup.evaluation("bash") in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", SHELLS)
+def test_printed_line_makes_bot_console_available_where_it_is_not_on_path(name: str, home: Path):
+    bare = {"PATH": os.defpath}
+    assert shell(name, home, "bot-console --version", bare) == f"bot-console {__version__}\n"
+    assert shell(name, home, "env sh -c 'bot-console --version'", bare) == f"bot-console {__version__}\n"
