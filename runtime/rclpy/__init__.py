@@ -1,12 +1,11 @@
 """The embedded rclpy: the public API of rclpy for ROS 2 Jazzy, in one process and without ROS 2.
 
-Modules, names and behaviour are those of rclpy 7.1; `with rclpy.init():` of later releases works as well.
+Modules, names and behaviour are those of rclpy 7.1.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import ProcessLocal, explain_with
@@ -38,28 +37,13 @@ def _explain(exception: BaseException) -> str | None:
 explain_with(_explain)
 
 
-class InitContextManager:
-    """The result of `init`: shuts the context down at the end of a `with` block."""
-
-    def __init__(self, context: Context) -> None:
-        self.context = context
-
-    def __enter__(self) -> InitContextManager:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        try_shutdown(context=self.context)
-
-
 def init(
     *,
     args: Sequence[str] | None = None,
     context: Context | None = None,
     domain_id: int | None = None,
     signal_handler_options: SignalHandlerOptions | None = None,
-) -> InitContextManager:
+) -> None:
     """Initialise; `args` None means `sys.argv`. Raises `RuntimeError` the second time, `RCLError` for bad arguments."""
     default = get_default_context()
     chosen: Context = default if context is None else context
@@ -68,7 +52,6 @@ def init(
     if signal_handler_options:
         install_signal_handlers(signal_handler_options)
     chosen.init(args, domain_id=domain_id)
-    return InitContextManager(chosen)
 
 
 def get_global_executor() -> Executor:

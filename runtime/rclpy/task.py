@@ -169,11 +169,11 @@ class Task(Future[T]):
         self.waits_for: Future[Any] | None = None
 
     def __call__(self) -> None:
-        """Run until the next wait, or to the end; a cancelled coroutine does not continue."""
-        if self._done or self._executing or not self._task_lock.acquire(blocking=False):
+        """Run until the next wait, or to the end; a cancelled task does not run."""
+        if self._settled() or self._executing or not self._task_lock.acquire(blocking=False):
             return
         try:
-            if self._done or self._handler is None:
+            if self._settled() or self._handler is None:
                 return
             self._executing = True
             if is_coroutine(self._handler):
@@ -210,7 +210,7 @@ class Task(Future[T]):
         return self._executing
 
     def cancel(self) -> None:
-        """Cancel the task: a coroutine is closed, a function that has not run yet still runs.
+        """Cancel the task: a coroutine is closed, a function that has not begun does not run.
 
         Raises ValueError if the coroutine is running.
         """

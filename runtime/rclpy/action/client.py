@@ -76,17 +76,18 @@ class ActionClient(ActionEntity):
         return self._receive(*responses, feedback, take(ends.status.queue))
 
     async def _receive(self, goal: Any, cancel: Any, result: Any, feedback: list[Any], status: Any) -> None:
-        if goal is not None:
-            self._receive_goal(*goal)
+        handle = None if goal is None else self._goal_handle(*goal)
+        statuses = None if status is None else own(status[0])
+        if statuses is not None:
+            self._receive_status(statuses)  # before the goal's future is settled, whose callback another thread may run
+        if goal is not None and handle is not None:
+            self._goals.settle(goal[0], handle, self.sink)
         if cancel is not None:
             self._settle(self._cancels, "cancel", *cancel)
         for each in feedback:
             await self._receive_feedback(each)
         if result is not None:
             self._settle(self._results, "result", *result)
-        statuses = None if status is None else own(status[0])
-        if statuses is not None:
-            self._receive_status(statuses)
 
     async def _receive_feedback(self, entry: Any) -> None:
         message = None if entry is None else own(entry[0])
@@ -94,11 +95,12 @@ class ActionClient(ActionEntity):
         if callback is not None:
             await call(callback, message)
 
-    def _receive_goal(self, number: int, response: Any) -> None:
+    def _goal_handle(self, number: int, response: Any) -> ClientGoalHandle | None:
+        """The handle of a goal that was answered; None for a response that nothing waits for."""
         goal_id = self._goals.subject(number)
         if goal_id is None:
             self._unexpected("goal")
-            return
+            return None
         handle = ClientGoalHandle(self, goal_id, response)
         key = bytes(goal_id.uuid)
         if handle.accepted:
@@ -107,7 +109,7 @@ class ActionClient(ActionEntity):
             self._goal_handles[key] = weakref.ref(handle)
         else:
             self._feedback_callbacks.pop(key, None)
-        self._goals.settle(number, handle, self.sink)
+        return handle
 
     def _settle(self, requests: PendingRequests, kind: str, number: int, response: Any) -> None:
         if not requests.settle(number, response, self.sink):

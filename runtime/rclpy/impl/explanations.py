@@ -8,15 +8,24 @@ from collections.abc import Callable
 from typing import Any
 
 from bot_console.runtime.terse import is_read
+from rclpy.impl.callables import is_coroutine
 from rclpy.impl.written_values import value_text, written
 
 WRONG_PARAMETER = (
     "Parameter is imported from rcl_interfaces.msg here, where it is the message class: it has no Parameter.Type and "
     "takes no positional arguments. Import the class of rclpy instead: from rclpy.parameter import Parameter"
 )
-NO_RESULT = (
-    "A callback of add_on_set_parameters_callback returned nothing. It must return a SetParametersResult on every "
-    "path: end it with  return SetParametersResult(successful=True)"
+INVALID_RESULT = (
+    "the callback of add_on_set_parameters_callback returned {}, so the parameters were not set. It must return a "
+    "SetParametersResult on every path: end it with  return SetParametersResult(successful=True)"
+)
+COROUTINE_RESULT = (
+    "the callback of add_on_set_parameters_callback is an async function, whose result is not awaited, so the "
+    "parameters were not set. Use a plain function: def, without async"
+)
+INIT_IN_WITH = (
+    "rclpy.init() returns nothing in ROS 2 Jazzy; only later releases support `with rclpy.init():`. Call rclpy.init() "
+    "on a line of its own, and rclpy.try_shutdown() at the end"
 )
 
 _EXPECTED = re.compile(r"expecting type '(\w+)'")
@@ -43,8 +52,27 @@ def _is_message(owner: type) -> bool:
     return owner.__name__ == "Parameter" and owner.__module__.startswith("rcl_interfaces.")
 
 
-def _no_result(exception: BaseException) -> bool:
-    return isinstance(exception, AttributeError) and exception.obj is None and exception.name == "successful"
+def _init_in_with(exception: BaseException) -> bool:
+    """Whether `with rclpy.init():` failed; Python 3.10 words its error differently."""
+    text = str(exception)
+    if not isinstance(exception, (TypeError, AttributeError)) or not ("__enter__" in text or "context manager" in text):
+        return False
+    trace = exception.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    line = "" if trace is None else linecache.getline(trace.tb_frame.f_code.co_filename, trace.tb_lineno)
+    return re.match(r"\s*(async )?with\b.*\binit\(", line) is not None
+
+
+def invalid_result(callback: Callable[..., Any], result: object) -> str:
+    """What a parameter callback should have returned, with its file and line; empty where no person reads it."""
+    if not is_read():
+        return ""
+    code = getattr(callback, "__code__", None)
+    place = f"{code.co_filename}:{code.co_firstlineno}: " if code else ""
+    if is_coroutine(result):
+        return place + COROUTINE_RESULT
+    return place + INVALID_RESULT.format("nothing" if result is None else f"a {type(result).__name__}")
 
 
 def _wrong_type(exception: Any) -> str:
@@ -59,7 +87,7 @@ def _wrong_type(exception: Any) -> str:
 
 _KNOWN: tuple[tuple[Callable[[BaseException], bool], str], ...] = (
     (_wrong_parameter, WRONG_PARAMETER),
-    (_no_result, NO_RESULT),
+    (_init_in_with, INIT_IN_WITH),
 )
 
 

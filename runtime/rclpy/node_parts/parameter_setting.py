@@ -6,11 +6,15 @@
 from __future__ import annotations
 
 import gc
+import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from bot_console.runtime.process import current
+from bot_console.runtime.process.notices import notify
 from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent, SetParametersResult
 from rclpy.exceptions import ParameterNotDeclaredException
+from rclpy.impl.explanations import invalid_result
 from rclpy.node_parts.parameter_descriptors import refusal
 from rclpy.node_parts.parameter_events import check_carried, event_parameter, parameter_event
 from rclpy.parameter import Parameter
@@ -25,6 +29,20 @@ FEW = 100
 
 Setter = Callable[[Any], Any]
 """A callback; it gets the list of parameters, or whatever sequence the caller has given."""
+
+
+def _invalid(callback: Setter, result: object) -> SetParametersResult:
+    """The refusal for a callback that returned something else than a `SetParametersResult`, with a warning."""
+    warnings.warn("Callback returned an invalid type, it should return SetParameterResult.", stacklevel=1)
+    hint = invalid_result(callback, result)
+    if hint:
+        notify(current(), hint)
+    return _refused("Callback returned an invalid type")
+
+
+def _check_callable(callback: object) -> None:
+    if not callable(callback):
+        raise TypeError("Callback must be callable, got {}", type(callback))  # unformatted, as upstream
 
 
 def _refused(reason: str) -> SetParametersResult:
@@ -93,6 +111,8 @@ class ParameterSetting:
             return _refused(reason)
         for callback in self._on_set_parameters_callbacks:
             result = callback(parameters)
+            if not isinstance(result, SetParametersResult):
+                return _invalid(callback, result)
             if not result.successful:
                 return result
         self._ros_use()  # the event needs the node's name, which a destroyed node refuses, before anything is stored
@@ -171,10 +191,12 @@ class ParameterSetting:
 
     def add_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], SetParametersResult]) -> None:
         """Add a callback that decides whether parameters may be set; it still sees the old values."""
+        _check_callable(callback)
         self._on_set_parameters_callbacks.insert(0, callback)
 
     def add_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
         """Add a callback that gets the parameters that have been set."""
+        _check_callable(callback)
         self._post_set_parameters_callbacks.insert(0, callback)
 
     def remove_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
-from helpers.cli_records import COURSE, Row, filled, normal, rows, usage_of_other_interpreter
+from helpers.recorded.cases import faults
+from helpers.recorded.commands import COURSE, Row, filled, normal, rows, usage_of_other_interpreter
 from systems import Program, System, system
 
 SETTLE = 1.0
@@ -40,7 +41,8 @@ def test_command(row: Row, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     with system() as running:
         program = play(row, running, tmp_path)
     seen = (normal(program.stdout, tmp_path), normal(program.stderr, tmp_path), program.exit)
-    assert seen == (normal(row["stdout"], tmp_path), normal(row["stderr"], tmp_path), row["exit"])
+    recorded = (normal(row["stdout"], tmp_path), normal(row["stderr"], tmp_path), row["exit"])
+    assert faults("cli", [row["id"]], {} if seen == recorded else {row["id"]: (recorded, seen)}) == {}
 
 
 @pytest.mark.skipif(bool(rows()), reason="there are records")

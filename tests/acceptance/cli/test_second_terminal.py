@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from helpers.cli_records import COURSE, Row, filled, normal, rows, usage_of_other_interpreter
 from helpers.processes.mesh import eventually
+from helpers.recorded.commands import COURSE, Row, filled, normal, rows, usage_of_other_interpreter
 
 PROGRAM = "from bot_console.tui.cli.main import program; program()"
 ENDLESS = 30.0

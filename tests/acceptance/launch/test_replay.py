@@ -7,10 +7,12 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
+from helpers.recorded.cases import GIVEN, NOT_GIVEN, RECORDINGS, differing_on_purpose, faults
 
-RECORDS = Path(os.environ.get("BOT_CONSOLE_ORACLE", ""))
+COURSE = os.environ.get("BOT_CONSOLE_COURSE", "")
 COMMAND = (
     f"{sys.executable} -c 'import sys; from bot_console.runtime.importer import install; install(); "
     'from ros2cli.command_line import main; sys.exit(main(["launch", *sys.argv[1:]]))\''
@@ -20,35 +22,46 @@ OFTEN = (
     "course_args_step5_with_arguments", "course_run_step4", "course_run_step5_integer_speed", "course_run_robot_system",
 )  # fmt: skip
 """Of each kind that is compared: what is resolved, the command line, a whole run; each replay starts `ros2 launch`."""
-LONG = (
+AREAS = (
     "arguments", "command_line", "conditions", "course", "events", "front_ends", "parameters", "ros_names",
     "substitutions",
 )  # fmt: skip
+"""All that there are; `test_every_area_is_replayed` compares them with the recordings."""
+
+pytestmark = pytest.mark.skipif(not GIVEN, reason=NOT_GIVEN)
 
 
-pytestmark = pytest.mark.skipif(not os.environ.get("BOT_CONSOLE_ORACLE"), reason="BOT_CONSOLE_ORACLE names no records")
-
-
-@pytest.mark.soak
+@pytest.mark.recorded
 @pytest.mark.timeout(600)
-@pytest.mark.parametrize("area", LONG)
+@pytest.mark.parametrize("area", AREAS)
 def test_area(area: str, tmp_path: Path) -> None:
-    assert replayed(tmp_path, "--area", area) > 0
+    expected = {row["id"] for row in recorded() if row["area"] == area}
+    assert replayed(tmp_path, "--area", area) == expected
 
 
-@pytest.mark.skipif(not os.environ.get("BOT_CONSOLE_COURSE"), reason="BOT_CONSOLE_COURSE names no course")
+@pytest.mark.recorded
+def test_every_area_is_replayed() -> None:
+    assert {row["area"] for row in recorded()} == set(AREAS)
+    assert set(differing_on_purpose("launch")) <= {row["id"] for row in recorded()}
+
+
+@pytest.mark.skipif(not COURSE, reason="BOT_CONSOLE_COURSE names no course")
 def test_some_of_the_course(tmp_path: Path) -> None:
-    assert replayed(tmp_path, *(word for each in OFTEN for word in ("--only", each))) == len(OFTEN)
+    assert replayed(tmp_path, *(word for each in OFTEN for word in ("--only", each))) == set(OFTEN)
 
 
-def replayed(tmp_path: Path, *which: str) -> int:
-    """How many records were replayed, all of them as they were recorded."""
+def recorded() -> list[dict[str, Any]]:
+    """The recorded cases."""
+    rows: list[dict[str, Any]] = json.loads((RECORDINGS / "launch" / "cases.json").read_text("utf-8"))
+    return rows
+
+
+def replayed(tmp_path: Path, *which: str) -> set[str]:
+    """The ids of the cases that were replayed as they should, or need the course, which is not there."""
     report = tmp_path / "report.json"
-    course = os.environ.get("BOT_CONSOLE_COURSE", "")
     words = ["--command", COMMAND, *which, "--jobs", "2", "--json", str(report), "--timeout", "90"]
-    words += ["--course", course] if course else []
-    subprocess.run([sys.executable, str(RECORDS / "launch_replay.py"), *words], check=False, capture_output=True)
+    words += ["--course", COURSE] if COURSE else []
+    subprocess.run([sys.executable, str(RECORDINGS / "launch_replay.py"), *words], check=False, capture_output=True)
     outcome = json.loads(report.read_text("utf-8"))
-    assert outcome["failed"] == {}
-    passed: int = outcome["passed"]
-    return passed
+    assert faults("launch", outcome["seconds"], outcome["failed"]) == {}
+    return {*outcome["seconds"], *outcome["skipped"]}

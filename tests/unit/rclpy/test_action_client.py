@@ -29,6 +29,32 @@ def test_feedback_reaches_its_goal_alone(ros: Any) -> None:
     assert seen == {"a": [[1], [1, 1]], "b": [[2]]}
 
 
+class FreeWorker(SingleThreadedExecutor):
+    """Runs each task at once, as a pool does that has an idle thread."""
+
+    def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Any:
+        return callback(*args, **kwargs)
+
+
+def test_an_accepted_goal_has_its_status_when_its_future_is_done(ros: Any) -> None:
+    client_side = FreeWorker(context=ros.init())
+    go: Future[None] = Future()
+
+    async def execute(handle: Any) -> Any:
+        await go
+        return succeed(handle)
+
+    pair = Pair(ros, execute)
+    client_side.add_node(pair.client_node)
+    statuses: list[int] = []
+    future = pair.client.send_goal_async(Fibonacci.Goal())
+    future.add_done_callback(lambda done: statuses.append(done.result().status))
+    ros.settle()
+    client_side.spin_until_future_complete(future)
+    assert statuses == [GoalStatus.STATUS_EXECUTING]
+    go.set_result(None)
+
+
 def test_feedback_is_a_copy(ros: Any) -> None:
     ready: list[Any] = []
     seen: list[Any] = []

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import runpy
 import sys
 import threading
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
@@ -56,10 +58,15 @@ def test_again_after_a_shutdown(default: None) -> None:
     assert names == ["n0", "n1", "n2"]
 
 
-def test_a_with_block() -> None:
-    with rclpy.init(args=[]):
-        assert rclpy.ok()
-    assert not rclpy.ok()
+def test_init_returns_nothing_as_in_jazzy(default: None, tmp_path: Path) -> None:
+    program = tmp_path / "later.py"
+    program.write_text("import rclpy\nwith rclpy.init(args=[]):\n    pass\n")
+    with pytest.raises((TypeError, AttributeError)) as refused:
+        runpy.run_path(str(program))
+    assert f"{program}:2: rclpy.init() returns nothing in ROS 2 Jazzy" in (explanation(refused.value) or "")
+
+
+def test_a_context_is_shut_down_at_the_end_of_its_with_block() -> None:
     with Context() as context:
         assert context.ok()
     assert not context.ok()

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent, SetParametersResult
-from rclpy.exceptions import ParameterNotDeclaredException
+from rclpy.exceptions import InvalidParameterValueException, ParameterNotDeclaredException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_parameter_events
@@ -95,12 +95,10 @@ def test_one_of_three_is_refused(ros: Any) -> None:
 
 
 def test_the_refusing_object_is_returned_as_it_is(ros: Any) -> None:
-    class Answer:
-        successful = False
-
-    node, answer = node_of(ros), Answer()
-    node.add_on_set_parameters_callback(lambda parameters: answer)  # type: ignore[arg-type]
-    assert node.set_parameters([given("a", 5)]) == [answer]
+    node, answer = node_of(ros), SetParametersResult(successful=False)
+    node.add_on_set_parameters_callback(lambda parameters: answer)
+    [result] = node.set_parameters([given("a", 5)])
+    assert result is answer
 
 
 def test_lists_and_parameters_are_passed_uncopied(ros: Any) -> None:
@@ -181,10 +179,31 @@ def test_exceptions_reach_the_caller(ros: Any) -> None:
     with pytest.raises(RuntimeError, match="fails"):
         node.set_parameters([given("a", 6)])
     assert values(node)[0] == 5
-    node.remove_on_set_parameters_callback(fail)
-    node.add_on_set_parameters_callback(lambda parameters: None)  # type: ignore[arg-type,return-value]
-    with pytest.raises(AttributeError, match="'NoneType' object has no attribute 'successful'"):
-        node.set_parameters([given("a", 7)])
+
+
+class LooksLikeAResult:
+    successful = True
+    reason = ""
+
+
+@pytest.mark.parametrize("result", [None, True, [yes(None)], LooksLikeAResult()], ids=["None", "bool", "list", "other"])
+def test_a_result_of_another_type_is_a_refusal_with_a_warning(ros: Any, result: Any) -> None:
+    node = node_of(ros)
+    node.add_on_set_parameters_callback(lambda parameters: result)
+    with pytest.warns(UserWarning, match=r"^Callback returned an invalid type, it should return SetParameterResult\.$"):
+        [answer] = node.set_parameters([given("a", 7)])
+    assert answer == SetParametersResult(successful=False, reason="Callback returned an invalid type")
+    assert values(node)[0] == 0
+    with pytest.warns(UserWarning), pytest.raises(InvalidParameterValueException, match="returned an invalid type"):
+        node.declare_parameter("new", 1)
+
+
+def test_only_something_callable_becomes_a_callback(ros: Any) -> None:
+    node = node_of(ros)
+    for add in (node.add_on_set_parameters_callback, node.add_post_set_parameters_callback):
+        with pytest.raises(TypeError) as refused:
+            add(5)  # type: ignore[arg-type]
+        assert refused.value.args == ("Callback must be callable, got {}", int)
 
 
 def test_setting_within_a_callback_comes_first(ros: Any) -> None:

@@ -183,15 +183,30 @@ def test_a_node_that_ends_in_its_callback_is_told_of(ros) -> None:
     node = ros.node("""
 node = Node('careless')
 node.declare_parameter('x', 1)
-node.add_on_set_parameters_callback(lambda parameters: None)
+node.add_on_set_parameters_callback(lambda parameters: 1 / 0)
 """)
     asked = ros.ask("param", "set", "/careless", "x", "2", stop_after=20.0)
     assert (asked.exit, asked.stdout) == (1, "")
     assert "/careless" in asked.stderr and "ended" in asked.stderr
     assert node.exit == 1
-    assert "AttributeError: 'NoneType' object has no attribute 'successful'\n" in node.stderr
-    assert "return SetParametersResult(successful=True)" in node.stderr.splitlines()[-1]
+    assert "ZeroDivisionError: division by zero\n" in node.stderr
     assert ros.ask("node", "list").stdout == ""
+
+
+@pytest.mark.filterwarnings("ignore:Callback returned", "ignore:coroutine")
+@pytest.mark.parametrize("result", ["None", "True", "[SetParametersResult(successful=True)]", "wait()"])
+def test_a_callback_that_returns_something_else_refuses_the_set_and_the_node_lives(ros, result: str) -> None:
+    node = ros.node(f"""
+from rcl_interfaces.msg import SetParametersResult
+async def wait(): return SetParametersResult(successful=True)
+node = Node('careless')
+node.declare_parameter('x', 1)
+node.add_on_set_parameters_callback(lambda parameters: {result})
+""")
+    asked = ros.ask("param", "set", "/careless", "x", "2")
+    assert asked.stderr == "Setting parameter failed: Callback returned an invalid type\n"
+    assert ros.ask("param", "get", "/careless", "x", "--hide-type").stdout == "1\n"
+    assert node.exit is None
 
 
 @pytest.mark.parametrize(

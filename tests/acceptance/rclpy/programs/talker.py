@@ -23,8 +23,8 @@ class Talker(Node):
 
 def main(args=None):
     try:
-        with rclpy.init(args=args):
-            rclpy.spin(Talker())
+        rclpy.init(args=args)
+        rclpy.spin(Talker())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
 

@@ -1,0 +1,1 @@
+"""Recordings of real ROS 2, and what tests that replay them share."""

@@ -1,0 +1,28 @@
+"""What real ROS 2 did, recorded case by case, and the cases that are meant to differ here."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Mapping
+from pathlib import Path
+
+import yaml
+
+GIVEN = bool(os.environ.get("BOT_CONSOLE_ORACLE"))
+RECORDINGS = Path(os.environ.get("BOT_CONSOLE_ORACLE", "")).absolute()
+NOT_GIVEN = "BOT_CONSOLE_ORACLE names no recordings"
+DIFFERS = Path(__file__).parents[2] / "acceptance" / "differs_on_purpose.yaml"
+
+
+def differing_on_purpose(kind: str) -> dict[str, str]:
+    """The ids of cases of a kind (`rclpy`, `launch`, `cli`) that are meant to differ, with the reason of each."""
+    listed: dict[str, dict[str, str]] = yaml.safe_load(DIFFERS.read_text("utf-8"))
+    return listed[kind]
+
+
+def faults(kind: str, replayed: Collection[str], differing: Mapping[str, object]) -> dict[str, object]:
+    """What is wrong with the outcome of a replay, by id: differences not listed, and listed ones that are gone."""
+    listed = differing_on_purpose(kind)
+    found = {case: how for case, how in differing.items() if case not in listed}
+    stale = (case for case in listed if case in replayed and case not in differing)
+    return {**found, **dict.fromkeys(stale, f"is as recorded: remove it from {DIFFERS.name}")}
