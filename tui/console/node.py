@@ -45,7 +45,6 @@ from bot_console.tui.console.sights.node_sights import NodeSights
 from bot_console.tui.console.topics.node_traffic import NodeTraffic
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from rcl_interfaces.msg import SetParametersResult
-from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
 NAME = "_bot_console"
@@ -56,6 +55,7 @@ class ConsoleNode:
 
     def __init__(
         self,
+        robot: DriveNode,
         log: Add,
         graph_events: GraphEvents | None = None,
         provenance: Provenance | None = None,
@@ -65,9 +65,11 @@ class ConsoleNode:
         frozen: FrozenNodes | None = None,
         types: TypeSource | None = None,
     ) -> None:
-        """In a `foreign` system nothing is asked for before it is offered: its nodes would warn of us."""
-        self.context = Context()
-        rclpy.init(args=[], context=self.context)
+        """`robot` stops the robot, and exists before anything here that may fail.
+
+        In a `foreign` system nothing is asked for before it is offered: its nodes would warn of us.
+        """
+        self.context = robot.context
         self.node = rclpy.create_node(
             NAME,
             context=self.context,
@@ -87,8 +89,8 @@ class ConsoleNode:
         self._levels = LoggerLevels(self.calls, self.loggers)
         self.plots = PlotWatch(self.node)
         self.world = WorldWatch(self.node)
-        self._drive_node = DriveNode(self.context)
-        self.drive = self._drive_node.link
+        self._drive_node = robot
+        self.drive = robot.link
         self.provenance = provenance or Provenance()
         told = self._parameter_changed, self.provenance, self._parameter_anew
         self.parameters = ParameterMirror(self.node, self.calls, *told)
@@ -100,7 +102,6 @@ class ConsoleNode:
 
     def spin(self) -> None:
         """Serve until `close`; called in the console's own thread."""
-        self._drive_node.start()
         self.graph.look()
         with contextlib.suppress(ExternalShutdownException):
             self.executor.spin()
@@ -117,11 +118,11 @@ class ConsoleNode:
         self.journal.close()
 
     def _graph_changed(self, graph: GraphInfo) -> None:
+        self._drive_node.follow(graph)  # before what may fail: it finds the locks
         self._warnings.follow(graph)
         self._rosout.follow()
         self.parameters.follow(graph)
         self.world.follow(graph)
-        self._drive_node.follow(graph)
         self.traffic.follow(graph)
         self.sights.follow(graph)
 

@@ -14,8 +14,10 @@ MOST = 5
 
 def stop_text(drive: DriveInfo) -> str:
     """The state of a stop; it says held only when the robot has acknowledged it."""
+    if drive.unsent:
+        return f"STOP NOT SENT: {drive.unsent}"
     if drive.nothing_to_stop:
-        return "STOP: nothing is here to stop, no robot listens for commands (! ends it)"
+        return "STOP REACHES NOBODY: nothing is here to stop, no robot listens for commands (! ends it)"
     if not drive.lockable:
         return "STOP SENT, NOT CONFIRMED: zeros only, this robot has no emergency stop (! ends them)"
     if not drive.stop_confirmed:

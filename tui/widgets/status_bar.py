@@ -44,10 +44,10 @@ def status_text(
     snapshot: ConsoleSnapshot, held_back: int = 0, acknowledged: int = 0, alarms: Sequence[str] = ()
 ) -> str:
     """The text of the line, without `acknowledged` errors; `alarms` are the names of the active ones."""
+    stop = [stop_text(snapshot.drive)] if snapshot.drive.stopped else []
     if snapshot.problem:
-        return harmless(snapshot.problem)
-    parts = [link_text(snapshot.link)] if snapshot.link.silent_s else []
-    parts += [stop_text(snapshot.drive)] if snapshot.drive.stopped else []
+        return "  ".join([*stop, harmless(snapshot.problem)])
+    parts = [link_text(snapshot.link), *stop] if snapshot.link.silent_s else stop
     if alarms:
         parts.append(f"⚠ {harmless(', '.join(alarms))}")
     dead = [each.label for each in snapshot.launch.processes if each.state is ProcessState.CRASHED]

@@ -13,7 +13,7 @@ import traceback
 from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from bot_console.tui.console.connection.no_console import CLOSED, STARTING, NoConsole, NothingKnown
 from bot_console.tui.console.connection.relay import ConsoleRelay
@@ -22,10 +22,12 @@ from bot_console.tui.console.model import (
     ConsoleSnapshot,
     LaunchInfo,
     LinkInfo,
+    Severity,
     Value,
 )
 from bot_console.tui.console.parameters.provenance import Learn, Provenance
 from bot_console.tui.console.recording import Keeper
+from bot_console.tui.console.robot.robot_model import DriveInfo
 
 if TYPE_CHECKING:
     from bot_console.tui.console.connection.linked_console import LinkedConsole
@@ -35,10 +37,20 @@ if TYPE_CHECKING:
     from bot_console.tui.console.logs.view import LogViews
     from bot_console.tui.console.node import ConsoleNode
     from bot_console.tui.console.parameters.history import History
+    from bot_console.tui.console.parameters.shelf import Shelf
+    from bot_console.tui.console.robot.drive_node import DriveNode
 
+T = TypeVar("T")
 NOWHERE = ("", "", 0)
+LABEL = "bot-console"
 NOTHING_LAUNCHED = LaunchInfo()
 NO_LINK = LinkInfo()
+NOT_YET = DriveInfo(
+    stopped=True, stopped_here=True, unsent="the console still connects; it is sent as soon as that is done"
+)
+NOT_CONNECTED = DriveInfo(
+    stopped=True, stopped_here=True, unsent="this console has no link; run bot-console stop in another terminal"
+)
 
 
 class RosConsole(ConsoleRelay):
@@ -72,10 +84,8 @@ class RosConsole(ConsoleRelay):
         last minutes, None: nobody does; `frozen` which nodes' processes are stopped;
         `types` makes the types that this program does not have.
         """
-        self._own_profiles = own_profiles
-        self._workspace_profiles = workspace_profiles
+        self._shelf_of = profile_folders, own_profiles, workspace_profiles, fetch
         self._launch_info = launch_info
-        self._profile_folders = profile_folders
         self._active_profile = active_profile
         self._capabilities = capabilities or Capabilities()
         self._graph_events = graph_events
@@ -83,7 +93,6 @@ class RosConsole(ConsoleRelay):
         self._types = types
         self._history_file = history
         self._link = link
-        self._fetch = fetch
         self._foreign = foreign
         self._buffer = buffer
         self._zeroed = False
@@ -91,6 +100,9 @@ class RosConsole(ConsoleRelay):
         self._early_stop: tuple[bool, str] | None = None
         """The newest stop, or its release, that was asked for before there was a link."""
         self._problem = ""
+        self._faults: set[str] = set()
+        self._robot: DriveNode | None = None
+        """What stops the robot, whatever else works."""
         self._ready = threading.Event()
         self._linked: LinkedConsole | None = None
         self._thread = threading.Thread(target=self._serve, name="bot-console", daemon=True)
@@ -110,49 +122,100 @@ class RosConsole(ConsoleRelay):
         self._thread.start()
 
     def _serve(self) -> None:
+        robot: DriveNode | None = None
         node: ConsoleNode | None = None
         try:
-            from bot_console.tui.console.connection.linked_console import LinkedConsole
-            from bot_console.tui.console.logs.store import LogStore
-            from bot_console.tui.console.logs.view import LogViews
-            from bot_console.tui.console.node import ConsoleNode
-            from bot_console.tui.console.parameters.shelf import Shelf
-
-            logs = LogStore()
-            self._add = logs.add
-            self._views = LogViews(logs)
-            shelf = Shelf(self._profile_folders, self._own_profiles, self._workspace_profiles(), self._fetch)
-            self._profile_names = {os.path.realpath(each.path): each.name for each in shelf.profiles}
-            node = ConsoleNode(
-                *(logs.add, self._graph_events, self._provenance, self._history()),
-                foreign=self._foreign,
-                frozen=self._frozen,
-                types=self._types,
-            )
-            self._learn = node.learn
-            node.setter.profile = self._active_profile
-            self._heard = node.loggers
-            linked = LinkedConsole(node, logs, self._views, shelf, self._capabilities, self._buffer)
-            self._linked = linked
+            robot = self._reach_robot()
+            node, self._linked = self._join(robot)
             if self._closed:
-                self._now = NoConsole(CLOSED, linked)
+                self._now = NoConsole(CLOSED, self._linked)
                 node.close(CLOSED)
                 return
             with self._linking:
-                self._now = linked
-                if self._early_stop is not None:
-                    linked.all_stop(*self._early_stop)
+                self._now = self._linked
             self._ready.set()
             node.spin()
         except Exception as error:  # the border of the thread: the panes show what ended it
-            place = traceback.extract_tb(error.__traceback__)[-1]
-            self._problem = f"the console's link to ROS has ended: {error} ({place.filename}:{place.lineno})"
-            if node is None:
-                self._now = NoConsole(self._problem, self._nothing)
-            else:
-                node.calls.close(self._problem)  # the robot can still be stopped: that needs nobody who spins
+            self._problem = f"the console's link to ROS has ended: {_placed(error)}"
+            self._only_stop(robot, node)
         finally:
             self._ready.set()
+
+    def _reach_robot(self) -> DriveNode:
+        """The link that stops the robot: first, so that no fault of anything else can prevent a stop."""
+        import rclpy
+        from bot_console.tui.console.connection.stop_console import StopConsole
+        from bot_console.tui.console.robot.drive_node import DriveNode
+        from rclpy.context import Context
+
+        context = Context()
+        rclpy.init(args=[], context=context)
+        robot = DriveNode(context, self._tell_fault)
+        robot.start()
+        with self._linking:
+            self._now = StopConsole(STARTING, self._nothing, robot)
+            self._robot = robot
+            if self._early_stop is not None:
+                robot.link.stop(*self._early_stop)
+        return robot
+
+    def _join(self, robot: DriveNode) -> tuple[ConsoleNode, LinkedConsole]:
+        """All other links to the ROS system."""
+        from bot_console.tui.console.connection.linked_console import LinkedConsole
+        from bot_console.tui.console.logs.store import LogStore
+        from bot_console.tui.console.logs.view import LogViews
+        from bot_console.tui.console.node import ConsoleNode
+        from bot_console.tui.console.parameters.shelf import Shelf
+
+        logs = LogStore()
+        self._add = logs.add
+        self._views = LogViews(logs)
+        history = self._guarded("the history", self._history)
+        shelf = self._guarded("the profiles", self._shelf) or Shelf(())
+        self._profile_names = {os.path.realpath(each.path): each.name for each in shelf.profiles}
+        node = ConsoleNode(
+            *(robot, logs.add, self._graph_events, self._provenance, history),
+            foreign=self._foreign,
+            frozen=self._frozen,
+            types=self._types,
+        )
+        if node.journal.state.problem:
+            self._warn(node.journal.state.problem)
+        self._learn = node.learn
+        node.setter.profile = self._active_profile
+        self._heard = node.loggers
+        return node, LinkedConsole(node, logs, self._views, shelf, self._capabilities, self._buffer)
+
+    def _guarded(self, name: str, make: Callable[[], T]) -> T | None:
+        """A part that the console can be without; None, and a line in the log, if it cannot be made."""
+        try:
+            return make()
+        except Exception as error:
+            self._warn(f"{name} cannot be used: {_placed(error)}")
+            return None
+
+    def _warn(self, text: str) -> None:
+        self._add(time.time_ns(), Severity.WARN, LABEL, text, NOWHERE)
+
+    def _tell_fault(self, error: Exception) -> None:
+        """Take in an exception of the link that stops the robot, which goes on; the same one is told once."""
+        text = f"a fault of the link to the robot, which goes on: {_placed(error)}"
+        if text not in self._faults:
+            self._faults.add(text)
+            self._add(time.time_ns(), Severity.ERROR, LABEL, text, NOWHERE)
+
+    def _only_stop(self, robot: DriveNode | None, node: ConsoleNode | None) -> None:
+        """Go on with what can still stop the robot, after everything else has failed."""
+        if robot is None:
+            self._now = NoConsole(self._problem, self._nothing)
+            return
+        from bot_console.tui.console.connection.stop_console import StopConsole
+
+        if node is not None:
+            node.calls.close(self._problem)
+        elif not self._closed:
+            self._now = StopConsole(self._problem, self._nothing, robot)
+        robot.follow_alone()
 
     def _history(self) -> History | None:
         if self._history_file is None:
@@ -160,6 +223,12 @@ class RosConsole(ConsoleRelay):
         from bot_console.tui.console.parameters.history import History
 
         return History(self._history_file, time.time_ns())
+
+    def _shelf(self) -> Shelf:
+        from bot_console.tui.console.parameters.shelf import Shelf
+
+        folders, own, workspace, fetch = self._shelf_of
+        return Shelf(folders, own, workspace(), fetch)
 
     def wait_ready(self, timeout: float) -> bool:
         """Wait until connected, or the connection failed; whether it is connected."""
@@ -191,7 +260,10 @@ class RosConsole(ConsoleRelay):
         launch, link = self._launch_info(), self._link()
         if not link.silent_s:
             self._zero_again()
-        new = replace(self._now.snapshot(), seq=old.seq, launch=launch, link=link, problem=self._problem)
+        now = self._now.snapshot()
+        if self._unsent:
+            now = replace(now, drive=NOT_CONNECTED if self._problem else NOT_YET)
+        new = replace(now, seq=old.seq, launch=launch, link=link, problem=self._problem)
         if not _same(old, new):
             self._snapshot = replace(new, seq=old.seq + 1)
         return self._snapshot
@@ -209,13 +281,19 @@ class RosConsole(ConsoleRelay):
     def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
         """Stop the robot, or withdraw the stop; without a link it is done as soon as there is one."""
         with self._linking:
-            self._early_stop = (hold, reason)
+            if self._robot is None:
+                self._early_stop = (hold, reason)
             super().all_stop(hold, reason)
+
+    @property
+    def _unsent(self) -> bool:
+        """Whether a stop has been asked for that nothing could be sent for."""
+        return self._robot is None and self._early_stop is not None and self._early_stop[0]
 
     def await_standing(self, patience: float) -> None:
         """Wait until a stop holds the robot, so many seconds at most; without a link nothing is waited for."""
-        if self._linked is not None:
-            self._linked.await_standing(patience)
+        if self._robot is not None:
+            self._robot.link.await_standing(patience)
 
     def _zero_again(self) -> None:
         """Repeat the zero velocity after a long silence, in which whatever waited in the link was lost."""
@@ -232,6 +310,12 @@ class RosConsole(ConsoleRelay):
         before.close()
         if self._thread.is_alive():
             self._thread.join(2.0)
+
+
+def _placed(error: Exception) -> str:
+    """What has failed, and where."""
+    place = traceback.extract_tb(error.__traceback__)[-1]
+    return f"{error} ({place.filename}:{place.lineno})"
 
 
 def _nobody_reads(stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import contextlib
 import threading
+from collections.abc import Callable
 
 import rclpy
+from bot_console.tui.console.graph.watch import GraphWatch
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.robot.drive_link import DriveLink, Surroundings
 from rclpy.context import Context
@@ -20,7 +22,10 @@ class DriveNode:
     When 500 nodes appear at once, the console's own thread is busy for seconds.
     """
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: Context, fault: Callable[[Exception], None]) -> None:
+        """`fault` is told of an exception in what it serves, which ends nothing else."""
+        self.context = context
+        self._fault = fault
         self._node = rclpy.create_node(
             NAME, context=context, use_global_arguments=False, enable_rosout=False, start_parameter_services=False
         )
@@ -28,20 +33,33 @@ class DriveNode:
         self._executor.add_node(self._node)
         self.link = DriveLink(self._node)
         self._thread = threading.Thread(target=self._spin, name="bot-console-drive", daemon=True)
+        self._closed = False
 
     def start(self) -> None:
         """Serve until `close`."""
         self._thread.start()
 
     def _spin(self) -> None:
-        with contextlib.suppress(ExternalShutdownException):
-            self._executor.spin()
+        while not self._closed and self.context.ok():
+            try:
+                with contextlib.suppress(ExternalShutdownException):
+                    self._executor.spin()
+            except Exception as error:  # whatever it is: the robot can still be stopped
+                self._fault(error)
 
     def follow(self, graph: GraphInfo) -> None:
         """Find the robots of a graph; searched here and now, taken over in the thread that serves the link."""
         self._executor.create_task(self.link.take, Surroundings.of(graph))
 
+    def follow_alone(self) -> None:
+        """Find the robots without the console's own node, which has failed."""
+        if not self._closed:
+            self._executor.create_task(lambda: GraphWatch(self._node, self.link.follow).look())
+
     def close(self) -> None:
-        """Stop serving, and leave the graph."""
+        """Stop serving, and leave the graph; a second call does nothing."""
+        if self._closed:
+            return
+        self._closed = True
         self._executor.shutdown(timeout_sec=1.0)
         self._node.destroy_node()

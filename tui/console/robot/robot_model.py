@@ -130,6 +130,8 @@ class DriveInfo:
     """Whether a stop was asked for, or a lock holds the robot."""
     stop_confirmed: bool = False
     """Whether every lock of the robot has acknowledged that it holds."""
+    unsent: str = ""
+    """Why a stop that was asked for here has been sent to nobody; empty where it was sent."""
     stop_holder: str = ""
     """Who has held it longest, as the robot says; `this console` for ourselves."""
     stop_reason: str = ""

@@ -46,6 +46,8 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
     if len(drive.robots) > 1 and drive.robot in drive.robots:
         # Of one robot or of several: from a graph nobody can tell where two topics end.
         topic += f"  topic {drive.robots.index(drive.robot) + 1} of {len(drive.robots)}, r takes the next"
+    if drive.unsent:
+        return ((" STOP NOT SENT ", "error"), (f" {drive.unsent}", ""))
     if drive.stopped and drive.nothing_to_stop:
         return ((" STOP ", "warn"), (f" nothing is here to stop: {topic}", ""))
     if drive.refused:

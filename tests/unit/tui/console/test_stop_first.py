@@ -1,0 +1,182 @@
+"""The link that stops the robot exists before everything else of a console, and outlives every other part."""
+
+from __future__ import annotations
+
+import itertools
+import sqlite3
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from bot_console.tui.console.connection import linked_console
+from bot_console.tui.console.connection.ros_console import RosConsole
+from bot_console.tui.console.graph.warnings import GraphWarnings
+from bot_console.tui.console.logs.rosout import RosoutWatch
+from bot_console.tui.console.model import ChangeSource, LogFilter
+from bot_console.tui.console.parameters.history import History
+from bot_console.tui.console.parameters.journal import Journal
+from bot_console.tui.console.parameters.shelf import Shelf
+from bot_console.tui.console.robot.drive_link import DriveLink
+from bot_console.tui.console.robot.drive_node import DriveNode
+from bot_console.tui.widgets.status_bar import status_text
+from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
+from diagnostic_msgs.msg import DiagnosticArray
+from rclpy.clock import Clock, ClockType
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rigs import PATIENCE, until
+
+_domains = itertools.count(8400)
+
+
+class Base:
+    """A robot's base with its lock, served in a thread."""
+
+    def __init__(self, domain: int) -> None:
+        self.context = Context()
+        self.context.init(["test"], domain_id=domain)
+        self.node = Node("simulator", context=self.context)
+        self.stop = EmergencyStop(self.node, Clock(clock_type=ClockType.STEADY_TIME), BASE, ARBITER, lambda: None)
+        self._executor = SingleThreadedExecutor(context=self.context)
+        self._executor.add_node(self.node)
+        self._thread = threading.Thread(target=self._executor.spin, daemon=True)
+        self._thread.start()
+
+    def held(self) -> bool:
+        return self.stop.lock.held
+
+    def close(self) -> None:
+        self._executor.shutdown()
+        self._thread.join(PATIENCE)
+        self.node.destroy_node()
+        self.context.try_shutdown()
+
+
+@pytest.fixture
+def base(monkeypatch: pytest.MonkeyPatch) -> Iterator[Base]:
+    domain = next(_domains)
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+    monkeypatch.setattr(linked_console, "LAST_WORD", 0.0)
+    made = Base(domain)
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def console(tmp_path: Path) -> Iterator[RosConsole]:
+    made = RosConsole(history=tmp_path / "history.sqlite")
+    yield made
+    made.close()
+
+
+def broken(*given: object, **named: object) -> None:
+    raise RuntimeError("whatever it is")
+
+
+PARTS: dict[str, tuple[object, str]] = {
+    "the history": (History, "__init__"),
+    "reading the history": (History, "earlier"),
+    "the journal": (Journal, "__init__"),
+    "the profiles": (RosConsole, "_shelf"),
+    "the log": (RosoutWatch, "__init__"),
+    "the warnings about the graph": (GraphWarnings, "follow"),
+    "the profiles, later": (Shelf, "look_if_changed"),
+    "everything shown": (linked_console.LinkedConsole, "__init__"),
+}
+
+
+@pytest.mark.parametrize(("owner", "name"), PARTS.values(), ids=PARTS)
+def test_a_stop_reaches_the_robot_whatever_else_fails(
+    owner: object, name: str, base: Base, console: RosConsole, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(owner, name, broken)
+    console.start()
+    console.wait_ready(PATIENCE)
+    console.all_stop(True, "a foot under the wheel")
+    until(base.held, "the lock")
+    until(lambda: console.snapshot().drive.stop_confirmed, "the acknowledgement")
+    assert "ALL STOP held" in status_text(console.snapshot())
+    console.all_stop(False)
+    until(lambda: not base.held(), "the release")
+
+
+@pytest.mark.parametrize("part", ["the history", "reading the history", "the profiles"])
+def test_a_console_is_linked_without_a_store_that_fails_and_says_so_once(
+    part: str, base: Base, console: RosConsole, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    owner, name = PARTS[part]
+    monkeypatch.setattr(owner, name, broken)
+    console.start()
+    assert console.wait_ready(PATIENCE)
+    until(lambda: console.snapshot().graph.nodes, "the graph")
+    assert console.snapshot().problem == ""
+    said = [console.log(each) for each in console.matching_logs(LogFilter(), 0)]
+    assert sum("whatever it is" in each.text for each in said if each) == 1
+
+
+def test_a_history_with_an_unreadable_row_is_reported_once_and_ends_nothing(
+    base: Base, console: RosConsole, tmp_path: Path
+) -> None:
+    journal = Journal(history=History(tmp_path / "history.sqlite", 1))
+    for number in (1, 2):
+        journal.record(number, "/robot", "speed", (0, number), ChangeSource.EDIT)
+    journal.close()
+    with sqlite3.connect(tmp_path / "history.sqlite") as link:
+        link.execute("UPDATE changes SET new = CAST(x'ff' AS TEXT) WHERE number = 1")
+    link.close()
+    console.start()
+    assert console.wait_ready(PATIENCE)
+    assert [each.new for each in console.changes(-10)] == [2]
+    said = [console.log(each) for each in console.matching_logs(LogFilter(), 0)]
+    assert sum("1 row of the history cannot be read" in each.text for each in said if each) == 1
+
+
+def test_a_fault_in_what_the_robot_tells_is_reported_once_and_the_link_goes_on(
+    base: Base, console: RosConsole, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(DriveLink, "_told", broken)
+    console.start()
+    assert console.wait_ready(PATIENCE)
+    verdicts = base.node.create_publisher(DiagnosticArray, "/diagnostics", 10)
+    until(lambda: verdicts.publish(DiagnosticArray()) or console.snapshot().logs.end, "the report")
+    for _ in range(3):
+        verdicts.publish(DiagnosticArray())
+    console.all_stop()
+    until(base.held, "the lock")
+    said = [console.log(each) for each in console.matching_logs(LogFilter(), 0)]
+    assert sum("whatever it is" in each.text for each in said if each) == 1
+
+
+@pytest.mark.parametrize(
+    ("fails", "says"),
+    [(False, "STOP NOT SENT: the console still connects"), (True, "STOP NOT SENT: this console has no link")],
+)
+def test_a_stop_that_reaches_nobody_says_so_at_once(
+    fails: bool, says: str, base: Base, console: RosConsole, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert status_text(console.snapshot()).startswith("no robot yet")
+    if fails:
+        monkeypatch.setattr(DriveNode, "__init__", broken)
+        console.start()
+        console.wait_ready(PATIENCE)
+    console.all_stop()
+    assert status_text(console.snapshot()).startswith(says)
+    assert console.snapshot().drive.stopped_here
+    console.all_stop(False)
+    assert "STOP" not in status_text(console.snapshot())
+
+
+def test_closing_while_only_the_stop_is_linked_leaves_no_thread(
+    base: Base, console: RosConsole, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(linked_console.LinkedConsole, "__init__", broken)
+    before = set(threading.enumerate())
+    console.start()
+    console.wait_ready(PATIENCE)
+    console.close()
+    for each in set(threading.enumerate()) - before:
+        if each.name.startswith("bot-console"):
+            each.join(PATIENCE)
+            assert not each.is_alive()

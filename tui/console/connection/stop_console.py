@@ -1,0 +1,41 @@
+"""The console when only its link to the robot's emergency stop exists: before everything else, and after a failure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from bot_console.tui.console.connection.no_console import NoConsole
+from bot_console.tui.console.model import ConsoleSnapshot
+from bot_console.tui.console.protocol import ConsoleReading
+from bot_console.tui.console.robot.drive_node import DriveNode
+from bot_console.tui.console.robot.robot_model import WorldInfo
+
+_UNKNOWN = WorldInfo()
+
+
+class StopConsole(NoConsole):
+    """Refuses every request with the reason, except those that stop the robot or release it."""
+
+    def __init__(self, why: str, known: ConsoleReading, robot: DriveNode) -> None:
+        super().__init__(why, known)
+        self._known = known
+        self._robot = robot
+        self.snapshot = self._with_stop
+
+    def _with_stop(self) -> ConsoleSnapshot:
+        return replace(self._known.snapshot(), drive=self._robot.link.info(_UNKNOWN))
+
+    def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
+        """Lock the robot's emergency stop, or take this console's stop back."""
+        self._robot.link.stop(hold, reason)
+
+    def release(self, others: Sequence[str]) -> None:
+        """Take back this console's stop and the stops of others."""
+        self._robot.link.stop(False, "", others)
+
+    def close(self) -> None:
+        """Leave the ROS system."""
+        self._robot.link.close()
+        self._robot.close()
+        self._robot.context.try_shutdown()
