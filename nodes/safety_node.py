@@ -14,8 +14,7 @@ from bot_console_robot.common.robot_time import RobotTime
 from bot_console_robot.common.running import CannotStart, run
 from bot_console_robot.common.scans import SCANS
 from bot_console_robot.safety.arbitration import Arbiter, Command, Verdict, limit
-from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
-from bot_console_robot.safety.latch import NODE, Lock, Stop
+from bot_console_robot.safety.emergency_stop import ARBITER, BASE, STOP_FILE, EmergencyStop, declare_stop_file
 from bot_console_robot.safety.scan_watch import ScanWatch
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
@@ -61,9 +60,9 @@ class SafetyMonitor(Node):
         for topic in (TELEOP, NAVIGATION):
             self.create_subscription(Twist, topic, self._listener(topic), 10)
         self.create_subscription(LaserScan, "scan", self._on_scan, SCANS)
-        began = Stop(NODE, "safety_monitor", "its parameter start_locked is true", 1)
-        locked = Lock((began,), 1) if self._start_locked else None
-        self._stop = EmergencyStop(self, self._steady, ARBITER, BASE, self._decide, locked)
+        locked = "its parameter start_locked is true" if self._start_locked else ""
+        stop_file = str(self.get_parameter(STOP_FILE).value)
+        self._stop = EmergencyStop(self, self._steady, ARBITER, BASE, self._decide, locked=locked, stop_file=stop_file)
         self.create_timer(WATCH_PERIOD, self._watch, clock=self._steady)
         self.get_logger().info(f"Watching: slower from {self._warning} m, stop at {self._emergency} m")
 
@@ -73,6 +72,7 @@ class SafetyMonitor(Node):
         )
         self.declare_parameter("warning_distance", 0.7, number("Slower from this distance on (m)", 0.1, 5.0))
         self.declare_parameter("start_locked", False, plain("Begin with the emergency stop locked"))
+        declare_stop_file(self)
         self.add_on_set_parameters_callback(self._check)
         offer_check(self, self._check)
         self.add_post_set_parameters_callback(self._apply)

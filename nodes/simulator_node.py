@@ -11,7 +11,7 @@ from bot_console_robot.common.diagnostics import OK, WARN
 from bot_console_robot.common.health import Health, HealthReport
 from bot_console_robot.common.parameters import accepted, refused
 from bot_console_robot.common.running import CannotStart, run
-from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
+from bot_console_robot.safety.emergency_stop import ARBITER, BASE, STOP_FILE, EmergencyStop, declare_stop_file
 from bot_console_robot.simulation.arrays import table
 from bot_console_robot.simulation.frames import Frames
 from bot_console_robot.simulation.geometry import Pose
@@ -51,6 +51,7 @@ class Simulator(Node):
     def __init__(self) -> None:
         super().__init__("simulator", enable_logger_service=True)
         declare(self)
+        declare_stop_file(self)
         trouble = problem(self, ())
         if trouble:
             raise CannotStart(trouble)
@@ -76,7 +77,9 @@ class Simulator(Node):
         self.create_service(SetBool, "pause", self._on_pause)
         self.create_service(Trigger, "step", self._on_step)
         self.create_service(Trigger, "report", self._on_report)
-        self._stop = EmergencyStop(self, self._steady, BASE, ARBITER, self._hold)
+        self._stop = EmergencyStop(
+            self, self._steady, BASE, ARBITER, self._hold, stop_file=str(self.get_parameter(STOP_FILE).value)
+        )
         self._signals = Signals(self, self._model)
         self._left_out = 0.0
         self._health = HealthReport(self, "time", self._look)

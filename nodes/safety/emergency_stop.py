@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 
-from bot_console_robot.safety.latch import RELEASE, STOP, Latch, Lock, Request
-from bot_console_robot.safety.stop_messages import lock_of, request_message, request_of, state_message
+from bot_console_robot.common.parameters import fixed
+from bot_console_robot.safety.latch import RELEASE, STOP, Latch, Request
+from bot_console_robot.safety.lock import NODE, Lock, new_id
+from bot_console_robot.safety.stop_file import StopFile, StopFileError, UnreadableStopFileError
+from bot_console_robot.safety.stop_messages import State, request_message, request_of, state_message, state_of
 from diagnostic_msgs.msg import DiagnosticStatus
 from rclpy.clock import Clock
 from rclpy.event_handler import QoSSubscriptionMatchedInfo, SubscriptionEventCallbacks
@@ -16,12 +20,27 @@ from std_srvs.srv import Trigger
 REQUESTS = "emergency_stop/request"
 ARBITER, BASE = "emergency_stop/arbiter", "emergency_stop/base"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+STOP_FILE = "stop_file"
+STOP_FILE_VARIABLE = "BOT_CONSOLE_STOP_FILE"
+"""The environment variable with the default of that parameter."""
 SERVICE = "service"
 """The key of stops that were asked for by a service call, which does not tell who calls."""
-WATCH_PERIOD = 0.1
-"""Seconds between two looks at who has fallen silent."""
+WATCH_PERIOD_S = 0.1
+"""Between two looks at who has fallen silent."""
 GONE = 3
 """Looks in which the arbiter is not there before the base locks; all end together when a system ends."""
+REPORT_LOOKS = 10
+"""Looks between two reports of an unchanged state, so that no recorded report stands for it longer."""
+MAX_INSTANCES = 100
+"""Starts of the other node that are told apart."""
+REFUSAL_LOG_PERIOD_S = 1.0
+"""Between two log lines about releases that are ignored."""
+
+
+def declare_stop_file(node: Node) -> None:
+    """Declare the parameter that names the file in which a node keeps its stops."""
+    default = os.environ.get(STOP_FILE_VARIABLE, "")
+    node.declare_parameter(STOP_FILE, default, fixed("File in which stops outlive the node; empty: none"))
 
 
 class EmergencyStop:
@@ -31,17 +50,33 @@ class EmergencyStop:
     """
 
     def __init__(
-        self, node: Node, steady: Clock, own: str, other: str, changed: Callable[[], None], lock: Lock | None = None
+        self,
+        node: Node,
+        steady: Clock,
+        own: str,
+        other: str,
+        changed: Callable[[], None],
+        *,
+        locked: str = "",
+        stop_file: str = "",
     ) -> None:
+        """`locked` is the reason to begin locked; empty: begin released, unless a stop is kept in `stop_file`."""
         self._node = node
         self._steady = steady
         self._changed = changed
-        self._latch = Latch(lock)
-        self._instance = str(steady.now().nanoseconds)
+        self._latch = Latch()
+        self._instance = new_id()
         self._other = other
-        self._other_instance = ""
-        self._others = self._gone = 0
-        self._told = self._latch.lock.stops
+        self._other_instances: list[str] = []
+        self._other_challenge = ""
+        self._others = self._gone = self._looks = 0
+        self._settled = Lock()
+        self._file = StopFile(stop_file, node.get_namespace()) if stop_file else None
+        self._filed: Lock | None = None
+        self._unreadable = False
+        self._keep()
+        if locked:
+            self._latch.stop(node.get_name(), locked)
         self._states = node.create_publisher(DiagnosticStatus, own, LATCHED)
         self._requests = node.create_publisher(DiagnosticStatus, REQUESTS, 10)
         node.create_subscription(DiagnosticStatus, REQUESTS, self._on_request, 10)
@@ -50,8 +85,9 @@ class EmergencyStop:
         node.create_service(Trigger, "~/stop", self._on_stop)
         node.create_service(Trigger, "~/release", self._on_release)
         node.create_service(Trigger, "~/release_all", self._on_release_all)
-        node.create_timer(WATCH_PERIOD, self._watch, clock=steady)
+        node.create_timer(WATCH_PERIOD_S, self._watch, clock=steady)
         self._publish()
+        self._log()
 
     @property
     def lock(self) -> Lock:
@@ -64,72 +100,127 @@ class EmergencyStop:
         return self._latch.steered_by
 
     def stop(self, holder: str, reason: str) -> None:
-        """Lock."""
-        self._note(self._latch.stop(holder, reason))
+        """Lock for a reason of the node's own."""
+        self._settle(self._latch.stop(holder, reason))
 
     def _now(self) -> int:
         return self._steady.now().nanoseconds
 
     def _on_request(self, message: DiagnosticStatus) -> None:
-        self._note(self._latch.request(request_of(message), self._now()))
+        request = request_of(message)
+        if refusal := self._latch.refusal(request):
+            text = f"Release by {request.holder} ignored: {refusal}"
+            self._node.get_logger().warning(text, throttle_duration_sec=REFUSAL_LOG_PERIOD_S)
+        changed = self._latch.request(request, self._now())
+        self._settle(changed)
+        if not changed and request.verb in (STOP, RELEASE):
+            self._publish()  # who asks again has not heard the answer, or has heard a recorded one since
 
     def _on_state(self, message: DiagnosticStatus) -> None:
-        lock, instance = lock_of(message)
-        restarted = self._other_instance not in ("", instance)
-        self._other_instance = instance
-        if restarted and self._other == ARBITER:
-            self.stop(self._node.get_name(), "the safety monitor was started again while the robot ran")
-        self._note(self._latch.follow(lock))
+        state = state_of(message)
+        self._other_challenge = state.challenge
+        if state.instance not in self._other_instances:
+            # One that was there before is an old message that somebody has played again.
+            restarted = bool(self._other_instances)
+            self._other_instances = [*self._other_instances[-MAX_INSTANCES:], state.instance]
+            if restarted and self._other == ARBITER:
+                self.stop(self._node.get_name(), "the safety monitor was started again while the robot ran")
+        self._settle(self._latch.follow(state.lock))
 
     def _on_matched(self, matched: QoSSubscriptionMatchedInfo) -> None:
         # To ask the graph for it would make this process follow all of the graph, in which there may be much going on.
         self._others = matched.current_count
 
     def _on_stop(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        response.message = "locked"
-        return self._asked(Request(STOP, self._caller("stop"), "asked for by a service call", SERVICE), response)
+        request = Request(STOP, self._caller("stop"), "asked for by a service call", SERVICE, new_id())
+        self._settle(self._latch.request(request, self._now()))
+        self._requests.publish(request_message(request))
+        response.success, response.message = self.lock.held, "locked"
+        return response
 
     def _on_release(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        return self._asked(Request(RELEASE, self._caller("release"), "", SERVICE), response)
+        return self._release("release", [each.id for each in self.lock.stops if each.key in (SERVICE, NODE)], response)
 
     def _on_release_all(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        held = tuple(each.key for each in self.lock.stops)
-        return self._asked(Request(RELEASE, self._caller("release_all"), "", SERVICE, held), response)
+        return self._release("release_all", [each.id for each in self.lock.stops], response)
+
+    def _release(self, verb: str, ids: list[str], response: Trigger.Response) -> Trigger.Response:
+        """Release stops here, and ask the robot's other locks to do the same."""
+        request = Request(
+            RELEASE, self._caller(verb), "", SERVICE, ids=tuple(ids), challenges=(self._other_challenge,),
+            of=tuple({each.key for each in self.lock.stops if each.id in ids}),
+        )  # fmt: skip
+        self._settle(self._latch.release(ids, request.holder))
+        self._requests.publish(request_message(request))
+        response.success = not self.lock.held
+        others = "; ".join(f"{each.holder}: {each.reason}" for each in self.lock.stops)
+        response.message = f"still locked by {others} (release_all releases these too)" if others else "released"
+        return response
 
     def _caller(self, verb: str) -> str:
         return f"a call of {self._node.get_name()}/{verb}"
 
-    def _asked(self, request: Request, response: Trigger.Response) -> Trigger.Response:
-        """Carry out a request, and forward it to the robot's other latches."""
-        self._note(self._latch.request(request, self._now()))
-        self._requests.publish(request_message(request))
-        response.success = self.lock.held is (request.verb == STOP)
-        if request.verb == RELEASE:
-            others = "; ".join(f"{each.holder}: {each.reason}" for each in self.lock.stops)
-            response.message = f"still locked by {others} (release_all releases these too)" if others else "released"
-        return response
-
     def _watch(self) -> None:
-        self._note(self._latch.watch(self._now()))
-        if self._other == ARBITER and self._other_instance:
+        self._settle(self._latch.watch(self._now()))
+        self._looks += 1
+        if self._looks % REPORT_LOOKS == 0:
+            self._publish()
+        if self._other == ARBITER and self._other_instances:
             self._gone = 0 if self._others else self._gone + 1
             if self._gone == GONE:
                 self.stop(self._node.get_name(), "the safety monitor has gone")
 
-    def _note(self, changed: bool) -> None:
-        """Act on a change before it is published, so that what is published is true."""
-        if changed:
-            self._changed()
-            self._publish()
-        self._tell()
+    def _settle(self, changed: bool) -> None:
+        """Act on a change before it is published, so that what is published is true.
 
-    def _tell(self) -> None:
-        log, told, self._told = self._node.get_logger(), self._told, self.lock.stops
+        A stop holds before it is kept in the file, which may take long; a release counts only once it is kept.
+        """
+        if not changed:
+            return
+        free = not self.lock.held
+        if free:
+            self._keep()
+        self._act()
+        if not free and self._keep():
+            self._act()
+
+    def _act(self) -> None:
+        self._changed()
+        self._publish()
+        self._log()
+
+    def _keep(self) -> bool:
+        """Bring the file up to date, and adopt what it knows; returns whether that has changed the lock.
+
+        A file that cannot be used locks: nobody would know of a stop after the next start.
+        """
+        if self._file is None or self.lock.kept == self._filed:
+            return False
+        try:
+            both = self._file.merge(self.lock, replace_unreadable=self._unreadable and not self.lock.held)
+        except StopFileError as error:
+            self._unreadable = isinstance(error, UnreadableStopFileError)
+            return self._latch.stop(self._node.get_name(), _remedy(error, self._unreadable))
+        changed = self._latch.follow(both)
+        self._unreadable, self._filed = False, self.lock.kept
+        return changed
+
+    def _log(self) -> None:
+        log, before, self._settled = self._node.get_logger(), self._settled, self.lock
         for each in self.lock.stops:
-            if each.key not in {other.key for other in told}:
+            if each.id not in before.ids:
                 log.warning(f"Emergency stop: locked by {each.holder}: {each.reason}")
-        if told and not self.lock.held:
-            log.info("Emergency stop: released")
+        if before.held and not self.lock.held:
+            by = next((each.by for each in reversed(self.lock.released) if each.id in before.ids), "")
+            log.info(f"Emergency stop: released by {by}")
 
     def _publish(self) -> None:
-        self._states.publish(state_message(self.lock, self._node.get_name(), self._instance, self.steered_by))
+        state = State(self.lock, self._instance, self._latch.challenge, self.steered_by)
+        self._states.publish(state_message(state, self._node.get_name()))
+
+
+def _remedy(error: StopFileError, unreadable: bool) -> str:
+    """What is wrong with the stop file, and how to go on."""
+    if unreadable:
+        return f"which stops are kept is unknown: {error}; a release moves that file aside"
+    return f"stops cannot be kept: {error}; make room for it or give its folder write permission, then release"

@@ -9,132 +9,123 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 
+from bot_console_robot.safety.lock import CROWD, MAX_STOPS, NODE, UNNAMED, Lock, Stop, new_id
+
 SILENCE_NS = 1_000_000_000
 """A console that holds the steering is gone when it has not been heard for so long."""
 STOP, RELEASE, STEER, HAND_BACK = "stop", "release", "steer", "hand_back"
 SILENT = "held the steering and fell silent"
-NODE = "node"
-"""The key of stops that no person made but a node of the robot; every release lets go of these as well."""
-MOST = 50
-"""Stops that are told apart, and consoles that are watched; those beyond share one place."""
-CROWD = "others"
 
 
 @dataclass(frozen=True, slots=True)
 class Request:
     """What somebody wants: one of the four verbs. `key` tells two of the same name apart.
 
-    `of` are the keys of the stops that a release is for; empty for the asking program's own and the nodes'.
+    `id` is the stop's, with `steer` that of the stop if this was the requester's last word. A release has the `ids` of
+    the stops to release and quotes `challenges`; None stands for the older form, in which `of` are keys of requesters.
     """
 
     verb: str
     holder: str
     reason: str = ""
     key: str = ""
+    id: str = ""
+    ids: tuple[str, ...] | None = None
+    challenges: tuple[str, ...] = ()
     of: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Stop:
-    """The stop that somebody requested, why, and in which turn of the lock."""
-
-    key: str
-    holder: str = ""
-    reason: str = ""
-    turn: int = 0
-
-
-@dataclass(frozen=True, slots=True)
-class Lock:
-    """Who holds the robot, the first holder first; nobody if it is free. `turn` counts changes."""
-
-    stops: tuple[Stop, ...] = ()
-    turn: int = 0
-
-    @property
-    def held(self) -> bool:
-        """Whether anybody holds it."""
-        return bool(self.stops)
-
-    @property
-    def holder(self) -> str:
-        """Who has held it longest."""
-        return self.stops[0].holder if self.stops else ""
-
-    @property
-    def reason(self) -> str:
-        """The reason of the longest holder."""
-        return self.stops[0].reason if self.stops else ""
+    kept: bool = True
 
 
 class Latch:
     """One node's lock, and who holds the steering. Methods return whether anything has changed; times are steady ns."""
 
     def __init__(self, lock: Lock | None = None) -> None:
-        self.lock = lock or Lock()
-        self._released: dict[str, int] = {}
-        self._steering: dict[str, tuple[str, int]] = {}
+        self._lock = lock or Lock()
+        self._challenge = new_id()
+        self._steering: dict[str, tuple[str, int, str]] = {}
+
+    @property
+    def lock(self) -> Lock:
+        """Who holds the robot."""
+        return self._lock
+
+    @property
+    def challenge(self) -> str:
+        """What a release has to quote; another one whenever the stops have changed."""
+        return self._challenge
 
     @property
     def steered_by(self) -> str:
         """Who holds the steering; empty when nobody does."""
-        return ", ".join(sorted({holder for holder, _ in self._steering.values()}))
+        return ", ".join(sorted({holder for holder, _, _ in self._steering.values()}))
+
+    def refusal(self, request: Request) -> str:
+        """Why a request is ignored; empty if it is not."""
+        if request.verb != RELEASE or not self._lock.held:
+            return ""
+        if request.ids is not None:
+            if self._challenge in request.challenges or not self._lock.ids.intersection(request.ids):
+                return ""
+            return "it answers an earlier state of this lock: a recording, or a copy that came late"
+        if self._unnamed_of(request):
+            return ""
+        return "it quotes no challenge, so it releases only stops that the same program has requested without an id"
 
     def request(self, request: Request, now: int) -> bool:
-        """Carry out a request; one that cannot be understood is a stop."""
+        """Carry out a request, unless there is a `refusal`; one that cannot be understood is a stop."""
         if request.verb == RELEASE:
-            return self.release(request.of or (request.key, NODE))
+            if self.refusal(request):
+                return False
+            if request.ids is not None and self._challenge not in request.challenges:
+                return False
+            return self.release(self._unnamed_of(request) if request.ids is None else request.ids, request.holder)
         if request.verb == STEER:
-            key = self._place(request.key, self._steering)
-            steered, self._steering[key] = self.steered_by, (request.holder, now)
+            key = request.key if request.key in self._steering or len(self._steering) < MAX_STOPS else CROWD
+            steered, self._steering[key] = self.steered_by, (request.holder, now, request.id)
             return self.steered_by != steered
         if request.verb == HAND_BACK:
             return self._steering.pop(request.key, None) is not None
         reason = request.reason if request.verb == STOP else f"a request that nobody understands: {request.verb!r}"
-        return self.stop(request.holder, reason, request.key)
+        return self._stop(request.holder, reason, request.key, request.id, request.kept)
 
-    def stop(self, holder: str, reason: str, key: str = NODE) -> bool:
-        """Lock; earlier holders keep holding."""
-        held = [each.key for each in self.lock.stops]
-        key = self._place(key, held)
-        if key in held:
+    def _unnamed_of(self, request: Request) -> list[str]:
+        """The stops that a release of the older form covers: the same requester's, if they are of that form too."""
+        if request.of and request.key not in request.of:
+            return []
+        return [each.id for each in self._lock.stops if each.unnamed and each.key == request.key]
+
+    def stop(self, holder: str, reason: str) -> bool:
+        """Lock for a reason of the node's own, if it does not hold already; until a release, or the node's end."""
+        if any(each.key == NODE and each.holder == holder for each in self._lock.stops):
             return False
-        turn = self.lock.turn + 1
-        self.lock = Lock((*self.lock.stops, Stop(key, holder, reason, turn)), turn)
-        return True
+        return self._stop(holder, reason, NODE, new_id(), kept=False)
 
-    def release(self, keys: Collection[str]) -> bool:
-        """Remove the stops with these keys; the robot is free when none is left."""
-        gone = [each.key for each in self.lock.stops if each.key in keys]
-        if not gone:
-            return False
-        turn = self.lock.turn + 1
-        self._released |= dict.fromkeys(gone, turn)
-        while len(self._released) > 2 * MOST:
-            del self._released[min(self._released, key=self._released.__getitem__)]
-        self.lock = Lock(tuple(each for each in self.lock.stops if each.key not in gone), turn)
-        return True
+    def _stop(self, holder: str, reason: str, key: str, id: str, kept: bool = True) -> bool:
+        if not id:
+            if any(each.unnamed and each.key == key for each in self._lock.stops):
+                return False
+            id = new_id(UNNAMED)
+        return self._become(self._lock.with_stop(Stop(id, key, holder, reason, kept=kept)))
 
-    @staticmethod
-    def _place(key: str, taken: Collection[str]) -> str:
-        return key if key in taken or len(taken) < MOST else CROWD
+    def release(self, ids: Collection[str], by: str) -> bool:
+        """Remove the stops with these ids; the robot is free when none is left."""
+        return self._become(self._lock.without(ids, by))
 
     def follow(self, other: Lock) -> bool:
-        """Adopt another node's stops, unless they are older than our release. A release is never adopted."""
-        stops = {each.key: each for each in self.lock.stops}
-        for each in other.stops:
-            if each.turn > self._released.get(each.key, 0):
-                key = self._place(each.key, stops)
-                stops.setdefault(key, each if key == each.key else Stop(key, each.holder, each.reason, each.turn))
-        news = len(stops) > len(self.lock.stops)
-        self.lock = Lock(tuple(stops.values()), max(self.lock.turn, other.turn))
-        return news
+        """Adopt the stops and releases that another lock, or the stop file, knows."""
+        return self._become(self._lock.merged(other))
+
+    def _become(self, lock: Lock) -> bool:
+        before, self._lock = self._lock, lock
+        if lock.ids != before.ids:
+            self._challenge = new_id()
+        return (lock.stops, lock.released) != (before.stops, before.released)
 
     def watch(self, now: int) -> bool:
         """Lock when a console that holds the steering has fallen silent."""
-        silent = [key for key, (_, heard) in self._steering.items() if now - heard > SILENCE_NS]
-        changed = False
+        silent = [key for key, (_, heard, _) in self._steering.items() if now - heard > SILENCE_NS]
         for key in silent:
-            holder, _ = self._steering.pop(key)
-            changed |= self.stop(holder, SILENT, key)
-        return changed or bool(silent)
+            holder, _, id = self._steering.pop(key)
+            # Two locks that have heard the same last word make the same stop. Was it released, this is another silence.
+            self._stop(holder, SILENT, key, new_id() if self._lock.has_released(id) else id)
+        return bool(silent)

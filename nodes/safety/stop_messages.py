@@ -3,27 +3,47 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from typing import Any, cast
 
-from bot_console_robot.safety.latch import CROWD, MOST, RELEASE, Lock, Request, Stop
+from bot_console_robot.safety.latch import RELEASE, Request
+from bot_console_robot.safety.lock import CROWD, MAX_RELEASES, MAX_STOPS, Lock, Release, Stop
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 RELEASED = "released"
-LONGEST = 200
-"""Characters of a name or reason; the rest is left out."""
+MAX_TEXT_CHARS = 200
+"""Characters of an id, a name or a reason; the rest is left out."""
+MAX_IDS = 2 * MAX_STOPS
+"""Stops that one release may name."""
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """What a lock publishes: who holds the robot, the challenge for a release, and which start of the node it is."""
+
+    lock: Lock
+    instance: str
+    challenge: str = ""
+    steered_by: str = ""
 
 
 def request_message(request: Request) -> DiagnosticStatus:
     """A request."""
-    values = [KeyValue(key="request", value=request.verb)]
+    values = {"request": request.verb}
+    if request.id:
+        values["id"] = request.id
+    if not request.kept:
+        values["kept"] = "false"
     if request.of:
-        values.append(KeyValue(key="of", value=json.dumps(request.of)))
+        values["of"] = json.dumps(request.of)
+    if request.ids is not None:
+        values |= {"ids": json.dumps(request.ids), "challenges": json.dumps(request.challenges)}
     return DiagnosticStatus(
         level=DiagnosticStatus.WARN,
         name=request.holder,
         message=request.reason,
         hardware_id=request.key,
-        values=values,
+        values=[KeyValue(key=key, value=value) for key, value in values.items()],
     )
 
 
@@ -32,16 +52,25 @@ def request_of(message: DiagnosticStatus) -> Request:
     values = _values(message)
     verb = _short(values.get("request", ""))
     holder = _short(message.name) or "somebody"
-    key, of = _short(message.hardware_id) or holder, values.get("of")
-    keys = () if verb != RELEASE or of is None else _texts(of) or (key,)
-    return Request(verb, holder, _short(message.message), key, keys)
+    key = _short(message.hardware_id) or holder
+    request = Request(
+        verb, holder, _short(message.message), key, _short(values.get("id", "")), kept=values.get("kept") != "false"
+    )
+    if verb != RELEASE:
+        return request
+    ids = _texts(values["ids"]) if "ids" in values else None
+    of = () if "of" not in values else _texts(values["of"]) or (key,)
+    return Request(
+        verb, holder, request.reason, key, request.id, ids, _texts(values.get("challenges", "")), of, request.kept
+    )
 
 
-def state_message(lock: Lock, node: str, instance: str, steered_by: str) -> DiagnosticStatus:
-    """The state of a node's latch; `instance` differs after each start of the node."""
+def state_message(state: State, node: str) -> DiagnosticStatus:
+    """The state of a node's lock."""
+    lock = state.lock
     values = {"locked": str(lock.held).lower(), "holder": lock.holder, "reason": lock.reason, "turn": str(lock.turn)}
-    values["stops"] = json.dumps([[each.key, each.holder, each.reason, each.turn] for each in lock.stops])
-    values |= {"steered_by": steered_by, "instance": instance}
+    values |= {"stops": stops_text(lock.stops), "released": releases_text(lock.released)}
+    values |= {"steered_by": state.steered_by, "instance": state.instance, "challenge": state.challenge}
     return DiagnosticStatus(
         level=DiagnosticStatus.ERROR if lock.held else DiagnosticStatus.OK,
         name=f"{node}: emergency stop",
@@ -51,26 +80,54 @@ def state_message(lock: Lock, node: str, instance: str, steered_by: str) -> Diag
     )
 
 
-def lock_of(message: DiagnosticStatus) -> tuple[Lock, str]:
-    """The lock in a state message, and the instance; what cannot be read counts as a lock."""
+def state_of(message: DiagnosticStatus) -> State:
+    """The state in a message; what cannot be read counts as a lock."""
     values = _values(message)
-    turn, stops = _number(values.get("turn")), _stops(values.get("stops"))
+    turn, instance = _number(values.get("turn")), _short(values.get("instance", ""))
+    stops = stops_of(values.get("stops"), instance)
     if values.get("locked") == "false":
         stops = ()
     elif not stops:  # of a node that reports only that it is locked
-        stops = (Stop(CROWD, _short(values.get("holder", "")), _short(values.get("reason", "")), turn),)
-    return Lock(stops, turn), values.get("instance", "")
+        holder, reason = _short(values.get("holder", "")), _short(values.get("reason", ""))
+        stops = (Stop(f"{CROWD}@{turn}@{instance}", CROWD, holder, reason, turn),)
+    lock = Lock(stops, turn, releases_of(values.get("released")))
+    return State(lock, instance, _short(values.get("challenge", "")), _short(values.get("steered_by", "")))
 
 
-def _stops(text: str | None) -> tuple[Stop, ...]:
-    lists = [cast("list[Any]", entry) for entry in _json(text) if isinstance(entry, list)]
-    entries = [[str(each) for each in entry] for entry in lists]
-    found = [entry for entry in entries if len(entry) == 4][:MOST]
-    return tuple(Stop(_short(key), _short(who), _short(why), _number(turn)) for key, who, why, turn in found)
+def stops_text(stops: tuple[Stop, ...]) -> str:
+    """Stops as JSON: key, holder, reason, turn, id, and whether it is kept; older locks end with the turn."""
+    return json.dumps([[each.key, each.holder, each.reason, each.turn, each.id, each.kept] for each in stops])
+
+
+def stops_of(text: str | None, instance: str = "") -> tuple[Stop, ...]:
+    """The stops in a text; those of an older lock get an id that differs for each of its changes."""
+    found: list[Stop] = []
+    for row in _rows(text)[: MAX_STOPS + 1]:
+        if len(row) >= 4:
+            key, holder, reason = (_short(str(each)) for each in row[:3])
+            turn = _number(str(row[3]))
+            id = _short(str(row[4])) if len(row) > 4 else f"{key}@{turn}@{instance}"
+            found.append(Stop(id, key, holder, reason, turn, len(row) < 6 or row[5] is not False))
+    return tuple(found)
+
+
+def releases_text(released: tuple[Release, ...]) -> str:
+    """Releases as JSON: id, by whom, and the turn."""
+    return json.dumps([[each.id, each.by, each.turn] for each in released])
+
+
+def releases_of(text: str | None) -> tuple[Release, ...]:
+    """The releases in a text."""
+    rows = [each for each in _rows(text)[:MAX_RELEASES] if len(each) >= 3]
+    return tuple(Release(_short(str(id)), _short(str(by)), _number(str(turn))) for id, by, turn, *_ in rows)
+
+
+def _rows(text: str | None) -> list[list[Any]]:
+    return [cast("list[Any]", each) for each in _json(text) if isinstance(each, list)]
 
 
 def _texts(text: str) -> tuple[str, ...]:
-    return tuple(_short(each) for each in _json(text) if isinstance(each, str))
+    return tuple(_short(each) for each in _json(text)[:MAX_IDS] if isinstance(each, str))
 
 
 def _json(text: str | None) -> list[Any]:
@@ -82,7 +139,7 @@ def _json(text: str | None) -> list[Any]:
 
 
 def _number(text: str | None) -> int:
-    return int(text) if text and text.isascii() and text.isdigit() and len(text) < LONGEST else 0
+    return int(text) if text and text.isascii() and text.isdigit() and len(text) < MAX_TEXT_CHARS else 0
 
 
 def _values(message: DiagnosticStatus) -> dict[str, str]:
@@ -91,4 +148,4 @@ def _values(message: DiagnosticStatus) -> dict[str, str]:
 
 def _short(text: str) -> str:
     """The beginning of a text, encodable: else no state that contains it could be published."""
-    return text[:LONGEST].encode("utf-8", "replace").decode()
+    return text[:MAX_TEXT_CHARS].encode("utf-8", "replace").decode()

@@ -91,21 +91,24 @@ def pane_text(text: str) -> None:
 
 
 def stop(text: str) -> None:
-    from bot_console.tui.console.robot.stop_link import _stops
+    from bot_console.tui.console.robot.lock_state import LockState
     from bot_console_robot.safety.latch import Latch
-    from bot_console_robot.safety.stop_messages import lock_of, request_of, state_message
+    from bot_console_robot.safety.stop_messages import State, request_of, state_message, state_of
     from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
-    keys = ("request", "of", "stops", "turn", "locked", "holder")
+    keys = (
+        *("request", "id", "ids", "of", "challenges", "kept"),
+        *("locked", "holder", "stops", "released", "turn", "instance", "challenge"),
+    )
     pairs = [KeyValue(key=key, value=text) for key in keys]
     message = DiagnosticStatus(name=text, message=text, hardware_id=text, values=pairs)
     latch = Latch()
     latch.request(request_of(message), 0)
-    latch.follow(lock_of(message)[0])
-    state = state_message(latch.lock, "n", "1", latch.steered_by)
-    latch.follow(lock_of(state)[0])
-    _stops({each.key: each.value for each in message.values}, "a")
-    assert lock_of(message)[0].held or text == "false"
+    latch.follow(state_of(message).lock)
+    state = state_message(State(latch.lock, "1", latch.challenge, latch.steered_by), "n")
+    assert state_of(state).lock == latch.lock
+    LockState.of({each.key: each.value for each in message.values}).holds("1", "a")
+    assert state_of(message).lock.held or text == "false"
 
 
 def key_expressions(text: str) -> None:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, ProcessInfo
 from bot_console.tui.console.robot.robot_model import DriveInfo, RobotStop
 from bot_console.tui.format import counted, harmless
 from bot_console.tui.widgets.prompt.question import Confirmation
 
+HOLDS_AGAIN = "What persons have requested holds it again as soon as it is back; ! and bot-console release end that."
 MOST = 5
 """Stops that are named one by one."""
 
@@ -45,12 +47,27 @@ def holder_is_gone(drive: DriveInfo) -> bool:
     return bool(drive.stops) and drive.stops[0].gone
 
 
+def stops_of_ending(snapshot: ConsoleSnapshot, processes: Sequence[ProcessInfo]) -> list[str]:
+    """Lines that name who holds the robot, if the end of these processes would end a lock; else none."""
+    stops = snapshot.drive.stops
+    locks = {node.name for node in snapshot.graph.nodes if any(map(_is_lock, node.publishers))}
+    if not stops or not any(locks.intersection(each.nodes) for each in processes):
+        return []
+    return ["⚠ This ends an emergency stop that holds the robot:", *_lines(stops), HOLDS_AGAIN]
+
+
+def _is_lock(topic: Endpoint) -> bool:
+    return "/emergency_stop/" in topic.name and not topic.name.endswith("/request")
+
+
+def _lines(stops: Sequence[RobotStop]) -> list[str]:
+    lines = [f"  {harmless(each.who)}: {harmless(each.reason)}" for each in stops[:MOST]]
+    return lines + ([f"  and {len(stops) - MOST} more"] if len(stops) > MOST else [])
+
+
 def release_question(
     others: Sequence[RobotStop], then: Callable[[None], object], gone: Callable[[], str]
 ) -> Confirmation:
     """Asks whether to release the stops of others too; `gone` tells when there are none any more."""
-    lines = [f"  {harmless(each.who)}: {harmless(each.reason)}" for each in others[:MOST]]
-    if len(others) > MOST:
-        lines.append(f"  and {len(others) - MOST} more")
-    reasons = ["These stops are not this console's:", *lines, "", "With no the robot stays held, by you too."]
+    reasons = ["These stops are not this console's:", *_lines(others), "", "With no the robot stays held, by you too."]
     return Confirmation("Release the robot all the same?", then, gone, reasons="\n".join(reasons))

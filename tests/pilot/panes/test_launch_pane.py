@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bot_console.tui.console.model import LaunchEvent, LaunchInfo, ProcessState
+from bot_console.tui.console.model import Endpoint, LaunchEvent, LaunchInfo, ProcessState
+from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.panes.launch.pane import LaunchPane
 from bot_console.tui.panes.launch.rows import ProcessRows
 from bot_console.tui.screens.confirm import ConfirmScreen
@@ -234,5 +235,29 @@ def test_states_are_told_by_word_and_by_sign() -> None:
         await session.press("8")
         for state in ProcessState:
             assert state.value in session.text()
+
+    run(live(), play)
+
+
+def test_what_ends_a_lock_that_holds_the_robot_is_asked_about_with_the_names_of_the_holders() -> None:
+    async def play(session: Session) -> None:
+        console = session.console
+        lock = Endpoint("/emergency_stop/arbiter", ("diagnostic_msgs/msg/DiagnosticStatus",))
+        nodes = [
+            replace(each, publishers=(*each.publishers, lock)) if each.name == "/safety_monitor" else each
+            for each in console.current.graph.nodes
+        ]
+        console.change(graph=replace(console.current.graph, nodes=tuple(nodes)))
+        console.hold([RobotStop("1", "ben[b]", "my foot"), RobotStop("2", "carla", "too close")])
+        await session.press("8", "down", "r")
+        assert session.launcher.asked == [("restart", "sensor_handler@0")], "this one holds no lock"
+        await session.press("down", "r")
+        assert all(each in session.text() for each in ("ben[b]: my foot", "carla: too close", "safety_monitor"))
+        await session.press("n", "x", "y", "up", "up", "r")
+        assert session.launcher.asked[1:] == [("stop", "safety_monitor@1")]
+        assert "ben[b]: my foot" in session.text()
+        console.hold([])
+        await session.press("n", "down", "down", "r")
+        assert session.launcher.asked[2:] == [("restart", "safety_monitor@1")]
 
     run(live(), play)

@@ -10,6 +10,7 @@ from pathlib import Path
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.model import Capabilities, Endpoint, Profile, SetOutcome
+from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.panes.profiles.pane import ProfilesPane
 from bot_console.tui.panes.profiles.rows import ProfileRows
 from bot_console.tui.screens.confirm import ConfirmScreen
@@ -268,6 +269,21 @@ def test_a_file_is_opened_and_what_runs_is_saved_as_a_profile(tmp_path: Path) ->
         assert ("save profile", "hall", "for the hall") in session.console.asked
 
     run(live(), play, (120, 40))
+
+
+def test_a_launch_profile_that_ends_a_lock_names_who_holds_the_robot() -> None:
+    console, launcher = live()
+    two = Profile("two", "/p/two.yaml", "Two robots.", launch="/p/two.launch.py")
+    lock = Endpoint("/emergency_stop/base", ("diagnostic_msgs/msg/DiagnosticStatus",))
+    nodes = [replace(each, publishers=(*each.publishers, lock)) for each in console.current.graph.nodes]
+    console.change(profiles=(*console.current.profiles, two), graph=replace(console.current.graph, nodes=tuple(nodes)))
+    console.hold([RobotStop("1", "ben", "my foot")])
+
+    async def play(session: Session) -> None:
+        await session.press("7", "G", "a")
+        assert "ends an emergency stop" in session.text() and "ben: my foot" in session.text()
+
+    run((console, launcher), play, (120, 50))
 
 
 def test_a_launch_profile_asks_stops_what_runs_and_then_launches() -> None:

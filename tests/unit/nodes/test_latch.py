@@ -5,66 +5,116 @@ from __future__ import annotations
 import itertools
 
 import pytest
-from bot_console_robot.safety.latch import (
-    CROWD,
-    HAND_BACK,
-    MOST,
-    RELEASE,
-    SILENCE_NS,
-    STEER,
-    STOP,
-    Latch,
-    Lock,
-    Request,
-    Stop,
-)
-from bot_console_robot.safety.stop_messages import lock_of, request_message, request_of, state_message
+from bot_console_robot.safety.latch import HAND_BACK, RELEASE, SILENCE_NS, STEER, STOP, Latch, Request
+from bot_console_robot.safety.lock import CROWD, MAX_RELEASES, MAX_STOPS, NODE, Lock, Release, Stop
+from bot_console_robot.safety.stop_messages import State, request_message, request_of, state_message, state_of
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
-ANNA = Request(STOP, "anna", "the arm swings", "a")
+ANNA = Request(STOP, "anna", "the arm swings", "a", "a1")
+BEN = Request(STOP, "ben", "me too", "b", "b1")
 
 
-def test_it_begins_released_and_the_first_word_locks_it() -> None:
+def release(latch: Latch, *ids: str, by: str = "ben") -> bool:
+    """A release that answers the lock's present challenge."""
+    return latch.request(Request(RELEASE, by, key=by, ids=ids, challenges=(latch.challenge,)), 0)
+
+
+def test_it_begins_released_and_the_first_request_locks_it() -> None:
     latch = Latch()
     assert not latch.lock.held
     assert latch.request(ANNA, 0)
-    assert latch.lock == Lock((Stop("a", "anna", "the arm swings", 1),), 1)
+    assert latch.lock == Lock((Stop("a1", "a", "anna", "the arm swings", 1),), 1)
 
 
 def test_it_is_held_until_the_last_of_those_who_stopped_it_has_released_it() -> None:
     latch = Latch()
     latch.request(ANNA, 0)
-    assert latch.request(Request(STOP, "ben", "me too", "b"), 0)
-    assert not latch.request(Request(STOP, "ben", "again", "b"), 0)
+    assert latch.request(BEN, 0)
+    assert not latch.request(Request(STOP, "ben", "again", "b", "b1"), 0)
     assert latch.lock.holder == "anna"
-    assert latch.request(Request(RELEASE, "anna", key="a"), 0)
+    assert release(latch, "a1", by="anna")
     assert (latch.lock.held, latch.lock.holder, latch.lock.reason) == (True, "ben", "me too")
-    assert latch.request(Request(RELEASE, "ben", key="b"), 0) and not latch.lock.held
+    assert release(latch, "b1") and not latch.lock.held
 
 
-def test_anothers_stop_is_released_only_by_naming_it() -> None:
+def test_a_release_covers_only_the_stops_that_it_names() -> None:
     latch = Latch()
     latch.request(ANNA, 0)
-    assert not latch.request(Request(RELEASE, "ben", key="b"), 0) and latch.lock.held
-    assert not latch.request(Request(RELEASE, "ben", key="b", of=("c",)), 0) and latch.lock.held
-    assert latch.request(Request(RELEASE, "ben", key="b", of=("a",)), 0) and not latch.lock.held
+    release(latch, "c1")
+    release(latch)
+    assert latch.lock.held
+    assert release(latch, "a1") and not latch.lock.held
 
 
-def test_what_a_node_has_stopped_by_itself_anybody_releases() -> None:
+def test_a_stop_that_was_released_never_returns_however_late_a_copy_comes() -> None:
     latch = Latch()
-    assert latch.stop("simulator", "the safety monitor has gone")
-    assert latch.request(Request(RELEASE, "ben", key="b"), 0) and not latch.lock.held
+    latch.request(ANNA, 0)
+    held = latch.lock
+    release(latch, "a1")
+    assert not latch.request(ANNA, 0) and not latch.follow(held) and not latch.lock.held
+    assert latch.request(Request(STOP, "anna", "again", "a", "a2"), 0) and latch.lock.held
 
 
-def test_stops_beyond_all_measure_are_one_and_are_released_by_name() -> None:
+def test_a_release_that_overtakes_its_stop_counts() -> None:
+    latch = Latch()
+    release(latch, "a1")
+    assert not latch.request(ANNA, 0) and not latch.lock.held
+
+
+def test_a_release_quotes_the_challenge_of_the_stops_that_it_releases() -> None:
+    latch = Latch()
+    latch.request(ANNA, 0)
+    recorded = Request(RELEASE, "ben", key="b", ids=("a1", "b1"), challenges=(latch.challenge, "another"))
+    latch.request(BEN, 0)
+    assert "earlier state" in latch.refusal(recorded)
+    assert not latch.request(recorded, 0) and len(latch.lock.stops) == 2
+    assert not latch.request(Request(RELEASE, "ben", key="b", ids=("a1", "b1")), 0)
+    assert len(latch.lock.stops) == 2
+    assert release(latch, "a1", "b1") and not latch.lock.held
+
+
+def test_no_two_states_of_a_lock_have_the_same_challenge() -> None:
+    latch, seen = Latch(), []
+    for number in range(3):
+        seen.append(latch.challenge)
+        latch.request(Request(STOP, "anna", key="a", id=str(number)), 0)
+        seen.append(latch.challenge)
+        release(latch, str(number))
+    assert len(set(seen)) == 6 and Latch().challenge not in seen
+
+
+def test_an_older_console_stops_and_releases_what_it_has_stopped_and_nothing_else() -> None:
+    """Its stops have no ids and its releases no challenges, so that a copy of one cannot be told from it."""
+    latch = Latch()
+    old = Request(STOP, "old", "now", "o")
+    for _ in range(2):
+        assert latch.request(old, 0) and not latch.request(old, 0)
+        assert latch.request(Request(RELEASE, "old", key="o", of=("o",)), 0) and not latch.lock.held
+    latch.request(ANNA, 0)
+    latch.request(old, 0)
+    latch.stop("simulator", "the safety monitor has gone")
+    everything = Request(RELEASE, "other", key="x", of=("a", "a1", "o", NODE))
+    assert "no challenge" in latch.refusal(everything) and not latch.request(everything, 0)
+    assert latch.request(Request(RELEASE, "old", key="o", of=("o", "a", NODE)), 0)
+    assert [each.key for each in latch.lock.stops] == ["a", NODE]
+
+
+def test_stops_beyond_all_measure_are_one_and_are_released_by_its_id() -> None:
     latch = Latch()
     for number in range(10_000):
-        latch.request(Request(STOP, f"n{number}", key=str(number)), 0)
+        latch.request(Request(STOP, f"n{number}", key=str(number), id=str(number)), 0)
         latch.request(Request(STEER, f"n{number}", key=str(number)), 0)
-    assert len(latch.lock.stops) == MOST + 1 and len(latch.steered_by.split(", ")) == MOST + 1
-    latch.release([each.key for each in latch.lock.stops if each.key != CROWD])
+    assert len(latch.lock.stops) == MAX_STOPS + 1 and len(latch.steered_by.split(", ")) == MAX_STOPS + 1
+    release(latch, *(each.id for each in latch.lock.stops if each.key != CROWD))
     assert latch.lock.held
-    assert latch.release([CROWD]) and not latch.lock.held
+    assert release(latch, *latch.lock.ids) and not latch.lock.held
+
+
+def test_only_the_latest_releases_are_remembered() -> None:
+    latch = Latch()
+    for number in range(3 * MAX_RELEASES):
+        release(latch, str(number))
+    assert [each.id for each in latch.lock.released] == [str(n) for n in range(2 * MAX_RELEASES, 3 * MAX_RELEASES)]
 
 
 @pytest.mark.parametrize("verb", ["", "STOP", "halt", "release "])
@@ -84,6 +134,19 @@ def test_a_console_that_holds_the_steering_and_falls_silent_locks_it() -> None:
     assert latch.lock.held and latch.lock.holder == "anna" and not latch.steered_by
 
 
+def test_two_locks_make_the_same_stop_of_the_same_silence_and_another_of_the_next() -> None:
+    here, there = Latch(), Latch()
+    steer = Request(STEER, "anna", key="a", id="s1")
+    for latch in (here, there):
+        latch.request(steer, 0)
+        latch.watch(SILENCE_NS + 1)
+    assert here.lock == there.lock and here.lock.ids == {"s1"}
+    release(here, "s1")
+    here.request(steer, 0)
+    here.watch(SILENCE_NS + 1)
+    assert here.lock.held, "a recorded claim of the steering is no way around the silence"
+
+
 def test_steering_that_is_handed_back_needs_no_heartbeat() -> None:
     latch = Latch()
     latch.request(Request(STEER, "anna", key="a"), 0)
@@ -91,59 +154,77 @@ def test_steering_that_is_handed_back_needs_no_heartbeat() -> None:
     assert not latch.watch(10 * SILENCE_NS) and not latch.lock.held
 
 
-def test_another_nodes_lock_is_followed_but_not_one_older_than_the_release() -> None:
-    here, there = Latch(), Latch()
-    there.request(ANNA, 0)
-    locked = there.lock
-    assert here.follow(locked) and here.lock == locked
-    here.request(Request(RELEASE, "anna", key="a"), 0)
-    assert not here.follow(locked) and not here.lock.held
-    assert not there.follow(here.lock) and there.lock.held, "a release is a person's, never another node's"
-
-
 @pytest.mark.parametrize("order", list(itertools.permutations(range(4))))
 def test_two_latches_agree_in_any_order_of_delivery_once_all_has_come(order: tuple[int, ...]) -> None:
-    """Both get the same requests in the same order; their states reach each other at any time."""
+    """One hears all requests, the other only of its states, at any time."""
     here, there = Latch(), Latch()
-    verbs = [STOP, RELEASE, STOP, RELEASE]
-    told: list[Lock] = []
-    for verb in verbs:
-        there.request(Request(verb, "anna", key="a"), 0)
-        told.append(there.lock)
-    for verb in verbs:
-        here.request(Request(verb, "anna", key="a"), 0)
+    states: list[Lock] = []
+    for id in ("a1", "a2"):
+        there.request(Request(STOP, "anna", key="a", id=id), 0)
+        states.append(there.lock)
+        release(there, id)
+        states.append(there.lock)
     for number in order:
-        here.follow(told[number])
-    assert not here.lock.held and not there.lock.held
+        here.follow(states[number])
+    assert not here.lock.held and here.lock.released == there.lock.released
 
 
-def test_a_stop_that_only_one_of_two_has_heard_reaches_the_other_beside_those_it_has() -> None:
+def test_a_stop_and_a_release_that_only_one_of_two_has_heard_reach_the_other() -> None:
     here, there = Latch(), Latch()
     here.request(ANNA, 0)
-    there.stop("ben", "my foot", "b")
+    there.request(BEN, 0)
     assert here.follow(there.lock) and there.follow(here.lock)
-    assert {each.key for each in here.lock.stops} == {each.key for each in there.lock.stops} == {"a", "b"}
-    here.release(["a"])
-    assert not there.follow(here.lock) and [each.key for each in here.lock.stops] == ["b"]
+    assert here.lock.ids == there.lock.ids == {"a1", "b1"}
+    release(here, "a1")
+    assert there.follow(here.lock) and there.lock.ids == {"b1"}
+    assert there.lock.released == (Release("a1", "ben", 2),)
+
+
+def test_a_lock_that_has_restarted_brings_back_no_released_stop() -> None:
+    here, there = Latch(), Latch()
+    here.request(ANNA, 0)
+    there.follow(here.lock)
+    release(here, "a1")
+    again = Latch(there.lock)  # which had not heard of the release
+    assert again.lock.held
+    assert not here.follow(again.lock) and not here.lock.held
+    assert again.follow(here.lock) and not again.lock.held
 
 
 def test_messages_give_back_what_was_said() -> None:
     assert request_of(request_message(ANNA)) == ANNA
-    release = Request(RELEASE, "ben", "", "b", ("a", "node"))
-    assert request_of(request_message(release)) == release
-    lock = Lock((Stop("a", "anna", "the arm swings", 3), Stop("b", "ben", "", 7)), 7)
-    assert lock_of(state_message(lock, "simulator", "1", "ben")) == (lock, "1")
+    asked = Request(RELEASE, "ben", "", "b", ids=("a1", "b1"), challenges=("c1", "c2"), of=("a", "b"))
+    assert request_of(request_message(asked)) == asked
+    passing = Request(STOP, "anna", "", "a", "a2", kept=False)
+    assert request_of(request_message(passing)) == passing
+    lock = Lock((Stop("a1", "a", "anna", "the arm swings", 3), Stop("b1", "b", "ben", "", 7, kept=False)), 7)
+    state = State(Lock(lock.stops, 7, (Release("c1", "carla", 5),)), "1", "a challenge", "ben")
+    assert state_of(state_message(state, "simulator")) == state
+
+
+def test_the_report_of_an_older_lock_is_read_and_each_of_its_stops_told_apart() -> None:
+    def report(turn: int) -> DiagnosticStatus:
+        values = {"locked": "true", "turn": str(turn), "stops": f'[["a", "anna", "now", {turn}]]', "instance": "1"}
+        return DiagnosticStatus(values=[KeyValue(key=key, value=value) for key, value in values.items()])
+
+    latch = Latch()
+    assert latch.follow(state_of(report(1)).lock) and latch.lock.holder == "anna"
+    release(latch, *latch.lock.ids)
+    assert not latch.follow(state_of(report(1)).lock) and latch.follow(state_of(report(3)).lock)
 
 
 def test_a_state_that_cannot_be_read_is_a_lock() -> None:
-    assert lock_of(DiagnosticStatus())[0].held
+    assert state_of(DiagnosticStatus()).lock.held
     assert request_of(DiagnosticStatus()).verb == ""
 
 
 @pytest.mark.parametrize("text", ["", "[", "{}", "[[]]", "[1, 2]", "[[1, 2, 3, 4], null]", '["*"]', "[" * 100_000])
-def test_stops_that_cannot_be_read_are_one_and_a_release_of_them_is_the_askers_own(text: str) -> None:
+def test_stops_that_cannot_be_read_are_one_and_an_unreadable_release_releases_nothing(text: str) -> None:
     state = DiagnosticStatus(values=[KeyValue(key="locked", value="true"), KeyValue(key="stops", value=text)])
-    assert len(lock_of(state)[0].stops) == 1
-    values = [KeyValue(key="request", value="release"), KeyValue(key="of", value=text)]
+    assert len(state_of(state).lock.stops) == 1
+    values = [KeyValue(key="request", value="release"), KeyValue(key="ids", value=text)]
     asked = request_of(DiagnosticStatus(hardware_id="b", values=values))
-    assert asked.of == (("*",) if "*" in text else ("b",))
+    assert asked.ids == (("*",) if "*" in text else ())
+    latch = Latch()
+    latch.request(ANNA, 0)
+    assert not latch.request(asked, 0) and latch.lock.held

@@ -9,6 +9,7 @@ import atexit
 import contextlib
 import gc
 import json
+import os
 import signal
 import sys
 import threading
@@ -21,6 +22,7 @@ from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.interruptible_wait import wait_interruptibly
 from bot_console.tui.cli.system.domain import (
+    STOP_FILE_VARIABLE,
     is_in_range,
     robot_claim,
     robot_there,
@@ -141,6 +143,7 @@ def _time(options: Options) -> Generator[Any]:
     from bot_console.runtime.process.stepping.one_cpu import import_numpy
 
     import_numpy()
+    os.environ.pop(STOP_FILE_VARIABLE, None)  # of the domain that this run takes no part in
     with stepped(seed=options.seed or 0, virtual_main=True) as clock:
         yield clock
 

@@ -120,6 +120,7 @@ class Connected:
         if not self._options.attach:
             self.console.all_stop(True, "bot-console was quit")
             self.console.await_standing(LAST_WORD)
+            self.console.steer(False)  # else its silence would be a stop that the next start of the robot finds
         if self._looking is not None:
             self._looking.stop()
         self.launcher.close()

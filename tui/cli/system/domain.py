@@ -14,10 +14,14 @@ from typing import TYPE_CHECKING, NoReturn
 from bot_console.runtime.domain_id import domain_id
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from bot_console.tui.cli.robot_claim import RobotClaim
 
 _taking_part = False
 
+STOP_FILE_VARIABLE = "BOT_CONSOLE_STOP_FILE"
+"""Where the robots of this domain keep their stops, for all nodes that this program starts: see `docs/safety.md`."""
 CONNECT_VARIABLE = "BOT_CONSOLE_CONNECT"
 """The router that `--connect` would name, for verbs, and for shells in which all is about one robot."""
 
@@ -57,8 +61,16 @@ def take_part() -> str:
 
     share_domains()
     let_children_meet(True)
+    os.environ[STOP_FILE_VARIABLE] = str(stop_file())
     _taking_part = True
     return ""
+
+
+def stop_file() -> Path:
+    """The file with the stops of this domain's robots that nobody has released, and of releases."""
+    from bot_console.tui.files.folders import state_folder
+
+    return state_folder() / "stops" / f"domain-{domain()}.json"
 
 
 def run_apart() -> None:
@@ -69,6 +81,7 @@ def run_apart() -> None:
 
     choose_middleware(local_bus)
     let_children_meet(False)
+    os.environ.pop(STOP_FILE_VARIABLE, None)  # what runs apart is another robot
 
 
 def is_in_range() -> bool:

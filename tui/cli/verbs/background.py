@@ -24,6 +24,7 @@ from bot_console.tui.cli.system.domain import (
     is_in_range,
     robot_claim,
     robot_there,
+    stop_file,
     take_part,
     tell_of_other_start,
     why_no_robot,
@@ -142,6 +143,8 @@ def _await(process: subprocess.Popen[bytes], started: Background, *, launched: b
         return 1
     print(f"running in ROS domain {domain()}: {started.told()}")
     print("bot-console attach shows it, bot-console down ends it")
+    if not launched and stop_file().exists():
+        _print_holders()  # of stops that nobody has released since an earlier start
     if router_log and not _is_program(started.way_in, b"router"):
         print(f"other machines are not let in; why is at the end of {router_log}", file=sys.stderr)
         return 1
@@ -242,7 +245,7 @@ def status(words: Sequence[str]) -> int:
         print(f"running in ROS domain {domain()}: {there.told()}")
     if robot:
         print(f"robot in ROS domain {domain()}: {', '.join(robot)}")
-        _tell_holders()
+        _print_holders()
     stopped = frozen()
     for pid in stopped:
         print(f"process {pid} is stopped: what it does for the others stands still; kill -CONT {pid} lets it go on")
@@ -252,7 +255,7 @@ def status(words: Sequence[str]) -> int:
     return 0
 
 
-def _tell_holders() -> None:
+def _print_holders() -> None:
     from bot_console.tui.cli.verbs.stop import holders
     from bot_console.tui.format import harmless
 

@@ -31,6 +31,9 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 HOLD_PERIOD = 0.1
 """Seconds between two zeros, or requests, while a stop is not acknowledged; a command is dead after 0.5 s."""
 
+BY_PERSON = "ALL STOP"
+"""The reason of a stop that a person has requested by key."""
+
 VERDICT = "diagnostics"
 DIAGNOSTICS = "diagnostic_msgs/msg/DiagnosticArray"
 VERDICT_LIFETIME_S = 2.0
@@ -207,10 +210,11 @@ class DriveLink:
     def stop(self, hold: bool, reason: str, others: Sequence[str] = ()) -> None:
         """Lock the robot, or withdraw that along with the stops of these `others`, and send zero velocity now.
 
-        A robot without a lock is sent zeros again and again.
+        Only a stop that a person has requested outlives the robot's nodes, not one for the console's own reasons. A
+        robot without a lock is sent zeros again and again.
         """
         if hold:
-            self._stop.stop(reason)
+            self._stop.stop(reason, kept=reason == BY_PERSON)
         else:
             self._stop.release(others)
         self._zeros = self._acted = hold

@@ -12,11 +12,12 @@ import platform
 import threading
 import time
 import uuid
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from bot_console.tui.console.robot.lock_state import NODE, LockState
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.text.encodable import encodable
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
@@ -27,12 +28,16 @@ STATUS = "diagnostic_msgs/msg/DiagnosticStatus"
 FOLDER, REQUEST = "/emergency_stop/", "request"
 STOP, RELEASE, STEER, HAND_BACK = "stop", "release", "steer", "hand_back"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-NODE = "node"
-"""The key of stops that a node of the robot made."""
-HEARTBEAT = 0.2
-"""Seconds between two words of a console that holds the steering; after 1 s of silence the robot locks itself."""
-PATIENCE = 2.0
-"""Seconds for which a release is said again while a lock has not heard it."""
+HEARTBEAT_S = 0.2
+"""Between two requests of a console that holds the steering; after 1 s of silence the robot locks itself."""
+RELEASE_TIMEOUT_S = 2.0
+"""How long a release is repeated for a lock that has not acknowledged it."""
+REMINDER_S = 1.0
+"""Between two copies of a stop that every lock has acknowledged: one may have lost it without a word."""
+REPORT_TIMEOUT_S = 3.0
+"""Without a report for so long a lock no longer confirms a stop: each reports once a second. Older ones do not."""
+MIN_REPEAT_S = 0.05
+"""Between two copies of a stop for a lock that reports again and again that it lacks it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,10 +56,21 @@ class StopInfo:
     """Everybody's stops, the oldest first."""
 
 
+@dataclass(frozen=True, slots=True)
+class RequestedStop:
+    """A stop of this requester, which is sent to every lock that lacks it until somebody has released it."""
+
+    reason: str
+    kept: bool
+
+
 class StopLink:
     """Sends requests to all locks of the robots on the graph, repeatedly until they acknowledge.
 
-    `stop`, `release`, `steer` and `hand_back` may be called from any thread and send at once.
+    A stop is requested until it is released: here, or by somebody else, which a lock reports. Until then every lock
+    that appears without it, or has lost it, gets it again.
+
+    `stop`, `release`, `withdraw`, `steer` and `hand_back` may be called from any thread and send at once.
     """
 
     def __init__(self, node: Node, holder: str = "", key: str = "") -> None:
@@ -63,16 +79,20 @@ class StopLink:
         self.holder = encodable(holder) or f"bot-console of {user()} (pid {os.getpid()})"
         self._key = encodable(key) or uuid.uuid4().hex
         self._watching: dict[str, Any] = {}
-        self._states: dict[str, dict[str, str]] = {}
+        self._states: dict[str, LockState] = {}
+        self._reported_at: dict[str, float] = {}
         self._requests: dict[str, Any] = {}
-        self._wanted = ""
-        self._reason = ""
-        self._of: tuple[str, ...] = ()
-        self._since = 0.0
-        self._steered = 0.0
+        self._requested: dict[str, RequestedStop] = {}
+        self._acknowledged: dict[tuple[str, str], str] = {}
+        """By topic of an older lock and id of a stop: the start of the lock in which it held that stop."""
+        self._sent_at = 0.0
+        self._releasing: frozenset[str] = frozenset()
+        """The ids of stops to release; for older locks the keys of their requesters."""
+        self._release_until = 0.0
+        self._steered_at = 0.0
         self.steering = False
         """Whether this console holds the steering."""
-        self._telling = threading.Condition()
+        self._changed = threading.Condition()
         self.info = StopInfo()
 
     def follow(self, topics: Iterable[str]) -> None:
@@ -81,86 +101,146 @@ class StopLink:
         for gone in set(self._watching) - found:
             self._node.destroy_subscription(self._watching.pop(gone))
             self._states.pop(gone, None)
+            self._reported_at.pop(gone, None)
         for topic in found - set(self._watching):
-            asked = topic.rpartition("/")[0] + "/" + REQUEST
-            if asked not in self._requests:
-                self._requests[asked] = self._node.create_publisher(DiagnosticStatus, asked, 10)
+            requests = topic.rpartition("/")[0] + "/" + REQUEST
+            if requests not in self._requests:
+                self._requests[requests] = self._node.create_publisher(DiagnosticStatus, requests, 10)
             self._watching[topic] = self._node.create_subscription(
-                DiagnosticStatus, topic, partial(self._saw, topic), LATCHED
+                DiagnosticStatus, topic, partial(self._on_state, topic), LATCHED
             )
         self._update()
 
-    def _saw(self, topic: str, message: DiagnosticStatus) -> None:
-        self._states[topic] = {each.key: each.value for each in message.values}
+    def _on_state(self, topic: str, message: DiagnosticStatus) -> None:
+        self._states[topic] = LockState.of({each.key: each.value for each in message.values})
+        self._reported_at[topic] = time.monotonic()
         self._update()
+        if self.stopping and time.monotonic() - self._sent_at >= MIN_REPEAT_S:
+            self._send_stops()
 
     def _update(self) -> None:
-        with self._telling:  # else what was known before could be told after what is known since
-            self._tell()
-            self._telling.notify_all()
+        with self._changed:  # else what was known before could replace what is known since
+            self._drop_released()
+            self._refresh()
+            self._changed.notify_all()
 
     def await_held(self, patience: float) -> bool:
         """Wait, at most so many seconds, until every lock has acknowledged the request and holds; whether so."""
-        with self._telling:
-            return self._telling.wait_for(lambda: self.info.confirmed, patience)
+        with self._changed:
+            return self._changed.wait_for(lambda: self.info.confirmed, patience)
 
-    def _tell(self) -> None:
-        states = [self._states.get(each, {}) for each in list(self._watching)]
-        held = [each for each in states if each.get("locked") == "true"]
-        confirmed = bool(states) and len(held) == len(states)
-        stops = [_stops(each, self._key) for each in held]
-        known_all = bool(states) and all("locked" in each for each in states)
-        # A stop without a key is all that a lock tells of those that hold it: it counts as ours and as what we release.
-        heard = all(any(each.here or not each.key for each in known) for known in stops)
-        left = any(each.key in self._of or not each.key for known in stops for each in known)
-        if (self._wanted == STOP and confirmed and heard) or (self._wanted == RELEASE and known_all and not left):
-            self._wanted = ""
-        known = tuple({each.key: each for of_lock in stops for each in of_lock}.values())
-        ours = self._wanted == STOP
-        reason = self._reason if ours else ""
-        if known:
-            reason = known[0].reason
+    def _drop_released(self) -> None:
+        """Forget the stops that somebody has released; a lock that merely lacks one has not heard of it, or restarted.
+
+        An older lock reports no releases: there a stop was released that the same start of the lock had and lacks now.
+        """
+        for id in list(self._requested):
+            if any(self._was_released(id, topic, state) for topic, state in list(self._states.items())):
+                del self._requested[id]
+                self._acknowledged = {at: instance for at, instance in self._acknowledged.items() if at[1] != id}
+
+    def _was_released(self, id: str, topic: str, state: LockState) -> bool:
+        if state.released is not None:
+            return id in state.released
+        if state.holds(id, self._key):
+            self._acknowledged[topic, id] = state.instance
+            return False
+        return state.heard and self._acknowledged.get((topic, id)) == state.instance
+
+    def _refresh(self) -> None:
+        states = [self._states.get(each, LockState()) for each in list(self._watching)]
+        held = bool(states) and all(each.locked for each in states)
+        confirmed = held and all(state.holds(id, self._key) for state in states for id in self._requested)
+        confirmed = confirmed and not self._silent_locks()
+        if states and all(each.heard and not self._holds_released(each) for each in states):
+            self._releasing = frozenset()
+        known = {each.id: each for state in states for each in state.stops}
+        stops = tuple(
+            RobotStop(each.id, each.holder, each.reason, here=self._is_own(each.id, each.key), by_node=each.key == NODE)
+            for each in known.values()
+        )
+        own = next(iter(self._requested.values()), None)
         self.info = StopInfo(
-            stopped=bool(held) or ours,
-            confirmed=confirmed and not ours,
-            holder=known[0].holder if known else "",
-            reason=reason,
-            steered_by=next((each["steered_by"] for each in states if each.get("steered_by")), ""),
+            stopped=bool(known) or own is not None,
+            confirmed=confirmed,
+            holder=stops[0].holder if stops else "",
+            reason=stops[0].reason if stops else own.reason if own else "",
+            steered_by=next((each.steered_by for each in states if each.steered_by), ""),
             locks=len(states),
-            here=ours or any(each.here for each in known),
-            stops=known,
+            here=own is not None or any(each.here for each in stops),
+            stops=stops,
         )
 
-    def stop(self, reason: str) -> None:
-        """Lock, repeating the request until every lock has acknowledged it."""
-        self._want(STOP, reason)
+    def _silent_locks(self) -> list[str]:
+        """The topics of locks that are to report once a second and do not: they may be frozen, or gone."""
+        due, states = time.monotonic() - REPORT_TIMEOUT_S, list(self._states.items())
+        return [each for each, state in states if state.released is not None and self._reported_at.get(each, 0) < due]
 
-    def release(self, others: Sequence[str] = ()) -> None:
-        """Withdraw our own stop, and the stops of others by their keys; the remaining stops hold."""
-        self._of = (self._key, *others)
-        self._want(RELEASE, "")
+    def _is_own(self, id: str, key: str) -> bool:
+        return key == self._key or id in self._requested
 
-    def _want(self, verb: str, reason: str) -> None:
-        self._wanted, self._reason, self._since = verb, reason, time.monotonic()
-        self._send(verb, reason)
+    def _holds_released(self, state: LockState) -> bool:
+        """Whether a lock still holds a stop that is being released; an older one does not tell stops of a key apart."""
+        return any(each.id in self._releasing or not each.id for each in state.stops)
+
+    def stop(self, reason: str, *, kept: bool = True) -> str:
+        """Lock, until it is released; returns the id of the stop, which is the same while one of its kind holds.
+
+        A stop that is not `kept` ends with the robot's nodes, unless this requester is still there.
+        """
+        with self._changed:
+            id = next((id for id, each in self._requested.items() if each.kept is kept), "")
+            return self._request(id or uuid.uuid4().hex, RequestedStop(reason, kept))
+
+    def add_stop(self, reason: str, *, kept: bool = True) -> str:
+        """Lock with a stop beside any other of this requester, which `withdraw` takes back alone; returns its id."""
+        return self._request(uuid.uuid4().hex, RequestedStop(reason, kept))
+
+    def _request(self, id: str, stop: RequestedStop) -> str:
+        with self._changed:
+            self._requested.setdefault(id, stop)
+            self._releasing = frozenset()  # an older lock would take it for a release of this stop, too
+        self._send_stops()
+        self._update()
+        return id
+
+    def release(self, others: Iterable[str] = ()) -> None:
+        """Withdraw all our own stops, and the stops of others by their ids; the remaining stops hold."""
+        with self._changed:
+            own = {each.id for state in self._states.values() for each in state.stops if each.key == self._key}
+            ids = {*self._requested, *own, *others}
+            self._requested.clear()
+        self._release(ids)
+
+    def withdraw(self, id: str) -> None:
+        """Withdraw a single one of our own stops."""
+        with self._changed:
+            self._requested.pop(id, None)
+        self._release({id})
+
+    def _release(self, ids: Collection[str]) -> None:
+        # For an older lock our key stands for all our stops: it is released with the last of them.
+        self._releasing = frozenset(ids if self._requested else {*ids, self._key})
+        self._release_until = time.monotonic() + RELEASE_TIMEOUT_S
+        self._send_release()
         self._update()
 
     def steer(self) -> None:
         """Claim the steering; to be repeated by whoever sees that a person is there."""
         now = time.monotonic()
-        if not self.steering or now - self._steered >= HEARTBEAT:
-            self.steering, self._steered = True, now
-            self._send(STEER, "")
+        if not self.steering or now - self._steered_at >= HEARTBEAT_S:
+            self.steering, self._steered_at = True, now
+            self._send(STEER, "", {"id": uuid.uuid4().hex})
 
     @property
     def stopping(self) -> bool:
-        """Whether a requested stop has not been acknowledged yet."""
-        return self._wanted == STOP
+        """Whether a requested stop is not acknowledged by every lock."""
+        return bool(self._requested) and not self.info.confirmed
 
     @property
     def releasing(self) -> bool:
         """Whether a requested release has not been acknowledged yet."""
-        return self._wanted == RELEASE
+        return bool(self._releasing)
 
     @property
     def heard(self) -> bool:
@@ -171,32 +251,45 @@ class StopLink:
         """Hand the steering back."""
         if self.steering:
             self.steering = False
-            self._send(HAND_BACK, "")
+            self._send(HAND_BACK, "", {})
 
     def repeat(self) -> None:
         """Repeat what has not been acknowledged; to be called ten times a second."""
-        if self._wanted == RELEASE and time.monotonic() - self._since > PATIENCE:
-            self._wanted = ""
-        if self._wanted:
-            self._send(self._wanted, self._reason)
+        now = time.monotonic()
+        if now > self._release_until:
+            self._releasing = frozenset()
+        if self._releasing:
+            self._send_release()
+        if self.info.confirmed and self._silent_locks():
+            self._update()
+        if self.stopping or now - self._sent_at >= REMINDER_S:
+            self._send_stops()
 
-    def _send(self, verb: str, reason: str) -> None:
+    def _send_stops(self) -> None:
+        self._sent_at = time.monotonic()
+        for id, stop in list(self._requested.items()):
+            self._send(STOP, stop.reason, {"id": id} if stop.kept else {"id": id, "kept": "false"})
+
+    def _send_release(self) -> None:
+        names = sorted(self._releasing)  # of which older locks read the keys
+        challenges = [each.challenge for each in list(self._states.values()) if each.challenge]
+        lists = {"of": names, "ids": [each for each in names if each != self._key], "challenges": challenges}
+        self._send(RELEASE, "", {key: json.dumps(each) for key, each in lists.items()})
+
+    def _send(self, verb: str, reason: str, values: Mapping[str, str]) -> None:
         for publisher in list(self._requests.values()):
             try:
-                publisher.publish(self._message(verb, self.holder, reason))
+                publisher.publish(self._message(verb, self.holder, reason, values))
             except (TypeError, ValueError):  # a text that cannot be sent: the request counts, not by whom and why
-                publisher.publish(self._message(verb, "", ""))
+                publisher.publish(self._message(verb, "", "", values))
 
-    def _message(self, verb: str, holder: str, reason: str) -> DiagnosticStatus:
-        values = [KeyValue(key=REQUEST, value=verb)]
-        if verb == RELEASE:
-            values.append(KeyValue(key="of", value=json.dumps(self._of)))
+    def _message(self, verb: str, holder: str, reason: str, values: Mapping[str, str]) -> DiagnosticStatus:
         return DiagnosticStatus(
             level=DiagnosticStatus.WARN,
             name=holder,
             message=encodable(reason),
             hardware_id=self._key,
-            values=values,
+            values=[KeyValue(key=key, value=value) for key, value in {REQUEST: verb, **values}.items()],
         )
 
 
@@ -207,14 +300,3 @@ def user() -> str:
     except (KeyError, OSError):  # a user id without a name, as in containers
         name = str(os.getuid())
     return encodable(f"{name}@{platform.node()}")
-
-
-def _stops(state: Mapping[str, str], own: str) -> list[RobotStop]:
-    """The stops in a lock's report; a lock that only tells who holds it has one stop, which is everybody's."""
-    try:
-        entries = json.loads(state.get("stops", ""))
-        found = [[str(part) for part in entry[:3]] for entry in entries if len(entry) >= 3]
-    except (ValueError, TypeError, KeyError, RecursionError):
-        found = []
-    found = found or [["", state.get("holder", ""), state.get("reason", "")]]
-    return [RobotStop(key, holder, reason, here=key == own, by_node=key == NODE) for key, holder, reason in found]

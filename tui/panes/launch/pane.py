@@ -18,6 +18,7 @@ from bot_console.tui.format import clock_text, counted, cut, harmless
 from bot_console.tui.panes.launch.rows import ProcessRows, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
+from bot_console.tui.safety.stop_words import stops_of_ending
 from bot_console.tui.screens.facts import FactsScreen
 from bot_console.tui.widgets.picture import Line, Picture
 from bot_console.tui.widgets.prompt.line import Prompt
@@ -201,8 +202,9 @@ class LaunchPane(ListPane):
             if not chosen:
                 self.notify(f"{harmless(row.group[-1])}: nothing to {verb}", severity="warning", markup=False)
                 return
-        if verb == "kill" or (row.process is None and verb != "start"):
-            names = "\n".join(each.label for each in chosen)
+        held = [] if verb == "start" else stops_of_ending(self.console.snapshot(), chosen)
+        if held or verb == "kill" or (row.process is None and verb != "start"):
+            names = "\n".join([*held, *(each.label for each in chosen)])
             of = f" of {harmless(row.group[-1])}" if row.process is None and row.group else ""
             question = f"{verb.capitalize()} {counted(len(chosen), 'process').replace('processs', 'processes')}{of}?"
             then = partial(self._do, verb, chosen)

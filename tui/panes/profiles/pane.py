@@ -22,6 +22,7 @@ from bot_console.tui.panes.profiles.own import OwnProfiles
 from bot_console.tui.panes.profiles.presets import PresetMenu
 from bot_console.tui.panes.profiles.replacement import Replacement
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
+from bot_console.tui.safety.stop_words import stops_of_ending
 from bot_console.tui.state_store import LAST_FILE
 from bot_console.tui.widgets.prompt.common import wrong_path
 from bot_console.tui.widgets.prompt.line import Prompt
@@ -290,10 +291,11 @@ class ProfilesPane(ListPane):
         if self.launcher is None:
             self.notify("this console was started without a launcher")
             return
-        running = [each.label for each in self._snapshot.launch.processes if each.state is ProcessState.RUNNING]
+        running = [each for each in self._snapshot.launch.processes if each.state is ProcessState.RUNNING]
         given = " ".join(f"{name}:={value}" for name, value in profile.arguments.items())
         reasons = [f"{profile.launch} {given}".rstrip(), "It takes the place of what this console has started:"]
-        reasons += [f"  {each}" for each in running] or ["  nothing"]
+        reasons += [f"  {each.label}" for each in running] or ["  nothing"]
+        reasons += stops_of_ending(self.console.snapshot(), running)
         self.ask(
             Confirmation(
                 f"Stop them, and launch {profile.name}?",

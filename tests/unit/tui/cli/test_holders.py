@@ -33,7 +33,7 @@ def test_it_is_said_when_the_robot_does_not_answer(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(stop, "holders", lambda: None)
-    background._tell_holders()
+    background._print_holders()
     assert capsys.readouterr().out == "whether somebody holds it is not known: its emergency stop has not answered\n"
 
 

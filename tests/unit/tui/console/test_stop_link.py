@@ -2,65 +2,38 @@
 
 from __future__ import annotations
 
-import itertools
 import threading
 from collections.abc import Callable, Iterator
 
 import pytest
 from bot_console.tui.console.robot import stop_link
-from bot_console.tui.console.robot.stop_link import FOLDER, LATCHED, STATUS, StopLink
-from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
-from bot_console_robot.safety.stop_messages import state_message
+from bot_console.tui.console.robot.stop_link import FOLDER, LATCHED, StopLink
+from bot_console_robot.safety.stop_messages import State, state_message
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
-from rclpy.clock import Clock, ClockType
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 from rclpy.serialization import deserialize_message, serialize_message
+from stop_rig import StopRig
 
-_domains = itertools.count(3300)
 PATIENCE = 60.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 
-class Rig:
+class Rig(StopRig):
     """A console's link; locks of a robot join when they are asked for."""
 
     def __init__(self) -> None:
-        self.context = Context()
-        self.context.init(["test"], domain_id=next(_domains))
-        self.executor = SingleThreadedExecutor(context=self.context)
-        self.nodes: list[Node] = []
-        self.link = StopLink(self.node("console"), "anna")
-
-    def node(self, name: str) -> Node:
-        made = Node(name, context=self.context)
-        self.executor.add_node(made)
-        self.nodes.append(made)
-        return made
-
-    def lock(self, name: str, own: str, other: str) -> EmergencyStop:
-        return EmergencyStop(self.node(name), Clock(clock_type=ClockType.STEADY_TIME), own, other, lambda: None)
-
-    def settle(self) -> None:
-        names = self.nodes[0].get_topic_names_and_types()
-        published = [name for name, types in names if STATUS in types and self.nodes[0].count_publishers(name)]
-        self.link.follow(published)
-        for _ in range(40):
-            self.executor.spin_once(timeout_sec=0)
+        super().__init__()
+        self.link = self.console("console", "anna")
 
 
 @pytest.fixture
 def rig() -> Iterator[Rig]:
     made = Rig()
     yield made
-    for each in made.nodes:
-        each.destroy_node()
-    made.context.try_shutdown()
+    made.close()
 
 
 def test_it_is_held_when_every_lock_has_said_so(rig: Rig) -> None:
-    arbiter, base = rig.lock("safety_monitor", ARBITER, BASE), rig.lock("simulator", BASE, ARBITER)
+    arbiter, base = rig.lock("safety_monitor"), rig.lock("simulator")
     rig.settle()
     assert (rig.link.info.stopped, rig.link.info.locks) == (False, 2)
     rig.link.stop("the arm swings")
@@ -83,8 +56,8 @@ def test_text_that_cannot_be_encoded_does_not_prevent_a_stop(
     if not cleans:
         monkeypatch.setattr(stop_link, "encodable", lambda text: text)
     received: list[DiagnosticStatus] = []
-    lock = rig.lock("simulator", BASE, ARBITER)
-    rig.nodes[-1].create_subscription(DiagnosticStatus, FOLDER + "request", received.append, 10)
+    lock = rig.lock("simulator")
+    rig.nodes["simulator"].create_subscription(DiagnosticStatus, FOLDER + "request", received.append, 10)
     sending = StopLink(rig.node("sending"))
     rig.settle()
     sending.follow([f"{FOLDER}base"])
@@ -107,20 +80,20 @@ def encoding(publish: Callable[[DiagnosticStatus], None]) -> Callable[[Diagnosti
 
 
 def test_a_stop_whose_text_only_python_can_hold_is_reported_by_the_lock(rig: Rig) -> None:
-    lock = rig.lock("simulator", BASE, ARBITER)
-    rig.nodes[-1].create_publisher(DiagnosticStatus, FOLDER + "request", 10).publish(
+    lock = rig.lock("simulator")
+    rig.nodes["simulator"].create_publisher(DiagnosticStatus, FOLDER + "request", 10).publish(
         DiagnosticStatus(
             name="\ud800", message="\udcff", hardware_id="\udcff", values=[KeyValue(key="request", value="stop")]
         )
     )
     rig.settle()
     assert lock.lock.held
-    assert serialize_message(state_message(lock.lock, "base", "1", lock.steered_by))
+    assert serialize_message(state_message(State(lock.lock, "1"), "base"))
     assert rig.link.info.confirmed
 
 
 def test_another_console_sees_who_holds_it_and_releases_it_by_name_alone(rig: Rig) -> None:
-    rig.lock("simulator", BASE, ARBITER)
+    rig.lock("simulator")
     other = StopLink(rig.node("other"), "ben")
     rig.settle()
     other.follow([f"{FOLDER}base"])
@@ -136,7 +109,7 @@ def test_another_console_sees_who_holds_it_and_releases_it_by_name_alone(rig: Ri
 
 
 def test_two_hold_it_and_each_takes_back_what_is_theirs(rig: Rig) -> None:
-    lock = rig.lock("simulator", BASE, ARBITER)
+    lock = rig.lock("simulator")
     other = StopLink(rig.node("other"), "ben")
     rig.settle()
     other.follow([f"{FOLDER}base"])
@@ -173,7 +146,7 @@ def test_a_stop_is_repeated_until_a_lock_that_came_late_has_heard_it(rig: Rig) -
     rig.settle()
     rig.link.stop("now")
     assert (rig.link.info.stopped, rig.link.info.confirmed, rig.link.info.locks) == (True, False, 0)
-    base = rig.lock("simulator", BASE, ARBITER)
+    base = rig.lock("simulator")
     rig.settle()
     rig.link.repeat()
     rig.settle()
@@ -189,7 +162,7 @@ def test_a_lock_that_says_nothing_readable_confirms_nothing(rig: Rig) -> None:
 
 
 def test_who_steers_is_seen_and_hands_back(rig: Rig) -> None:
-    base = rig.lock("simulator", BASE, ARBITER)
+    base = rig.lock("simulator")
     rig.settle()
     rig.link.steer()
     rig.settle()
@@ -200,8 +173,8 @@ def test_who_steers_is_seen_and_hands_back(rig: Rig) -> None:
 
 
 def test_who_waits_for_the_stop_goes_on_with_the_last_acknowledgement_and_not_before(rig: Rig) -> None:
-    rig.lock("safety_monitor", ARBITER, BASE)
-    rig.lock("simulator", BASE, ARBITER)
+    rig.lock("safety_monitor")
+    rig.lock("simulator")
     rig.settle()
     rig.link.stop("bot-console was quit")
     assert not rig.link.await_held(0.0), "nobody has acknowledged it"

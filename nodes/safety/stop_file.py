@@ -1,0 +1,156 @@
+"""The file in which the stops of a domain's robots outlive their nodes, and which stops were released. POSIX and NT."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import time
+from collections.abc import Generator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, cast
+
+from bot_console_robot.safety.lock import Lock
+from bot_console_robot.safety.stop_messages import releases_of, releases_text, stops_of, stops_text
+
+VERSION = 1
+MAX_FILE_BYTES = 4_000_000
+"""Larger than any file that a lock writes."""
+TURN_TIMEOUT_S = 1.0
+"""How long another lock that uses the file is waited for."""
+TURN_POLL_S = 0.01
+
+
+class StopFileError(Exception):
+    """The file cannot be read or written; the text says why."""
+
+
+class UnreadableStopFileError(StopFileError):
+    """It contains something else, or cannot be read; only a person may have it replaced."""
+
+
+class StopFile:
+    """What the locks of one robot keep in a file. Both locks of a robot, and several robots, may use the same one."""
+
+    def __init__(self, path: str, robot: str) -> None:
+        """`robot` is the namespace of the robot's nodes."""
+        self._path = Path(path)
+        self._robot = robot
+
+    def merge(self, lock: Lock, *, replace_unreadable: bool = False) -> Lock:
+        """Add what a lock knows to the file, and return what both know; raises `StopFileError`.
+
+        Stops that end with the robot's nodes stay out of it. With `replace_unreadable` a file that cannot be read is
+        moved aside.
+        """
+        try:
+            with self._taken():
+                robots = self._read(replace_unreadable)
+                both = _lock_of(robots.get(self._robot)).merged(replace(lock.kept, turn=lock.turn))
+                robots[self._robot] = {
+                    "turn": both.turn,
+                    "stops": json.loads(stops_text(both.stops)),
+                    "released": json.loads(releases_text(both.released)),
+                }
+                self._write(robots)
+        except OSError as error:
+            raise StopFileError(f"{self._path} cannot be written: {error.strerror or error}") from None
+        return lock.merged(both)
+
+    @contextlib.contextmanager
+    def _taken(self) -> Generator[None, None, None]:
+        """Keep other locks from the file; raises `OSError` where one of them does not let go."""
+        self._path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        handle = os.open(f"{self._path}.lock", os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o600)
+        try:
+            deadline = time.monotonic() + TURN_TIMEOUT_S
+            while not _try_lock(handle):
+                if time.monotonic() > deadline:
+                    raise OSError("another process has locked it")
+                time.sleep(TURN_POLL_S)
+            yield
+        finally:
+            os.close(handle)
+
+    def _read(self, replace_unreadable: bool) -> dict[str, Any]:
+        try:
+            return self._robots()
+        except FileNotFoundError:
+            return {}
+        except (OSError, ValueError, RecursionError) as error:
+            if replace_unreadable:
+                self._path.replace(f"{self._path}.unreadable")
+                return {}
+            why = (error.strerror if isinstance(error, OSError) else "") or str(error)
+            raise UnreadableStopFileError(f"{self._path} cannot be read: {why[:200]}") from None
+
+    def _robots(self) -> dict[str, Any]:
+        with self._path.open("rb") as file:
+            content = file.read(MAX_FILE_BYTES + 1)
+        if len(content) > MAX_FILE_BYTES:
+            raise ValueError("it is too large")
+        data = json.loads(content)
+        if not isinstance(data, dict) or not isinstance(found := cast("dict[str, Any]", data).get("robots"), dict):
+            raise ValueError("it contains no stops")
+        if (version := cast("dict[str, Any]", data).get("version")) != VERSION:
+            raise ValueError(f"its version is {version!r}, not {VERSION}")
+        robots = cast("dict[str, Any]", found)
+        _lock_of(robots.get(self._robot))
+        return robots
+
+    def _write(self, robots: dict[str, Any]) -> None:
+        temporary = self._path.with_name(f"{self._path.name}.new")
+        temporary.unlink(missing_ok=True)  # of a process that was killed while it wrote
+        handle = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+        with open(handle, "w", encoding="utf-8") as file:
+            json.dump({"version": VERSION, "robots": robots}, file)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(temporary, self._path)
+        if hasattr(os, "O_DIRECTORY"):
+            folder = os.open(self._path.parent, os.O_RDONLY | os.O_DIRECTORY)
+            try:
+                os.fsync(folder)
+            finally:
+                os.close(folder)
+
+
+def _lock_of(section: Any) -> Lock:
+    """The lock in a robot's section; raises `ValueError` where something else is there: nothing is guessed."""
+    if section is None:
+        return Lock()
+    try:
+        turn, stops, released = section["turn"], section["stops"], section["released"]
+        if not (isinstance(turn, int) and isinstance(stops, list) and isinstance(released, list)):
+            raise TypeError
+    except (TypeError, KeyError):
+        raise ValueError("it contains no stops") from None
+    lock = Lock(stops_of(json.dumps(stops)), turn, releases_of(json.dumps(released)))
+    if len(lock.stops) != len(cast("list[Any]", stops)) or len(lock.released) != len(cast("list[Any]", released)):
+        raise ValueError("it contains something that is no stop")
+    return lock
+
+
+def _try_lock(handle: int) -> bool:
+    """Lock an open file until it is closed; False if another one has it."""
+    try:
+        import fcntl
+    except ImportError:
+        return _try_lock_windows(handle)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
+
+
+def _try_lock_windows(handle: int) -> bool:
+    import msvcrt
+
+    os.lseek(handle, 0, os.SEEK_SET)
+    try:
+        msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType] -- of Windows
+    except PermissionError:
+        return False
+    return True

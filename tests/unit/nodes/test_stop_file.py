@@ -1,0 +1,143 @@
+"""The file in which stops outlive their nodes: what it keeps, who may use it, and what locks when it cannot be used."""
+
+from __future__ import annotations
+
+import json
+import os
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from bot_console_robot.safety import stop_file
+from bot_console_robot.safety.lock import Lock, Release, Stop
+from bot_console_robot.safety.stop_file import StopFile, StopFileError, UnreadableStopFileError
+
+ANNA, BEN = Stop("a1", "a", "anna", "the arm swings", 1), Stop("b1", "b", "ben", "my foot", 2)
+NODES_OWN = Stop("n1", "node", "simulator", "the safety monitor has gone", 3, kept=False)
+
+
+def at(folder: Path, robot: str = "/") -> StopFile:
+    return StopFile(str(folder / "state" / "stops.json"), robot)
+
+
+def test_a_stop_is_there_after_a_restart_and_so_is_its_release(tmp_path: Path) -> None:
+    at(tmp_path).merge(Lock((ANNA, NODES_OWN), 3))
+    again = at(tmp_path).merge(Lock())
+    assert again.stops == (ANNA,), "what a node found in its present run ends with it"
+    at(tmp_path).merge(again.without(["a1"], "ben"))
+    assert at(tmp_path).merge(Lock()) == Lock((), 4, (Release("a1", "ben", 4),))
+
+
+def test_two_locks_that_write_by_turns_lose_nothing_and_bring_nothing_back(tmp_path: Path) -> None:
+    at(tmp_path).merge(Lock((ANNA,), 1))
+    both = at(tmp_path).merge(Lock((BEN,), 2))
+    assert both.ids == {"a1", "b1"}
+    at(tmp_path).merge(both.without(["a1"], "carla"))
+    assert at(tmp_path).merge(Lock((ANNA, BEN), 2)).ids == {"b1"}, "this one has not heard of the release"
+
+
+def test_robots_of_one_domain_do_not_lock_each_other(tmp_path: Path) -> None:
+    at(tmp_path, "/one").merge(Lock((ANNA,), 1))
+    assert not at(tmp_path, "/two").merge(Lock()).held
+    assert at(tmp_path, "/one").merge(Lock()).held
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such permissions")
+def test_only_its_owner_reads_it(tmp_path: Path) -> None:
+    before = os.umask(0)
+    try:
+        at(tmp_path).merge(Lock((ANNA,), 1))
+    finally:
+        os.umask(before)
+    folder = tmp_path / "state"
+    assert stat.S_IMODE(folder.stat().st_mode) == 0o700
+    assert {stat.S_IMODE(each.stat().st_mode) for each in folder.iterdir()} == {0o600}
+
+
+VALID = {"version": 1, "robots": {"/": {"turn": 1, "stops": [["a", "anna", "now", 1, "a1", True]], "released": []}}}
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"[]",
+        b"\xff\xfe",
+        b"{" * 100_000,
+        json.dumps({**VALID, "version": 2}).encode(),
+        json.dumps({"version": 1}).encode(),
+        json.dumps(VALID).encode()[:-9],
+        json.dumps(VALID).replace('[["a", "anna", "now", 1, "a1", true]]', '["a1"]').encode(),
+        json.dumps(VALID).replace('"turn": 1', '"turn": "1"').encode(),
+        json.dumps(VALID).replace('"released": []', '"released": [["b1"]]').encode(),
+    ],
+)
+def test_a_file_that_contains_something_else_is_not_guessed_at_and_replaced_only_when_asked_for(
+    content: bytes, tmp_path: Path
+) -> None:
+    path = tmp_path / "state" / "stops.json"
+    path.parent.mkdir()
+    path.write_bytes(content)
+    with pytest.raises(UnreadableStopFileError, match="cannot be read"):
+        at(tmp_path).merge(Lock((ANNA,), 1))
+    assert path.read_bytes() == content
+    assert at(tmp_path).merge(Lock((BEN,), 1), replace_unreadable=True).ids == {"b1"}
+    assert path.with_name("stops.json.unreadable").read_bytes() == content
+    assert at(tmp_path).merge(Lock()).ids == {"b1"}
+
+
+def test_a_valid_file_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "state" / "stops.json"
+    path.parent.mkdir()
+    path.write_text(json.dumps(VALID))
+    assert at(tmp_path).merge(Lock()).ids == {"a1"}
+
+
+def test_a_place_that_cannot_be_written_is_an_error(tmp_path: Path) -> None:
+    (tmp_path / "state").write_text("a file where the folder should be")
+    with pytest.raises(StopFileError, match="cannot be written"):
+        at(tmp_path).merge(Lock())
+
+
+def test_a_disk_without_room_is_an_error_and_what_was_kept_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(handle: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    at(tmp_path).merge(Lock((ANNA,), 1))
+    with monkeypatch.context() as broken:
+        broken.setattr(os, "fsync", full)
+        with pytest.raises(StopFileError, match="No space left on device"):
+            at(tmp_path).merge(Lock((ANNA, BEN), 2).without(["a1"], "ben"))
+    assert at(tmp_path).merge(Lock()).ids == {"a1"}
+
+
+def test_a_lock_that_keeps_the_file_to_itself_is_not_waited_for_without_end(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(stop_file, "TURN_TIMEOUT_S", 0.0)
+    monkeypatch.setattr(stop_file, "TURN_POLL_S", 0.0)
+    with at(tmp_path)._taken(), pytest.raises(StopFileError, match="another process has locked it"):
+        at(tmp_path).merge(Lock((ANNA,), 1))
+
+
+WRITER = """
+import sys
+from bot_console.runtime.importer import install
+install()
+from bot_console_robot.safety.lock import Lock, Stop
+from bot_console_robot.safety.stop_file import StopFile
+for number in range(20):
+    StopFile(sys.argv[1], "/").merge(Lock((Stop(f"{sys.argv[2]}{number}", sys.argv[2], turn=1),), 1))
+"""
+
+
+def test_processes_that_write_at_the_same_time_lose_nothing(tmp_path: Path) -> None:
+    path = str(tmp_path / "stops.json")
+    writers = [subprocess.Popen([sys.executable, "-c", WRITER, path, name]) for name in "ab"]
+    assert [each.wait() for each in writers] == [0, 0]
+    kept = StopFile(path, "/").merge(Lock())
+    assert kept.ids == {f"{name}{number}" for name in "ab" for number in range(20)}

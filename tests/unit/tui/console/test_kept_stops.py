@@ -1,0 +1,341 @@
+"""A stop holds until a person releases it, whatever becomes of locks and consoles; and then it does not come back."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from bot_console.tui.console.robot.stop_link import StopLink
+from bot_console_robot.safety.emergency_stop import BASE, LATCHED, EmergencyStop
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from stop_rig import REQUEST, StopRig
+
+Disturbance = Callable[[StopRig], object]
+MONITOR, BASE_NODE = "safety_monitor", "simulator"
+
+
+@pytest.fixture
+def rig(tmp_path: Path) -> Iterator[StopRig]:
+    """A robot with a stop file, which anna's console and ben's follow; all that is sent is recorded."""
+    made = StopRig(str(tmp_path / "stops.json"))
+    made.robot()
+    made.console("anna")
+    made.console("ben")
+    made.record()
+    made.settle()
+    yield made
+    made.close()
+
+
+def restart(rig: StopRig, *names: str) -> None:
+    rig.kill(*names)
+    for name in names:
+        rig.lock(name)
+
+
+def down_and_up(rig: StopRig) -> None:
+    rig.kill(MONITOR, BASE_NODE)
+    rig.settle()
+    rig.robot()
+
+
+def killed_console_and_up(rig: StopRig) -> None:
+    rig.kill("anna")
+    down_and_up(rig)
+
+
+def robot_without_file(rig: StopRig) -> None:
+    """Only consoles remember."""
+    rig.stop_file = ""
+    down_and_up(rig)
+
+
+DISTURBANCES: dict[str, Disturbance] = {
+    "monitor restarted": lambda rig: restart(rig, MONITOR),
+    "base restarted": lambda rig: restart(rig, BASE_NODE),
+    "both restarted at once": lambda rig: restart(rig, MONITOR, BASE_NODE),
+    "down and up": down_and_up,
+    "console killed": lambda rig: rig.kill("anna"),
+    "console killed, then down and up": killed_console_and_up,
+    "another start without the file": robot_without_file,
+    "bag played": lambda rig: rig.play(),
+    "restarted, and bag played": lambda rig: (restart(rig, MONITOR, BASE_NODE), rig.settle(), rig.play()),
+}
+
+
+@pytest.mark.parametrize("disturb", DISTURBANCES.values(), ids=DISTURBANCES)
+def test_a_stop_holds_whatever_happens_until_a_person_releases_it(rig: StopRig, disturb: Disturbance) -> None:
+    rig.links["anna"].stop("an earlier stop")
+    rig.settle()
+    rig.links["anna"].release()
+    rig.settle()
+    assert not held(rig)
+    rig.links["anna"].stop("the arm swings")
+    rig.settle()
+    disturb(rig)
+    rig.settle(2)
+    rig.report()
+    assert held(rig) and all("the arm swings" in reasons(lock) for lock in rig.locks.values())
+    ben = rig.links["ben"]
+    assert ben.info.confirmed and "the arm swings" in [each.reason for each in ben.info.stops]
+    ben.release([each.key for each in ben.info.stops])
+    rig.settle(2)
+    assert not held(rig)
+
+
+@pytest.mark.parametrize("disturb", DISTURBANCES.values(), ids=DISTURBANCES)
+def test_a_stop_that_somebody_else_has_released_does_not_come_back(rig: StopRig, disturb: Disturbance) -> None:
+    rig.links["anna"].stop("the arm swings")
+    rig.settle()
+    ben = rig.links["ben"]
+    ben.release([each.key for each in ben.info.stops])
+    rig.settle(2)
+    assert not held(rig) and not rig.links["anna"].info.stopped
+    disturb(rig)
+    rig.settle(2)
+    assert all("the arm swings" not in reasons(lock) for lock in rig.locks.values())
+
+
+def held(rig: StopRig) -> bool:
+    """Whether all locks hold the robot; fails where they do not agree."""
+    [agreed] = {lock.lock.held for lock in rig.locks.values()}
+    return agreed
+
+
+def reasons(lock: EmergencyStop) -> list[str]:
+    return [each.reason for each in lock.lock.stops]
+
+
+def test_a_recorded_release_releases_neither_the_same_stop_nor_another_and_is_logged(
+    rig: StopRig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Recorded when it did not count, as if it was lost on its way."""
+    lines: list[str] = []
+    for name in (MONITOR, BASE_NODE):
+        monkeypatch.setattr(rig.nodes[name].get_logger(), "warning", lambda text, **_: lines.append(text))
+    rig.links["anna"].stop("the arm swings")
+    rig.settle()
+    stop = rig.links["anna"].info.stops[0]
+    values = {"request": "release", "ids": json.dumps([stop.key]), "challenges": '["of another state"]'}
+    rig.recorded = [(REQUEST, DiagnosticStatus(name="anna", values=pairs(values)))]
+    rig.recorded.append((REQUEST, DiagnosticStatus(name="anna", values=pairs({"request": "release", "of": '["a"]'}))))
+    rig.play()
+    assert held(rig)
+    assert len([each for each in lines if "Release by anna ignored" in each]) >= 2
+
+
+def test_a_recorded_report_of_a_lock_does_not_confirm_the_next_stop(rig: StopRig) -> None:
+    anna = rig.links["anna"]
+    anna.stop("an earlier stop")
+    rig.settle()
+    anna.release()
+    rig.settle()
+    rig.kill(MONITOR, BASE_NODE)
+    player = rig.node("player")
+    reports = {topic: message for topic, message in rig.recorded if topic != REQUEST and "true" in str(message.values)}
+    anna.stop("the arm swings")
+    for topic, message in reports.items():
+        player.create_publisher(DiagnosticStatus, topic, LATCHED).publish(message)
+    rig.settle(2)
+    assert reports and anna.info.locks == 2 and not anna.info.confirmed and anna.stopping
+
+
+def test_after_a_bag_was_played_everybody_sees_the_robot_as_it_is(rig: StopRig) -> None:
+    ben = rig.links["ben"]
+    rig.links["anna"].stop("the arm swings")
+    rig.settle()
+    rig.kill("anna")
+    reports = [each for each in rig.recorded if each[0] != REQUEST]
+    rig.recorded = [each for each in reports if "true" not in str(each[1].values)]
+    rig.play()
+    assert held(rig) and not ben.info.stopped, "the last that ben has heard is a recording"
+    rig.report()
+    assert ben.info.confirmed and [each.holder for each in ben.info.stops] == ["anna"]
+
+
+def test_a_lock_that_no_longer_reports_confirms_nothing(rig: StopRig, monkeypatch: pytest.MonkeyPatch) -> None:
+    anna, now = rig.links["anna"], time.monotonic()
+    anna.stop("the arm swings")
+    rig.settle()
+    assert anna.info.confirmed
+    monkeypatch.setattr("time.monotonic", lambda: now + 10.0)
+    anna.repeat()
+    assert not anna.info.confirmed and anna.info.stopped
+    rig.report()
+    assert anna.info.confirmed
+
+
+def test_a_console_that_lost_all_locks_says_that_its_stop_is_not_confirmed_and_gives_it_to_those_that_come(
+    rig: StopRig,
+) -> None:
+    rig.stop_file = ""
+    anna = rig.links["anna"]
+    anna.stop("the arm swings")
+    rig.settle()
+    assert anna.info.confirmed
+    rig.kill(MONITOR, BASE_NODE)
+    rig.settle()
+    assert (anna.info.stopped, anna.info.confirmed, anna.info.here, anna.info.locks) == (True, False, True, 0)
+    rig.robot()
+    rig.settle(2)
+    assert held(rig) and anna.info.confirmed
+
+
+def test_one_of_two_stops_of_a_console_is_withdrawn_alone(rig: StopRig) -> None:
+    anna = rig.links["anna"]
+    first, second = anna.stop("the arm swings"), anna.add_stop("! typed while keys were waiting")
+    assert anna.stop("the arm swings") == first != second
+    rig.settle()
+    anna.withdraw(second)
+    rig.settle(2)
+    assert held(rig) and [each.key for each in anna.info.stops] == [first] and anna.info.confirmed
+    anna.withdraw(first)
+    rig.settle(2)
+    assert not held(rig)
+
+
+def test_a_stop_for_a_reason_of_the_consoles_own_ends_with_robot_and_console(rig: StopRig) -> None:
+    rig.links["anna"].stop("bot-console was quit", kept=False)
+    rig.settle()
+    restart(rig, MONITOR)
+    rig.settle(2)
+    assert "bot-console was quit" in reasons(rig.locks[MONITOR])
+    killed_console_and_up(rig)
+    rig.settle(2)
+    assert not held(rig)
+
+
+def test_what_a_service_call_stopped_holds_after_down_and_up_and_a_call_releases_it(rig: StopRig) -> None:
+    from std_srvs.srv import Trigger
+
+    def call(lock: EmergencyStop, verb: str) -> Trigger.Response:
+        return getattr(lock, f"_on_{verb}")(Trigger.Request(), Trigger.Response())
+
+    assert call(rig.locks[BASE_NODE], "stop").success
+    rig.settle()
+    down_and_up(rig)
+    rig.settle()
+    assert held(rig)
+    assert call(rig.locks[MONITOR], "release").success
+    rig.settle(2)
+    assert not held(rig)
+
+
+def test_a_file_that_cannot_be_read_locks_and_a_release_moves_it_aside(rig: StopRig, tmp_path: Path) -> None:
+    path = Path(rig.stop_file)
+    rig.kill(MONITOR, BASE_NODE)
+    path.write_text("{")
+    rig.robot()
+    rig.settle(2)
+    assert held(rig) and "cannot be read" in rig.links["ben"].info.reason
+    ben = rig.links["ben"]
+    ben.release([each.key for each in ben.info.stops])
+    rig.settle(2)
+    assert not held(rig) and path.with_name("stops.json.unreadable").read_text() == "{"
+    down_and_up(rig)
+    rig.settle()
+    assert not held(rig)
+
+
+def test_while_the_file_cannot_be_written_no_release_frees_the_robot(rig: StopRig) -> None:
+    path = Path(rig.stop_file)
+    rig.kill(MONITOR, BASE_NODE)
+    rig.stop_file = str(path / "stops.json")  # below a file
+    rig.robot()
+    rig.settle(2)
+    ben = rig.links["ben"]
+    for _ in range(2):
+        assert held(rig) and "cannot be written" in ben.info.reason
+        ben.release([each.key for each in ben.info.stops])
+        rig.settle(2)
+    path.unlink()
+    ben.release([each.key for each in ben.info.stops])
+    rig.settle(2)
+    assert not held(rig)
+
+
+def older_request(verb: str, key: str, **values: str) -> DiagnosticStatus:
+    return DiagnosticStatus(name=key, hardware_id=key, values=pairs({"request": verb, **values}))
+
+
+def pairs(values: dict[str, str]) -> list[KeyValue]:
+    return [KeyValue(key=key, value=value) for key, value in values.items()]
+
+
+def test_an_older_console_stops_and_releases_beside_these_locks(rig: StopRig) -> None:
+    publisher = rig.node("older").create_publisher(DiagnosticStatus, REQUEST, 10)
+    rig.settle()
+    for _ in range(2):
+        publisher.publish(older_request("stop", "old"))
+        publisher.publish(older_request("stop", "old"))
+        rig.settle(2)
+        assert held(rig) and {row[0] for row in json.loads(last_values(rig, BASE)["stops"])} == {"old"}
+        publisher.publish(older_request("release", "old", of='["old", "node"]'))
+        rig.settle(2)
+        assert not held(rig)
+
+
+def last_values(rig: StopRig, topic: str) -> dict[str, str]:
+    message = [message for each, message in rig.recorded if each == topic][-1]
+    return {each.key: each.value for each in message.values}
+
+
+class OlderLock:
+    """A lock that tells stops of one key not apart, and reports neither releases nor challenges."""
+
+    def __init__(self, rig: StopRig, instance: str) -> None:
+        node = rig.node(f"older{instance}")
+        self.instance = instance
+        self.stops: dict[str, list[object]] = {}
+        self._states = node.create_publisher(DiagnosticStatus, BASE, LATCHED)
+        node.create_subscription(DiagnosticStatus, REQUEST, self._on_request, 10)
+        self.publish()
+
+    def _on_request(self, message: DiagnosticStatus) -> None:
+        values = {each.key: each.value for each in message.values}
+        before = dict(self.stops)
+        if values["request"] == "stop":
+            self.stops.setdefault(message.hardware_id, [message.hardware_id, message.name, message.message, 1])
+        elif values["request"] == "release":
+            for key in json.loads(values["of"]):
+                self.stops.pop(key, None)
+        if self.stops != before:
+            self.publish()
+
+    def publish(self) -> None:
+        locked = str(bool(self.stops)).lower()
+        values = {"locked": locked, "stops": json.dumps(list(self.stops.values())), "instance": self.instance}
+        self._states.publish(DiagnosticStatus(values=pairs(values)))
+
+
+@pytest.fixture
+def older_rig() -> Iterator[StopRig]:
+    made = StopRig()
+    yield made
+    made.close()
+
+
+def test_beside_an_older_lock_a_console_stops_and_releases_and_restores_its_stop(older_rig: StopRig) -> None:
+    lock = OlderLock(older_rig, "1")
+    anna: StopLink = older_rig.console("anna")
+    older_rig.settle()
+    for _ in range(2):
+        anna.stop("now")
+        older_rig.settle(2)
+        assert lock.stops and anna.info.confirmed
+        anna.release()
+        older_rig.settle(2)
+        assert not (lock.stops or anna.info.stopped)
+    anna.stop("now")
+    older_rig.settle(2)
+    older_rig.kill("older1")
+    lock = OlderLock(older_rig, "2")
+    older_rig.settle(2)
+    assert lock.stops and anna.info.confirmed, "another start of the lock has lost it: nobody has released it"
+    lock.stops.clear()
+    lock.publish()
+    older_rig.settle(2)
+    assert not (lock.stops or anna.info.stopped), "the same start had it: somebody has released it"

@@ -1,0 +1,86 @@
+"""What a lock of a robot reports, of this version or an older one. The interface is that of `docs/safety.md`."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, cast
+
+NODE = "node"
+"""The key of stops that a node of the robot made."""
+CROWD = "others"
+"""The key of the stop that stands for all that a lock can no longer tell apart."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReportedStop:
+    """A stop as a lock reports it. Older locks have no ids: there the requester's key names it.
+
+    Both are empty where a lock reports no more than that it is locked.
+    """
+
+    id: str
+    key: str
+    holder: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class LockState:
+    """The last report of one lock; by default, nothing has been heard from it."""
+
+    heard: bool = False
+    """Whether it has reported whether it is locked."""
+    locked: bool = False
+    stops: tuple[ReportedStop, ...] = ()
+    released: Mapping[str, str] | None = None
+    """Who has released which stop, by its id; None in the report of an older lock."""
+    challenge: str = ""
+    """What a release has to quote."""
+    steered_by: str = ""
+    instance: str = ""
+    """Differs after each start of its node."""
+
+    @classmethod
+    def of(cls, values: Mapping[str, str]) -> LockState:
+        """Read the values of a report."""
+        locked = values.get("locked") == "true"
+        stops = [each for row in _rows(values.get("stops")) if (each := _stop(row))] if locked else []
+        if locked and not stops:
+            stops = [ReportedStop("", "", values.get("holder", ""), values.get("reason", ""))]
+        released = {str(row[0]): str(row[1]) for row in _rows(values.get("released")) if len(row) >= 2}
+        return cls(
+            heard="locked" in values,
+            locked=locked,
+            stops=tuple(stops),
+            released=released if "challenge" in values else None,
+            challenge=values.get("challenge", ""),
+            steered_by=values.get("steered_by", ""),
+            instance=values.get("instance", ""),
+        )
+
+    def holds(self, id: str, key: str) -> bool:
+        """Whether it holds the stop with this id of the requester with this key.
+
+        What it can no longer tell apart may be this one, and an older lock tells the stops of one key not apart.
+        """
+        if self.released is None:
+            return any(each.key in (key, CROWD, "") for each in self.stops)
+        return any(each.id == id or each.key == CROWD for each in self.stops)
+
+
+def _stop(row: list[Any]) -> ReportedStop | None:
+    if len(row) < 3:
+        return None
+    key, holder, reason = (str(each) for each in row[:3])
+    return ReportedStop(str(row[4]) if len(row) > 4 else key, key, holder, reason)
+
+
+def _rows(text: str | None) -> list[list[Any]]:
+    try:
+        read = json.loads(text or "[]")
+    except (ValueError, RecursionError):
+        return []
+    found = cast("list[Any]", read) if isinstance(read, list) else []
+    return [cast("list[Any]", each) for each in found if isinstance(each, list)]
