@@ -16,11 +16,13 @@ def find_launch_file(package: str, name: str | None) -> str:
     from ament_index_python.packages import get_package_share_directory
 
     share = get_package_share_directory(package)
+    if name is None:
+        raise LaunchFileError(_unnamed(package))
     found = [
         os.path.join(folder, name)
         for folder, _, files in os.walk(share, followlinks=True)
         for each in files
-        if each == name and name is not None
+        if each == name
     ]
     if not found:
         raise LaunchFileError(
@@ -31,6 +33,15 @@ def find_launch_file(package: str, name: str | None) -> str:
             f"file '{name}' was found more than once in the share directory of package '{package}': {found}"
         )
     return found[0]
+
+
+def _unnamed(package: str) -> str:
+    """What a command line lacks that names a package alone; upstream looks for a file called None."""
+    from bot_console.runtime.workspace.choices import launch_file_names
+    from ros2cli.advice import launch_files
+
+    names = launch_file_names(package)
+    return f"name a launch file of package '{package}': {', '.join(names)}" if names else launch_files(package, ())
 
 
 def named_launch_file(named: str, words: Sequence[str]) -> tuple[str, list[str]]:

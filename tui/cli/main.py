@@ -62,6 +62,11 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     help_is_english()
     help_tells_faults()
+    try:
+        words = _in_workspace(words)
+    except ValueError as error:
+        print(f"bot-console: {error}", file=sys.stderr)
+        return 2
     if words and words[0] in ros2.VERBS:  # the quickest first
         return ros2.taking_part(words)
     from bot_console.tui.opening import is_rqt, names_system
@@ -87,6 +92,17 @@ def main(argv: Sequence[str] | None = None) -> int:
         from bot_console.tui.cli.show import run as show
 
         return show(options)
+
+
+def _in_workspace(words: Words) -> Words:
+    """Take the option that names the workspace of a command; raises `ValueError` if there is no such folder."""
+    if not any(each.partition("=")[0] == "--workspace" for each in words):
+        return words
+    from bot_console.tui.cli.workspace_option import without_workspace
+
+    if words[0] == "ros2":
+        return ["ros2", *without_workspace(words[1:], lambda word: word in ros2.VERBS or word in _ROS2)]
+    return without_workspace(words, lambda word: word in ros2.VERBS or word in _COMMANDS)
 
 
 def program() -> NoReturn:

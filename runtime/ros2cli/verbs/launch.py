@@ -85,7 +85,8 @@ def _launch(arguments: argparse.Namespace) -> Result:
         path, words = named_launch_file(arguments.package_name, words)
     except LaunchFileError as error:
         print(error, file=sys.stderr)
-        advise(partial(_launch_files_of, arguments.package_name))
+        if name is not None:
+            advise(partial(_launch_files_of, arguments.package_name))
         return 1
     if arguments.show_all_subprocesses_output:
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"

@@ -151,13 +151,26 @@ def test_not_found(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
     rows: list[tuple[list[str], str]] = [
         (["nopkg", "x"], f"Package 'nopkg' not found: \"package 'nopkg' not found, searching: ['{folder}']\""),
         (["pkg", "zz.launch.py"], f"file 'zz.launch.py' was not found {where} which is at '{share}'"),
-        (["pkg"], f"file 'None' was not found {where} which is at '{share}'"),
     ]
     for words, said in rows:
         assert launched(capsys, *words) == (1, "", said + "\n")
     code, _, err = launched(capsys, "pkg", "same.launch.py")
     assert code == 1
     assert err.startswith(f"file 'same.launch.py' was found more than once {where}: [")
+
+
+def test_a_package_without_the_name_of_a_launch_file(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
+    empty = folder / "share" / "empty"
+    empty.mkdir()
+    marker = folder / "share" / "ament_index" / "resource_index" / "packages" / "empty"
+    marker.touch()
+    code, _, err = launched(capsys, "pkg")
+    assert code == 1 and err.startswith("name a launch file of package 'pkg': ") and "deep.launch.py" in err
+    assert launched(capsys, "empty") == (
+        1,
+        "",
+        "package 'empty' has no launch files; they are in its folder launch/, and setup.py installs them\n",
+    )
 
 
 @pytest.mark.parametrize("path", ["./x.launch.py", "x.launch.py", "share/"])
