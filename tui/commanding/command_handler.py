@@ -16,6 +16,7 @@ from bot_console.tui.console.protocol import Console
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.opening import Opening
 from bot_console.tui.own_program import own_program
+from bot_console.tui.panes.pane import Pane
 from bot_console.tui.safety.line_risk import risk_of
 from bot_console.tui.safety.stopping import Stopping
 from bot_console.tui.screens.question_screens import screen_for
@@ -65,7 +66,7 @@ class CommandHandler:
 
     def palette(self) -> None:
         """Open the palette: an action by its words, or a command line."""
-        known = {**all_commands(self._app, self._stage.current()), **self._plugins()}
+        known = {**all_commands(self._app, self._stage.current(), self._go), **self._plugins()}
         self._app.push_screen(
             screen_for(
                 Choice(
@@ -77,6 +78,11 @@ class CommandHandler:
                 )
             )
         )
+
+    def _go(self, name: str) -> Pane | None:
+        """Show a pane; the pane, if it can be shown."""
+        self._stage.go(name)
+        return next((each for each in self._stage.panes() if each.id == name), None)
 
     def _plugins(self) -> Mapping[str, Command]:
         return {

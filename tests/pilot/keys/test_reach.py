@@ -143,6 +143,19 @@ def test_the_palette_opens_and_runs_an_action(key: str) -> None:
     run(live(), play)
 
 
+def test_the_palette_shows_the_pane_of_an_action_and_runs_it() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1", "ctrl+p")
+        await session.type("load parameters")
+        await session.press("enter")
+        await session.settle()
+        assert shown(session) == ["profiles"]
+        assert isinstance(session.app.screen, PickerScreen) or "parameter file" in session.text().lower()
+        assert session.console.asked == []
+
+    run(live(), play)
+
+
 def test_the_all_stop_works_in_every_pane_and_over_help() -> None:
     async def play(session: Session) -> None:
         for entry in PANES:
