@@ -237,7 +237,8 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("arrange.undo", "u", "undo", "Take the last change back", footer=True, short="Undo"),
         Key("arrange.open", "o", "open_layout", "Show a layout that has a name", footer=True, short="Open"),
         Key("arrange.save", "w", "save_layout", "Keep what is shown under a name", footer=True, short="Save"),
-        Key("arrange.stop", "exclamation_mark", "app.all_stop", "All stop", shown="!"),
+        Key("arrange.help", "question_mark,f1", "help", "Help for these keys", footer=True, shown="?", short="Help"),
+        Key("arrange.stop", "exclamation_mark", "app.all_stop", "All stop", footer=True, shown="!", short="Stop"),
         Key("arrange.done", "escape,enter,q,V", "done", "Back to the panes", footer=True, shown="esc", short="Done"),
     ),
     "levels": (

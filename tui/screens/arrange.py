@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import ClassVar, Protocol
 
 from bot_console.tui import keymap
 from bot_console.tui.keymap import TABLE
-from bot_console.tui.keys.key import key_text
+from bot_console.tui.keys.key import Key, key_text
 from bot_console.tui.layout.tree import Way
+from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
 from bot_console.tui.widgets.prompt.line import Prompt, asks
 from bot_console.tui.widgets.prompt.question import Line
@@ -15,7 +17,25 @@ from rich.style import Style
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType
+from textual.events import Resize
 from textual.widgets import Static
+
+HELP = (
+    "The panes stay live while you arrange them. The arrows select one; the keys below split, resize and move it.\n"
+    "w keeps the result under a name, o shows another layout, and Escape goes back to the panes."
+)
+DROPPED = (
+    "arrange.open",
+    "arrange.undo",
+    "arrange.narrower",
+    "arrange.higher",
+    "arrange.another",
+    "arrange.close",
+    "arrange.below",
+    "arrange.beside",
+    "arrange.left",
+)
+"""Keys that the line leaves out when there is little room, the first one first; the others are always there."""
 
 
 class Arranger(Protocol):
@@ -83,13 +103,12 @@ class ArrangeScreen(DimmedScreen):
 
     def compose(self) -> ComposeResult:
         """The line of keys."""
-        line = Text("Arrange  ", Style(bold=True), no_wrap=True)
-        for key in TABLE["arrange"]:
-            if key.footer:
-                line.append(key.shown or key_text(key, 1), Style(bold=True))
-                line.append(f" {key.short or key.text}  ")
-        yield Static(line)
+        yield Static(id="arrange-keys")
         yield Prompt()
+
+    def on_resize(self, event: Resize) -> None:
+        """Fit the line of keys to the width."""
+        self.query_one("#arrange-keys", Static).update(keys_line(event.size.width - 2))
 
     def on_mount(self) -> None:
         """Highlight the selected pane."""
@@ -98,6 +117,10 @@ class ArrangeScreen(DimmedScreen):
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Disable the keys that arrange panes while a name is typed."""
         return not asks(self) and super().check_action(action, parameters)
+
+    def action_help(self) -> None:
+        """All keys that arrange panes."""
+        self.app.push_screen(HelpScreen(("arrange",), "Arranging the panes", HELP, alone=True))  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
 
     def action_select(self, dx: int, dy: int) -> None:
         """Select the pane in a direction."""
@@ -147,3 +170,22 @@ class ArrangeScreen(DimmedScreen):
         """Back to the panes."""
         self.app.screen_stack[0].remove_class("arranging")  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
         self.dismiss()
+
+
+def keys_line(columns: int) -> Text:
+    """The most important keys that fit."""
+    keys = [key for key in TABLE["arrange"] if key.footer]
+    for id in DROPPED:
+        if _line(keys).cell_len <= columns:
+            break
+        keys = [key for key in keys if key.id != id]
+    return _line(keys)
+
+
+def _line(keys: Iterable[Key]) -> Text:
+    line = Text(no_wrap=True)
+    line.append("Arrange", Style(bold=True))
+    for key in keys:
+        line.append(f"  {key.shown or key_text(key, 1)}", Style(bold=True))
+        line.append(f" {key.short or key.text}")
+    return line

@@ -25,8 +25,10 @@ class HelpScreen(Overlay):
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("help")]
 
-    def __init__(self, scopes: Sequence[str], title: str, text: str) -> None:
+    def __init__(self, scopes: Sequence[str], title: str, text: str, *, alone: bool = False) -> None:
+        """`alone`: of a mode in which the keys that work everywhere do not."""
         super().__init__(title or "Help")
+        self._alone = alone
         self._scopes = scopes
         self._text = text
 
@@ -37,6 +39,8 @@ class HelpScreen(Overlay):
         own, *shared = (TABLE.get(each, ()) for each in self._scopes)
         if own:
             yield KeyTable(own)
+        if self._alone:
+            return
         yield Text("\nEverywhere", "bold")
         yield KeyTable((*TABLE["app"], *(key for keys in shared for key in keys)))
 

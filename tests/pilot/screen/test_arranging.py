@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import pytest
+from bot_console.tui.keymap import TABLE
 from bot_console.tui.layout.tree import Tree, beside, panes
-from bot_console.tui.screens.arrange import ArrangeScreen
+from bot_console.tui.screens.arrange import ArrangeScreen, keys_line
 from bot_console.tui.widgets.pane_area import PaneArea
 from piloting import Session, run
 from samples import live
@@ -39,6 +41,35 @@ def test_split_close_and_take_it_back() -> None:
         assert len(session.app.screen_stack) == 1
 
     run(live(), play, SIZE)
+
+
+@pytest.mark.parametrize("columns", [60, 80, 100, 120])
+def test_the_keys_to_save_to_stop_for_help_and_to_finish_are_never_cut(columns: int) -> None:
+    line = keys_line(columns - 2).plain
+    assert len(line) <= columns - 2
+    assert all(each in line for each in ("w Save", "? Help", "! Stop", "esc Done"))
+
+
+def test_all_keys_of_arranging_are_named_where_there_is_room() -> None:
+    line = keys_line(200).plain
+    assert all(f" {key.short or key.text}" in line for key in TABLE["arrange"] if key.footer)
+
+
+def test_the_keys_are_explained_while_panes_are_arranged_and_fit_a_new_size() -> None:
+    async def play(session: Session) -> None:
+        await session.press("V")
+        assert "esc Done" in session.lines()[-1] and "w Save" in session.lines()[-1]
+        await session.press("question_mark")
+        text = session.text()
+        assert "Arranging the panes" in text and "Put another pane beside it" in text
+        assert "Everywhere" not in text and "Command palette" not in text
+        await session.press("escape")
+        assert isinstance(session.app.screen, ArrangeScreen)
+        await session.pilot.resize_terminal(60, 20)
+        await session.settle()
+        assert "esc Done" in session.lines()[-1]
+
+    run(live(), play, (100, 30))
 
 
 def test_the_keyboard_goes_where_the_arrows_say_and_panes_change_places() -> None:
