@@ -76,7 +76,7 @@ def attach_parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--pane", default="overview", help="the pane to begin with")
-    parser.add_argument("--workspace", action="append", type=_folder, metavar="DIR", help="where packages are")
+    parser.add_argument("--workspace", action="append", type=Path, metavar="DIR", help="where packages are")
     parser.add_argument("--read-only", action="store_true", help="look on: nothing is set, driven, started or ended")
     _add_look(parser)
     return parser
@@ -92,12 +92,6 @@ def parse_attach(words: Sequence[str], parser: argparse.ArgumentParser) -> tuple
         opening=opening, workspace=given.workspace or [], attach=True, read_only=given.read_only, **_look(given)
     )
     return options, given
-
-
-def _folder(text: str) -> Path:
-    if not Path(text).is_dir():
-        raise argparse.ArgumentTypeError(f"there is no folder {text}" if text else "name a folder")
-    return Path(text)
 
 
 def _add_look(parser: argparse.ArgumentParser) -> None:
@@ -213,7 +207,7 @@ def option_parser() -> argparse.ArgumentParser:
     add("words", nargs="*", metavar="PROFILE | NAME:=VALUE", help=f"a profile ({', '.join(profile_names())})")
     add("--launch", metavar="FILE", help="open the console on this launch file instead; also: --launch PACKAGE FILE")
     add("--pane", default="overview", help="the pane to begin with")
-    add("--workspace", action="append", type=_folder, metavar="DIR", help="where packages are; may be repeated")
+    add("--workspace", action="append", type=Path, metavar="DIR", help="where packages are; may be repeated")
     add("--headless", action="store_true", help="no screen: logs on stderr, a JSON report on stdout at the end")
     add("--fast", action="store_true", help="with --headless: simulated time, as fast as it goes, repeatable")
     add("--profiles", action="append", type=Path, metavar="DIR", help="more profiles for the Profiles pane; repeatable")
