@@ -1,9 +1,13 @@
-"""Parameter files on a server: downloaded over `https://`, cached, and read from the cache while it is unreachable."""
+"""Parameter files on a server: downloaded over `https://`, cached, and read from the cache while it is unreachable.
+
+A server on this machine may speak plain `http://`: nobody is on the way.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import http.client
+import ipaddress
 import json
 import os
 import secrets
@@ -37,8 +41,9 @@ def local_copy(address: str) -> Path:
     """The path of what stands at an address now; or, with a WARN on stderr, of what stood there when last asked.
 
     The certificate of the server is verified, by `SSL_CERT_FILE` where that is set. Only a text that is YAML is kept.
-    Raises `RemoteError`: for `http://` and certificates that do not fit, whoever is on the way could write the file;
-    for a server that answers, but not with a parameter file; and for one out of reach, of which no copy is kept.
+    Raises `RemoteError`: for `http://` from another machine and certificates that do not fit, as whoever is on the way
+    could write the file; for a server that answers, but not with a parameter file; and for one out of reach, of which
+    no copy is kept.
     """
     _check(address)
     kept = _Kept(address)
@@ -113,27 +118,40 @@ def _replace(path: Path, content: bytes) -> None:
 
 
 def _check(address: str) -> None:
-    if not address.lower().startswith(SCHEME):
-        raise RemoteError(f"{address}: anybody on the way could change what comes by http; give an https:// address")
     wrong = f"{address} is no address; write for instance https://host/robot.yaml"
     try:
         parts = urllib.parse.urlsplit(address)
         fits = bool(parts.hostname) and parts.port != 0
     except ValueError:
         raise RemoteError(wrong) from None
-    if not fits or not address.isascii() or any(letter <= " " for letter in address):
-        raise RemoteError(wrong)
     if parts.username or parts.password:
         raise RemoteError("a password in an address would stand in logs and process lists; it is not taken")
+    if not address.lower().startswith(SCHEME) and not _is_here(address):
+        raise RemoteError(
+            f"{address}: anybody on the way could change what comes by http; give an https:// address "
+            "(http:// is for a server on this machine: 127.0.0.1, [::1] or localhost)"
+        )
+    if not fits or not address.isascii() or any(letter <= " " for letter in address):
+        raise RemoteError(wrong)
 
 
-class _OnlyHttps(urllib.request.HTTPRedirectHandler):
-    """Follows a server to another place, never out of TLS."""
+def _is_here(address: str) -> bool:
+    """Whether an address means a server on this machine, without TLS."""
+    try:
+        parts = urllib.parse.urlsplit(address)
+        host = parts.hostname or ""
+        return parts.scheme == "http" and (host == "localhost" or ipaddress.ip_address(host).is_loopback)
+    except ValueError:  # a name, or nothing that is an address
+        return False
+
+
+class _SafePlaces(urllib.request.HTTPRedirectHandler):
+    """Follows a server to another place, never out of TLS, and without TLS only on this machine."""
 
     def redirect_request(
         self, req: urllib.request.Request, fp: IO[bytes], code: int, msg: str, headers: Message, newurl: str
     ) -> urllib.request.Request | None:
-        if not newurl.lower().startswith(SCHEME):
+        if not newurl.lower().startswith(SCHEME) and not (_is_here(req.full_url) and _is_here(newurl)):
             raise RemoteError(f"{req.full_url} leads to {newurl}, which is not https: not followed")
         return super().redirect_request(req, fp, code, msg, headers, newurl)  # type: ignore[arg-type] -- as typeshed has it in some versions
 
@@ -144,7 +162,9 @@ def _asked(address: str, tag: str) -> tuple[bytes, str] | None:
     if tag:
         request.add_header("If-None-Match", tag)
     try:
-        handlers = (urllib.request.HTTPSHandler(context=ssl.create_default_context()), _OnlyHttps())
+        handlers = [urllib.request.HTTPSHandler(context=ssl.create_default_context()), _SafePlaces()]
+        if _is_here(address):
+            handlers.append(urllib.request.ProxyHandler({}))  # a proxy would be on the way, and is not this machine
         with urllib.request.build_opener(*handlers).open(request, timeout=SILENCE) as answer:
             return _content(address, answer), answer.headers.get("ETag", "")
     except urllib.error.HTTPError as error:

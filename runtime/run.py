@@ -10,6 +10,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from bot_console.runtime.importer import install
+from bot_console.runtime.rmw.missing_parameter_files import find_with
+from bot_console.runtime.workspace.parameter_files import hint_for
 from bot_console.runtime.workspace.program import Program, program, python_file
 
 INTERRUPTED = 130
@@ -20,6 +22,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run what the words name and give its exit code."""
     words = list(sys.argv[1:] if argv is None else argv)
     install()
+    find_with(hint_for)
     if not words:
         return _refuse("name a file or a package: bot-console run FILE.py, or bot-console run PACKAGE EXECUTABLE")
     if words[0].endswith(".py") or Path(words[0]).is_file():

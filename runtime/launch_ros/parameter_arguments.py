@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from bot_console.runtime.process.scratch import scratch_file
+from bot_console.runtime.workspace.parameter_files import hint_for
 from launch_ros.descriptions.parameter_file import PREFIX
 
 if TYPE_CHECKING:
@@ -48,7 +49,11 @@ def own_parameter_arguments(
             else:
                 logger.warning(f"Parameter file path is not a file: {each}")
                 if not each.is_absolute():
-                    logger.warning(f"{each} was looked for in {Path.cwd()}, the folder that launch was started in")
+                    hint = hint_for(str(each))
+                    logger.warning(
+                        f"{each} was looked for in {Path.cwd()}, the folder that launch was started in"
+                        + (f"; {hint}" if hint else "")
+                    )
         else:
             found.append((_rule(*each.evaluate(context)), False))
     return found

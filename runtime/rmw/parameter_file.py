@@ -6,6 +6,7 @@ import os
 from typing import Any
 
 from bot_console.runtime.remote_address import is_remote
+from bot_console.runtime.rmw.missing_parameter_files import hint_for
 from bot_console.runtime.rmw.names import validate_namespace, validate_node_name
 from bot_console.runtime.rmw.parameter_overrides import NodeOverrides, ParameterOverrides, ParameterYamlError
 from bot_console.runtime.rmw.parameter_value import ValueWriter, yaml_events
@@ -32,7 +33,9 @@ def read_parameter_file(path: str, overrides: ParameterOverrides) -> None:
         if isinstance(error, IsADirectoryError):
             raise ParameterYamlError("Error parsing a event near line 0") from None
         why = getattr(error, "strerror", None) or error
-        raise ParameterYamlError("Error opening YAML file", f"{os.path.abspath(path)}: {why}") from None
+        hint = hint_for(path)
+        mend = f"{os.path.abspath(path)}: {why}{hint and f'; {hint}'}"
+        raise ParameterYamlError("Error opening YAML file", mend) from None
     reader = _Reader(overrides)
     handlers = {
         yaml.ScalarEvent: reader.scalar,

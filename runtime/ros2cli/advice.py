@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
@@ -55,10 +56,11 @@ def wrong_type(name: str, value: str, reason: str) -> str:
 def usage(words: Sequence[str]) -> str:
     """The replacement for options that only other releases of ROS 2 have; empty for all other command lines."""
     if list(words[:2]) == ["param", "dump"] and "--output-dir" in words[:-1]:
-        folder = words[words.index("--output-dir") + 1].rstrip("/")
+        folder = words[words.index("--output-dir") + 1].rstrip("/") or "/"
         node = next((each for each in words[2:] if each.startswith("/")), "/node")
         file = f"{folder}/{node.strip('/').replace('/', '__')}.yaml"
-        return f"Jazzy has no --output-dir, and prints the parameters: ros2 param dump {node} > {file}"
+        make = "" if os.path.isdir(folder) else f"mkdir -p {folder} && "
+        return f"Jazzy has no --output-dir, and prints the parameters: {make}ros2 param dump {node} > {file}"
     return ""
 
 

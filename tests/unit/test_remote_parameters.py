@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 import ssl
@@ -29,17 +30,19 @@ class Server(ThreadingHTTPServer):
 
     daemon_threads = True
 
-    def __init__(self, certificate: Path) -> None:
+    def __init__(self, certificate: Path | None) -> None:
         super().__init__(("127.0.0.1", 0), Answers)
-        context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
-        context.load_cert_chain(certificate)
-        self.socket = context.wrap_socket(self.socket, server_side=True)
+        self.scheme = "https" if certificate else "http"
+        if certificate:
+            context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+            context.load_cert_chain(certificate)
+            self.socket = context.wrap_socket(self.socket, server_side=True)
         self.content, self.tag, self.status, self.location, self.length = FIRST, '"1"', 200, "", -1
         self.asked: list[str] = []
 
     @property
     def address(self) -> str:
-        return f"https://localhost:{self.server_port}/robot.yaml"
+        return f"{self.scheme}://localhost:{self.server_port}/robot.yaml"
 
     def handle_error(self, request: object, client_address: object) -> None:
         """A client that breaks off is part of some tests."""
@@ -84,12 +87,50 @@ def server(certificate: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path))
     monkeypatch.setenv("SSL_CERT_FILE", str(certificate.with_name("certificate.pem")))
     monkeypatch.setenv("no_proxy", "localhost")
-    made = Server(certificate)
-    thread = threading.Thread(target=made.serve_forever, args=(0.02,), daemon=True)
-    thread.start()
+    with serving(Server(certificate)) as made:
+        yield made
+
+
+@contextlib.contextmanager
+def serving(made: Server) -> Iterator[Server]:
+    """A server that answers."""
+    threading.Thread(target=made.serve_forever, args=(0.02,), daemon=True).start()
     yield made
     made.shutdown()
     made.server_close()
+
+
+@pytest.fixture
+def plain(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Server]:
+    """A server without TLS on this machine, and a proxy that nobody may ask."""
+    monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path))
+    monkeypatch.setenv("http_proxy", "http://127.0.0.1:9")
+    monkeypatch.delenv("no_proxy", raising=False)
+    with serving(Server(None)) as made:
+        yield made
+
+
+@pytest.mark.parametrize("host", ["localhost", "LOCALHOST", "127.0.0.1"])
+def test_a_server_on_this_machine_may_do_without_tls(plain: Server, host: str) -> None:
+    address = plain.address.replace("localhost", host)
+    assert local_copy(address).read_bytes() == FIRST
+    assert parse(["--ros-args", "--params-file", address]).parameters.for_node("/robot") == {"speed": 1.5}
+
+
+def test_a_server_on_this_machine_leads_to_others_with_tls_only(plain: Server) -> None:
+    plain.status, plain.location = 302, plain.address.replace("robot", "there")
+    assert local_copy(plain.address).read_bytes() == FIRST
+    for other in ("http://example.org/robot.yaml", "http://127.0.0.1.example.org/robot.yaml"):
+        plain.location = other
+        with pytest.raises(RemoteError, match="which is not https: not followed"):
+            local_copy(plain.address)
+
+
+@pytest.mark.parametrize(
+    "address", ["http://127.0.0.1:8/a.yaml", "http://127.8.9.1/a", "http://[::1]:80/a.yaml", "HTTP://LocalHost/a.yaml"]
+)
+def test_addresses_of_this_machine(address: str) -> None:
+    remote_parameters._check(address)
 
 
 def test_a_file_is_fetched_once_and_then_only_asked_about(server: Server) -> None:
@@ -174,7 +215,14 @@ def test_a_certificate_that_is_not_trusted_is_refused_though_a_copy_is_there(
 @pytest.mark.parametrize(
     ("address", "why"),
     [
-        ("http://localhost/a.yaml", "give an https:// address"),
+        ("http://example.org/a.yaml", "give an https:// address"),
+        ("http://192.168.0.5/a.yaml", "give an https:// address"),
+        ("http://localhost.example.org/a.yaml", "give an https:// address"),
+        ("http://127.0.0.1.example.org/a.yaml", "give an https:// address"),
+        ("http://127.0.0.1@example.org/a.yaml", "a password in an address"),
+        ("http://0.0.0.0/a.yaml", "give an https:// address"),
+        ("http:///a.yaml", "give an https:// address"),
+        ("http://me:secret@example.org/a.yaml", "a password in an address"),
         ("https:///a.yaml", "is no address"),
         ("https://host:port/a.yaml", "is no address"),
         ("https://host/a b.yaml", "is no address"),
@@ -198,7 +246,7 @@ def test_a_node_takes_its_parameters_from_there(server: Server) -> None:
     found = parse(["--ros-args", "--params-file", server.address]).parameters
     assert found.for_node("/robot") == {"speed": 1.5}
     with pytest.raises(ArgumentsError, match="give an https:// address"):
-        parse(["--ros-args", "--params-file", "http://localhost/a.yaml"])
+        parse(["--ros-args", "--params-file", "http://example.org/a.yaml"])
 
 
 def test_a_launch_file_does_too_and_asks_once(server: Server) -> None:

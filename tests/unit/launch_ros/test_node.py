@@ -197,6 +197,14 @@ def test_where_a_relative_file_was_looked_for_is_told(run: Launch) -> None:
     assert f"config/no_such.yaml was looked for in {Path.cwd()}, the folder that launch was started" in outcome.text
 
 
+def test_a_package_that_has_the_missing_file_is_named(run: Launch, monkeypatch: pytest.MonkeyPatch) -> None:
+    from launch_ros import parameter_arguments
+
+    monkeypatch.setattr(parameter_arguments, "hint_for", lambda path: f"package 'mine' has src/mine/{path}")
+    outcome = launched(run, node(parameters=[Path("config/no_such.yaml")]))
+    assert "launch was started in; package 'mine' has src/mine/config/no_such.yaml" in outcome.text
+
+
 def test_a_missing_file_for_all_ends_the_launch(run: Launch) -> None:
     outcome = run([SetParametersFromFile("/no/such.yaml"), node()])
     assert (outcome.code, outcome.caught) == (1, "")

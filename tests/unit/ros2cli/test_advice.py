@@ -20,7 +20,11 @@ SAID = [
     (("set", "tuned", "gain", "2"), "gain is a double, which takes no integer: write 2.0"),
     (("set", "tuned", "gain", "0x2"), "write it with a point"),
     (("set", "tuned", "name", "5"), "name is a string: write '\"5\"', as 5 alone is read as integer"),
-    (("dump", "/ns/tuned", "--output-dir", "./config"), "ros2 param dump /ns/tuned > ./config/ns__tuned.yaml"),
+    (
+        ("dump", "/ns/tuned", "--output-dir", "./config"),
+        "prints the parameters: mkdir -p ./config && ros2 param dump /ns/tuned > ./config/ns__tuned.yaml",
+    ),
+    (("dump", "/ns/tuned", "--output-dir", "/tmp"), "the parameters: ros2 param dump /ns/tuned > /tmp/ns__tuned.yaml"),
 ]
 
 
@@ -79,13 +83,13 @@ def test_why_nobody_receives_is_told_once(
 
 
 def test_the_launch_files_of_a_package_are_named(ros, monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ((), ("no.launch.py",)):
-        monkeypatch.setattr(advice, "is_read", lambda: False)
-        assert "has:" not in ros.ask("launch", "bot_console_robot", *name).stderr
-        monkeypatch.setattr(advice, "is_read", lambda: True)
-        asked = ros.ask("launch", "bot_console_robot", *name)
-        assert "package 'bot_console_robot' has: " in asked.stderr and "robot_system.launch.py" in asked.stderr
-        assert asked.exit == 1
+    words = ("launch", "bot_console_robot", "no.launch.py")
+    monkeypatch.setattr(advice, "is_read", lambda: False)
+    assert "has:" not in ros.ask(*words).stderr
+    monkeypatch.setattr(advice, "is_read", lambda: True)
+    asked = ros.ask(*words)
+    assert "package 'bot_console_robot' has: " in asked.stderr and "robot_system.launch.py" in asked.stderr
+    assert asked.exit == 1
 
 
 def test_nothing_is_composed_where_nobody_reads(monkeypatch: pytest.MonkeyPatch) -> None:
