@@ -34,6 +34,7 @@ def test_the_packages_are_those_that_programs_ask_for() -> None:
         "ackermann_msgs",
         "can_msgs",
         "control_msgs",
+        "controller_manager_msgs",
         "geographic_msgs",
         "irobot_create_msgs",
         "map_msgs",

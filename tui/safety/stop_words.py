@@ -20,17 +20,26 @@ def stop_text(drive: DriveInfo) -> str:
         return f"STOP NOT SENT: {drive.unsent}"
     if drive.nothing_to_stop:
         return "STOP REACHES NOBODY: nothing is here to stop, no robot listens for commands (! ends it)"
+    if not drive.lockable and drive.stop_confirmed:
+        return f"ALL STOP held by {harmless(drive.held_by_means)} (! releases)"
     if not drive.lockable:
-        return "STOP SENT, NOT CONFIRMED: zeros only, this robot has no emergency stop (! ends them)"
+        return f"STOP SENT, NOT CONFIRMED: {may_move(drive)} (! ends it)"
     if not drive.stop_confirmed:
-        return "STOP SENT, NOT CONFIRMED (! sends it again)"
+        return "STOP SENT, NOT CONFIRMED: THE ROBOT MAY MOVE (! sends it again)"
     key = "! releases" if drive.stopped_here else "! holds it too, once more releases"
     if holder_is_gone(drive) and not drive.stopped_here:
         key = "! twice releases"  # shorter: that nobody else will is to be seen in 80 columns
     if drive.refused:
         key = "released elsewhere: this console only looks on"
     # The key first: in a narrow terminal the end of the line is not seen.
-    return f"ALL STOP held ({key}){held_by(drive)}"
+    loose = f"  {may_move(drive)}" if drive.stopped_here and drive.unlocked and not drive.held_by_means else ""
+    return f"ALL STOP held ({key}){loose}{held_by(drive)}"
+
+
+def may_move(drive: DriveInfo) -> str:
+    """That robots without an emergency stop may move, and what is being tried."""
+    who = harmless(", ".join(drive.unlocked)) if drive.lockable else "THE ROBOT"
+    return f"{who} MAY MOVE, {harmless(drive.means_news) or 'zeros only'}"
 
 
 def held_by(drive: DriveInfo) -> str:

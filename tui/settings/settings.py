@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from bot_console.tui.console.recording import RingSize
+from bot_console.tui.console.robot.stop_means.configured import ConfiguredMeans, configured_means
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.keys.remapping import wrong_keys
 from bot_console.tui.settings.names import GLYPHS, THEME_NAMES
@@ -37,6 +38,17 @@ layout: last
 keep_minutes: {KEEP_MINUTES:g}
 keep_megabytes: {KEEP_MEGABYTES:g}
 
+# How ! stops a robot that has no emergency stop of this program (see docs/safety.md): tried in this order, each 0.3 s
+# after the one before, until one confirms. Zero velocities are sent in any case. Releasing undoes them.
+stop_means: []
+#  - lock: /e_stop                       # a Bool topic, as the locks of twist_mux; nothing acknowledges it
+#  - set_bool: /motors/hold              # a SetBool service; `hold: false` where false holds
+#  - trigger: /base/stop                 # a Trigger service, and the one that undoes it
+#    release: /base/clear_stop
+#  - deactivate: /base_driver            # a lifecycle node
+#  - switch: /controller_manager         # controllers of ros2_control
+#    controllers: [diff_drive_controller]
+
 # Keys: the id of an action, as `bot-console config --keys` lists them, and the keys that do it from now on.
 keys: {{}}
 #  app.quit: ctrl+d
@@ -55,6 +67,7 @@ class Settings:
     problems: tuple[str, ...] = ()
     keep_minutes: float = KEEP_MINUTES
     keep_megabytes: float = KEEP_MEGABYTES
+    stop_means: tuple[ConfiguredMeans, ...] = ()
 
     @property
     def kept(self) -> RingSize | None:
@@ -112,9 +125,11 @@ def _settings(data: object, path: str) -> Settings:
         _number(given.pop(name, default), most, default, f"{path}: {name}", wrong)
         for name, default, most in (("keep_minutes", KEEP_MINUTES, 60.0), ("keep_megabytes", KEEP_MEGABYTES, 4096.0))
     ]
+    means, wrong_means = configured_means(given.pop("stop_means", None))
+    wrong += [f"{path}: stop_means: {each}" for each in wrong_means]
     keys = _keys(given.pop("keys", None), path, wrong)
     wrong += [f"{path}: '{str(name)[:40]}' is no setting" for name in given]
-    return Settings(theme, glyphs, layout, keys, tuple(wrong), keep[0], keep[1])
+    return Settings(theme, glyphs, layout, keys, tuple(wrong), keep[0], keep[1], means)
 
 
 def _number(value: object, most: float, default: float, name: str, wrong: list[str]) -> float:

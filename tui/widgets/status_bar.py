@@ -48,6 +48,8 @@ def status_text(
     if snapshot.problem:
         return "  ".join([*stop, harmless(snapshot.problem)])
     parts = [link_text(snapshot.link), *stop] if snapshot.link.silent_s else stop
+    if snapshot.drive.means_news and not snapshot.drive.stopped:
+        parts.append(f"✗ NOT RELEASED: {harmless(snapshot.drive.means_news)}")
     if alarms:
         parts.append(f"⚠ {harmless(', '.join(alarms))}")
     dead = [each.label for each in snapshot.launch.processes if each.state is ProcessState.CRASHED]

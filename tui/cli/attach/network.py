@@ -18,6 +18,7 @@ from bot_console.tui.cli.system.type_source import DomainTypes
 from bot_console.tui.cli.system.workspaces import choose
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import Capabilities, LinkInfo, Severity
+from bot_console.tui.settings.settings import read_settings
 
 CAPABILITIES = Capabilities(
     launch="Processes are not known over a network: launch on the robot itself, or run the console there (over SSH).",
@@ -46,6 +47,7 @@ def run_network(options: AttachOptions) -> int:
         foreign=True,
         frozen=frozen_nodes,
         types=DomainTypes(),
+        stop_means=read_settings().stop_means,
     )
     said = [(Severity.INFO, SAID.format(options.way, domain()))]
 

@@ -11,6 +11,7 @@ from bot_console.tui.cli.attach.ros2_command_line import MachineCommandLine
 from bot_console.tui.cli.attach.session import AttachedSession
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import Capabilities, LaunchInfo, Severity
+from bot_console.tui.settings.settings import read_settings
 
 PROFILES = Path(__file__).resolve().parents[3] / "profiles"
 CAPABILITIES = Capabilities(
@@ -25,7 +26,13 @@ def run_ros(options: AttachOptions, described: str) -> int:
     def launched() -> LaunchInfo:
         return launchers.info()
 
-    console = RosConsole(launch_info=launched, profile_folders=[PROFILES], capabilities=CAPABILITIES, foreign=True)
+    console = RosConsole(
+        launch_info=launched,
+        profile_folders=[PROFILES],
+        capabilities=CAPABILITIES,
+        foreign=True,
+        stop_means=read_settings().stop_means,
+    )
     launchers = launcher_of_machine(console.record, console.printed)
     said = [(Severity.INFO, SAID.format(described, os.environ.get("RMW_IMPLEMENTATION", "as installed")))]
     session = AttachedSession(

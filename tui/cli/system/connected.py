@@ -25,6 +25,7 @@ from bot_console.tui.console.model import LaunchInfo, Severity
 from bot_console.tui.console.recording import Keeper
 from bot_console.tui.files.folders import config_folder, state_folder
 from bot_console.tui.pane_table import PaneEntry
+from bot_console.tui.settings.settings import read_settings
 
 ROOT = Path(__file__).resolve().parents[3]
 LAST_WORD = 0.2
@@ -64,6 +65,7 @@ class Connected:
             fetch=_fetched,
             buffer=buffer,
             types=DomainTypes(),
+            stop_means=read_settings().stop_means,
         )
         self.launcher = system(self.console)
         self._local_tuner = LocalTuner()

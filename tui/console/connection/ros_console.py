@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from bot_console.tui.console.parameters.history import History
     from bot_console.tui.console.parameters.shelf import Shelf
     from bot_console.tui.console.robot.drive_node import DriveNode
+    from bot_console.tui.console.robot.stop_means.configured import ConfiguredMeans
 
 T = TypeVar("T")
 NOWHERE = ("", "", 0)
@@ -73,6 +74,7 @@ class RosConsole(ConsoleRelay):
         buffer: Keeper | None = None,
         frozen: FrozenNodes | None = None,
         types: TypeSource | None = None,
+        stop_means: Sequence[ConfiguredMeans] = (),
     ) -> None:
         """`own_profiles` is where profiles are saved, `workspace_profiles` finds more folders that may hold some.
 
@@ -81,16 +83,15 @@ class RosConsole(ConsoleRelay):
         `fetch` gives the copy of a parameter file on a server, or raises `OSError`; in any thread.
 
         `link` tells how a network is; `foreign` that the system is not ours, see `ConsoleNode`; `buffer` keeps the
-        last minutes, None: nobody does; `frozen` which nodes' processes are stopped;
-        `types` makes the types that this program does not have.
+        last minutes, None: nobody does; `frozen` which nodes' processes are stopped; `types` makes the types that this
+        program does not have; `stop_means` hold robots that have no lock.
         """
         self._shelf_of = profile_folders, own_profiles, workspace_profiles, fetch
         self._launch_info = launch_info
         self._active_profile = active_profile
         self._capabilities = capabilities or Capabilities()
         self._graph_events = graph_events
-        self._frozen = frozen
-        self._types = types
+        self._frozen, self._types, self._stop_means = frozen, types, stop_means
         self._history_file = history
         self._link = link
         self._foreign = foreign
@@ -150,7 +151,7 @@ class RosConsole(ConsoleRelay):
 
         context = Context()
         rclpy.init(args=[], context=context)
-        robot = DriveNode(context, self._tell_fault)
+        robot = DriveNode(context, self._tell_fault, self._stop_means)
         robot.start()
         with self._linking:
             self._now = StopConsole(STARTING, self._nothing, robot)

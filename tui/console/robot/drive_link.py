@@ -22,7 +22,10 @@ from bot_console.tui.console.robot.command_topics import (
 from bot_console.tui.console.robot.fleet import Fleet, Published, Scope, steered_of
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 from bot_console.tui.console.robot.stop_holders import with_gone
-from bot_console.tui.console.robot.stop_link import STATUS, StopLink
+from bot_console.tui.console.robot.stop_link import STATUS, StopLink, is_lock
+from bot_console.tui.console.robot.stop_means.configured import ConfiguredMeans
+from bot_console.tui.console.robot.stop_means.means import means_of
+from bot_console.tui.console.robot.stop_means.sequence import StopSequence
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.node import Node
@@ -63,8 +66,8 @@ class Surroundings:
     """The robots in a graph."""
 
     fleet: Fleet
-    locks: frozenset[str]
-    """Topics of the type in which locks tell of themselves."""
+    locks: Published
+    """Topics on which locks report their states."""
     verdicts: Published
     """Topics of the type in which arbiters tell of their decisions."""
     simulated: bool
@@ -75,7 +78,7 @@ class Surroundings:
         fleet = Fleet(graph)
         return cls(
             fleet,
-            frozenset(fleet.published(STATUS)),
+            {each: nodes for each, nodes in fleet.published(STATUS).items() if is_lock(each)},
             fleet.published(DIAGNOSTICS),
             any(each.name == CLOCK for each in graph.topics),
         )
@@ -87,8 +90,13 @@ class DriveLink:
     `drive` and `stop` may be called from any thread.
     """
 
-    def __init__(self, node: Node, now: Callable[[], float] = time.monotonic) -> None:
-        """`now` returns seconds, to measure the age of what has been heard."""
+    def __init__(
+        self, node: Node, now: Callable[[], float] = time.monotonic, means: Sequence[ConfiguredMeans] = ()
+    ) -> None:
+        """`now` returns seconds, to measure the age of what has been heard.
+
+        `means` hold robots that have no lock.
+        """
         self._node = node
         self._now = now
         self._publishers: dict[tuple[str, Any], Any] = {}
@@ -96,6 +104,8 @@ class DriveLink:
         self._seen: dict[str, Velocity] = {}
         self._stop = StopLink(node)
         self._zeros = False
+        self._means = StopSequence([means_of(node, each) for each in means], now)
+        self._unlocked: tuple[CommandTopics, ...] = ()
         self._verdict = Verdict()
         self._heard: dict[str, float] = {}
         self._info = DriveInfo()
@@ -120,6 +130,7 @@ class DriveLink:
         self._follow_robot()
         self._replaced |= self._stop.steering and before not in ("", self._robot.robot)
         self._stop.follow(found.locks)
+        self._unlocked = tuple(each for each in self._each_robot() if not found.fleet.scope(each).own(found.locks))
 
     def _follow_robot(self) -> None:
         found = self._found
@@ -211,7 +222,7 @@ class DriveLink:
         """Lock the robot, or withdraw that along with the stops of these `others`, and send zero velocity now.
 
         Only a stop that a person has requested outlives the robot's nodes, not one for the console's own reasons. A
-        robot without a lock is sent zeros again and again.
+        robot without a lock is sent zeros again and again, and its configured means are tried in their order.
         """
         if hold:
             self._stop.stop(reason, kept=reason == BY_PERSON)
@@ -219,6 +230,10 @@ class DriveLink:
             self._stop.release(others)
         self._zeros = self._acted = hold
         self._zero_all()
+        if not hold:
+            self._means.release()
+        elif self._needs_means:
+            self._means.hold()
 
     def steer(self, hold: bool) -> None:
         """Claim or hand back the steering; a claim is to be repeated ten times a second."""
@@ -275,18 +290,28 @@ class DriveLink:
 
     def _repeat(self) -> None:
         self._stop.repeat()
-        if self._stop.info.locks:
-            self._zeros = False  # a lock needs no zeros, and they would keep a robot that somebody else has released
-            if self._stop.stopping:
-                self._zero_all()  # until it says that it has locked: it may hang, or be gone without having left
-        elif self._holds_by_zeros:
-            for robot in self._each_robot():
+        if self._stop.info.locks and not (self._stop.stopping or (self._unlocked and self._stop.info.stopped)):
+            # A lock needs no zeros, and they would keep a robot whose stop somebody else has released.
+            self._zeros = False
+            self._means.release()
+        if self._stop.info.locks and self._stop.stopping:
+            self._zero_all()  # until it says that it has locked: it may hang, or be gone without having left
+        elif self._zeros:
+            for robot in self._unlocked if self._stop.info.locks else self._each_robot():
                 self._publish(robot.get(TELEOP) or robot.get(FINAL), 0.0, 0.0)
+        if self._zeros and self._needs_means:
+            self._means.tick()
+
+    @property
+    def _needs_means(self) -> bool:
+        """Whether a robot has no lock, as far as is known; one that nobody has seen yet counts as well."""
+        return bool(self._unlocked) or not self._stop.info.locks
 
     @property
     def _holds_by_zeros(self) -> bool:
-        """Whether zeros hold the robot: it has no lock, or none has acknowledged our stop."""
-        return self._zeros or self._stop.stopping
+        """Whether zeros hold the steered robot: it has no lock, or none has acknowledged our stop."""
+        locked = self._stop.info.locks and self._robot not in self._unlocked
+        return self._stop.stopping or (self._zeros and not locked)
 
     def _send(self, token: str, linear: float, angular: float) -> None:
         self._publish(self._robot.get(token), linear, angular)
@@ -336,12 +361,15 @@ class DriveLink:
             silent_s=world.silent_s if here else 0,
             limited_by=why,
             stopped=stop.stopped or self._zeros,
-            stop_confirmed=stop.confirmed,
+            stop_confirmed=stop.confirmed if stop.locks else self._zeros and bool(self._means.holds),
             stop_holder="this console" if stop.holder == self._stop.holder else stop.holder,
             stop_reason=stop.reason,
             stopped_here=stop.here or self._zeros,
             stops=with_gone(stop.stops),
             lockable=stop.locks > 0,
+            unlocked=tuple(each.robot for each in self._unlocked),
+            held_by_means=self._means.holds,
+            means_news=self._means.news,
             steered_by=stop.steered_by,
         )
         if info != self._info:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import rclpy
 from bot_console.tui.console.graph.watch import GraphWatch
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.robot.drive_link import DriveLink, Surroundings
+from bot_console.tui.console.robot.stop_means.configured import ConfiguredMeans
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
@@ -22,8 +23,13 @@ class DriveNode:
     When 500 nodes appear at once, the console's own thread is busy for seconds.
     """
 
-    def __init__(self, context: Context, fault: Callable[[Exception], None]) -> None:
-        """`fault` is told of an exception in what it serves, which ends nothing else."""
+    def __init__(
+        self, context: Context, fault: Callable[[Exception], None], means: Sequence[ConfiguredMeans] = ()
+    ) -> None:
+        """`fault` is told of an exception in what it serves, which ends nothing else.
+
+        `means` hold robots that have no lock.
+        """
         self.context = context
         self._fault = fault
         self._node = rclpy.create_node(
@@ -31,7 +37,7 @@ class DriveNode:
         )
         self._executor = SingleThreadedExecutor(context=context)
         self._executor.add_node(self._node)
-        self.link = DriveLink(self._node)
+        self.link = DriveLink(self._node, means=means)
         self._thread = threading.Thread(target=self._spin, name="bot-console-drive", daemon=True)
         self._closed = False
 

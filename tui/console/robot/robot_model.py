@@ -129,7 +129,7 @@ class DriveInfo:
     stopped: bool = False
     """Whether a stop was asked for, or a lock holds the robot."""
     stop_confirmed: bool = False
-    """Whether every lock of the robot has acknowledged that it holds."""
+    """Whether every lock of the robot has acknowledged that it holds; without a lock, whether a means has."""
     unsent: str = ""
     """Why a stop that was asked for here has been sent to nobody; empty where it was sent."""
     stop_holder: str = ""
@@ -141,6 +141,12 @@ class DriveInfo:
     """Everybody's stops that the robot has acknowledged, the oldest first."""
     lockable: bool = False
     """Whether the robot has an emergency stop that acknowledges."""
+    unlocked: tuple[str, ...] = ()
+    """The robots that have no emergency stop that acknowledges."""
+    held_by_means: str = ""
+    """Which configured means holds them, by its own word; empty if none does."""
+    means_news: str = ""
+    """What came of the means that was tried last; after a release, which means could not be undone and why."""
     steered_by: str = ""
     """Who holds the steering, as the robot says."""
     refused: str = ""
@@ -149,4 +155,4 @@ class DriveInfo:
     @property
     def nothing_to_stop(self) -> bool:
         """Whether no robot is known, so that nobody could have received a stop."""
-        return not (self.lockable or self.topic or self.robots)
+        return not (self.lockable or self.topic or self.robots or self.held_by_means or self.means_news)

@@ -97,7 +97,7 @@ class StopLink:
 
     def follow(self, topics: Iterable[str]) -> None:
         """Watch the locks among these topics of type `DiagnosticStatus`."""
-        found = {each for each in topics if FOLDER in each and not each.endswith(FOLDER + REQUEST)}
+        found = {each for each in topics if is_lock(each)}
         for gone in set(self._watching) - found:
             self._node.destroy_subscription(self._watching.pop(gone))
             self._states.pop(gone, None)
@@ -291,6 +291,11 @@ class StopLink:
             hardware_id=self._key,
             values=[KeyValue(key=key, value=value) for key, value in {REQUEST: verb, **values}.items()],
         )
+
+
+def is_lock(topic: str) -> bool:
+    """Whether a topic of type `DiagnosticStatus` is that on which a lock reports its state."""
+    return FOLDER in topic and not topic.endswith(FOLDER + REQUEST)
 
 
 def user() -> str:

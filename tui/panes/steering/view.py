@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.format import harmless
 from bot_console.tui.panes.steering.state import Steering, stands_after_steering
-from bot_console.tui.safety.stop_words import held_by, holder_is_gone
+from bot_console.tui.safety.stop_words import held_by, holder_is_gone, may_move
 from bot_console.tui.widgets.picture import Line
 
 BAR = 10
@@ -83,7 +83,7 @@ def _looked_on(drive: DriveInfo, topic: str) -> Line:
 
 
 def _unconfirmed(drive: DriveInfo) -> str:
-    return " ! sends it again" if drive.lockable else " zeros only: this robot has no emergency stop"
+    return " ! sends it again" if drive.lockable else f" {may_move(drive)}: it has no emergency stop"
 
 
 def _slider(word: str, value: float, greatest: float, unit: str, width: int, *, turned: bool = False) -> Line:

@@ -9,6 +9,7 @@ import pytest
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.node import ConsoleNode
 from bot_console.tui.console.robot.drive_link import SILENCE, VERDICT_LIFETIME_S, DriveLink
+from bot_console.tui.console.robot.drive_node import DriveNode
 from bot_console.tui.console.robot.fleet import Fleet, steered_of
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.console.robot.world_watch import MAP, ODOMETRY, WorldWatch
@@ -229,7 +230,9 @@ def test_keys_meant_for_a_robot_that_has_left_do_not_drive_the_next_one(robots: 
 
 
 def test_choosing_a_robot_moves_steering_and_view_together() -> None:
-    console = ConsoleNode(lambda *_: None)
+    context = Context()
+    context.init([], domain_id=next(_domains))
+    console = ConsoleNode(DriveNode(context, lambda error: None), lambda *_: None)
     try:
         spaces = ("", "/robot2")
         graph = GraphInfo(nodes=tuple(node(f"{s}/base", f"{s}/cmd_vel", f"{s}/odom={ODOMETRY}") for s in spaces))

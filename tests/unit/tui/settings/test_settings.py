@@ -97,3 +97,10 @@ def test_the_table_as_it_is_has_nothing_wrong() -> None:
 
 def test_each_theme_that_can_be_named_is_there() -> None:
     assert set(THEMES) == set(THEME_NAMES)
+
+
+def test_means_of_stopping_are_read_in_their_order_and_wrong_ones_named(tmp_path: Path) -> None:
+    text = "stop_means:\n- set_bool: /hold\n- brake: /b\n- trigger: base/stop\n  release: /clear\n"
+    found = read_settings(written(tmp_path, text))
+    assert [each.name for each in found.stop_means] == ["set_bool /hold", "trigger /base/stop"]
+    assert len(found.problems) == 1 and "stop_means: entry 2: names exactly one of lock" in found.problems[0]
