@@ -7,6 +7,7 @@ from pathlib import Path
 
 from bot_console.tui.files.folders import state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
+from bot_console.tui.files.store_file import read_store
 
 MOST = 1000
 """Lines that are kept."""
@@ -33,9 +34,8 @@ class LineHistory:
         """All lines; none if the file cannot be read."""
         if self._lines is None:
             self._lines = []
-            with contextlib.suppress(OSError), self.file.open("rb") as file:
-                file.seek(max(0, file.seek(0, 2) - LARGEST))
-                text = file.read().decode("utf-8", "replace")
+            with contextlib.suppress(OSError):
+                text = read_store(self.file, LARGEST, end=True).decode("utf-8", "replace")
                 self._lines = [each for each in text.split("\n") if each.strip()][-MOST:]
         return self._lines
 

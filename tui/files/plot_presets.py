@@ -11,6 +11,7 @@ from typing import Any, cast
 
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.files.save_file import save_file
+from bot_console.tui.files.store_file import read_store
 
 LARGEST = 1_000_000
 """Bytes of a file that is looked at."""
@@ -62,8 +63,7 @@ def read_preset(name: str) -> Preset:
     """The curves saved under a name; raises `NoPreset`."""
     path = _folder() / f"{name}.json"
     try:
-        with path.open("rb") as file:
-            data: Any = json.loads(file.read(LARGEST))
+        data: Any = json.loads(read_store(path, LARGEST))
         curves = tuple(_curve(each) for each in data["curves"][:MOST_CURVES])
         return Preset(curves, float(data["window"]), _text(data, "limits"), _text(data, "against"))
     except OSError as error:

@@ -10,6 +10,7 @@ from typing import Any, cast
 
 from bot_console.tui.files.folders import config_folder, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
+from bot_console.tui.files.store_file import read_store
 from bot_console.tui.layout.form import NoLayout, data_of, tree_of
 from bot_console.tui.layout.named import OVERVIEW, Layout
 from bot_console.tui.layout.perspective import perspective_tree
@@ -40,7 +41,9 @@ class FileLayouts:
         for path in sorted(_folder().glob("*.yaml")):
             try:
                 found[path.stem] = Layout(self._read(path), about=str(path))
-            except (NoLayout, OSError) as error:
+            except OSError as error:
+                self.problems.append(f"{path}: {error.strerror or error}")
+            except NoLayout as error:
                 self.problems.append(f"{path}: {error}")
         return found
 
@@ -93,10 +96,7 @@ def _last() -> Path:
 
 
 def _data(path: Path) -> Mapping[str, Any]:
-    with path.open("rb") as file:
-        content = file.read(LARGEST + 1)
-    if len(content) > LARGEST:
-        raise NoLayout("is too large for a layout")
+    content = read_store(path, LARGEST)
     try:
         data = read(content)
     except NotPlainData as error:

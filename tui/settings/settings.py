@@ -10,6 +10,7 @@ from typing import Any, cast
 from bot_console.tui.console.recording import RingSize
 from bot_console.tui.console.robot.stop_means.configured import ConfiguredMeans, configured_means
 from bot_console.tui.files.folders import config_folder
+from bot_console.tui.files.store_file import read_store
 from bot_console.tui.keys.remapping import wrong_keys
 from bot_console.tui.settings.names import GLYPHS, THEME_NAMES
 from bot_console.tui.settings.plain_file import NotPlainData, read
@@ -85,14 +86,11 @@ def read_settings(path: Path | None = None) -> Settings:
     """Read the settings file. What cannot be used is left at its default and named in `problems`; never raises."""
     path = path or settings_file()
     try:
-        with path.open("rb") as file:
-            content = file.read(LARGEST + 1)
+        content = read_store(path, LARGEST)
     except FileNotFoundError:
         return Settings()
     except OSError as error:
         return Settings(problems=(f"{path}: {error.strerror or error}",))
-    if len(content) > LARGEST:
-        return Settings(problems=(f"{path}: larger than {LARGEST} bytes; no settings file is",))
     try:
         data = read(content)
     except NotPlainData as error:

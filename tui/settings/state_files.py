@@ -7,6 +7,7 @@ from zlib import crc32
 
 from bot_console.tui.files.folders import config_folder, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
+from bot_console.tui.files.store_file import read_store
 from bot_console.tui.settings.plain_file import NotPlainData, read, written
 
 LARGEST = 1_000_000
@@ -29,9 +30,7 @@ class StateFiles:
     def get(self, name: str) -> object:
         """The contents of the file; None if there is none, or if it cannot be read."""
         try:
-            with self._path(name).open("rb") as file:
-                content = file.read(LARGEST + 1)
-            return None if len(content) > LARGEST else read(content)
+            return read(read_store(self._path(name), LARGEST))
         except (OSError, NotPlainData):
             return None
 

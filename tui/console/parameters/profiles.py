@@ -15,6 +15,7 @@ from bot_console.tui.console.parameters.file.node_keys import is_wildcard, means
 from bot_console.tui.console.parameters.file.text import KEYWORD, NOTHING, sections, value_at
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.values import refusal
+from bot_console.tui.files.store_file import read_store
 from bot_console.tui.text.yaml_faults import UNREADABLE, fault_of
 
 AT_RESET = "at reset"
@@ -48,7 +49,7 @@ def _named(profile: Profile, name: str) -> Profile:
 
 def _is_profile(path: Path) -> bool:
     try:
-        return path.stat().st_size <= LARGEST and KEYWORD in path.read_text(encoding="utf-8-sig")
+        return KEYWORD in read_store(path, LARGEST).decode("utf-8-sig")
     except (OSError, UnicodeDecodeError):
         return False
 
@@ -56,7 +57,7 @@ def _is_profile(path: Path) -> bool:
 def load(path: Path) -> Profile:
     """Read a ROS parameter file as a profile; its first comment line is the title."""
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = read_store(path, LARGEST).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
         title = next((line[1:].strip() for line in text.splitlines() if line.startswith("#")), "")
         launch = _launch_profile(path, title, text)
         if launch is not None:

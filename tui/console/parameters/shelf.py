@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
@@ -64,8 +65,8 @@ class Shelf:
         # The names of those that come with the robot stay theirs: launch files and command lines know them.
         own = [self._own] if self._own is not None else []
         found = [*find([*self._folders, *own], mixed=self._mixed)]
-        known = {Path(each.path).resolve() for each in found}
-        found += [self._load(path) for path in list(self._opened.values()) if path.resolve() not in known]
+        known = {os.path.realpath(each.path) for each in found}
+        found += [self._load(path) for path in list(self._opened.values()) if os.path.realpath(path) not in known]
         found = [replace(each, own=self._is_own(each)) for each in found]
         profiles = tuple(sorted(found, key=lambda each: each.name))
         if profiles != self.profiles:
@@ -111,9 +112,9 @@ class Shelf:
             return Answer(False, str(error))
         if not place.is_file():
             return Answer(False, f"there is no file {place}")
-        self._opened[str(place.resolve())] = place
+        self._opened[os.path.realpath(place)] = place
         self.look_again()
-        found = next(each for each in self.profiles if Path(each.path).resolve() == place.resolve())
+        found = next(each for each in self.profiles if os.path.realpath(each.path) == os.path.realpath(place))
         return Answer(not found.problem, found.name if not found.problem else f"{place}: {found.problem}")
 
     def save(self, name: str, description: str, trees: Mapping[str, ParameterTree]) -> Answer:
@@ -158,7 +159,7 @@ class Shelf:
         return Path(found.path), ""
 
     def _change(self, path: Path, change: Callable[[], object], what: str, done: str) -> Answer:
-        opened = str(path.resolve())
+        opened = os.path.realpath(path)
         try:
             change()
         except OSError as error:

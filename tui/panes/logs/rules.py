@@ -10,6 +10,7 @@ from bot_console.tui.console.model import LogRecord
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
+from bot_console.tui.files.store_file import read_store
 
 COLOURS = ("violet", "green", "blue", "lime", "orange", "red")
 HIDE, OFF = "hide", "off"
@@ -63,15 +64,11 @@ class RuleBook:
     def read(self) -> None:
         """Read the file; what cannot be used is named in `problems`. Never raises."""
         try:
-            with self.path.open("rb") as file:
-                content = file.read(LARGEST + 1)
+            content = read_store(self.path, LARGEST)
         except FileNotFoundError:
             return
         except OSError as error:
             self.problems = [f"{self.path}: {error.strerror or error}"]
-            return
-        if len(content) > LARGEST:
-            self.problems = [f"{self.path}: larger than {LARGEST} bytes; no file of rules is"]
             return
         found: list[Rule] = []
         for number, line in enumerate(content.decode("utf-8", "replace").splitlines(), 1):

@@ -1,0 +1,26 @@
+"""How the console reads a file that it keeps: without blocking or filling memory, whatever has taken its place."""
+
+from __future__ import annotations
+
+import errno
+import os
+import stat
+from pathlib import Path
+
+
+def read_store(path: Path, most: int, *, end: bool = False) -> bytes:
+    """The content of a file of at most so many bytes; with `end`, the last ones of a larger file.
+
+    Raises `OSError`; `FileNotFoundError` if there is none. A pipe in its place would never end, and is refused.
+    """
+    handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+    with os.fdopen(handle, "rb") as file:
+        status = os.fstat(handle)
+        if not (stat.S_ISREG(status.st_mode) or stat.S_ISCHR(status.st_mode)):  # some lead it to /dev/null
+            raise OSError(errno.EINVAL, "it is no regular file", str(path))
+        if end and status.st_size > most:
+            file.seek(-most, os.SEEK_END)
+        content = file.read(most + 1)
+    if len(content) > most:
+        raise OSError(errno.EFBIG, f"it is larger than {most:,} bytes", str(path))
+    return content
