@@ -17,6 +17,8 @@ ENDED = "ExternalShutdownException"
 """What a wait raises when SIGTERM has ended the context; named, as not every command imports rclpy."""
 NO_THREAD = "can't start new thread"
 """How Python puts that in a RuntimeError."""
+RAISING = ("strict", "surrogateescape")
+"""How streams treat characters that they cannot encode: by an error; the second one, of the C locale, for most of them."""
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG)
 
 
@@ -136,7 +138,7 @@ def _make_streams_usable() -> None:
         if stream is None:
             # As the interpreter's own, it does not take its descriptor along: in a fork that has become that of a node.
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), mode, closefd=False))
-        elif isinstance(stream, io.TextIOWrapper) and mode == "w" and stream.errors == "strict":
+        elif isinstance(stream, io.TextIOWrapper) and mode == "w" and stream.errors in RAISING:
             stream.reconfigure(errors="replace")
 
 

@@ -154,3 +154,17 @@ def test_files_of_the_working_folder_are_no_libraries_of_the_launch_host(
     launcher.close()
     host.end()
     assert answer.ok and states == [ProcessState.RUNNING], (answer.text, (tmp_path / "host.log").read_text())
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="a system that has names of any bytes")
+def test_a_node_below_a_path_that_is_not_utf_8_logs_as_any_other(tmp_path: Path) -> None:
+    folder = tmp_path / os.fsdecode(b"\xff")
+    folder.mkdir()
+    node = folder / os.fsdecode(b"n\xe9.py")
+    node.write_text(
+        "import rclpy\nrclpy.init()\nnode = rclpy.create_node('a')\n"
+        "node.get_logger().info(f'in {__file__}')\nnode.get_logger().info('done')\n"
+    )
+    done = command(["run", str(node)], tmp_path, stdout=subprocess.PIPE)
+    lines = done.stderr.splitlines()
+    assert done.returncode == 0 and len(lines) == 2 and lines[1].endswith("[a]: done"), done.stderr

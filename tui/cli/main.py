@@ -9,6 +9,7 @@ from typing import NoReturn
 
 from bot_console.tui import __version__
 from bot_console.tui.cli.system.domain import end_program, others_take_part
+from bot_console.tui.cli.undecodable import undecodable
 from bot_console.tui.cli.verbs import ros2
 
 Words = list[str]
@@ -66,6 +67,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         words = _in_workspace(words)
     except ValueError as error:
         print(f"bot-console: {error}", file=sys.stderr)
+        return 2
+    sent = not words or words[0] in ("launch", "run", *ros2.VERBS) or words[0] not in _COMMANDS
+    if sent and (problem := undecodable(words)):
+        print(f"bot-console: {problem}", file=sys.stderr)
         return 2
     if words and words[0] in ros2.VERBS:  # the quickest first
         return ros2.taking_part(words)
@@ -151,6 +156,9 @@ def _imported(place: str) -> Callable[[Words], int]:
 
 def ros2_command(words: Words) -> int:
     """`bot-console ros2 WORDS`: as `bot-console WORDS`, except where upstream has a command of that name."""
+    if problem := undecodable(words):
+        print(f"ros2: {problem}", file=sys.stderr)
+        return 2
     if words and words[0] in _ROS2:
         return _imported(_ROS2[words[0]])(words[1:])
     return ros2.taking_part(words) if words and words[0] in ros2.VERBS else ros2.main(words)

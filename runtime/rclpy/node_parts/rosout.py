@@ -33,8 +33,8 @@ class Rosout:
         stamp._sec, stamp._nanosec = divmod(stamp_ns, NANO)
         message._level = severity
         message._name = name
-        message._msg = text
-        message._file = file
+        message._msg = _encodable(text)
+        message._file = _encodable(file)  # a path can be of any bytes
         message._function = function
         message._line = line
         return self._endpoint.publish_own(message)
@@ -42,3 +42,7 @@ class Rosout:
     def close(self) -> None:
         """Stop publishing."""
         logging.unregister_rosout(self._name)
+
+
+def _encodable(text: str) -> str:
+    return text if text.isascii() else text.encode("utf-8", "replace").decode()

@@ -1,0 +1,20 @@
+"""Command lines with bytes that are not UTF-8: names and values of ROS are UTF-8, and only paths may be anything."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+from bot_console.tui.text.encodable import encodable
+
+WRITTEN = ("--output-dir", "--destination-directory", "--report", "--output", "-o")
+"""Options followed by a path that need not exist."""
+
+
+def undecodable(words: Sequence[str]) -> str:
+    """What is wrong with the first word that is neither UTF-8 nor a path; empty where there is none."""
+    for before, word in zip(["", *words], words, strict=False):
+        path = word.rpartition("=")[2]  # also of `params_file:=PATH`
+        if encodable(word) != word and not (os.path.lexists(path) or before in WRITTEN):
+            return f"{encodable(word)}: bytes that are not UTF-8 are no name or value of ROS, and no such file exists"
+    return ""
