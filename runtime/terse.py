@@ -18,7 +18,7 @@ ENDED = "ExternalShutdownException"
 NO_THREAD = "can't start new thread"
 """How Python puts that in a RuntimeError."""
 RAISING = ("strict", "surrogateescape")
-"""How streams treat characters that they cannot encode: by an error; the second one, of the C locale, for most of them."""
+"""Ways of a stream to treat characters that it cannot encode that raise; the second is that of the C locale."""
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG)
 
 

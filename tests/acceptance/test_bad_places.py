@@ -168,3 +168,13 @@ def test_a_node_below_a_path_that_is_not_utf_8_logs_as_any_other(tmp_path: Path)
     done = command(["run", str(node)], tmp_path, stdout=subprocess.PIPE)
     lines = done.stderr.splitlines()
     assert done.returncode == 0 and len(lines) == 2 and lines[1].endswith("[a]: done"), done.stderr
+
+
+def test_a_character_that_the_c_locale_does_not_have_is_replaced(tmp_path: Path) -> None:
+    program = "from bot_console.runtime.terse import told; told(lambda: print(chr(0xfffd), 'held') or 0)"
+    locale = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), **locale}
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=tmp_path, env=environment, capture_output=True, check=False
+    )
+    assert (done.returncode, done.stdout) == (0, b"? held\n"), done.stderr
