@@ -16,7 +16,7 @@ from pathlib import Path
 
 from bot_console.runtime.child_range import children_meet
 from bot_console.runtime.commands import BIN, COMMAND_VARIABLE, command
-from bot_console.runtime.importer import embedded_names
+from bot_console.runtime.importer import embedded_names, is_installed
 from bot_console.runtime.process.scratch import scratch
 from bot_console.runtime.workspace.program import source_folders
 
@@ -97,5 +97,8 @@ _environment = ChildEnvironment()
 
 
 def child_environment(env: Mapping[str, str]) -> dict[str, str]:
-    """The environment of a process that a launch starts, made from the one that the launch file describes."""
-    return _environment.added_to(env) if os.name == "posix" else dict(env)
+    """The environment of a process that a launch starts, made from the one that the launch file describes.
+
+    Nothing is added for a launch on the rclpy of the machine, whose processes find all that they need there.
+    """
+    return _environment.added_to(env) if os.name == "posix" and is_installed() else dict(env)

@@ -157,7 +157,7 @@ _interfaces = InterfaceFinder()
 
 def install() -> None:
     """Make the ROS names mean the embedded runtime; a second call does nothing."""
-    if _finder in sys.meta_path:
+    if is_installed():
         return
     os.environ.setdefault("ROS_DISTRO", "jazzy")  # as in a shell that has sourced ROS 2
     sys.meta_path.insert(0, _finder)
@@ -166,6 +166,11 @@ def install() -> None:
     sys.meta_path.insert(place, _interfaces)
     add_source(interface_folders)
     explain_with(explain_missing_package)
+
+
+def is_installed() -> bool:
+    """Whether the ROS names mean the embedded runtime in this process."""
+    return _finder in sys.meta_path
 
 
 def uninstall() -> None:

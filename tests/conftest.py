@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.importer import install
+from bot_console.tui.cli.attach.console_needs import lend_missing
 from hypothesis import settings
 from hypothesis.internal.conjecture import providers
 
@@ -21,7 +22,9 @@ TESTS = Path(__file__).absolute().parent
 ON_ROS = os.environ.get("BOT_CONSOLE_TESTS_ON") == "ros"
 """Whether the ROS names are to mean what the machine has: for `-m ros`."""
 
-if not ON_ROS:
+if ON_ROS:
+    lend_missing()
+else:
     install()
     for variable in ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE"):
         os.environ.pop(variable, None)

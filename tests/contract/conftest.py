@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import pytest
 from bot_console.tui.console.connection import linked_console
-from rigs import FakeRig, Rig, RosRig, machine_rig, mesh_rig, network_rig
+from rigs import FakeRig, Rig, RosRig, is_embedded_rclpy, machine_rig, mesh_rig, network_rig
 
 WAYS = [
     pytest.param(FakeRig, id="fake"),
@@ -19,6 +19,29 @@ WAYS = [
 """A network is tried often in `tests/unit/rmw/zenoh` and `acceptance/console/test_network_faults.py`.
 
 The last one is for machines with a ROS 2: `BOT_CONSOLE_TESTS_ON=ros pytest -m ros tests/contract`."""
+
+OURS = {
+    "test_other_implementation.py": "the Zenoh sessions of our middleware, beside another implementation of its format",
+    "test_reopened.py": "the Zenoh sessions of our middleware, opened anew",
+    "test_seals.py": "the seals that our middleware adds to messages",
+    "test_two_processes.py": "two processes that meet over our middleware",
+}
+"""Files that test what only our runtime has, with the reason why they are skipped on another rclpy."""
+
+
+class OfOurs(pytest.Module):
+    """A file whose imports another rclpy need not have."""
+
+    def collect(self) -> Iterable[pytest.Item | pytest.Collector]:
+        """Skip the file with one line."""
+        pytest.skip(f"{OURS[self.path.name]}: nothing that another rclpy has")
+
+
+def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> pytest.Module | None:
+    """Skip the files of `OURS` where the ROS names mean another rclpy."""
+    if is_embedded_rclpy() or module_path.name not in OURS:
+        return None
+    return OfOurs.from_parent(parent, path=module_path)
 
 
 @pytest.fixture(params=WAYS)

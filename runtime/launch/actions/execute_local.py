@@ -8,6 +8,7 @@ import traceback
 from typing import TYPE_CHECKING, Any
 
 import launch.logging
+from bot_console.runtime.importer import is_installed
 from launch.action import Action
 from launch.child import Child, PythonProgram, start_child
 from launch.conditions import evaluate_condition_expression
@@ -349,9 +350,12 @@ class ExecuteLocal(Action):
             kind = ProcessStdout if fd == 1 else ProcessStderr
             context.emit_event_sync(kind(text=data, action=self, **details))
 
-        program = self.python_program(command)
+        program = None
+        if is_installed():  # else this package serves another rclpy, with which programs are ordinary processes
+            program = self.python_program(command)
+            command = self.words_for(program, command)
         child = await start_child(
-            self.words_for(program, command),
+            command,
             program=program,
             own_process=program is not None and has_own_process(context, program),
             name=details["name"],

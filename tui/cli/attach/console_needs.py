@@ -12,29 +12,29 @@ from types import ModuleType
 from bot_console.tui.cli.attach.machine_ros import RUNTIME
 
 MESSAGES = ("diagnostic_msgs", "geometry_msgs", "nav_msgs", "rcl_interfaces", "sensor_msgs")
-LENT = "rosidl_runtime_py"
-"""Comes with `ros2` and not with `rclpy`; ours is plain Python over the machine's `rosidl_parser`."""
+LENT = ("rosidl_runtime_py", "launch", "launch_ros", "launch_xml", "launch_yaml")
+"""Plain Python over the machine's `rclpy` and `rosidl_parser`, which PyPI has no package of."""
 
 
-class LentPackage:
-    """A finder for the end of `sys.meta_path`: our copy of one package, where the machine has none."""
+class LentPackages:
+    """A finder for the end of `sys.meta_path`: our copies of packages that the machine does not have."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """The spec of that package; None for every other name."""
-        if fullname != LENT:
+        """The spec of a package that is lent; None for every other name."""
+        if fullname not in LENT:
             return None
-        folder = RUNTIME / LENT
+        folder = RUNTIME / fullname
         return importlib.util.spec_from_file_location(
-            LENT, folder / "__init__.py", submodule_search_locations=[str(folder)]
+            fullname, folder / "__init__.py", submodule_search_locations=[str(folder)]
         )
 
 
 def lend_missing() -> None:
-    """Make `rosidl_runtime_py` importable on a machine without the `ros2` packages; the machine's own goes first."""
-    if not any(isinstance(each, LentPackage) for each in sys.meta_path):
-        sys.meta_path.append(LentPackage())
+    """Make the packages of `LENT` importable where they are not installed; the machine's own go first."""
+    if not any(isinstance(each, LentPackages) for each in sys.meta_path):
+        sys.meta_path.append(LentPackages())
 
 
 def missing_messages(path: Iterable[str] | None = None) -> str:

@@ -13,14 +13,16 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
-from bot_console.tui.cli.attach.launch_files import launch_files
+from bot_console.tui.cli.attach.console_needs import lend_missing
 from bot_console.tui.cli.live.launch_lines import launch_variables
-from bot_console.tui.cli.live.system_vitals import SystemVitals
-from bot_console.tui.console.launch.launcher import RosLauncher
-from bot_console.tui.console.launch.process_output import Add
-from bot_console.tui.console.launch_host.host import LaunchHost, Printed
 from bot_console.tui.own_program import own_program
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.launch.launcher import RosLauncher
+    from bot_console.tui.console.launch.process_output import Add
+    from bot_console.tui.console.launch_host.host import Printed
 
 SWITCH = "bot_console.tui.cli.attach.launch_host"
 
@@ -86,6 +88,12 @@ def main(words: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser("launch_host")
     parser.add_argument("--owner", type=int, required=True, metavar="DESCRIPTOR", help="the socket of the console")
     given = parser.parse_args(words)
+    lend_missing()
+    from bot_console.tui.cli.attach.launch_files import launch_files
+    from bot_console.tui.cli.live.system_vitals import SystemVitals
+    from bot_console.tui.console.launch.launcher import RosLauncher
+    from bot_console.tui.console.launch_host.host import LaunchHost
+
     main_thread = MainThread()
 
     def make(record: Add, printed: Printed) -> RosLauncher:

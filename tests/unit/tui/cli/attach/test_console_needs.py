@@ -4,21 +4,22 @@ import sys
 from pathlib import Path
 
 import pytest
-from bot_console.tui.cli.attach.console_needs import LENT, MESSAGES, LentPackage, lend_missing, missing_messages
+from bot_console.tui.cli.attach.console_needs import LENT, MESSAGES, LentPackages, lend_missing, missing_messages
 
 
-def test_the_conversions_of_messages_are_lent_behind_the_machine_s_own_and_nothing_else_is(
+def test_plain_python_packages_are_lent_behind_the_machines_own_and_nothing_else_is(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(sys, "meta_path", [*sys.meta_path])
     lend_missing()
     lend_missing()
     finder = sys.meta_path[-1]
-    assert isinstance(finder, LentPackage) and not isinstance(sys.meta_path[-2], LentPackage)
-    spec = finder.find_spec(LENT, None)
-    assert spec is not None and spec.origin is not None and Path(spec.origin).is_file()
-    assert spec.submodule_search_locations == [str(Path(spec.origin).parent)]
-    assert [finder.find_spec(each, None) for each in ("rclpy", "std_msgs", LENT + ".utilities")] == [None] * 3
+    assert isinstance(finder, LentPackages) and not isinstance(sys.meta_path[-2], LentPackages)
+    for name in LENT:
+        spec = finder.find_spec(name, None)
+        assert spec is not None and spec.origin is not None and Path(spec.origin).is_file()
+        assert spec.submodule_search_locations == [str(Path(spec.origin).parent)]
+    assert [finder.find_spec(each, None) for each in ("rclpy", "std_msgs", "launch.actions")] == [None] * 3
 
 
 def test_message_packages_that_are_not_there_are_named_with_what_installs_them(
