@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import signal
@@ -67,14 +68,19 @@ def test_a_robot_in_the_background(state: Path) -> None:
     assert re.search(r"\[simulator\]: Emergency stop: locked by .*: its system is being ended", text)
     assert "simulator_node-1]: process has finished cleanly" in text
     assert "Traceback" not in text
+    kept = json.loads((state / "state" / "stops" / "domain-0.json").read_text())["robots"]["/"]
+    assert not kept["stops"] and "bot-console release of" in kept["released"][0][1]
 
 
 def test_one_that_is_frozen_or_was_killed_is_ended_and_leaves_nothing(state: Path) -> None:
     started = typed("up")
     pid = int(re.search(r"process (\d+)", started.stdout)[1])  # pyright: ignore[reportOptionalSubscript] -- told
+    assert typed("stop", "the arm swings").returncode == 0
     os.kill(pid, signal.SIGKILL)
     until(lambda: typed("status").returncode, "its end")
     started = typed("up")
+    assert re.search("^held by .*: the arm swings; bot-console release", started.stdout, re.M), "nobody released it"
+    assert typed("release").returncode == 0
     assert [Path(each).stem for each in doors(domain_folder(0))] == re.findall(r"process (\d+)", started.stdout)
     pid = int(re.search(r"process (\d+)", started.stdout)[1])  # pyright: ignore[reportOptionalSubscript] -- told
     os.kill(pid, signal.SIGSTOP)

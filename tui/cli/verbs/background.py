@@ -230,7 +230,7 @@ def _bring_to_rest() -> None:
     """Hold the robot until its system has ended; one without an emergency stop ends with its nodes."""
     from bot_console.tui.cli.verbs import stop
 
-    stop.ask("stop", "its system is being ended", answers_s=stop.PATIENCE)
+    stop.ask("stop", "its system is being ended", kept=False, answers_s=stop.PATIENCE)
 
 
 def status(words: Sequence[str]) -> int:

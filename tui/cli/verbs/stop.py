@@ -57,8 +57,12 @@ def run(verb: str, words: list[str]) -> int:
     return _tell(verb, done, info)
 
 
-def ask(verb: str, reason: str, *, everybody: bool = False, answers_s: float = ANSWERS_S) -> tuple[bool, StopInfo]:
+def ask(
+    verb: str, reason: str, *, everybody: bool = False, kept: bool = True, answers_s: float = ANSWERS_S
+) -> tuple[bool, StopInfo]:
     """Ask every robot that is found to lock or release; with `everybody`, a release covers the stops of others too.
+
+    A stop that is not `kept` ends with the robot's nodes.
 
     Returns whether all of them did, and what is known of them. A robot that was found is given `answers_s` from the
     start to answer.
@@ -71,7 +75,7 @@ def ask(verb: str, reason: str, *, everybody: bool = False, answers_s: float = A
     with ReachedStop("_bot_console_stop", who, key) as reached:
         link = reached.link
         if verb == "stop":
-            link.stop(reason)
+            link.stop(reason, kept=kept)
         looks, until, done = 0, time.monotonic() + answers_s, False
         while not done and (looks < LOOKS or (link.info.locks and time.monotonic() < until)):
             looks += 1
