@@ -100,7 +100,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
     ),
     "graph": (
         Key("graph.detail", "enter", "detail", "All about this node or topic", footer=True, short="Details"),
-        Key("graph.mode", "m", "mode", "Topics in use, all topics, or nodes only", footer=True, short="Mode"),
+        Key("graph.mode", "m", "mode", "Flow, nodes only, nodes and topics, or a list", footer=True, short="Mode"),
         Key("graph.frames", "t", "frames", "The frames of tf2 as a tree, or back", footer=True, short="Frames"),
         Key(
             "graph.debug",

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
-from typing import ClassVar
+from collections.abc import Callable, Sequence
+from typing import ClassVar, TypeAlias
 
 from bot_console.tui import keymap
 from bot_console.tui.terminal.styling.style_sheet import StyledByPart
+from bot_console.tui.widgets.diagram.chart import Chart
+from bot_console.tui.widgets.diagram.chart_drawing import draw_chart
 from bot_console.tui.widgets.diagram.drawing import Drawing, Place, Run, draw
 from bot_console.tui.widgets.diagram.flow import DOWN, RIGHT, Flow
 from bot_console.tui.widgets.diagram.graph import Digraph
+from bot_console.tui.widgets.diagram.listing import Listing, draw_listing
 from bot_console.tui.widgets.diagram.overview_map import Window, map_lines, map_size, seen
 from rich.cells import cell_len
 from rich.segment import Segment
@@ -24,6 +27,10 @@ from textual.strip import Strip
 
 LARGE = 60
 """Items from which on a graph is laid out beside the event loop."""
+
+Content: TypeAlias = Digraph | Chart | Listing
+Manner: TypeAlias = Flow | Size
+"""How something is laid out: a graph in a direction, everything else for a window of a size."""
 
 MARGIN = 2
 """Cells kept free around the selected item when the picture is scrolled to it."""
@@ -87,20 +94,21 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         self.drawing = Drawing()
         self.places: dict[str, Place] = {}
         self._links: frozenset[tuple[str, str]] = frozenset()
-        self._graph = Digraph()
+        self._content: Content = Digraph()
         self._warned: frozenset[str] = frozenset()
         self._faults: frozenset[tuple[str, str]] = frozenset()
         self._faded: frozenset[str] = frozenset()
         self._map: tuple[object, list[str]] | None = None
-        self._drawings: dict[Flow, Drawing] = {}
+        self._drawings: dict[Manner, Drawing] = {}
         self._flow: Flow | None = None
         self._selecting = False
         self._downward = False
         self._room = Size()
+        self._footer: Sequence[str] = ()
 
     def show(
         self,
-        graph: Digraph,
+        content: Content,
         warned: frozenset[str] = frozenset(),
         faults: frozenset[tuple[str, str]] = frozenset(),
         faded: frozenset[str] = frozenset(),
@@ -110,36 +118,60 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         Selection and scroll position are kept if possible.
         """
         self._warned, self._faults, self._faded = warned, faults, faded
-        if graph != self._graph:
-            self._graph = graph
+        if content != self._content:
+            self._content = content
             self._drawings.clear()
-            if len(graph.items) > LARGE:
-                self.run_worker(self._draw_beside(graph), exclusive=True, group="draw")
-        if len(graph.items) <= LARGE or self._drawings:
-            self._choose()
+        self._lay_out()
         self.refresh()
 
-    async def _draw_beside(self, graph: Digraph) -> None:
-        """Lay out a large graph in a thread, in one direction only, while the previous drawing stays."""
-        flow = self._flow or RIGHT
-        drawing = await asyncio.to_thread(draw, graph, flow)
-        if graph is self._graph:
-            self._drawings[flow] = drawing
-            self._choose()
+    @property
+    def _is_large(self) -> bool:
+        content = self._content
+        if isinstance(content, Chart):
+            return len(content.boxes) + len(content.links) > LARGE
+        return isinstance(content, Digraph) and len(content.items) > LARGE
 
-    def _choose(self) -> None:
-        """Draw in the requested direction, else in the one of which more is visible at once."""
-        if len(self._graph.items) > LARGE:
-            flows = tuple(self._drawings)
-        else:
-            flows = (self._flow,) if self._flow else (RIGHT, DOWN)
-        for each in flows:
-            if each not in self._drawings:
-                self._drawings[each] = draw(self._graph, each)
-        flow = min(flows, key=self._excess) if flows else RIGHT
-        drawing = self._drawings.get(flow, self.drawing)
+    def _manners(self) -> tuple[Manner, ...]:
+        """The ways in which the content may be drawn here."""
+        if not isinstance(self._content, Digraph):
+            return (self._window,)
+        if self._is_large:
+            return (self._flow or RIGHT,)
+        return (self._flow,) if self._flow else (RIGHT, DOWN)
+
+    @property
+    def _window(self) -> Size:
+        """The room for a picture without scroll bars.
+
+        A hidden widget has no size, and shown again at its old one it is not resized: what fits is what fitted there.
+        """
+        return self.outer_size or self.size
+
+    def _lay_out(self) -> None:
+        """Draw what is not drawn yet, and choose; a large picture beside the event loop."""
+        manners = self._manners()
+        missing = [each for each in manners if each not in self._drawings]
+        if missing and self._is_large:
+            self.run_worker(self._draw_beside(self._content, manners[0]), exclusive=True, group="draw")
+            return
+        for each in missing:
+            self._drawings[each] = _drawn(self._content, each)
+        self._choose(manners)
+
+    async def _draw_beside(self, content: Content, manner: Manner) -> None:
+        """Lay out a large picture in a thread, in one manner only, while the previous drawing stays."""
+        drawing = await asyncio.to_thread(_drawn, content, manner)
+        if content is self._content:
+            self._drawings[manner] = drawing
+            if manner in self._manners():
+                self._choose((manner,))
+
+    def _choose(self, manners: Sequence[Manner]) -> None:
+        """Show the drawing of which more is visible at once."""
+        manner = min(manners, key=self._excess)
+        drawing = self._drawings[manner]
         if drawing is not self.drawing:
-            self._downward = flow.downward
+            self._downward = isinstance(manner, Flow) and manner.downward
             self.drawing = drawing
             self.places = dict(drawing.places or {})
             self._links = frozenset(drawing.edges)
@@ -151,13 +183,23 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
     @property
     def excess(self) -> float:
         """The ratio of the picture's size to its visible part; 1 if all of it is visible."""
-        return min((self._excess(each) for each in self._drawings), default=1.0)
+        return min((self._excess(each) for each in self._manners() if each in self._drawings), default=1.0)
 
-    def _excess(self, flow: Flow) -> float:
-        # A hidden widget has no size, and shown again at its old one it is not resized: what fits is what fitted there.
+    def _excess(self, manner: Manner) -> float:
         room = self.size or self.outer_size
-        drawing = self._drawings[flow]
+        drawing = self._drawings[manner]
         return max(1.0, drawing.width / max(1, room.width)) * max(1.0, len(drawing.rows) / max(1, room.height))
+
+    @property
+    def free_rows(self) -> int:
+        """The rows below the drawing."""
+        return max(0, self.size.height - len(self.drawing.rows))
+
+    def set_footer(self, lines: Sequence[str]) -> None:
+        """Write lines into the last of the free rows, below a rule; the first line is a heading."""
+        if list(lines) != list(self._footer):
+            self._footer = tuple(lines)
+            self.refresh()
 
     def choose(self, item: str) -> None:
         """Select a drawn item; it remains selected as long as it is drawn."""
@@ -169,11 +211,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         """Switch between arrows to the right, down, and as it fits."""
         order: tuple[Flow | None, ...] = (None, RIGHT, DOWN)
         self._flow = order[(order.index(self._flow) + 1) % 3]
-        if len(self._graph.items) > LARGE:
-            self._drawings.clear()
-            self.run_worker(self._draw_beside(self._graph), exclusive=True, group="draw")
-            return
-        self._choose()
+        self._lay_out()
         self.show_selected()
 
     def _first(self) -> str:
@@ -188,6 +226,12 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         row = y + self.scroll_offset.y
         width = self.size.width
         base = self.own_style
+        at = y - (self.size.height - len(self._footer))
+        if self._footer and at >= -1 and row >= len(self.drawing.rows):
+            text, name = ("─" * width, "line") if at < 0 else (f" {self._footer[at]}", "" if at else "box")
+            return Strip(
+                [Segment(text, base + self.part_style(f"diagram--{name}") if name else base)]
+            ).adjust_cell_length(width, base)
         runs = self.drawing.rows[row] if row < len(self.drawing.rows) else ()
         segments: list[Segment] = []
         at = 0
@@ -312,11 +356,18 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
 
     def on_resize(self) -> None:
         """Choose the direction again, and keep the selected item in view."""
-        self._choose()
+        self._lay_out()
         self.show_selected()
         if self.outer_size != self._room:  # without the scroll bars, which come and go with what is drawn
             self._room = self.outer_size
             self.post_message(self.Resized())
+
+
+def _drawn(content: Content, manner: Manner) -> Drawing:
+    if isinstance(content, Digraph):
+        return draw(content, manner if isinstance(manner, Flow) else RIGHT)
+    width, height = (manner.width, manner.height) if isinstance(manner, Size) else (0, 0)
+    return draw_chart(content, width - 1, height) if isinstance(content, Chart) else draw_listing(content, width - 1)
 
 
 def _apart(begin: int, length: int, other: int, other_length: int) -> int:

@@ -21,6 +21,12 @@ def items(session: Session) -> set[str]:
     return set(picture(session).places)
 
 
+async def draw_topics(session: Session) -> None:
+    """Open the graph in the mode in which topics are items of their own, all of them."""
+    await session.press("3", *"mmm")
+    assert session.pane(GraphPane).border_subtitle.startswith("Nodes/Topics (all)")
+
+
 def colours(view: DiagramView, item: str) -> set[object]:
     """The colours in the line on which an item stands."""
     line = view.render_line(view.places[item].y + 1 - view.scroll_offset.y)
@@ -29,7 +35,8 @@ def colours(view: DiagramView, item: str) -> set[object]:
 
 def test_arrow_keys_follow_the_arrows_and_enter_tells_all() -> None:
     async def play(session: Session) -> None:
-        await session.press("3", "o")
+        await draw_topics(session)
+        await session.press("o")
         view = picture(session)
         assert view.selected == "/simulator"
         await session.press("right")
@@ -61,7 +68,7 @@ def test_the_selected_item_is_always_in_view() -> None:
 def test_a_filter_keeps_what_matches_and_its_neighbours() -> None:
     async def play(session: Session) -> None:
         everything = items_before = None
-        await session.press("3")
+        await draw_topics(session)
         everything = items_before = items(session)
         await session.press("slash")
         await session.type("sensor !cmd_vel")
@@ -76,13 +83,13 @@ def test_a_filter_keeps_what_matches_and_its_neighbours() -> None:
 
 def test_debug_topics_are_hidden_until_asked_for_and_dead_ends_can_go() -> None:
     async def play(session: Session) -> None:
-        await session.press("3")
+        await draw_topics(session)
         assert "topic:/rosout" not in items(session)
         await session.press("D")
         assert "topic:/rosout" in items(session)
         await session.press("D", "d")
         assert "topic:/telemetry/speed" not in items(session)
-        await session.press("d", "m")
+        await session.press("d", *"mmm")
         assert not any(each.startswith("topic:") for each in items(session))
 
     run(live(), play)
@@ -90,7 +97,7 @@ def test_debug_topics_are_hidden_until_asked_for_and_dead_ends_can_go() -> None:
 
 def test_a_topic_that_nobody_publishes_is_named_as_suspicious() -> None:
     async def play(session: Session) -> None:
-        await session.press("3")
+        await draw_topics(session)
         picture(session).selected = "topic:/cmd_vel_teleop"
         await session.settle()
         assert "nobody publishes it" in session.text()
@@ -191,7 +198,7 @@ def test_a_large_graph_is_laid_out_beside_the_event_loop() -> None:
 
     async def play(session: Session) -> None:
         session.console.change(graph=GraphInfo(nodes))
-        await session.press("3")
+        await session.press("3", *"mmm")
         await session.app.workers.wait_for_complete()
         await session.settle()
         assert len(items(session)) == 201
@@ -223,11 +230,14 @@ def test_qos_that_does_not_match_is_drawn_as_a_fault_and_said_in_words() -> None
         session.console.change(graph=fleet(1))
         await session.press("3")
         assert "✗ " in session.text()
-        assert picture(session)._faults == {("topic:/robot_0/scan", "/robot_0/nav")}
+        line = "line:/robot_0/lidar>/robot_0/nav"
+        assert picture(session)._faults == {("/robot_0/lidar", line), (line, "/robot_0/nav")}
         await session.press("w")
         assert "/robot_0/scan best effort to reliable: nothing arrives from /robot_0/lidar" in session.text()
         await session.press("enter")
-        assert picture(session).selected == "topic:/robot_0/scan"
+        assert picture(session).selected == line
+        await draw_topics(session)
+        assert picture(session)._faults == {("topic:/robot_0/scan", "/robot_0/nav")}
 
     run(live(), play, (120, 40))
 
@@ -239,7 +249,7 @@ def test_namespaces_fold_into_boxes_and_unfold() -> None:
         assert "/robot_0/lidar" in items(session)
         await session.press("F")
         assert items(session) == {"namespace:/robot_0", "namespace:/robot_1"}
-        assert "▸ /robot_0  3 nodes" in session.text()
+        assert "▸ robot_0  3 nodes" in session.text()
         picture(session).choose("namespace:/robot_1")
         await session.press("enter")
         assert "/robot_1/lidar" in items(session) and "/robot_0/lidar" not in items(session)
@@ -281,26 +291,6 @@ def test_of_a_large_namespace_the_namespaces_in_it_are_drawn_first() -> None:
     run(live(), play, (120, 40))
 
 
-def test_topics_that_alone_make_it_too_large_are_left_out_until_they_are_asked_for() -> None:
-    nodes = tuple(
-        NodeInfo(f"/s{at % 5}/n{at}", (Endpoint(f"/t{at}", ("a/msg/B",)),), (Endpoint(f"/t{at - 1}", ("a/msg/B",)),))
-        for at in range(200)
-    )
-
-    async def play(session: Session) -> None:
-        session.console.change(graph=GraphInfo(nodes))
-        await session.press("3")
-        boxes = {f"namespace:/s{number}" for number in range(5)}
-        assert items(session) == boxes
-        assert "nodes only" in session.text()
-        await session.press("m")
-        await session.app.workers.wait_for_complete()
-        await session.settle()
-        assert items(session) > boxes and "nodes only" not in session.text()
-
-    run(live(), play, (120, 40))
-
-
 def test_the_focus_goes_back_and_forth() -> None:
     async def play(session: Session) -> None:
         await session.press("3")
@@ -328,7 +318,7 @@ def test_services_and_actions_are_drawn_on_request() -> None:
 
     async def play(session: Session) -> None:
         session.console.change(graph=GraphInfo(nodes))
-        await session.press("3")
+        await draw_topics(session)
         assert items(session) == {"/server", "/client"}
         await session.press("s")
         assert items(session) == {"/server", "/client", "service:/reset", "action:/go"}
@@ -338,21 +328,39 @@ def test_services_and_actions_are_drawn_on_request() -> None:
     run(live(), play, (120, 40))
 
 
-def test_rates_stand_on_the_topics_while_they_are_wanted_and_seen() -> None:
+def test_rates_stand_on_the_lines_where_there_is_room_while_the_pane_is_seen() -> None:
+    async def play(session: Session) -> None:
+        pane = session.pane(GraphPane)
+        pane.clock = Clock()
+        await session.press("3")
+        pane.tick()
+        await session.settle()
+        assert "/odom" in session.console.traffic.measuring
+        assert "/telemetry/speed" not in session.console.traffic.measuring, "it is on no line"
+        assert "odom 50 Hz" in session.text()
+        await session.press("1")
+        pane.tick()
+        assert session.console.traffic.measuring == (), "nothing is measured for a pane that nobody sees"
+        await session.press("3", "r")
+        assert "50 Hz" not in session.text() and session.console.traffic.measuring == ()
+
+    run(live(), play, (120, 40))
+
+
+def test_rates_are_measured_on_request_where_there_is_no_room_for_them() -> None:
     async def play(session: Session) -> None:
         pane = session.pane(GraphPane)
         pane.clock = Clock()
         await session.press("3")
         assert session.console.traffic.measuring == (), "nothing is measured unasked"
         await session.press("r")
-        assert "/odom 50 Hz" in session.text()
-        await session.press("1")
-        pane.tick()
-        assert session.console.traffic.measuring == ()
-        await session.press("3", "r")
-        assert "50 Hz" not in session.text()
+        assert "odom 50 Hz" in session.text()
+        await session.press("r", *"mmm")
+        pane.clock.now += 10
+        await session.press("r")
+        assert "/odom 50 Hz" in picture(session).drawing.text()
 
-    run(live(), play, (170, 60))
+    run(live(), play)
 
 
 def test_details_are_something_to_go_to() -> None:
@@ -367,6 +375,10 @@ def test_details_are_something_to_go_to() -> None:
         await session.press("3", "enter")
         await session.type("odom")
         await session.press("enter")
+        line = "line:/simulator>/motion_controller"
+        assert picture(session).selected == line and "/odom" in session.text(), "the line on which the topic stands"
+        await draw_topics(session)
+        session.pane(GraphPane).go_to("/odom")
         assert picture(session).selected == "topic:/odom"
 
     run(live(), play, (120, 40))

@@ -61,10 +61,10 @@ def test_the_graph_is_drawn_as_it_was_left() -> None:
         await session.press("3", "m", "D")
         pane.on_unmount()
         kept = session.app.state_store.get("graph")
-        session.app.state_store.put("graph", {"mode": "NODES"})
+        session.app.state_store.put("graph", {"mode": "LIST"})
         pane.on_mount()
         await session.press("1", "3", "o")
-        assert kept == {**kept, "mode": "ALL", "debug": True} and pane._mode is Mode.NODES
+        assert kept == {**kept, "mode": "NODES", "debug": True} and pane._view.mode is Mode.LIST
 
     run(live(), play)
 

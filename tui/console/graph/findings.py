@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from bot_console.tui.console.graph.qos import mismatches
+from bot_console.tui.console.graph.qos import mismatched
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 
 SHARED = ("/rosout", "/parameter_events", "/tf", "/tf_static", "/diagnostics", "/clock", "/statistics")
@@ -45,6 +45,7 @@ def mend(pid: int) -> str:
 def _topics(info: GraphInfo) -> Iterator[Finding]:
     publishers = _ends(info.nodes, "publishers")
     subscribers = _ends(info.nodes, "subscriptions")
+    broken = mismatched(info)
     for topic in sorted(publishers.keys() | subscribers.keys()):
         if "/_" in topic:
             continue
@@ -52,7 +53,7 @@ def _topics(info: GraphInfo) -> Iterator[Finding]:
         types = {each for end in (*gives.values(), *takes.values()) for each in end.types}
         if len(types) > 1:
             yield Finding(topic, f"{topic} has different types, which do not hear each other: {_list(types)}", True)
-        for publisher, subscriber, why in mismatches(info, topic):
+        for publisher, subscriber, why in broken.get(topic, ()):
             yield Finding(topic, f"{topic} {why}: nothing arrives from {publisher} at {subscriber}", True)
         if topic in SHARED:
             continue

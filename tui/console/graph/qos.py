@@ -14,9 +14,18 @@ def mismatch(offered: str, requested: str) -> str:
     return ""
 
 
-def mismatches(info: GraphInfo, topic: str) -> list[tuple[str, str, str]]:
-    """Publisher, subscription and reason for each pair on a topic between which no messages pass."""
-    publishers = [(node.name, each.qos) for node in info.nodes for each in node.publishers if each.name == topic]
-    subscribers = [(node.name, each.qos) for node in info.nodes for each in node.subscriptions if each.name == topic]
-    pairs = ((a, b, mismatch(offered, wanted)) for a, offered in publishers for b, wanted in subscribers)
-    return [each for each in pairs if each[2]]
+def mismatched(info: GraphInfo) -> dict[str, list[tuple[str, str, str]]]:
+    """Publisher, subscription and reason for each pair between which no messages pass, by topic."""
+    offers: dict[str, list[tuple[str, str]]] = {}
+    wants: dict[str, list[tuple[str, str]]] = {}
+    for node in info.nodes:
+        for ends, found in ((node.publishers, offers), (node.subscriptions, wants)):
+            for each in ends:
+                found.setdefault(each.name, []).append((node.name, each.qos))
+    result: dict[str, list[tuple[str, str, str]]] = {}
+    for topic, publishers in offers.items():
+        pairs = ((a, b, mismatch(offered, wanted)) for a, offered in publishers for b, wanted in wants.get(topic, ()))
+        wrong = [each for each in pairs if each[2]]
+        if wrong:
+            result[topic] = wrong
+    return result

@@ -7,11 +7,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from bot_console.tui.console.graph.findings import Finding, findings
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo
 from bot_console.tui.format import value_text
-from bot_console.tui.panes.graph.view import ACTION, SERVICE, TOPIC, ends_of, node_of, types_of
+from bot_console.tui.panes.graph.about import ends_of, node_of, server_types, types_of
+from bot_console.tui.panes.graph.items import ACTION, SERVICE, TOPIC
 from bot_console.tui.widgets.prompt.question import Option
 
-ITEM, PANE, TYPE = "item ", "pane ", "type "
-"""How the values of options begin: an item of the graph, a pane with a name in it, an interface type."""
+ITEM, DETAIL, PANE, TYPE = "item ", "detail ", "pane ", "type "
+"""How the values of options begin: an item to select, one whose details to list, a pane with a name in it, a type."""
 NODE_ENDS = (
     ("publishes", TOPIC, "publishers"),
     ("subscribes to", TOPIC, "subscriptions"),
@@ -71,6 +72,20 @@ def _topic(info: GraphInfo, name: str) -> Iterator[Option]:
         if not nodes:
             yield Option(f"{word} nobody")
     yield Option("rate, messages, publishing", "in the topics pane", f"{PANE}topics {name}")
+
+
+def line_options(info: GraphInfo, links: Iterable[str]) -> list[Option]:
+    """Everything that a line stands for, with types and ends."""
+    found: list[Option] = []
+    for link in links:
+        kind, _, name = link.partition(":")
+        if link.startswith(TOPIC):
+            publishers, subscribers = ends_of(info, name)
+            about = f"{', '.join(types_of(info, name))}  {' '.join(publishers)} → {' '.join(subscribers)}"
+        else:
+            about = " ".join(server_types(info, link))
+        found.append(Option(f"{kind} {name}", about, f"{DETAIL}{link}"))
+    return found
 
 
 def _service(info: GraphInfo, item: str) -> Iterator[Option]:

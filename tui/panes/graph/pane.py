@@ -3,56 +3,52 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from itertools import product
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
-from bot_console.tui.console.query import parse
+from bot_console.tui.console.query import Query, parse
 from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.files.save_file import save_file
-from bot_console.tui.format import counted
-from bot_console.tui.panes.graph.details import ITEM, PANE, TYPE, details, finding_options, narrowed
+from bot_console.tui.panes.graph.about import ends_of, node_of
+from bot_console.tui.panes.graph.details import (
+    DETAIL,
+    ITEM,
+    PANE,
+    TYPE,
+    details,
+    finding_options,
+    line_options,
+    narrowed,
+)
 from bot_console.tui.panes.graph.export import exported
 from bot_console.tui.panes.graph.focus_history import FocusHistory
 from bot_console.tui.panes.graph.frames import FramesView
+from bot_console.tui.panes.graph.items import ACTION, SERVICE, TOPIC, is_link
 from bot_console.tui.panes.graph.namespaces import SPACE, namespace_of, outermost, unfolded
-from bot_console.tui.panes.graph.view import (
-    ACTION,
-    SERVICE,
-    TOPIC,
-    GraphView,
-    Mode,
-    Shown,
-    is_link,
-    matches,
-    shown,
-    summary,
-)
+from bot_console.tui.panes.graph.notes import caption, dead_ends, item_notes, summary_of
+from bot_console.tui.panes.graph.rates import Rates
+from bot_console.tui.panes.graph.view import GraphView, Mode, Shown, matches, shown
 from bot_console.tui.panes.graph.view_state import KEPT, ViewState, view_state_of
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.text.figures import coarse_rate
+from bot_console.tui.widgets.diagram.chart_drawing import WIDE
 from bot_console.tui.widgets.diagram_view import LARGE, DiagramView
 from bot_console.tui.widgets.prompt.filtered import Narrowed
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Line, Option
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.words import Words
+from rich.text import Text
 from textual.app import ComposeResult
 
-TOO_LARGE = 2.5
-"""From this many times the size of the pane on, topics with one end only are left out until they are asked for."""
-
-
+NO_RATES: Mapping[str, str] = MappingProxyType({})
 MANY = 40
 """Nodes from which on namespaces are folded until a person unfolds them."""
-RATE_PERIOD = 2.0
-"""Seconds between two looks at the rates."""
 
 
 class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOverride] # Textual's HELP
@@ -60,12 +56,14 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     TITLE = "Graph"
     HELP = (
-        "Nodes are boxes, topics stand on the lines; an arrow leads from a publisher through the topic to each\n"
-        "subscription. The way back of a loop runs below. What is linked to the selected item is coloured; a topic\n"
-        "that nobody publishes or nobody listens to is orange; where QoS does not match so that nothing arrives, the\n"
-        "line is red and the topic marked ✗. Namespaces fold into boxes, by themselves where there are many nodes.\n"
-        "Enter lists everything about the item, to go on to; w says what is odd in words. t shows the frames of tf2\n"
-        "as a tree instead: how often and when each was told, by whom, and loops, two parents, silence."
+        "Nodes are boxes. The words on a line are the topics that lead from one box to another, along the arrow;\n"
+        "`name ×3` are three topics of one namespace, ↺ is what a node sends to itself. Topics without a publisher or\n"
+        "a subscriber stand below. Boxes with the same topics and the same partners share a frame and its lines.\n"
+        "m goes on to rqt's drawings, in which topics are items of their own, and to a list.\n"
+        "What is linked to the selected item is coloured; where QoS does not match so that nothing arrives, the line\n"
+        "is red and the topic marked ✗. Namespaces fold into boxes, by themselves where there are many nodes.\n"
+        "Enter lists everything about the item, to go on to; w lists the findings in words. t shows the frames of\n"
+        "tf2 as a tree instead: how often and when each was published, by whom, and loops, two parents, silence."
     )
     BINDINGS = keymap.bindings("graph")
 
@@ -78,32 +76,30 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._info: GraphInfo | None = None
         self._problem = ""
         self._view = GraphView()
-        self._mode: Mode | None = None
         self._shown = Shown(graph=DiagramView.EMPTY)
         self._snapshot = ConsoleSnapshot()
         self._focus_history = FocusHistory()
         self._folds: frozenset[str] | None = None
         """Namespaces that a person has folded; None: as it seems best."""
-        self._rates: dict[str, str] | None = None
-        """What is written behind the names of topics; None: nothing is measured."""
-        self._looked = 0.0
+        self._rates = Rates()
         self._asking_by: Sights | None = None
         """Who finds out which nodes do not answer."""
 
     def on_mount(self) -> None:
         """Restore the view of the last run."""
         left = view_state_of(self.state_store.get(KEPT))
-        self._mode, self._view, self._folds = left.mode, left.view, left.folds
-        self._rates = {} if left.rates else None
+        self._view, self._folds = left.view, left.folds
+        self._rates.wanted = left.rates
 
     def on_unmount(self) -> None:
         """Save the view."""
-        self.state_store.put(KEPT, ViewState(self._mode, self._view, self._folds, self._rates is not None).data)
+        self.state_store.put(KEPT, ViewState(self._view, self._folds, self._rates.wanted).data)
 
     def compose(self) -> ComposeResult:
         """The picture, details of the selected item, and a prompt."""
         yield DiagramView()
         yield FramesView()
+        yield Words(id="graph-dead-ends")
         yield Words(id="graph-status")
         yield Prompt(id="graph-prompt")
 
@@ -141,34 +137,16 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         nodes = self._visible
         folded = self._folds if self._folds is not None else outermost(nodes) if len(nodes) > MANY else frozenset[str]()
         self._view = replace(self._view, folded=folded, focus=self._focus_history.now)
-        if self._mode is None and len(nodes) > MANY and self._fits_without_topics(info):
-            self._tell()
-            return
-        modes = (self._mode,) if self._mode else (Mode.ALL, Mode.ACTIVE)
-        sizes: list[tuple[float, Mode, bool]] = []
-        for mode, short in product(modes, (False, True)):
-            excess = self._try(info, mode, short)
-            sizes.append((excess, mode, short))
-            if excess <= 1.0 or len(self._shown.graph.items) > LARGE:
+        # Topics as boxes of their own: names are cut where it does not fit otherwise.
+        for short in (False, True) if self._view.mode in (Mode.ACTIVE, Mode.ALL) else (False,):
+            self._view = replace(self._view, short=short)
+            self._shown = shown(info, self._view, self._texts)
+            self._tell_dead_ends()
+            faults = self._shown.bundles.faults or self._shown.faults
+            self._picture.show(self._shown.content, self._shown.dead_ends, faults, self._shown.silent)
+            if self._picture.excess <= 1.0 or len(self._shown.graph.items) > LARGE:
                 break
-        else:
-            # Nothing fits: use whole names, and fewer topics only if that is much too large.
-            whole = [each for each in sizes if not each[2]]
-            _, mode, short = next((each for each in whole if each[0] <= TOO_LARGE), whole[-1])
-            self._try(info, mode, short)
         self._tell()
-
-    def _fits_without_topics(self, info: GraphInfo) -> bool:
-        """Try to draw only nodes, if that nearly fits and all topics would not; returns whether it does."""
-        every, few = (len(shown(info, replace(self._view, mode=each)).graph.items) for each in (Mode.ALL, Mode.NODES))
-        return every > LARGE >= few and self._try(info, Mode.NODES, False) <= TOO_LARGE
-
-    def _try(self, info: GraphInfo, mode: Mode, short: bool) -> float:
-        """Draw the graph in a mode; returns the ratio of its size to the pane's."""
-        self._view = replace(self._view, mode=mode, short=short)
-        self._shown = shown(info, self._view, self._rates or {})
-        self._picture.show(self._shown.graph, self._shown.dead_ends, self._shown.faults, self._shown.silent)
-        return self._picture.excess
 
     def tick(self) -> None:
         """Show rates if requested and the pane is visible; otherwise measure nothing."""
@@ -177,22 +155,22 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             self._frames.look(self.console.sights, self.clock(), seen=self.display)
             if self._frames.open:
                 self._tell()
-        if self._rates is None or not self.display:
-            if self._looked:
-                self._looked = 0.0
-                self.console.traffic.measure([], "graph")
-            return
-        now = self.clock()
-        if now - self._looked < RATE_PERIOD:
-            return
-        self._looked = now
-        topics = [each.id.removeprefix(TOPIC) for each in self._shown.graph.items if each.id.startswith(TOPIC)]
-        self.console.traffic.measure(topics, "graph")
-        known = self.console.traffic.measured()
-        rates = {topic: coarse_rate(known[topic].rate) for topic in topics if topic in known}
-        if rates != self._rates:
-            self._rates = rates
+        if not self._measures or not self.display:
+            self._rates.rest(self.console.traffic)
+        elif self._rates.look(self.console.traffic, self._shown.topics_drawn, self.clock()):
             self._draw()
+
+    @property
+    def _measures(self) -> bool:
+        """Whether rates are shown: as a person has chosen, else in a flow chart that has room for them."""
+        if self._rates.wanted is not None:
+            return self._rates.wanted
+        return self._view.mode is Mode.FLOW and self._picture.outer_size.width >= WIDE
+
+    @property
+    def _texts(self) -> Mapping[str, str]:
+        """The rates to write on the lines."""
+        return self._rates.texts if self._measures else NO_RATES
 
     def _ask_nodes(self) -> None:
         """Have nodes probed for liveness while the pane is visible."""
@@ -218,21 +196,32 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             self.query_one("#graph-status", Words).say(self._frames.summary)
             return
         info = self._info or GraphInfo()
-        parts = [self._view.mode.value] if self._view.mode is not Mode.ALL else []
-        parts += [f"/{self.words}"] if self.words else []
-        focus = self._focus_history.now
-        parts += [f"around {focus.item.removeprefix(TOPIC)}, {counted(focus.hops, 'hop')}"] if focus.item else []
-        odd = len(findings(info)) if info.nodes else 0
-        parts += [f"w {counted(odd, 'finding')}"] if odd else []
-        parts += [f"{self._shown.every - self._shown.hidden} of {self._shown.every}"] if self._shown.hidden else []
-        self.caption(" · ".join(parts))
-        if self._shown.graph.items:
-            text = summary(info, self._picture.selected)
+        self.caption(caption(info, self._shown, self._view, self.words))
+        if self._picture.places:
+            text = summary_of(info, self._shown, self._picture.selected)
         elif self._problem:
             text = self._problem
         else:
-            text = "Nothing matches the filter; escape takes it away." if info.nodes else "No nodes yet ..."
+            text = "Nothing matches the filter; escape clears it." if info.nodes else "No nodes yet ..."
         self.query_one("#graph-status", Words).say(text)
+        self._tell_more()
+
+    def _tell_dead_ends(self) -> None:
+        """Count what has one end only; where it fits, name it."""
+        words = self.query_one("#graph-dead-ends", Words)
+        lines = dead_ends(self._shown, max(1, self.content_size.width - 2))
+        words.display = bool(lines)
+        words.styles.height = max(1, len(lines))
+        words.say(Text("\n".join(lines)))
+
+    def _tell_more(self) -> None:
+        """Describe the selected item in the rows that the drawing leaves free."""
+        picture, item = self._picture, self._picture.selected
+        width, free = picture.outer_size.width - 2, picture.free_rows - 1
+        lines: list[str] = []
+        if self._view.mode is Mode.FLOW and width >= WIDE - 2 and item:
+            lines = item_notes(self._snapshot, self._shown, item, self._texts, width, free)
+        picture.set_footer(lines)
 
     def on_diagram_view_selected(self, event: DiagramView.Selected) -> None:
         """Describe the selected item."""
@@ -242,12 +231,11 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     def action_mode(self) -> None:
         """The next mode."""
         modes = list(Mode)
-        self._mode = modes[(modes.index(self._view.mode) + 1) % len(modes)]
+        self._view = replace(self._view, mode=modes[(modes.index(self._view.mode) + 1) % len(modes)])
         self._draw()
 
     def action_hide(self, what: str) -> None:
         """Hide or show a kind of topic."""
-        self._mode = self._mode or Mode.ALL
         self._view = replace(self._view, **{what: not getattr(self._view, what)})
         self._draw()
 
@@ -266,13 +254,16 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         query = parse(words)
         if self._frames.open:
             return self._frames.find(query, step)
-        return self._picture.find(lambda item: matches(item, query), step)
+        return self._picture.find(lambda item: self._matches(item, query), step)
 
     def stands_on_match(self, words: str) -> bool:
         """Whether the selected item matches."""
         if self._frames.open:
             return self._frames.stands_on(parse(words))
-        return bool(self._picture.selected) and matches(self._picture.selected, parse(words))
+        return bool(self._picture.selected) and self._matches(self._picture.selected, parse(words))
+
+    def _matches(self, item: str, query: Query) -> bool:
+        return any(matches(each, query) for each in self._shown.bundles.links.get(item, (item,)))
 
     def action_turn_picture(self) -> None:
         """Change the direction of the arrows."""
@@ -289,9 +280,15 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         if item.startswith(SPACE):
             self.action_fold(False)
             return
+        links = self._shown.bundles.links.get(item)
+        if links is not None:
+            self._offer(summary_of(info, self._shown, item), line_options(info, links), "Nothing has these words.")
+            return
+        self._list_details(item)
+
+    def _list_details(self, item: str) -> None:
         name = item.partition(":")[2] if is_link(item) else item
-        options = details(self._snapshot, item)
-        self._offer(name, options, "Nothing has these words.")
+        self._offer(name, details(self._snapshot, item), "Nothing has these words.")
 
     def action_findings(self) -> None:
         """List the findings."""
@@ -309,6 +306,8 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             self._frames.go_to(where)
         elif where.startswith(ITEM):
             self._go_to_item(where.removeprefix(ITEM))
+        elif where.startswith(DETAIL):
+            self._list_details(where.removeprefix(DETAIL))
         elif where.startswith(PANE):
             pane, _, name = where.removeprefix(PANE).partition(" ")
             self.post_message(self.PaneWanted(pane, name))
@@ -316,11 +315,12 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             self.post_message(self.LineWanted(f"ros2 interface show {where.removeprefix(TYPE)}"))
 
     def _go_to_item(self, item: str) -> None:
-        """Select an item; one that is not drawn becomes the focus."""
+        """Select an item, or the line on which it stands; one that is not drawn becomes the focus."""
+        lines = self._shown.bundles.links
+        item = next((line for line, links in lines.items() if item in links), item)
         if item not in self._picture.places:
             services = self._view.services or item.startswith((SERVICE, ACTION))
-            self._view = replace(self._view, debug=True, services=services)
-            self._mode = Mode.ALL
+            self._view = replace(self._view, mode=Mode.ALL, debug=True, services=services)
             self._folds = frozenset()
             self._focus_history.go(item)
             self._draw()
@@ -328,12 +328,14 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     def go_to(self, name: str) -> None:
         """Select a node or a topic."""
-        self._go_to_item(name)
+        info = self._info or GraphInfo()
+        self._go_to_item(name if node_of(info, name) or not any(ends_of(info, name)) else TOPIC + name)
 
     def action_focus(self) -> None:
         """Draw only what is linked to the selected item, with one more hop each time."""
-        if self._picture.selected:
-            self._focus_history.go(self._picture.selected)
+        item = self._picture.selected
+        if item:
+            self._focus_history.go(self._shown.bundles.links.get(item, (item,))[0])
             self._draw()
 
     def action_focus_history(self, where: str) -> None:
@@ -369,7 +371,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     def action_rates(self) -> None:
         """Switch the rates on the topics on or off."""
-        self._rates = {} if self._rates is None else None
+        self._rates.wanted = not self._measures
         self.tick()
         self._draw()
 
@@ -392,6 +394,6 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self.ask_file("export to (.mmd .dot .svg .txt)", "graph.mmd", self._save)
 
     def _save(self, path: Path) -> Answer:
-        whole = shown(self._info or GraphInfo(), replace(self._view, short=False, whole=True), self._rates or {})
+        whole = shown(self._info or GraphInfo(), replace(self._view, short=False, whole=True), self._rates.texts)
         save_file(path, exported(whole.graph, self._picture.drawing, path.suffix))
         return Answer(True, f"graph saved to {path}")

@@ -4,41 +4,44 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from types import MappingProxyType
 
-from bot_console.tui.console.graph.findings import SILENT
-from bot_console.tui.console.graph.qos import mismatches
-from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.graph.connections import connections, unconnected
+from bot_console.tui.console.graph.qos import mismatched
+from bot_console.tui.console.model import GraphInfo, NodeInfo
 from bot_console.tui.console.query import Query
 from bot_console.tui.format import counted, harmless
+from bot_console.tui.panes.graph.bundles import Bundles, bundled
 from bot_console.tui.panes.graph.focus_history import Focus, around
+from bot_console.tui.panes.graph.items import ACTION, SERVICE, TOPIC, is_link
 from bot_console.tui.panes.graph.namespaces import SPACE, box_of, folded_edges
+from bot_console.tui.widgets.diagram.chart import Chart
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
+from bot_console.tui.widgets.diagram.listing import Listing
 
 DEBUG_TOPICS = ("/rosout", "/parameter_events", "/statistics", "/rosout_agg", "/diagnostics_agg")
 """Topics of every node, and of tools: with them each drawing is a knot."""
 
-TOPIC, SERVICE, ACTION = "topic:", "service:", "action:"
-LINKS = (TOPIC, SERVICE, ACTION)
-"""How the ids of items begin that stand between nodes."""
 LONGEST, SHORT = 40, 16
 
 
 class Mode(Enum):
-    """What is drawn, in rqt_graph's terms."""
+    """What is drawn, by rqt_graph's names where it has the same; in the order in which a key goes through them."""
 
-    ACTIVE = "nodes and topics in use"
-    ALL = "nodes and all topics"
-    NODES = "nodes only"
+    FLOW = "Flow"
+    NODES = "Nodes only"
+    ACTIVE = "Nodes/Topics (active)"
+    ALL = "Nodes/Topics (all)"
+    LIST = "List"
 
 
 @dataclass(frozen=True)
 class GraphView:
     """The user's choices for drawing the graph."""
 
-    mode: Mode = Mode.ALL
+    mode: Mode = Mode.FLOW
     query: Query = field(default_factory=Query)
     debug: bool = False
     dead_sinks: bool = True
@@ -72,6 +75,32 @@ class Shown:
     silent: frozenset[str] = frozenset()
     """Nodes that do not answer, or whose process is frozen."""
 
+    bundles: Bundles = field(default_factory=Bundles)
+    """The same as a flow chart, in that mode."""
+
+    listing: Listing = field(default_factory=Listing)
+    """The same as a list, in that mode."""
+
+    unsent: tuple[str, ...] = ()
+    """Items that nobody publishes or serves; filled in the mode Flow alone, which does not draw them."""
+
+    unheard: tuple[str, ...] = ()
+    """Items that nobody subscribes to or calls."""
+
+    links_there: int = 0
+    """Topics, and services and actions where they are wanted, that pass the filter or not."""
+
+    @property
+    def topics_drawn(self) -> list[str]:
+        """The names of the topics in the drawing."""
+        items = self.bundles.drawn if self.bundles.chart.boxes else {each.id for each in self.graph.items}
+        return sorted(each.removeprefix(TOPIC) for each in items if each.startswith(TOPIC))
+
+    @property
+    def content(self) -> Digraph | Chart | Listing:
+        """What is laid out."""
+        return self.bundles.chart if self.bundles.chart.boxes else self.listing if self.listing.entries else self.graph
+
 
 def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingProxyType({})) -> Shown:
     """Select nodes and topics, and convert them to items and edges; `rates` are appended to topic names."""
@@ -86,13 +115,15 @@ def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingPr
     kept = {each for each in kept if _wanted(each, view, sources, sinks, counts)}
     ids = _filtered({each.name for each in nodes} | kept, edges, view.query)
     edges = [(a, b) for a, b in edges if a in ids and b in ids]
+    broken = mismatched(info)
     faults = {
         (TOPIC + topic, subscriber)
-        for topic in (each.removeprefix(TOPIC) for each in ids if each.startswith(TOPIC))
-        for _, subscriber, _ in mismatches(info, topic)
+        for topic, pairs in broken.items()
+        if TOPIC + topic in ids
+        for _, subscriber, _ in pairs
     }
     hidden = everything - len(ids)
-    if view.folded:
+    if view.folded and view.mode is not Mode.LIST:
         drawn, inside = folded_edges(edges, view.folded, {each for each in ids if is_link(each)})
         edges = sorted(drawn)
         ids = {each if is_link(each) else box_of(each, view.folded) for each in ids - inside}
@@ -108,8 +139,37 @@ def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingPr
         return Shown(graph, hidden=hidden, every=everything, silent=silent)
     label = _Labels(info, view, rates, ids, {topic for topic, _ in faults})
     items = tuple(Item(each, label.of(each), not is_link(each), int(is_link(each))) for each in sorted(ids))
-    graph = Digraph(items, tuple(sorted(edges)))
-    return Shown(graph, dead_ends & ids, hidden, everything, frozenset(faults), silent)
+    found = Shown(Digraph(items, tuple(sorted(edges))), dead_ends & ids, hidden, everything, frozenset(faults), silent)
+    if view.mode is Mode.LIST:
+        return replace(found, listing=_listing(info, {each.name for each in nodes}, ids, view))
+    if view.mode is not Mode.FLOW:
+        return found
+    triples = frozenset(
+        (box_of(a, view.folded), TOPIC + topic, box_of(b, view.folded))
+        for topic, pairs in broken.items()
+        for a, b, _ in pairs
+    )
+    bundles = bundled((each for each in ids if not is_link(each)), edges, label.members, triples, rates)
+    dead = sorted(dead_ends & ids)
+    return replace(
+        found,
+        bundles=bundles,
+        links_there=len(topics),
+        unsent=tuple(each for each in dead if each not in sources),
+        unheard=tuple(each for each in dead if each in sources),
+    )
+
+
+def _listing(info: GraphInfo, names: set[str], ids: set[str], view: GraphView) -> Listing:
+    """The connections, then the nodes that have none."""
+    nodes = tuple(each for each in info.nodes if each.name in names)
+    kinds = ("topic", "service", "action") if view.services else ("topic",)
+    every = connections(replace(info, nodes=nodes), kinds)
+    lines = {f"{kind}:{name}": text for kind, name, text in every if f"{kind}:{name}" in ids}
+    alone = unconnected((each for each in nodes if each.name in ids), {each.partition(":")[::2] for each in lines})
+    return Listing(
+        (*((each, harmless(text)) for each, text in lines.items()), *((each, harmless(each)) for each in alone))
+    )
 
 
 def _edges(nodes: list[NodeInfo], view: GraphView) -> list[tuple[str, str]]:
@@ -139,14 +199,12 @@ class _Labels:
         self._short = view.short
         self._whole = view.whole
         self._tokens = Counter(_last(each) for each in ids)
-        self._members = (
-            Counter(box_of(each.name, view.folded) for each in info.nodes) if view.folded else Counter[str]()
-        )
+        self.members = Counter(box_of(each.name, view.folded) for each in info.nodes) if view.folded else Counter[str]()
 
     def of(self, item: str) -> str:
         """The label of an item."""
         if item.startswith(SPACE):
-            return f"▸ {self._name(item.removeprefix(SPACE))}  {counted(self._members[item], 'node')}"
+            return f"▸ {self._name(item.removeprefix(SPACE))}  {counted(self.members[item], 'node')}"
         if not is_link(item):
             return self._name(item)
         kind, _, name = item.partition(":")
@@ -172,11 +230,6 @@ def _last(item: str) -> str:
 def is_debug(topic: str) -> bool:
     """Whether a topic is for debugging: logs, parameter events, statistics, parts of actions, hidden names."""
     return topic in DEBUG_TOPICS or "/_" in topic
-
-
-def is_link(item: str) -> bool:
-    """Whether an item links nodes: a topic, a service, an action."""
-    return item.startswith(LINKS)
 
 
 def _wanted(topic: str, view: GraphView, sources: set[str], sinks: set[str], counts: Mapping[str, int]) -> bool:
@@ -217,72 +270,3 @@ def _nodes_only(nodes: list[str], edges: list[tuple[str, str]], label: _Labels) 
             published.setdefault(b, []).append(a)
     links = {(source, b) for a, b in edges if is_link(a) for source in published.get(a, ())}
     return Digraph(tuple(Item(each, label.of(each)) for each in sorted(nodes)), tuple(sorted(links)))
-
-
-def summary(info: GraphInfo, item: str) -> str:
-    """One line on a node or a topic."""
-    if not item:
-        return ""
-    if item.startswith(SPACE):
-        return harmless(f"{item.removeprefix(SPACE)}  enter or + unfolds it")
-    if item.startswith((SERVICE, ACTION)):
-        kind, _, name = item.partition(":")
-        return harmless(f"{kind} {name}  {' '.join(server_types(info, item))}")
-    if item.startswith(TOPIC):
-        name = item.removeprefix(TOPIC)
-        publishers, subscribers = ends_of(info, name)
-        kinds = types_of(info, name)
-        text = f"{name}  {', '.join(kinds) or 'type unknown'}  {counted(len(publishers), 'publisher')}"
-        return harmless(f"{text}, {counted(len(subscribers), 'subscription')}{warning(publishers, subscribers)}")
-    node = node_of(info, item)
-    if node is None:
-        return ""
-    parts = [f"publishes {len(node.publishers)}", f"subscribes {len(node.subscriptions)}"]
-    parts += [f"{counted(len(node.services), 'service')}", f"{counted(len(node.clients), 'client')}"]
-    stopped = "".join(f" - frozen: process {pid} is stopped" for name, pid in info.frozen if name == item)
-    stopped = stopped or (f" - {SILENT}" if item in info.silent else "")
-    return harmless(f"{item}  {', '.join(parts)}{stopped}")
-
-
-def server_types(info: GraphInfo, item: str) -> list[str]:
-    """The types of a service or action, and its servers."""
-    kind, _, name = item.partition(":")
-    found: dict[str, None] = {}
-    servers: list[str] = []
-    for node in info.nodes:
-        for each in node.services if kind == "service" else node.action_servers:
-            if each.name == name:
-                found.update(dict.fromkeys(each.types))
-                servers.append(node.name)
-    return [*found, "served by " + (", ".join(servers) or "nobody")]
-
-
-def warning(publishers: list[str], subscribers: list[str]) -> str:
-    """What is unusual about a topic with these endpoints; empty if nothing is."""
-    if not publishers:
-        return " - nobody publishes it: is the name right?"
-    return " - nobody listens" if not subscribers else ""
-
-
-def ends_of(info: GraphInfo, topic: str) -> tuple[list[str], list[str]]:
-    """The nodes that publish and that subscribe to a topic."""
-    publishers = [node.name for node in info.nodes if any(each.name == topic for each in node.publishers)]
-    subscribers = [node.name for node in info.nodes if any(each.name == topic for each in node.subscriptions)]
-    return publishers, subscribers
-
-
-def types_of(info: GraphInfo, topic: str) -> tuple[str, ...]:
-    """The types of a topic; more than one is an error in the system."""
-    found: dict[str, None] = {}
-    every: list[Endpoint] = [*info.topics]
-    for node in info.nodes:
-        every += [*node.publishers, *node.subscriptions]
-    for each in every:
-        if each.name == topic:
-            found.update(dict.fromkeys(each.types))
-    return tuple(found)
-
-
-def node_of(info: GraphInfo, name: str) -> NodeInfo | None:
-    """The node with that name."""
-    return next((each for each in info.nodes if each.name == name), None)

@@ -16,17 +16,16 @@ SWITCHES = ("debug", "dead_sinks", "leaves", "services")
 class ViewState:
     """The user's choices, without those that the pane makes by itself."""
 
-    mode: Mode | None = None
     view: GraphView = field(default_factory=GraphView)
     folds: frozenset[str] | None = None
-    rates: bool = False
+    rates: bool | None = None
 
     @property
     def data(self) -> dict[str, object]:
         """As plain data."""
         return {
             **{each: getattr(self.view, each) for each in SWITCHES},
-            "mode": self.mode.name if self.mode else "",
+            "mode": self.view.mode.name,
             "folds": None if self.folds is None else sorted(self.folds),
             "rates": self.rates,
         }
@@ -36,7 +35,7 @@ def view_state_of(data: object) -> ViewState:
     """Restore the choices; parts that cannot be read get their defaults."""
     given = cast("Mapping[str, Any]", data) if isinstance(data, Mapping) else dict[str, Any]()
     switches = {each: given[each] for each in SWITCHES if isinstance(given.get(each), bool)}
-    mode = next((each for each in Mode if each.name == given.get("mode")), None)
-    folds = given.get("folds")
+    mode = next((each for each in Mode if each.name == given.get("mode")), Mode.FLOW)
+    folds, rates = given.get("folds"), given.get("rates")
     known = frozenset(map(str, cast("list[object]", folds))) if isinstance(folds, list) else None
-    return ViewState(mode, replace(GraphView(), **switches), known, given.get("rates") is True)
+    return ViewState(replace(GraphView(), mode=mode, **switches), known, rates if isinstance(rates, bool) else None)

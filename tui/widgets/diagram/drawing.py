@@ -174,7 +174,7 @@ class _Plan:
         boxes = _boxes(places, self.items)
         edge = max([self.at.bottom, *(row + 1 for row in self.lanes.values())])
         width, height = (edge, x) if self.flow.downward else (x, edge)
-        return Drawing(_Rows(height, lines, boxes), places, width, (*self.found.forward, *self.found.back))
+        return Drawing(Rows(height, lines, boxes), places, width, (*self.found.forward, *self.found.back))
 
     def _width(self, column: Iterable[Key]) -> int:
         labels = (self.items[each] for each, kind in column if kind == ITEM)
@@ -269,7 +269,7 @@ def _centred(text: str, width: int) -> str:
     return " " * (free // 2) + text + " " * (free - free // 2)
 
 
-class _Rows(Sequence[tuple[Run, ...]]):
+class Rows(Sequence[tuple[Run, ...]]):
     """Rows that are assembled on access: of a large picture only few are ever shown."""
 
     def __init__(self, count: int, lines: Lines, boxes: Mapping[int, list[Run]]) -> None:

@@ -40,7 +40,7 @@ def _ranks(items: Mapping[str, Item], edges: list[Edge]) -> dict[str, float]:
     boxes = [each for each, item in items.items() if item.boxed]
     gives = {each: len(after[each]) - len(before[each]) for each in boxes}
     ahead = {each: _boxes_reached(each, after, items) - {each} for each in boxes}
-    rank: dict[str, float] = {each: float(at) for at, each in enumerate(_greedy_order(boxes, ahead, gives))}
+    rank: dict[str, float] = {each: float(at) for at, each in enumerate(greedy_order(boxes, ahead, gives))}
     for each in (one for one, item in items.items() if not item.boxed):
         leading = [rank[one] for one in before[each] if one in rank]
         following = [rank[one] for one in after[each] if one in rank]
@@ -56,7 +56,7 @@ def _boxes_reached(start: str, after: Mapping[str, set[str]], items: Mapping[str
     return found
 
 
-def _greedy_order(nodes: Iterable[str], after: Mapping[str, set[str]], gives: Mapping[str, int]) -> list[str]:
+def greedy_order(nodes: Iterable[str], after: Mapping[str, set[str]], gives: Mapping[str, int]) -> list[str]:
     """The order of Eades, Lin and Smyth: sources first, sinks last, else by the largest out-degree minus in-degree.
 
     `gives` breaks ties: the number of outgoing minus incoming arrows.

@@ -34,6 +34,8 @@ CROSSED = 16
 """Instead of strokes: lines of two items meet here."""
 HEAD = 32
 """Instead of strokes: the head of an arrow."""
+HEAD_BACK = 64
+"""Instead of strokes: the head of an arrow that runs against the direction of the others."""
 
 Cell = tuple[str, int, frozenset[Edge]]
 """Whose line it is, its strokes, and the edges it belongs to."""
@@ -64,8 +66,8 @@ class Lines:
             row[x] = owner, strokes, edges
             return
         other, before, belongs = cell
-        if HEAD in (before, strokes):
-            strokes = HEAD
+        if before >= HEAD or strokes >= HEAD:
+            strokes = max(before, strokes)
         elif other != owner or before == CROSSED:
             strokes = CROSSED
         else:
@@ -80,22 +82,25 @@ class Lines:
             found = self._unions[key] = next((each for each in key if len(each) == len(united)), united)
         return found
 
-    def across(self, y: int, start: int, end: int, edges: frozenset[Edge]) -> None:
-        """A horizontal line from `start` to `end`; it ends in the middle of a bend at either place."""
+    def across(self, y: int, start: int, end: int, edges: frozenset[Edge], owner: str = "") -> None:
+        """A horizontal line from `start` to `end`; it ends in the middle of a bend at either place.
+
+        Without an `owner`, the line is that of the item at which the edges begin.
+        """
         if not edges or start >= end:
             return
-        owner = next(iter(edges))[0]
+        owner = owner or next(iter(edges))[0]
         self._add(start, y, RIGHT, owner, edges)
         for x in range(start + 1, end):
             self._add(x, y, LEFT | RIGHT, owner, edges)
         self._add(end, y, LEFT, owner, edges)
 
-    def down(self, x: int, start: int, end: int, edges: frozenset[Edge]) -> None:
+    def down(self, x: int, start: int, end: int, edges: frozenset[Edge], owner: str = "") -> None:
         """A vertical line between two rows."""
         top, bottom = min(start, end), max(start, end)
         if not edges or top == bottom:
             return
-        owner = next(iter(edges))[0]
+        owner = owner or next(iter(edges))[0]
         self._add(x, top, DOWN, owner, edges)
         for y in range(top + 1, bottom):
             self._add(x, y, UP | DOWN, owner, edges)
@@ -124,12 +129,26 @@ class Lines:
         if edges:
             self._add(x, y, HEAD, next(iter(edges))[0], edges)
 
+    def stub(self, x: int, y: int, strokes: int, edges: frozenset[Edge], owner: str) -> None:
+        """Half of a cell: where a line touches a box."""
+        self._add(x, y, strokes, owner, edges)
+
+    def arrow_back(self, x: int, y: int, edges: frozenset[Edge], owner: str) -> None:
+        """An arrow head that points to the left."""
+        self._add(x, y, HEAD_BACK, owner, edges)
+
+    def erase(self, y: int, start: int, end: int) -> None:
+        """Make room for a text from `start` to before `end`."""
+        row = self._cells.get(y, {})
+        for x in range(start, end):
+            row.pop(x, None)
+
     def row(self, y: int) -> Iterator[tuple[int, str, frozenset[Edge]]]:
         """The segments of one row: the start, the text and the edges of each."""
         cells = self._cells.get(y)
         if not cells:
             return
-        head = "▼" if self._downward else "▶"
+        special = {CROSSED: CROSSING, HEAD: "▼" if self._downward else "▶", HEAD_BACK: "◀"}
         start, letters, belongs = 0, list[str](), frozenset[Edge]()
         for x in sorted(cells):
             _, strokes, edges = cells[x]
@@ -138,6 +157,6 @@ class Lines:
                 letters = []
             if not letters:
                 start, belongs = x, edges
-            letters.append(BY_STROKES[strokes] if strokes < CROSSED else CROSSING if strokes == CROSSED else head)
+            letters.append(BY_STROKES[strokes] if strokes < CROSSED else special[strokes])
         if letters:
             yield start, "".join(letters), belongs

@@ -6,8 +6,9 @@ import pytest
 from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.query import parse
+from bot_console.tui.panes.graph.about import summary
 from bot_console.tui.panes.graph.export import exported
-from bot_console.tui.panes.graph.view import GraphView, Mode, shown, summary
+from bot_console.tui.panes.graph.view import GraphView, Mode, shown
 from bot_console.tui.widgets.diagram.drawing import draw
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
 from samples import graph

@@ -8,7 +8,7 @@ from bot_console.tui.panes.graph.view_state import ViewState, view_state_of
 
 
 def test_it_is_read_as_it_was_kept() -> None:
-    left = ViewState(Mode.NODES, GraphView(debug=True, leaves=False), frozenset({"/arm"}), rates=True)
+    left = ViewState(GraphView(mode=Mode.NODES, debug=True, leaves=False), frozenset({"/arm"}), rates=True)
     assert view_state_of(left.data) == left
 
 

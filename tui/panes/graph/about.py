@@ -1,0 +1,78 @@
+"""What is known about a node, a topic, a service or an action, in a line. Pure."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.graph.findings import SILENT
+from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.format import counted, harmless
+from bot_console.tui.panes.graph.items import ACTION, SERVICE, TOPIC
+from bot_console.tui.panes.graph.namespaces import SPACE
+
+
+def summary(info: GraphInfo, item: str) -> str:
+    """One line on a node or a topic."""
+    if not item:
+        return ""
+    if item.startswith(SPACE):
+        return harmless(f"{item.removeprefix(SPACE)}  enter or + unfolds it")
+    if item.startswith((SERVICE, ACTION)):
+        kind, _, name = item.partition(":")
+        return harmless(f"{kind} {name}  {' '.join(server_types(info, item))}")
+    if item.startswith(TOPIC):
+        name = item.removeprefix(TOPIC)
+        publishers, subscribers = ends_of(info, name)
+        kinds = types_of(info, name)
+        text = f"{name}  {', '.join(kinds) or 'type unknown'}  {counted(len(publishers), 'publisher')}"
+        return harmless(f"{text}, {counted(len(subscribers), 'subscription')}{warning(publishers, subscribers)}")
+    node = node_of(info, item)
+    if node is None:
+        return ""
+    parts = [f"publishes {len(node.publishers)}", f"subscribes {len(node.subscriptions)}"]
+    parts += [f"{counted(len(node.services), 'service')}", f"{counted(len(node.clients), 'client')}"]
+    stopped = "".join(f" - frozen: process {pid} is stopped" for name, pid in info.frozen if name == item)
+    stopped = stopped or (f" - {SILENT}" if item in info.silent else "")
+    return harmless(f"{item}  {', '.join(parts)}{stopped}")
+
+
+def server_types(info: GraphInfo, item: str) -> list[str]:
+    """The types of a service or action, and its servers."""
+    kind, _, name = item.partition(":")
+    found: dict[str, None] = {}
+    servers: list[str] = []
+    for node in info.nodes:
+        for each in node.services if kind == "service" else node.action_servers:
+            if each.name == name:
+                found.update(dict.fromkeys(each.types))
+                servers.append(node.name)
+    return [*found, "served by " + (", ".join(servers) or "nobody")]
+
+
+def warning(publishers: list[str], subscribers: list[str]) -> str:
+    """What is unusual about a topic with these endpoints; empty if nothing is."""
+    if not publishers:
+        return " - nobody publishes it: is the name right?"
+    return " - nobody listens" if not subscribers else ""
+
+
+def ends_of(info: GraphInfo, topic: str) -> tuple[list[str], list[str]]:
+    """The nodes that publish and that subscribe to a topic."""
+    publishers = [node.name for node in info.nodes if any(each.name == topic for each in node.publishers)]
+    subscribers = [node.name for node in info.nodes if any(each.name == topic for each in node.subscriptions)]
+    return publishers, subscribers
+
+
+def types_of(info: GraphInfo, topic: str) -> tuple[str, ...]:
+    """The types of a topic; more than one is an error in the system."""
+    found: dict[str, None] = {}
+    every: list[Endpoint] = [*info.topics]
+    for node in info.nodes:
+        every += [*node.publishers, *node.subscriptions]
+    for each in every:
+        if each.name == topic:
+            found.update(dict.fromkeys(each.types))
+    return tuple(found)
+
+
+def node_of(info: GraphInfo, name: str) -> NodeInfo | None:
+    """The node with that name."""
+    return next((each for each in info.nodes if each.name == name), None)

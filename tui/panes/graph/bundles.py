@@ -1,0 +1,200 @@
+"""Nodes and topics as a flow chart: what leads from one box to another is one line with words on it. Pure."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+from bot_console.tui.panes.graph.items import ACTION, SERVICE, TOPIC, is_link
+from bot_console.tui.panes.graph.namespaces import SPACE, namespace_of
+from bot_console.tui.text.shown import counted, cut_name, harmless
+from bot_console.tui.widgets.diagram.chart import Chart, ChartBox, ChartLink
+
+LINE = "line:"
+"""Begins the id of a line between two boxes."""
+KINDS = {TOPIC: "", SERVICE: "srv ", ACTION: "act "}
+LONGEST = 40
+"""Letters of a name at most."""
+RATE_CELLS = 6
+"""Cells kept for a rate, so that the drawing stays as it is while the rate changes."""
+LOOP = "↺"
+
+Pair = tuple[str, str]
+"""A box that sends and one that receives."""
+
+
+@dataclass(frozen=True)
+class Bundles:
+    """A chart, and the topics, services and actions of each line, by its id."""
+
+    chart: Chart = field(default_factory=Chart)
+    links: Mapping[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
+    looped: frozenset[str] = frozenset()
+    """What leads from a node to itself."""
+    faults: frozenset[Pair] = frozenset()
+    """Edges of the drawing on which something does not arrive."""
+
+    @property
+    def drawn(self) -> set[str]:
+        """Everything that stands on a line or in a box."""
+        return {each for line in self.links.values() for each in line} | self.looped
+
+
+def bundled(
+    nodes: Iterable[str],
+    edges: Iterable[Pair],
+    members: Mapping[str, int],
+    faults: frozenset[tuple[str, str, str]] = frozenset(),
+    rates: Mapping[str, str] = MappingProxyType({}),
+) -> Bundles:
+    """The chart of boxes and of edges between boxes and links (topics, services, actions).
+
+    `members` is the number of nodes in each folded namespace, `faults` are triples of publisher, topic and subscriber
+    between which nothing arrives, and `rates` are texts by topic.
+    """
+    boxes = sorted(nodes)
+    between = _between(edges)
+    wrong: dict[Pair, set[str]] = {}
+    for a, link, b in faults:
+        wrong.setdefault((a, b), set()).add(link)
+    names = _Names(boxes, {link for links in between.values() for link in links}, members)
+    words = {pair: names.words(pair, links, wrong.get(pair, set())) for pair, links in between.items()}
+    groups = _alike(boxes, words)
+    group_of = {each: group for group in groups for each in group}
+    links: dict[Pair, set[str]] = {}
+    for (a, b), some in between.items():
+        if a != b:
+            links.setdefault((group_of[a][0], group_of[b][0]), set()).update(some)
+    lines: list[ChartLink] = []
+    broken: set[Pair] = set()
+    for pair in sorted(links):
+        ends = [group_of[each] for each in pair]
+        alone = all(len(each) == 1 for each in ends)
+        said = names.words(pair, links[pair], wrong.get(pair, set()), rates) if alone and rates else words[pair]
+        line = ChartLink(f"{LINE}{pair[0]}>{pair[1]}", *pair, said)
+        lines.append(line)
+        if pair in wrong:
+            broken |= {(each, line.id) for each in ends[0]} | {(line.id, each) for each in ends[1]}
+    boxes_drawn = tuple(
+        ChartBox(group[0], tuple((each, names.box(each)) for each in group), _loop(group, words)) for group in groups
+    )
+    return Bundles(
+        Chart(boxes_drawn, tuple(lines)),
+        {line.id: tuple(sorted(links[line.source, line.target])) for line in lines},
+        frozenset(link for (a, b), some in between.items() if a == b for link in some),
+        frozenset(broken),
+    )
+
+
+def _between(edges: Iterable[Pair]) -> dict[Pair, set[str]]:
+    """The links from one box to another; what stays within a folded namespace is left out."""
+    sources: dict[str, set[str]] = {}
+    targets: dict[str, set[str]] = {}
+    for a, b in edges:
+        if is_link(b):
+            sources.setdefault(b, set()).add(a)
+        else:
+            targets.setdefault(a, set()).add(b)
+    found: dict[Pair, set[str]] = {}
+    for link, givers in sources.items():
+        for a in givers:
+            for b in targets.get(link, ()):
+                if a != b or not a.startswith(SPACE):
+                    found.setdefault((a, b), set()).add(link)
+    return found
+
+
+def _loop(group: tuple[str, ...], words: Mapping[Pair, tuple[str, ...]]) -> str:
+    found = words.get((group[0], group[0]), ())
+    return " ".join((LOOP, *found)) if found else ""
+
+
+def _alike(boxes: list[str], words: Mapping[Pair, tuple[str, ...]]) -> list[tuple[str, ...]]:
+    """Boxes that exchange the same words with the same boxes; each of the others is a group of its own."""
+    ends: dict[str, set[tuple[str, str, tuple[str, ...]]]] = {}
+    for (a, b), found in words.items():
+        ends.setdefault(a, set()).add(("to", "" if a == b else b, found))
+        ends.setdefault(b, set()).add(("from", "" if a == b else a, found))
+    groups: dict[object, list[str]] = {}
+    for each in boxes:
+        alike = (each.startswith(SPACE), frozenset(ends[each])) if each in ends else each
+        groups.setdefault(alike, []).append(each)
+    return [tuple(sorted(group, key=_natural)) for group in groups.values()]
+
+
+def _natural(name: str) -> tuple[tuple[int, str], ...]:
+    """Sorts robot2 before robot10."""
+    digits, parts = "", list[tuple[int, str]]()
+    for letter in name:
+        if letter.isdecimal():
+            digits += letter
+            continue
+        if digits:
+            parts.append((int(digits), ""))
+            digits = ""
+        parts.append((0, letter))
+    return (*parts, *(((int(digits), ""),) if digits else ()))
+
+
+class _Names:
+    """Short names: the last part, unless two short names would be the same."""
+
+    def __init__(self, boxes: Iterable[str], links: Iterable[str], members: Mapping[str, int]) -> None:
+        self._boxes = Counter(_last(each) for each in boxes)
+        self._links = Counter(_last(each) for each in links)
+        self._members = members
+
+    def box(self, box: str) -> str:
+        name = box.removeprefix(SPACE)
+        short = _last(name) if self._boxes[_last(name)] == 1 else name
+        text = cut_name(harmless(short), LONGEST)
+        return f"▸ {text}  {counted(self._members.get(box, 0), 'node')}" if box.startswith(SPACE) else text
+
+    def words(
+        self, pair: Pair, links: Iterable[str], faulty: Collection[str], rates: Mapping[str, str] = MappingProxyType({})
+    ) -> tuple[str, ...]:
+        """The links of a pair in words: what fails first, a namespace with several as one word."""
+        spaces: dict[tuple[str, str], list[str]] = {}
+        for link in sorted(links):
+            kind, _, name = link.partition(":")
+            inner = _within(name, pair)
+            space = (inner or name).rpartition("/")[0].strip("/")
+            spaces.setdefault((kind, space), []).append(link)
+        found: list[tuple[bool, str]] = []
+        for (_, space), some in spaces.items():
+            if space and len(some) > 1:
+                kind = KINDS[some[0].partition(":")[0] + ":"]
+                found.append(
+                    (any(each in faulty for each in some), f"{kind}{harmless(space.rpartition('/')[2])} ×{len(some)}")
+                )
+            else:
+                found += [(each in faulty, self._word(each, pair, rates)) for each in some]
+        return tuple(
+            f"✗ {word}" if wrong else word for wrong, word in sorted(found, key=lambda each: (not each[0], each[1]))
+        )
+
+    def _word(self, link: str, pair: Pair, rates: Mapping[str, str]) -> str:
+        kind, _, name = link.partition(":")
+        inner = _within(name, pair)
+        short = _last(name)
+        if self._links[short] > 1:
+            short = inner or name
+        text = KINDS[f"{kind}:"] + cut_name(harmless(short), LONGEST)
+        rate = rates.get(name) if kind == "topic" else None
+        return f"{text} {rate:<{RATE_CELLS}}" if rate else text
+
+
+def _within(name: str, pair: Pair) -> str:
+    """A name without the namespace of the box that sends or receives it; empty if it is in neither."""
+    for box in pair:
+        own = box.removeprefix(SPACE)
+        for space in (own, "" if box.startswith(SPACE) else namespace_of(own)):
+            if space and name.startswith(f"{space}/"):
+                return name.removeprefix(f"{space}/")
+    return ""
+
+
+def _last(item: str) -> str:
+    return item.rpartition("/")[2]

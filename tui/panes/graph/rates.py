@@ -1,0 +1,38 @@
+"""The rates that are written on the lines, measured only while somebody sees them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from bot_console.tui.console.traffic import Traffic
+from bot_console.tui.text.figures import coarse_rate
+
+RATE_POLL_S = 2.0
+READER = "graph"
+
+
+class Rates:
+    """The rates of topics as texts."""
+
+    def __init__(self) -> None:
+        self.wanted: bool | None = None
+        """Whether a person wants rates; None: where there is room for them."""
+        self.texts: Mapping[str, str] = {}
+        self._looked = 0.0
+
+    def look(self, traffic: Traffic, topics: Sequence[str], now: float) -> bool:
+        """Measure these topics, and read the rates every few seconds; returns whether any text has changed."""
+        if now - self._looked < RATE_POLL_S:
+            return False
+        self._looked = now
+        traffic.measure(topics, READER)
+        known = traffic.measured()
+        texts = {topic: coarse_rate(known[topic].rate) for topic in topics if topic in known}
+        before, self.texts = self.texts, texts
+        return texts != before
+
+    def rest(self, traffic: Traffic) -> None:
+        """Measure nothing."""
+        if self._looked:
+            self._looked = 0.0
+            traffic.measure([], READER)

@@ -1,0 +1,47 @@
+"""The flow chart to be drawn: boxes, and links whose words stand on their lines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rich.cells import cell_len
+
+
+@dataclass(frozen=True)
+class ChartBox:
+    """A box with one row for each of its members, which share all links."""
+
+    id: str
+    members: tuple[tuple[str, str], ...]
+    """The item and the label of each row."""
+    loop: str = ""
+    """What leads from the box to itself; written into its upper edge."""
+
+    @property
+    def width(self) -> int:
+        """The width in cells, with the frame."""
+        return max(4 + max(cell_len(label) for _, label in self.members), cell_len(self.loop) + 4 if self.loop else 0)
+
+
+@dataclass(frozen=True)
+class ChartLink:
+    """Everything that leads from one box to another: one line with these words on it."""
+
+    id: str
+    source: str
+    target: str
+    words: tuple[str, ...]
+
+    def label(self, most: int) -> str:
+        """At most so many words, and the number of those left out."""
+        if len(self.words) <= most:
+            return "  ".join(self.words)
+        return "  ".join((*self.words[:most], f"+{len(self.words) - most}"))
+
+
+@dataclass(frozen=True)
+class Chart:
+    """Boxes and links; there is at most one link in each direction between two boxes."""
+
+    boxes: tuple[ChartBox, ...] = ()
+    links: tuple[ChartLink, ...] = ()

@@ -1,0 +1,157 @@
+"""Draws a flow chart: the first of several plans that fits. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import product
+
+from bot_console.tui.widgets.diagram.chart import Chart, ChartLink
+from bot_console.tui.widgets.diagram.chart_plan import Placed, Plan, Style, planned
+from bot_console.tui.widgets.diagram.drawing import Drawing, Place, Rows, Run
+from bot_console.tui.widgets.diagram.layering import Edge
+from bot_console.tui.widgets.diagram.lines import LEFT, RIGHT, UP, Lines
+from rich.cells import cell_len
+
+WIDE = 116
+"""Columns from which on a chain of boxes runs from left to right rather than down."""
+MOST_RIGHTWARD = 8
+SLACK = (0, 4, 10)
+WORDS = (99, 3, 1)
+MANY_LINKS = 80
+"""Links from which on only few plans are tried."""
+
+
+def best_plan(chart: Chart, width: int, height: int) -> Plan:
+    """The first plan that fits, else the one of which most is visible."""
+    best: tuple[float, Plan] | None = None
+    for style in _styles(chart, width):
+        plan = planned(chart, style, width)
+        excess = max(1.0, plan.width / max(1, width)) * max(1.0, plan.height / max(1, height))
+        if excess == 1.0:
+            return plan
+        if best is None or excess < best[0]:
+            best = excess, plan
+    return best[1] if best else Plan()
+
+
+def _styles(chart: Chart, width: int) -> Iterator[Style]:
+    if len(chart.links) > MANY_LINKS:
+        yield Style(words=3)
+        return
+    rightward = range(min(MOST_RIGHTWARD, len(chart.boxes)), -1, -1) if width >= WIDE else (0,)
+    for words, pad in product(WORDS, (1, 0)):
+        for right, slack in product(rightward, SLACK):
+            yield Style(right, slack, words, pad)
+
+
+def draw_chart(chart: Chart, width: int, height: int) -> Drawing:
+    """Draw a chart for a window of a size."""
+    return drawn(chart, best_plan(chart, width, height))
+
+
+def drawn(chart: Chart, plan: Plan) -> Drawing:
+    """Draw a plan."""
+    lines = Lines()
+    for link in plan.forward:
+        _draw_forward(lines, plan, link)
+    for link in plan.back:
+        _draw_back(lines, plan, link)
+    runs: dict[int, list[Run]] = {}
+    places: dict[str, Place] = {}
+    outgoing = {each.source for each in plan.forward}
+    for each in plan.placed.values():
+        _draw_box(each, each.box.id in outgoing, runs, places)
+    for label in plan.labels:
+        width = cell_len(label.text)
+        lines.erase(label.y, label.x, label.x + width)
+        runs.setdefault(label.y, []).append(Run(label.x, label.text, label.link))
+        places[label.link] = Place(label.x, label.y, width, 1, False)
+    members = {each.id: [item for item, _ in each.members] for each in chart.boxes}
+    edges: list[Edge] = []
+    for link in chart.links:
+        edges += [(item, link.id) for item in members[link.source]]
+        edges += [(link.id, item) for item in members[link.target]]
+        edges += [(a, b) for a in members[link.source] for b in members[link.target]]
+    return Drawing(Rows(plan.height, lines, runs), places, plan.width, tuple(edges))
+
+
+def _edges(plan: Plan, link: ChartLink) -> frozenset[Edge]:
+    sources = (item for item, _ in plan.placed[link.source].box.members)
+    targets = (item for item, _ in plan.placed[link.target].box.members)
+    return frozenset({*((each, link.id) for each in sources), *((link.id, each) for each in targets)})
+
+
+def _draw_forward(lines: Lines, plan: Plan, link: ChartLink) -> None:
+    source, target, edges = plan.placed[link.source], plan.placed[link.target], _edges(plan, link)
+    port, owner = target.ports_in[link.id], source.box.id
+    start = source.out
+    if source.out == source.bottom:
+        start += 1
+        lines.stub(source.trunk, start, UP, edges, owner)
+    else:
+        lines.across(source.out, source.right, source.trunk, edges, owner)
+    lines.down(source.trunk, start, port, edges, owner)
+    end = target.x - 1
+    if len(target.box.members) == 1:
+        lines.across(port, source.trunk, end, edges, owner)
+        lines.arrow(end, port, edges)
+        return
+    lines.across(port, source.trunk, end - 2, edges, owner)
+    lines.stub(end - 2, port, RIGHT, edges, owner)
+    _draw_bracket(lines, target, end - 1, port, edges, LEFT)
+
+
+def _draw_back(lines: Lines, plan: Plan, link: ChartLink) -> None:
+    source, target, edges = plan.placed[link.source], plan.placed[link.target], _edges(plan, link)
+    port, owner, lane = target.ports_in[link.id], source.box.id, plan.lanes[link.source]
+    lines.across(source.back_row, source.right, lane, edges, owner)
+    lines.down(lane, source.back_row, port, edges, owner)
+    if len(target.box.members) == 1:
+        lines.across(port, target.right, lane, edges, owner)
+        lines.arrow_back(target.right, port, edges, owner)
+        return
+    lines.across(port, target.right + 2, lane, edges, owner)
+    lines.stub(target.right + 2, port, LEFT, edges, owner)
+    _draw_bracket(lines, target, target.right + 1, port, edges, RIGHT)
+
+
+def _draw_bracket(lines: Lines, target: Placed, x: int, port: int, edges: frozenset[Edge], side: int) -> None:
+    """From one line an arrow to each member; the lines of several sources join here."""
+    owner = f"{target.box.id} {side}"
+    rows = target.member_rows()
+    lines.down(x, min(port, *rows), max(port, *rows), edges, owner)
+    lines.stub(x, port, side, edges, owner)
+    for row in rows:
+        lines.stub(x, row, RIGHT if side == LEFT else LEFT, edges, owner)
+        if side == LEFT:
+            lines.arrow(x + 1, row, edges)
+        else:
+            lines.arrow_back(x - 1, row, edges, owner)
+
+
+def _draw_box(placed: Placed, outgoing: bool, runs: dict[int, list[Run]], places: dict[str, Place]) -> None:
+    box, x, width = placed.box, placed.x, placed.box.width
+    rows = placed.member_rows()
+    items = [item for item, _ in box.members]
+    for y in range(placed.y, placed.bottom + 1):
+        member = min(range(len(rows)), key=lambda at: abs(rows[at] - y))
+        if y == placed.y:
+            loop = f" {box.loop} " if box.loop else ""
+            text = f"╭{loop}{'─' * (width - 2 - cell_len(loop))}╮"
+        elif y == placed.bottom:
+            text = "╰" + "─" * (width - 2) + "╯"
+            if outgoing and placed.out == y:
+                text = f"{text[:2]}┬{text[3:]}"
+            if placed.back_row == y:
+                text = text[:-1] + "┴"
+        elif y in rows:
+            label = box.members[member][1]
+            text = f"│ {label}{' ' * (width - 3 - cell_len(label))}│"
+        elif len(rows) > 1 and rows[0] < y < rows[-1]:
+            text = "├" + "─" * (width - 2) + "┤"
+        else:
+            text = "│" + " " * (width - 2) + "│"
+        runs.setdefault(y, []).append(Run(x, text, items[member]))
+    for item, row in zip(items, rows, strict=True):
+        one = len(items) == 1
+        places[item] = Place(x, placed.y if one else row, width, placed.height if one else 1, True)

@@ -1,0 +1,402 @@
+"""Places the boxes of a flow chart as stairs, each right of the lines that still lead past it, and routes the links.
+
+A box has one trunk, from which a branch leads to each later box: a line of its own, with the words on it, that ends at
+the left side of its target. What leads back to an earlier box runs on the right and ends at the right side. Pure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+from bot_console.tui.widgets.diagram.chart import Chart, ChartBox, ChartLink
+from bot_console.tui.widgets.diagram.chart_order import ordered
+from rich.cells import cell_len
+
+FRAME = 2
+BRACKET = 2
+"""Cells between a box of several members and the line from which an arrow leads to each of them, with the arrow."""
+LOOK_BACK_ROWS = 40
+"""How far above the lowest box a place for the next one is looked for."""
+
+
+@dataclass(frozen=True)
+class Style:
+    """How a chart is drawn: `rightward` boxes have their trunk on the right, the others below."""
+
+    rightward: int = 0
+    slack: int = 0
+    """Cells by which a box may move to the right to stand higher."""
+    words: int = 99
+    """Words on a line at most."""
+    pad: int = 1
+    """Cells kept free on both sides of the words."""
+
+
+@dataclass
+class Placed:
+    """A box with its position; `out` is the row on which its trunk leaves it, `trunk` the column of that."""
+
+    box: ChartBox
+    x: int
+    y: int
+    height: int
+    trunk: int = -1
+    out: int = -1
+    ports_in: dict[str, int] = field(default_factory=lambda: {})
+    """The row of each link that ends here, by id."""
+    back_row: int = -1
+    """The row on which links to earlier boxes leave."""
+
+    @property
+    def right(self) -> int:
+        """The first column right of it."""
+        return self.x + self.box.width
+
+    @property
+    def bottom(self) -> int:
+        """The row of its lower edge."""
+        return self.y + self.height - 1
+
+    def member_rows(self) -> list[int]:
+        """The rows of its members."""
+        count = len(self.box.members)
+        first = self.y + 1 + (self.height - FRAME - (2 * count - 1)) // 2
+        return [first + 2 * at for at in range(count)]
+
+
+@dataclass(frozen=True)
+class Label:
+    """The words of a link, at their position."""
+
+    link: str
+    x: int
+    y: int
+    text: str
+
+
+@dataclass
+class Plan:
+    """Where everything stands: boxes by id, forward and backward links, the lanes of the latter, and the labels."""
+
+    placed: dict[str, Placed] = field(default_factory=lambda: {})
+    forward: list[ChartLink] = field(default_factory=lambda: [])
+    back: list[ChartLink] = field(default_factory=lambda: [])
+    lanes: dict[str, int] = field(default_factory=lambda: {})
+    labels: list[Label] = field(default_factory=lambda: [])
+    width: int = 0
+    height: int = 0
+
+
+def planned(chart: Chart, style: Style, room: int) -> Plan:
+    """Place everything; boxes without links fill rows of the width `room` below the others."""
+    builder = _Builder(chart, style)
+    groups = ordered(chart)
+    for group in groups:
+        builder.place_group(group)
+    builder.add_lanes()
+    linked = {each for group in groups for each in group}
+    builder.add_alone([each for each in chart.boxes if each.id not in linked], room)
+    return builder.plan
+
+
+class _Cells:
+    """What is taken: cells of boxes and of horizontal and vertical lines, and rows that are kept free to the right."""
+
+    def __init__(self) -> None:
+        self.boxes: set[tuple[int, int]] = set()
+        self.across: set[tuple[int, int]] = set()
+        self.down: set[tuple[int, int]] = set()
+        self.kept: dict[int, int] = {}
+        """The column from which on a row is kept for a line that leads back."""
+        self.last: dict[int, int] = {}
+        """The last cell taken in each row."""
+
+    def add(self, kind: set[tuple[int, int]], cells: Iterable[tuple[int, int]]) -> None:
+        for x, y in cells:
+            kind.add((x, y))
+            self.last[y] = max(self.last.get(y, -1), x)
+
+    @property
+    def bottom(self) -> int:
+        """The first free row below everything."""
+        return max(self.last, default=-1) + 1
+
+    def free_for_box(self, x: int, end: int, rows: range) -> bool:
+        for y in rows:
+            if self.kept.get(y, end + 1) <= end:
+                return False
+            for at in range(x - 1, end + 1):
+                cell = (at, y)
+                if cell in self.boxes or (x <= at < end and (cell in self.across or cell in self.down)):
+                    return False
+        return True
+
+    def free_across(self, y: int, start: int, end: int) -> bool:
+        if self.kept.get(y, end) < end:
+            return False
+        return not any((x, y) in self.boxes or (x, y) in self.across for x in range(start, end))
+
+    def free_down(self, x: int, rows: Iterable[int]) -> bool:
+        return not any((x, y) in self.boxes or (x, y) in self.down for y in rows)
+
+    def free_to_the_right(self, y: int, start: int) -> bool:
+        if y in self.kept:
+            return False
+        return not any((x, y) in self.boxes or (x, y) in self.across for x in range(start, self.last.get(y, -1) + 1))
+
+
+class _Builder:
+    def __init__(self, chart: Chart, style: Style) -> None:
+        self.plan = Plan()
+        self._style = style
+        self._boxes = {each.id: each for each in chart.boxes}
+        self._links = chart.links
+        self._cells = _Cells()
+        self._trunk_end: dict[str, int] = {}
+        self._left: dict[str, set[str]] = {}
+        """The targets of each trunk that are not placed yet."""
+        self._rightward = style.rightward
+
+    def place_group(self, group: Sequence[str]) -> None:
+        at = {each: number for number, each in enumerate(group)}
+        links = [each for each in self._links if each.source in at]
+        forward = [each for each in links if at[each.source] < at[each.target]]
+        back = [each for each in links if at[each.source] > at[each.target]]
+        self.plan.forward += forward
+        self.plan.back += back
+        self._left = {}
+        for each in group:
+            rightward = self._rightward > 0
+            self._rightward -= 1
+            self._place(each, forward, back, rightward)
+
+    def _label(self, link: ChartLink) -> str:
+        pad = " " * self._style.pad
+        return f"{pad}{link.label(self._style.words)}{pad}"
+
+    def _place(self, name: str, forward: list[ChartLink], back: list[ChartLink], rightward: bool) -> None:
+        box = self._boxes[name]
+        ins = sorted((each for each in forward if each.target == name), key=lambda each: -self._column(each))
+        outs = {each.target for each in forward if each.source == name}
+        back_in = [each for each in back if each.target == name]
+        back_out = any(each.source == name for each in back)
+        several = len(box.members) > 1
+        rightward = rightward and bool(outs) and not several
+        right_ports = len(back_in) + (back_out and not several) + rightward
+        inner = max(2 * len(box.members) - 1, len(ins), right_ports, 1)
+        wants = _Wants(box, ins, outs, back_in, back_out, rightward, inner + FRAME)
+        spot = self._spot(wants)
+        self._settle(wants, spot)
+
+    def _column(self, link: ChartLink) -> int:
+        return self.plan.placed[link.source].trunk
+
+    def _spot(self, wants: _Wants) -> tuple[int, int]:
+        """The highest free place; of those of one height the leftmost."""
+        live = [self.plan.placed[each].trunk for each, left in self._left.items() if left]
+        left = BRACKET if len(wants.box.members) > 1 and wants.ins else 0
+        first = max((each + 2 for each in live), default=0) + left
+        sure = first
+        for each in wants.ins:
+            room = cell_len(self._label(each)) + 4 + left
+            first = max(first, self._column(each) + room) if self._column(each) == max(live) else first
+            sure = max(sure, max(live) + room)
+        edges = {each.right + 1 + left for each in self.plan.placed.values()}
+        columns = sorted({first, sure} | {each for each in edges if first < each <= sure + self._style.slack})
+        least = max((self.plan.placed[each.source].out for each in wants.ins), default=0) - wants.height
+        top = max(0, least, self._cells.bottom - LOOK_BACK_ROWS)
+        while True:
+            for x in columns:
+                if self._fits(wants, x, top):
+                    return x, top
+            top += 1
+
+    def _ports(self, wants: _Wants, top: int) -> list[int]:
+        start = top + 1 + (wants.height - FRAME - len(wants.ins)) // 2
+        return [start + at for at in range(len(wants.ins))]
+
+    def _fits(self, wants: _Wants, x: int, top: int) -> bool:
+        cells = self._cells
+        several = len(wants.box.members) > 1
+        bracket = BRACKET if several else 0
+        begin = x - (bracket if wants.ins else 0)
+        end = x + wants.box.width + (bracket if wants.back_in else 0) + (2 if wants.rightward else 0)
+        bottom = top + wants.height
+        if not cells.free_for_box(begin, end, range(top, bottom)):
+            return False
+        if not all(cells.free_to_the_right(y, end) for y in wants.right_rows(top)):
+            return False
+        if wants.outs:
+            trunk, out = wants.trunk(x, top)
+            if not cells.free_down(trunk, range(max(out, bottom), cells.bottom)):
+                return False
+        return all(
+            self._reaches(each, port, begin, wants)
+            for each, port in zip(wants.ins, self._ports(wants, top), strict=True)
+        )
+
+    def _reaches(self, link: ChartLink, port: int, end: int, wants: _Wants) -> bool:
+        """Whether the link can run along a row to the left side of its target, with its words."""
+        source, cells = self.plan.placed[link.source], self._cells
+        below = source.out == source.bottom
+        if port < source.out + below:
+            return False
+        ended = self._trunk_end[link.source]
+        fresh = range(ended + 1, port + 1)
+        if not cells.free_down(source.trunk, fresh) or not cells.free_across(port, source.trunk + 1, end):
+            return False
+        if (source.trunk, port) in cells.across and port != source.out:
+            return False
+        return self._gap(link, port, end, wants) is not None
+
+    def _gap(self, link: ChartLink, port: int, end: int, wants: _Wants) -> int | None:
+        """Where on the row the words have room: the last such place before the arrow."""
+        name = wants.box.id
+        passing = {
+            self.plan.placed[each].trunk for each, left in self._left.items() if left - {name} and each != link.source
+        }
+        begin = self.plan.placed[link.source].trunk + 1
+        taken = [x for x in range(begin, end) if (x, port) in self._cells.down or x in passing]
+        length = cell_len(self._label(link))
+        stop = end - 1  # the arrow
+        for wall in [*reversed(taken), begin - 1]:
+            if stop - wall - 1 >= length + 2:
+                return stop - 1 - length
+            stop = wall
+        return None
+
+    def _settle(self, wants: _Wants, spot: tuple[int, int]) -> None:
+        x, top = spot
+        cells, box = self._cells, wants.box
+        found = Placed(box, x, top, wants.height)
+        several = len(box.members) > 1
+        begin = x - (BRACKET if several and wants.ins else 0)
+        end = x + box.width + (BRACKET if several and wants.back_in else 0)
+        cells.add(cells.boxes, ((at, y) for y in range(top, top + wants.height) for at in range(begin, end)))
+        for link, port in zip(wants.ins, self._ports(wants, top), strict=True):
+            gap = self._gap(link, port, begin, wants)
+            assert gap is not None
+            label = Label(link.id, gap, port, self._label(link))
+            self.plan.labels.append(label)
+            # No line of a later box may run down through the words or the arrow head.
+            cells.add(cells.down, ((gap + at, port) for at in range(cell_len(label.text))))
+            source = self.plan.placed[link.source]
+            first = self._trunk_end[link.source] + 1
+            cells.add(cells.down, ((source.trunk, y) for y in range(first, port + 1)))
+            cells.add(cells.across, ((at, port) for at in range(source.trunk, begin)))
+            cells.add(cells.down, [(begin - 1, port)])
+            self._trunk_end[link.source] = max(self._trunk_end[link.source], port)
+            self._left[link.source].discard(box.id)
+            found.ports_in[link.id] = port
+        rows = wants.right_rows(top)
+        for link, row in zip(wants.back_in, rows, strict=False):
+            found.ports_in[link.id] = row
+            cells.add(cells.boxes, [(end, row)])
+        if wants.back_out:
+            found.back_row = rows[-1]
+        for row in rows:
+            cells.kept[row] = end
+        if wants.outs:
+            found.trunk, found.out = wants.trunk(x, top)
+            self._left[box.id] = set(wants.outs)
+            self._trunk_end[box.id] = found.out
+            if wants.rightward:
+                cells.add(cells.across, ((at, found.out) for at in range(found.right, found.trunk + 1)))
+                cells.add(cells.down, [(found.trunk, found.out)])
+        self.plan.placed[box.id] = found
+        self._measure()
+
+    def _measure(self) -> None:
+        self.plan.width = max(self._cells.last.values(), default=-1) + 1
+        self.plan.height = self._cells.bottom
+
+    def add_lanes(self) -> None:
+        """Lead back, on the right, what ends at an earlier box; short ways inside long ones."""
+        spans: list[tuple[int, int, str]] = []
+        for source in dict.fromkeys(each.source for each in self.plan.back):
+            rows = [self.plan.placed[source].back_row]
+            rows += [
+                self.plan.placed[each.target].ports_in[each.id] for each in self.plan.back if each.source == source
+            ]
+            spans.append((min(rows), max(rows), source))
+        for low, high, source in sorted(spans, key=lambda each: (each[1] - each[0], each)):
+            self._add_lane(low, high, source)
+        self._measure()
+
+    def _add_lane(self, low: int, high: int, source: str) -> None:
+        cells = self._cells
+        lane = max(cells.last.get(y, -1) for y in range(low, high + 1)) + 2
+        links = [each for each in self.plan.back if each.source == source]
+        starts: list[tuple[ChartLink, int, int]] = []
+        for link in links:
+            target = self.plan.placed[link.target]
+            start = target.right + 1 + (BRACKET if len(target.box.members) > 1 else 0)
+            row = target.ports_in[link.id]
+            starts.append((link, row, start))
+            length = cell_len(self._label(link))
+            if self._gap_back(row, start, lane, length) is None:
+                last = max((x for x in range(start, lane) if (x, row) in cells.down), default=start - 1)
+                lane = max(lane, last + length + 3)
+        for link, row, start in starts:
+            at = self._gap_back(row, start, lane, cell_len(self._label(link)))
+            assert at is not None
+            self.plan.labels.append(Label(link.id, at, row, self._label(link)))
+            cells.add(cells.across, ((x, row) for x in range(start - 1, lane)))
+        owner = self.plan.placed[source]
+        cells.add(cells.across, ((x, owner.back_row) for x in range(owner.right, lane)))
+        cells.add(cells.down, ((lane, y) for y in range(low, high + 1)))
+        self.plan.lanes[source] = lane
+
+    def _gap_back(self, row: int, start: int, lane: int, length: int) -> int | None:
+        begin = start
+        for x in range(start, lane + 1):
+            if x == lane or (x, row) in self._cells.down:
+                if x - begin >= length + 2:
+                    return begin + 1
+                begin = x + 1
+        return None
+
+    def add_alone(self, boxes: Sequence[ChartBox], room: int) -> None:
+        """Boxes without links, in rows below the others."""
+        x, top, high = 0, self._cells.bottom, 0
+        for box in boxes:
+            height = 2 * len(box.members) + 1
+            if x and x + box.width > room:
+                x, top, high = 0, top + high, 0
+            self.plan.placed[box.id] = Placed(box, x, top, height)
+            cells = ((at, y) for y in range(top, top + height) for at in range(x, x + box.width))
+            self._cells.add(self._cells.boxes, cells)
+            x, high = x + box.width + 1, max(high, height)
+        self._measure()
+
+
+@dataclass(frozen=True)
+class _Wants:
+    """What a box needs at its place."""
+
+    box: ChartBox
+    ins: list[ChartLink]
+    outs: set[str]
+    back_in: list[ChartLink]
+    back_out: bool
+    rightward: bool
+    height: int
+
+    def right_rows(self, top: int) -> list[int]:
+        """The rows of the lines that lead back: those that end here first, the one that begins here last."""
+        several = len(self.box.members) > 1
+        count = len(self.back_in) + (self.back_out and not several)
+        start = top + 1 + (self.height - FRAME - count - self.rightward) // 2
+        rows = [start + at for at in range(count)]
+        if self.rightward and self.back_out:
+            rows[-1] += 1
+        return [*rows, top + self.height - 1] if self.back_out and several else rows
+
+    def trunk(self, x: int, top: int) -> tuple[int, int]:
+        """The column of the trunk and the row on which it leaves the box."""
+        if not self.rightward:
+            return x + 2, top + self.height - 1
+        before = len(self.back_in)
+        count = before + self.back_out + 1
+        return x + self.box.width + 1, top + 1 + (self.height - FRAME - count) // 2 + before
