@@ -8,8 +8,8 @@ from typing import ClassVar, TypeAlias
 
 from bot_console.tui import keymap
 from bot_console.tui.terminal.styling.style_sheet import StyledByPart
-from bot_console.tui.widgets.diagram.chart import Chart
-from bot_console.tui.widgets.diagram.chart_drawing import draw_chart
+from bot_console.tui.widgets.diagram.chart.drawing import draw_chart
+from bot_console.tui.widgets.diagram.chart.model import Chart
 from bot_console.tui.widgets.diagram.drawing import Drawing, Place, Run, draw
 from bot_console.tui.widgets.diagram.flow import DOWN, RIGHT, Flow
 from bot_console.tui.widgets.diagram.graph import Digraph

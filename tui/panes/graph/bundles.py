@@ -10,7 +10,7 @@ from types import MappingProxyType
 from bot_console.tui.panes.graph.items import ACTION, SERVICE, TOPIC, is_link
 from bot_console.tui.panes.graph.namespaces import SPACE, namespace_of
 from bot_console.tui.text.shown import counted, cut_name, harmless
-from bot_console.tui.widgets.diagram.chart import Chart, ChartBox, ChartLink
+from bot_console.tui.widgets.diagram.chart.model import Chart, ChartBox, ChartLink
 
 LINE = "line:"
 """Begins the id of a line between two boxes."""

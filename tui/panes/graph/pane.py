@@ -36,7 +36,7 @@ from bot_console.tui.panes.graph.rates import Rates
 from bot_console.tui.panes.graph.view import GraphView, Mode, Shown, matches, shown
 from bot_console.tui.panes.graph.view_state import KEPT, ViewState, view_state_of
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.widgets.diagram.chart_drawing import WIDE
+from bot_console.tui.widgets.diagram.chart.drawing import WIDE
 from bot_console.tui.widgets.diagram_view import LARGE, DiagramView
 from bot_console.tui.widgets.prompt.filtered import Narrowed
 from bot_console.tui.widgets.prompt.line import Prompt

@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.panes.graph.view import GraphView, shown
-from bot_console.tui.widgets.diagram.chart import Chart, ChartBox, ChartLink
-from bot_console.tui.widgets.diagram.chart_drawing import draw_chart, drawn
-from bot_console.tui.widgets.diagram.chart_plan import Style, planned
+from bot_console.tui.widgets.diagram.chart.drawing import draw_chart, drawn
+from bot_console.tui.widgets.diagram.chart.model import Chart, ChartBox, ChartLink
+from bot_console.tui.widgets.diagram.chart.plan import Style, planned
 from bot_console.tui.widgets.diagram.drawing import Drawing
 from hypothesis import given
 from hypothesis import strategies as some
-from reading_charts import Reader
+from scenes.reading_charts import Reader
 
 KIND = ("a/msg/B",)
 
@@ -107,6 +107,8 @@ def test_no_later_line_runs_through_the_words_of_an_earlier_one() -> None:
 def test_no_later_line_runs_through_an_arrow_head() -> None:
     found = chart("c>a: x", "a>b: y", "e>b: y", "b>a: x")
     readable(found, draw_chart(found, 60, 30))
+    found = chart("d|h>a: scan x", "a>c: scan x", "a>f|g: scan x", "b>e: scan x o")
+    readable(found, drawn(found, planned(found, Style(rightward=9, slack=10), 80)))
 
 
 @pytest.mark.parametrize("style", [Style(), Style(rightward=3, slack=4, words=2, pad=0), Style(rightward=9, slack=10)])

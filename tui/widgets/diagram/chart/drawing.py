@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from functools import lru_cache
 from itertools import product
 
-from bot_console.tui.widgets.diagram.chart import Chart, ChartLink
-from bot_console.tui.widgets.diagram.chart_plan import Placed, Plan, Style, planned
+from bot_console.tui.widgets.diagram.chart.model import Chart, ChartLink
+from bot_console.tui.widgets.diagram.chart.plan import Placed, Plan, Style, planned
 from bot_console.tui.widgets.diagram.drawing import Drawing, Place, Rows, Run
 from bot_console.tui.widgets.diagram.layering import Edge
 from bot_console.tui.widgets.diagram.lines import LEFT, RIGHT, UP, Lines
@@ -14,33 +16,46 @@ from rich.cells import cell_len
 
 WIDE = 116
 """Columns from which on a chain of boxes runs from left to right rather than down."""
-MOST_RIGHTWARD = 8
+RIGHTWARD = (8, 3, 2, 1, 0)
 SLACK = (0, 4, 10)
-WORDS = (99, 3, 1)
-MANY_LINKS = 80
-"""Links from which on only few plans are tried."""
+WORDS = ((99, 1), (99, 0), (3, 1), (3, 0), (1, 1), (1, 0))
+"""Words on a line, and the blanks around them."""
+SOME_LINKS, MANY_LINKS = 24, 80
+"""Links from which on few plans are tried, and only one."""
 
 
 def best_plan(chart: Chart, width: int, height: int) -> Plan:
     """The first plan that fits, else the one of which most is visible."""
-    best: tuple[float, Plan] | None = None
-    for style in _styles(chart, width):
-        plan = planned(chart, style, width)
+    lengths = (replace(each, words=tuple("─" * cell_len(word) for word in each.words)) for each in chart.links)
+    return planned(chart, _best_style(Chart(chart.boxes, tuple(lengths)), width, height), width)
+
+
+@lru_cache(maxsize=8)
+def _best_style(shape: Chart, width: int, height: int) -> Style:
+    """How to draw a chart with words of these lengths; rates change every few seconds, what fits does not."""
+    styles = list(_styles(shape, width))
+    if len(styles) == 1:
+        return styles[0]
+    best: tuple[float, Style] | None = None
+    for style in styles:
+        plan = planned(shape, style, width)
         excess = max(1.0, plan.width / max(1, width)) * max(1.0, plan.height / max(1, height))
         if excess == 1.0:
-            return plan
+            return style
         if best is None or excess < best[0]:
-            best = excess, plan
-    return best[1] if best else Plan()
+            best = excess, style
+    return best[1] if best else Style()
 
 
 def _styles(chart: Chart, width: int) -> Iterator[Style]:
-    if len(chart.links) > MANY_LINKS:
+    count, wide = len(chart.links), width >= WIDE
+    if count > MANY_LINKS:
         yield Style(words=3)
-        return
-    rightward = range(min(MOST_RIGHTWARD, len(chart.boxes)), -1, -1) if width >= WIDE else (0,)
-    for words, pad in product(WORDS, (1, 0)):
-        for right, slack in product(rightward, SLACK):
+    elif count > SOME_LINKS:
+        for (words, pad), right in product((WORDS[0], WORDS[3], WORDS[5]), (4, 0) if wide else (0,)):
+            yield Style(right, 4, words, pad)
+    else:
+        for (words, pad), right, slack in product(WORDS, RIGHTWARD if wide else (0,), SLACK[::2] if wide else SLACK):
             yield Style(right, slack, words, pad)
 
 

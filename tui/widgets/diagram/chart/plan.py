@@ -6,11 +6,12 @@ the left side of its target. What leads back to an earlier box runs on the right
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from bot_console.tui.widgets.diagram.chart import Chart, ChartBox, ChartLink
-from bot_console.tui.widgets.diagram.chart_order import ordered
+from bot_console.tui.widgets.diagram.chart.cells import Cells
+from bot_console.tui.widgets.diagram.chart.model import Chart, ChartBox, ChartLink
+from bot_console.tui.widgets.diagram.chart.order import ordered
 from rich.cells import cell_len
 
 FRAME = 2
@@ -100,59 +101,13 @@ def planned(chart: Chart, style: Style, room: int) -> Plan:
     return builder.plan
 
 
-class _Cells:
-    """What is taken: cells of boxes and of horizontal and vertical lines, and rows that are kept free to the right."""
-
-    def __init__(self) -> None:
-        self.boxes: set[tuple[int, int]] = set()
-        self.across: set[tuple[int, int]] = set()
-        self.down: set[tuple[int, int]] = set()
-        self.kept: dict[int, int] = {}
-        """The column from which on a row is kept for a line that leads back."""
-        self.last: dict[int, int] = {}
-        """The last cell taken in each row."""
-
-    def add(self, kind: set[tuple[int, int]], cells: Iterable[tuple[int, int]]) -> None:
-        for x, y in cells:
-            kind.add((x, y))
-            self.last[y] = max(self.last.get(y, -1), x)
-
-    @property
-    def bottom(self) -> int:
-        """The first free row below everything."""
-        return max(self.last, default=-1) + 1
-
-    def free_for_box(self, x: int, end: int, rows: range) -> bool:
-        for y in rows:
-            if self.kept.get(y, end + 1) <= end:
-                return False
-            for at in range(x - 1, end + 1):
-                cell = (at, y)
-                if cell in self.boxes or (x <= at < end and (cell in self.across or cell in self.down)):
-                    return False
-        return True
-
-    def free_across(self, y: int, start: int, end: int) -> bool:
-        if self.kept.get(y, end) < end:
-            return False
-        return not any((x, y) in self.boxes or (x, y) in self.across for x in range(start, end))
-
-    def free_down(self, x: int, rows: Iterable[int]) -> bool:
-        return not any((x, y) in self.boxes or (x, y) in self.down for y in rows)
-
-    def free_to_the_right(self, y: int, start: int) -> bool:
-        if y in self.kept:
-            return False
-        return not any((x, y) in self.boxes or (x, y) in self.across for x in range(start, self.last.get(y, -1) + 1))
-
-
 class _Builder:
     def __init__(self, chart: Chart, style: Style) -> None:
         self.plan = Plan()
         self._style = style
         self._boxes = {each.id: each for each in chart.boxes}
         self._links = chart.links
-        self._cells = _Cells()
+        self._cells = Cells()
         self._trunk_end: dict[str, int] = {}
         self._left: dict[str, set[str]] = {}
         """The targets of each trunk that are not placed yet."""
@@ -247,6 +202,8 @@ class _Builder:
         if not cells.free_down(source.trunk, fresh) or not cells.free_across(port, source.trunk + 1, end):
             return False
         if (source.trunk, port) in cells.across and port != source.out:
+            return False
+        if (end - 1, port) in cells.down:  # the arrow head
             return False
         return self._gap(link, port, end, wants) is not None
 

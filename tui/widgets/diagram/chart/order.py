@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from bot_console.tui.widgets.diagram.chart import Chart
+from bot_console.tui.widgets.diagram.chart.model import Chart
 from bot_console.tui.widgets.diagram.layering import greedy_order
 
 

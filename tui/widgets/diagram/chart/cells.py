@@ -1,0 +1,56 @@
+"""What is taken in a flow chart while its boxes are placed. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+class Cells:
+    """What is taken: cells of boxes and of horizontal and vertical lines, and rows that are kept free to the right."""
+
+    def __init__(self) -> None:
+        self.boxes: set[tuple[int, int]] = set()
+        self.across: set[tuple[int, int]] = set()
+        self.down: set[tuple[int, int]] = set()
+        self.kept: dict[int, int] = {}
+        """The column from which on a row is kept for a line that leads back."""
+        self.last: dict[int, int] = {}
+        """The last cell taken in each row."""
+
+    def add(self, kind: set[tuple[int, int]], cells: Iterable[tuple[int, int]]) -> None:
+        """Take cells of a kind."""
+        for x, y in cells:
+            kind.add((x, y))
+            self.last[y] = max(self.last.get(y, -1), x)
+
+    @property
+    def bottom(self) -> int:
+        """The first free row below everything."""
+        return max(self.last, default=-1) + 1
+
+    def free_for_box(self, x: int, end: int, rows: range) -> bool:
+        """Whether a box has room in these rows, from a column to before another."""
+        for y in rows:
+            if self.kept.get(y, end + 1) <= end:
+                return False
+            for at in range(x - 1, end + 1):
+                cell = (at, y)
+                if cell in self.boxes or (x <= at < end and (cell in self.across or cell in self.down)):
+                    return False
+        return True
+
+    def free_across(self, y: int, start: int, end: int) -> bool:
+        """Whether a horizontal line has room; it may cross vertical ones."""
+        if self.kept.get(y, end) < end:
+            return False
+        return not any((x, y) in self.boxes or (x, y) in self.across for x in range(start, end))
+
+    def free_down(self, x: int, rows: Iterable[int]) -> bool:
+        """Whether a vertical line has room; it may cross horizontal ones."""
+        return not any((x, y) in self.boxes or (x, y) in self.down for y in rows)
+
+    def free_to_the_right(self, y: int, start: int) -> bool:
+        """Whether a row can be kept free for a line that leads back, from a column on."""
+        if y in self.kept:
+            return False
+        return not any((x, y) in self.boxes or (x, y) in self.across for x in range(start, self.last.get(y, -1) + 1))
