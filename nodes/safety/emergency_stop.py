@@ -9,7 +9,14 @@ from bot_console_robot.common.parameters import fixed
 from bot_console_robot.safety.latch import RELEASE, STOP, Latch, Request
 from bot_console_robot.safety.lock import NODE, Lock, new_id
 from bot_console_robot.safety.stop_file import StopFile, StopFileError, UnreadableStopFileError
-from bot_console_robot.safety.stop_messages import State, request_message, request_of, state_message, state_of
+from bot_console_robot.safety.stop_messages import (
+    State,
+    question_of,
+    request_message,
+    request_of,
+    state_message,
+    state_of,
+)
 from diagnostic_msgs.msg import DiagnosticStatus
 from rclpy.clock import Clock
 from rclpy.event_handler import QoSSubscriptionMatchedInfo, SubscriptionEventCallbacks
@@ -113,8 +120,9 @@ class EmergencyStop:
             self._node.get_logger().warning(text, throttle_duration_sec=REFUSAL_LOG_PERIOD_S)
         changed = self._latch.request(request, self._now())
         self._settle(changed)
-        if not changed and request.verb in (STOP, RELEASE):
-            self._publish()  # who asks again has not heard the answer, or has heard a recorded one since
+        question = question_of(message)
+        if question or (not changed and request.verb in (STOP, RELEASE)):
+            self._publish(question)  # who asks again has not heard the answer, or has heard a recorded one since
 
     def _on_state(self, message: DiagnosticStatus) -> None:
         state = state_of(message)
@@ -214,8 +222,8 @@ class EmergencyStop:
             by = next((each.by for each in reversed(self.lock.released) if each.id in before.ids), "")
             log.info(f"Emergency stop: released by {by}")
 
-    def _publish(self) -> None:
-        state = State(self.lock, self._instance, self._latch.challenge, self.steered_by)
+    def _publish(self, question: str = "") -> None:
+        state = State(self.lock, self._instance, self._latch.challenge, self.steered_by, question)
         self._states.publish(state_message(state, self._node.get_name()))
 
 

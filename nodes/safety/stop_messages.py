@@ -25,6 +25,8 @@ class State:
     instance: str
     challenge: str = ""
     steered_by: str = ""
+    answers: str = ""
+    """The question of the request that this state answers."""
 
 
 def request_message(request: Request) -> DiagnosticStatus:
@@ -65,12 +67,19 @@ def request_of(message: DiagnosticStatus) -> Request:
     )
 
 
+def question_of(message: DiagnosticStatus) -> str:
+    """The text in a request that the answer is to quote; empty if there is none."""
+    return _short(_values(message).get("question", ""))
+
+
 def state_message(state: State, node: str) -> DiagnosticStatus:
     """The state of a node's lock."""
     lock = state.lock
     values = {"locked": str(lock.held).lower(), "holder": lock.holder, "reason": lock.reason, "turn": str(lock.turn)}
     values |= {"stops": stops_text(lock.stops), "released": releases_text(lock.released)}
     values |= {"steered_by": state.steered_by, "instance": state.instance, "challenge": state.challenge}
+    if state.answers:
+        values["answers"] = state.answers
     return DiagnosticStatus(
         level=DiagnosticStatus.ERROR if lock.held else DiagnosticStatus.OK,
         name=f"{node}: emergency stop",
@@ -91,7 +100,8 @@ def state_of(message: DiagnosticStatus) -> State:
         holder, reason = _short(values.get("holder", "")), _short(values.get("reason", ""))
         stops = (Stop(f"{CROWD}@{turn}@{instance}", CROWD, holder, reason, turn),)
     lock = Lock(stops, turn, releases_of(values.get("released")))
-    return State(lock, instance, _short(values.get("challenge", "")), _short(values.get("steered_by", "")))
+    challenge, steered_by, answers = (_short(values.get(key, "")) for key in ("challenge", "steered_by", "answers"))
+    return State(lock, instance, challenge, steered_by, answers)
 
 
 def stops_text(stops: tuple[Stop, ...]) -> str:

@@ -9,9 +9,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from bot_console.tui.cli.doctor.finding import Finding, Level
+from bot_console.tui.cli.doctor.locks import ask_locks, find_locks, lock_finding
 from bot_console.tui.console.graph.full_name import name_of
 from bot_console.tui.console.graph.pairs import hash_of, unheard
-from bot_console.tui.console.robot.stop_link import FOLDER, STATUS
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -112,9 +112,8 @@ def base_finding(node: Node) -> Finding:
     }
     if not bases:
         return Finding(Level.NOTE, "time-out", "no node obeys velocity commands")
-    locks = [name for name, types in node.get_topic_names_and_types() if STATUS in types and FOLDER in name]
-    if locks:
-        return Finding(Level.OK, "time-out", f"the robot has an emergency stop that answers ({', '.join(locks[:2])})")
+    if locks := find_locks(node):
+        return lock_finding(ask_locks(node, locks, _spin))
     named = [(base, name, value) for base in sorted(bases) for name, value in time_outs(node, base).items()]
     if not named:
         return Finding(Level.WARN, "time-out", f"none is seen in {', '.join(sorted(bases))}", HOW)

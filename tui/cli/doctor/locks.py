@@ -1,0 +1,123 @@
+"""Whether the robot's emergency stop answers: each lock is asked, with a request that changes nothing."""
+
+from __future__ import annotations
+
+import json
+import uuid
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from bot_console.tui.cli.doctor.finding import Finding, Level
+from bot_console.tui.console.graph.full_name import name_of
+from bot_console.tui.console.robot.stop_link import LATCHED, RELEASE, REQUEST, STATUS, is_lock
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+Spin = Callable[..., None]
+"""Spins a node for so many seconds, or until something holds."""
+ANSWER_TIMEOUT_S = 3.0
+REPEAT_S = 0.5
+"""Between two copies of a question, which may come before the lock has found us."""
+REMEDY = (
+    "no stop would reach it: see whether its node is frozen or hangs (kill -CONT, or start it again), and until then "
+    "stop the robot by a switch of its own"
+)
+
+
+@dataclass
+class AskedLock:
+    """A lock that was asked: by its topic, with the nodes that publish it, and what came back."""
+
+    topic: str
+    nodes: Sequence[str]
+    reported: bool = False
+    """Whether its state has come."""
+    older: bool = False
+    """Whether it is of a version that knows no questions."""
+    answered: bool = False
+
+
+def find_locks(node: Node) -> list[AskedLock]:
+    """The locks that somebody publishes; a topic that is only listened to is none."""
+    found: list[AskedLock] = []
+    for topic, types in sorted(node.get_topic_names_and_types()):
+        if STATUS in types and is_lock(topic):
+            nodes = sorted({name_of(each) for each in node.get_publishers_info_by_topic(topic)})
+            found += [AskedLock(topic, nodes)] if nodes else []
+    return found
+
+
+def ask_locks(node: Node, locks: Sequence[AskedLock], spin: Spin) -> Sequence[AskedLock]:
+    """Ask every lock for its state; an older one, which quotes no question, is asked through its parameter services."""
+    question = uuid.uuid4().hex
+
+    def heard(lock: AskedLock, message: DiagnosticStatus) -> None:
+        values = {each.key: each.value for each in message.values}
+        lock.reported |= "locked" in values
+        lock.older = "challenge" not in values
+        lock.answered |= values.get("answers") == question
+
+    folders = {each.topic.rpartition("/")[0] for each in locks}
+    publishers = [node.create_publisher(DiagnosticStatus, f"{folder}/{REQUEST}", 10) for folder in sorted(folders)]
+    listening = [
+        node.create_subscription(DiagnosticStatus, each.topic, partial(heard, each), LATCHED) for each in locks
+    ]
+    try:
+        for _ in range(round(ANSWER_TIMEOUT_S / REPEAT_S)):
+            for publisher in publishers:
+                publisher.publish(_question(question))
+            spin(node, REPEAT_S, lambda: all(each.answered for each in locks))
+        for each in locks:
+            if each.reported and each.older:
+                each.answered = any(_serves(node, name, spin) for name in each.nodes)
+    finally:
+        for publisher in publishers:
+            node.destroy_publisher(publisher)
+        for subscription in listening:
+            node.destroy_subscription(subscription)
+    return locks
+
+
+def _question(question: str) -> DiagnosticStatus:
+    """A release of nothing: locks of every version leave everything as it is."""
+    nothing = json.dumps([question])
+    values: Mapping[str, str] = {REQUEST: RELEASE, "ids": "[]", "of": nothing, "question": question}
+    return DiagnosticStatus(
+        level=DiagnosticStatus.OK,
+        name="bot-console doctor",
+        hardware_id=question,
+        values=[KeyValue(key=key, value=value) for key, value in values.items()],
+    )
+
+
+def _serves(node: Node, name: str, spin: Spin) -> bool:
+    """Whether a node answers a call; the thread that answers is the one that hears requests."""
+    from rcl_interfaces.srv import ListParameters
+
+    client: Any = node.create_client(ListParameters, f"{name}/list_parameters")
+    try:
+        spin(node, ANSWER_TIMEOUT_S, client.service_is_ready)
+        if not client.service_is_ready():
+            return False
+        response = client.call_async(ListParameters.Request())
+        spin(node, ANSWER_TIMEOUT_S, response.done)
+        return response.done() and response.result() is not None
+    finally:
+        node.destroy_client(client)
+
+
+def lock_finding(locks: Sequence[AskedLock]) -> Finding:
+    """Whether all of them have answered."""
+    silent = [each for each in locks if not each.answered]
+    if not silent:
+        return Finding(Level.OK, "time-out", f"the robot has an emergency stop that answers ({_listed(locks)})")
+    return Finding(Level.FAIL, "time-out", f"the emergency stop does not answer ({_listed(silent)})", REMEDY)
+
+
+def _listed(locks: Sequence[AskedLock]) -> str:
+    names = [f"{each.topic} of {', '.join(each.nodes)}" for each in locks]
+    return ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
