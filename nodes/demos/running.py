@@ -3,16 +3,27 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
 
+@contextlib.contextmanager
+def initialised(args: list[str] | None) -> Iterator[None]:
+    """Use ROS in a `with` block, until it is interrupted or its context is shut down; `rclpy.init` returns nothing."""
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
+        rclpy.init(args=args)
+        try:
+            yield
+        finally:
+            rclpy.try_shutdown()
+
+
 def run(make_node: Callable[[], Node], args: list[str] | None, cycles: int | None = None) -> None:
     """Spin a node until it is interrupted, its context is shut down, or a number of callbacks have run."""
-    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
+    with initialised(args):
         node = make_node()
         if cycles is None:
             rclpy.spin(node)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
 from dataclasses import dataclass
 from typing import Any
 
 import rclpy
 from action_tutorials_interfaces.action import Fibonacci
+from bot_console_demos.running import initialised
 from rclpy.action import ActionClient
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
 ORDER = 10
@@ -76,7 +75,7 @@ class Client(Node):
 
 
 def _run(words: Words, args: list[str] | None) -> None:
-    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
+    with initialised(args):
         client = Client(words)
         client.send()
         while not client.done:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import contextlib
 from functools import partial
 
 import rclpy
-from bot_console_demos.running import run
+from bot_console_demos.running import initialised, run
 from example_interfaces.srv import AddTwoInts
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
 
@@ -27,7 +25,7 @@ class Server(Node):
 
 def _ask(name: str, a: int, b: int, told: str, args: list[str] | None) -> None:
     """Wait for the server, call it, log `told` and the sum, and exit."""
-    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
+    with initialised(args):
         node = rclpy.create_node(name)
         client = node.create_client(AddTwoInts, "add_two_ints")
         while not client.wait_for_service(timeout_sec=1.0):
