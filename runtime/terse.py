@@ -17,6 +17,8 @@ ENDED = "ExternalShutdownException"
 """What a wait raises when SIGTERM has ended the context; named, as not every command imports rclpy."""
 NO_THREAD = "can't start new thread"
 """How Python puts that in a RuntimeError."""
+NO_TEMPORARY = "No usable temporary directory"
+"""How Python puts that in a FileNotFoundError."""
 RAISING = ("strict", "surrogateescape")
 """Ways of a stream to treat characters that it cannot encode that raise; the second is that of the C locale."""
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG)
@@ -39,6 +41,8 @@ def place_fault(error: BaseException) -> str:
         return f"{_shortened(error.filename)} cannot be a file: its name is too long"
     if not isinstance(error, OSError) or error.filename is not None:
         return ""
+    if NO_TEMPORARY in str(error):
+        return "no temporary file can be written: the disk is full, or the size of files is limited (`ulimit -f`)"
     if error.errno in FULL:
         return f"the output cannot be written: {error.strerror}"
     if error.errno == errno.ENOENT and not _has_folder():

@@ -34,7 +34,7 @@ from bot_console.tui.cli.system.start_lock import start_lock
 from bot_console.tui.cli.system.system_log import new_log
 from bot_console.tui.console.launch_host.door import DOOR
 from bot_console.tui.files.folders import OVERRIDE, state_folder
-from bot_console.tui.files.save_file import save_file
+from bot_console.tui.files.save_file import NotSaved, save_file
 from bot_console.tui.own_program import own_program
 
 STARTING = 60.0
@@ -111,7 +111,11 @@ def up(words: Sequence[str]) -> int:
         # Its own file, which goes with the log: the system's takes turns, and would leave the router in an old one.
         router_log = log.with_name(f"{log.name}.router")
         started = Background(process.pid, tuple(words), str(log), _open_way_in(serving, router_log) if serving else 0)
-        save_file(_file(), json.dumps(asdict(started)))
+        if problem := _kept(started):
+            end_session(process.pid)
+            started.close_way_in()
+            print(f"not started: {problem}", file=sys.stderr)
+            return 1
     return _await(process, started, launched=bool(options.launch), router_log=router_log if serving else None)
 
 
@@ -133,7 +137,7 @@ def _await(process: subprocess.Popen[bytes], started: Background, *, launched: b
         print(f"it goes on starting: {started.told()}; bot-console down ends it", file=sys.stderr)
         raise
     if process.poll() is not None:
-        _file().unlink(missing_ok=True)
+        _forget()
         started.close_way_in()
         print(f"it has ended with exit code {process.returncode}; its log is {started.log}", file=sys.stderr)
         return 1
@@ -221,7 +225,7 @@ def down(words: Sequence[str]) -> int:
             break
     end_session(there.pid)  # what it launched has outlived it only if it was killed
     there.close_way_in()
-    _file().unlink(missing_ok=True)
+    _forget()
     print(f"ended: {there.told()}")
     return 0
 
@@ -283,11 +287,36 @@ def _runs(pid: int) -> bool:
     return (_file().parent / f"{pid}{DOOR}").exists()
 
 
+def _files() -> tuple[Path, Path]:
+    """Where the system is written down: for every user folder, and where no cleaner of temporary files comes."""
+    return _file(), state_folder() / "systems" / f"domain-{domain()}.json"
+
+
+def _kept(started: Background) -> str:
+    """Write down a system, so that it can be ended; returns why it cannot be, or an empty text."""
+    problems: list[str] = []
+    for each in _files():
+        try:
+            save_file(each, json.dumps(asdict(started)))
+        except NotSaved as error:
+            problems.append(str(error))
+    return problems[0] if len(problems) == len(_files()) else ""
+
+
+def _forget() -> None:
+    for each in _files():
+        with contextlib.suppress(OSError):
+            each.unlink(missing_ok=True)
+
+
 def _known() -> Background | None:
     """The system in the background, if it is still running."""
+    return next((known for each in _files() if (known := _written(each)) is not None and known.runs()), None)
+
+
+def _written(file: Path) -> Background | None:
     try:
-        found = json.loads(_file().read_text(encoding="utf-8"))
-        known = Background(int(found["pid"]), tuple(found["words"]), str(found["log"]), int(found.get("way_in", 0)))
+        found = json.loads(file.read_text(encoding="utf-8"))
+        return Background(int(found["pid"]), tuple(found["words"]), str(found["log"]), int(found.get("way_in", 0)))
     except (OSError, ValueError, KeyError, TypeError):
         return None
-    return known if known.runs() else None

@@ -1,0 +1,59 @@
+"""A system in the background is written down where it is found again, whatever happens to temporary files."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from bot_console.tui.cli.verbs import background
+from bot_console.tui.cli.verbs.background import Background
+from bot_console.tui.files.folders import OVERRIDE
+
+SLEEPER = [sys.executable, "-c", "import signal; print('runs', flush=True); signal.pause()"]
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder of the domain; the user's folders are beside it."""
+    monkeypatch.setenv(OVERRIDE, str(tmp_path / "user"))
+    monkeypatch.setattr(background, "_file", lambda: tmp_path / "domain" / "background.json")
+    return tmp_path / "domain"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a system without process sessions")
+def test_down_ends_a_system_whose_domain_folder_was_cleaned_away(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(background, "take_part", lambda: "")
+    monkeypatch.setattr(background, "robot_there", list)
+    with subprocess.Popen(SLEEPER, stdout=subprocess.PIPE, start_new_session=True) as process:
+        assert process.stdout is not None and process.stdout.readline()
+        monkeypatch.setattr(Background, "runs", lambda self: process.poll() is None)
+        assert background._kept(Background(process.pid, ("outdoor",), "the log")) == ""
+        shutil.rmtree(folder)
+        try:
+            assert background.down([]) == 0
+            assert process.poll() is not None
+        finally:
+            process.kill()
+    assert capsys.readouterr().out == f"ended: process {process.pid} (outdoor), log the log\n"
+    assert background.down([]) == 1
+
+
+def test_a_system_that_can_be_written_down_in_one_place_is_known(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Background, "runs", lambda self: True)
+    folder.write_text("in the way")
+    assert background._kept(Background(7, (), "the log")) == ""
+    known = background._known()
+    assert known is not None and known.pid == 7
+    background._forget()
+    assert background._known() is None
+
+
+def test_a_system_that_cannot_be_written_down_anywhere_is_not_kept(folder: Path) -> None:
+    for each in (folder, folder.with_name("user")):
+        each.write_text("in the way")
+    assert str(folder) in background._kept(Background(7, (), "the log"))
