@@ -17,6 +17,8 @@ ENDED = "ExternalShutdownException"
 """What a wait raises when SIGTERM has ended the context; named, as not every command imports rclpy."""
 NO_THREAD = "can't start new thread"
 """How Python puts that in a RuntimeError."""
+UNMAPPED = "failed to map segment"
+"""How a library that does not fit into memory is put in an ImportError."""
 NO_TEMPORARY = "No usable temporary directory"
 """How Python puts that in a FileNotFoundError."""
 RAISING = ("strict", "surrogateescape")
@@ -31,7 +33,8 @@ def place_fault(error: BaseException) -> str:
     """
     if isinstance(error, SystemError) and not _has_folder():  # so says an import of Python 3.13.0 there
         return DELETED
-    if isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno == errno.ENOMEM):
+    unloaded = isinstance(error, ImportError) and UNMAPPED in str(error)
+    if unloaded or isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno == errno.ENOMEM):
         return "there is too little memory (a limit is shown by `ulimit -v`)"
     if isinstance(error, RuntimeError) and str(error) == NO_THREAD:
         return "no more threads can be started (limits are shown by `ulimit -v` and `ulimit -u`)"
@@ -116,7 +119,7 @@ def told(run: Callable[[], int]) -> int:
     except BrokenPipeError:  # as of `head`, which has read enough
         _give_up_output()
         return code or 1
-    except (OSError, SystemError, RuntimeError, MemoryError) as error:
+    except (OSError, SystemError, RuntimeError, MemoryError, ImportError) as error:
         if code := ended_code(error):
             return code
         text = place_fault(error)

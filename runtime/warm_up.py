@@ -44,7 +44,8 @@ def warm_up() -> None:
                 importlib.import_module(f"{package}.{kind}")
     for name in MODULES:
         importlib.import_module(name)
-    preload()
+    with contextlib.suppress(ImportError, MemoryError):  # where it does not fit into memory, the node says so
+        preload()
     gid_of("warm_up")  # which imports what hashes
     gc.freeze()  # what was imported is no garbage: only what the node leaves behind has to be looked through
     _make_one_node()

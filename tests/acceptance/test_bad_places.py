@@ -178,3 +178,25 @@ def test_a_character_that_the_c_locale_does_not_have_is_replaced(tmp_path: Path)
         [sys.executable, "-c", program], cwd=tmp_path, env=environment, capture_output=True, check=False
     )
     assert (done.returncode, done.stdout) == (0, b"? held\n"), done.stderr
+
+
+@pytest.mark.skipif(os.name == "nt", reason="limits are those of POSIX")
+@pytest.mark.parametrize(
+    ("limit", "words", "said"),
+    [
+        ("-v 30000", ["topic", "list"], "there is too little memory (a limit is shown by `ulimit -v`)"),
+        ("-v 30000", ["stop"], "bot-console: there is too little memory (a limit is shown by `ulimit -v`)"),
+        ("-f 0", ["up"], "not started: "),
+        ("-f 0", ["export", "there"], "not exported: "),
+    ],
+)
+def test_a_limit_of_the_shell_is_told_on_one_line(limit: str, words: list[str], said: str, tmp_path: Path) -> None:
+    program = [sys.executable, "-c", "import sys; sys.argv[0] = 'bot-console'\n"
+               "from bot_console.tui.cli.main import program; program()", *words]  # fmt: skip
+    line = ["sh", "-c", f'ulimit {limit}; exec "$0" "$@"', *program]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "BOT_CONSOLE_USER_DIR": str(tmp_path)}
+    done = subprocess.run(
+        line, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=PATIENCE, check=False
+    )
+    assert done.returncode == 1 and done.stdout == ""
+    assert done.stderr.startswith(said) and len(done.stderr.splitlines()) == 1, done.stderr

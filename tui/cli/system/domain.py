@@ -190,7 +190,9 @@ def domain() -> int:
 def end_program(code: int) -> NoReturn:
     """End the process; at once if it has joined the domain, since closing waits up to 0.5 s for a frozen process."""
     if _taking_part:
-        from bot_console.runtime.process.ending import exit_functions_run
-
+        try:
+            from bot_console.runtime.process.ending import exit_functions_run
+        except (MemoryError, ImportError):  # too little memory even to end; what was wrong has been said
+            os._exit(code)
         os._exit(exit_functions_run(code))  # its sockets and temporary folders go, as they do at any other end
     sys.exit(code)
