@@ -9,7 +9,6 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from bot_console.tui.cli.doctor.finding import Finding, Level
-from bot_console.tui.cli.doctor.locks import ask_locks, find_locks, lock_finding
 from bot_console.tui.console.graph.full_name import name_of
 from bot_console.tui.console.graph.pairs import hash_of, unheard
 
@@ -103,6 +102,8 @@ def own_hash(type_name: str) -> str | None:
 
 def base_finding(node: Node) -> Finding:
     """Whether the robot stops by itself when commands cease."""
+    from bot_console.tui.cli.doctor.locks import ask_locks, find_locks, lock_finding  # of the rclpy that was started
+
     bases = {
         name_of(each)
         for topic, types in node.get_topic_names_and_types()
