@@ -1,4 +1,11 @@
-"""The physics engine below pymunk, for the operations of each step: pymunk's own layer costs more than the physics."""
+"""The physics engine below pymunk, for the operations of each step: pymunk's own layer costs more than the physics.
+
+This uses two private parts of pymunk on purpose: the module `_chipmunk_cffi`, which contains the C functions of the
+engine, and the attributes `_space`, `_body` and `_shape`, which hold the C objects. The public properties of pymunk
+convert every vector and check every argument, which takes longer than the step itself. `pyproject.toml`
+limits pymunk to the releases (7.x) that have these names. Everything that is set up once, such as bodies and shapes,
+uses the public interface.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +13,7 @@ from typing import Any
 
 import pymunk
 
+# Private modules have no type information; importing it by name keeps the type checker from asking for it.
 _engine: Any = __import__("pymunk._chipmunk_cffi", fromlist=["ffi", "lib"])
 ffi, lib = _engine.ffi, _engine.lib
 

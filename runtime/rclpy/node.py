@@ -250,10 +250,12 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         self.destroy_node()
 
 
+# `Node` inherits most methods from mixins that users do not see, and Python names `__qualname__` in the error of a call
+# with wrong arguments: this makes it `Node.create_publisher()`, as in rclpy, not `NodeEntities.create_publisher()`.
 for _part in (NodeEntities, ParameterSetting, NodeParameters, NodeGraph):
     for _name, _method in vars(_part).items():
         if isinstance(_method, FunctionType):
-            _method.__qualname__ = f"Node.{_name}"  # shown by the error of a call with wrong arguments
+            _method.__qualname__ = f"Node.{_name}"
 
 
 def _logger_name(namespace: str, name: str) -> str:

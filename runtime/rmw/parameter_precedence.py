@@ -57,5 +57,7 @@ def key_matches(key: str, fully_qualified_name: str) -> bool:
     key = key if key.startswith("/") else f"/{key}"
     if "*" not in key:
         return key == fully_qualified_name
+    # As in rcl, one replacement handles both wildcards: `/*` becomes a group that matches one name, and the second star
+    # of `/**` stays behind as a quantifier of that group, which then matches any number of names, including none.
     pattern = key.replace("/*", r"(/\w+)")
     return re.fullmatch(pattern, fully_qualified_name) is not None

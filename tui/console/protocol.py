@@ -190,8 +190,7 @@ class Console(ConsoleReading, Protocol):
         """Take the steering, so that only a person's commands count, or hand it back.
 
         While the steering is held, the claim is repeated at least every 0.5 s; if a console that holds it falls silent,
-        the
-        robot is locked.
+        the robot is locked.
         """
         ...
 
@@ -211,8 +210,7 @@ class Console(ConsoleReading, Protocol):
         """Set a profile's values on the running nodes, all or none; it becomes active unless something was refused.
 
         A launch profile sets no values: once it has been launched it is the active one. The future raises `ValueError`,
-        with
-        the reason, for a profile that does not exist or cannot be used.
+        with the reason, for a profile that does not exist or cannot be used.
         """
         ...
 

@@ -1,8 +1,7 @@
 """Reads rqt perspectives: which plug-ins a window had, to show the matching panes. Their positions are not taken over.
 
 rqt writes JSON (`.perspective`) or an INI file; both name each open plug-in as `plugin__<package>__<class>__<number>`,
-or in
-a list `'<package>/<class>': [1, 2]` of those that are running.
+or in a list `'<package>/<class>': [1, 2]` of those that are running.
 """
 
 from __future__ import annotations

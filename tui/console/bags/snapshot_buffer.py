@@ -36,8 +36,7 @@ class SnapshotBuffer:
     """Keeps the messages that it is given; methods may be called from any thread.
 
     The middleware passes on what it carries anyway, so this is no subscription: `topic info` does not count it, and a
-    node that
-    publishes only while somebody listens does not start to.
+    node that publishes only while somebody listens does not start to.
     """
 
     def __init__(self, size: RingSize, serialize: Callable[[Any], bytes], hash_of: Callable[[Any], str]) -> None:
