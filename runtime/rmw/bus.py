@@ -123,6 +123,13 @@ class Bus(Protocol):
         """Whether a server of the client's service exists."""
         ...
 
+    def watch_servers(self, client: ClientEndpoint) -> Callable[[], bool]:
+        """A function that says whether the present servers of a client have ended for certain.
+
+        A lost link does not prove that; nothing does where no server is present now.
+        """
+        ...
+
     def tables(self) -> Sequence[GraphTables]:
         """The graph tables of this process, and of the other processes if there are any."""
         ...

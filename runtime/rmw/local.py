@@ -209,6 +209,11 @@ class LocalBus:
         """Whether a server of the client's service exists."""
         return any(each.type_name == client.type_name for each in tuple(self._services.get(client.name, ())))
 
+    def watch_servers(self, client: ClientEndpoint) -> Callable[[], bool]:
+        """A function that says whether the present servers of a client have ended."""
+        present = self.has_server(client)
+        return lambda: present and not self.has_server(client)
+
     def tables(self) -> Sequence[GraphTables]:
         """The graph tables of this process."""
         return (self._tables,)

@@ -25,6 +25,10 @@ GONE = 20
 """Looks for which whoever was asked has to be gone: links are made anew meanwhile, and upstream waits for good."""
 
 
+SURE = 2
+"""Looks for which it has to be gone where it has ended for certain: its link may be noted as lost a little later."""
+
+
 class NodeName(NamedTuple):
     """A node's name, namespace and fully qualified name; sorted by the name first, as upstream does."""
 
@@ -165,9 +169,10 @@ def answer(node: Node, client: Any, future: Any) -> Any:
     """
     service = client.service_name
     gone = 0
+    has_ended = node.context.bus.watch_servers(client.endpoint)
     while not spin_until(node, future.done, LOOK):
         gone = 0 if client.service_is_ready() else gone + 1
-        if gone > GONE:
+        if gone > GONE or (gone >= SURE and has_ended()):
             raise NoAnswer(f"nobody answers {service}: its node has ended since it was asked; see what it printed")
         for pid, nodes in node.context.bus.stopped().items():
             for name in nodes:

@@ -233,6 +233,13 @@ class ZenohBus:
         asking = self._bridge(client)
         return self._local.has_server(client) or (isinstance(asking, Asking) and asking.has_server)
 
+    def watch_servers(self, client: ClientEndpoint) -> Callable[[], bool]:
+        """A function that says whether the present servers of a client have ended for certain."""
+        asking = self._bridge(client)
+        if isinstance(asking, Asking) and asking.has_server:
+            return asking.watch_servers()
+        return self._local.watch_servers(client)
+
     def _graph(self) -> WholeGraph:
         """The graph of the other processes, watched from the first query on."""
         with self._whole_lock:

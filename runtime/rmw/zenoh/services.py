@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from collections import deque
+from collections import Counter, deque
+from collections.abc import Callable
 from typing import Any
 
 from bot_console.runtime.process import current
@@ -98,17 +99,31 @@ class Asking:
         self._clock = current().clock
         self._querier: Querier | None = None
         self._unasked: deque[tuple[int, Any]] = deque(maxlen=MOST_PENDING)
-        self._servers = 0
+        self._servers: Counter[str] = Counter()
+        """The number of servers in each session that has one."""
 
     @property
     def has_server(self) -> bool:
         """Whether another process has a server of this service."""
-        return self._servers > 0
+        return bool(self._servers)
+
+    def watch_servers(self) -> Callable[[], bool]:
+        """A function that says whether the servers of this moment have ended for certain."""
+        sessions = {zid: self._session.pid_of(zid) for zid in tuple(self._servers)}
+
+        def ended() -> bool:
+            return bool(sessions) and all(
+                zid not in self._servers and self._session.is_told_truly(zid, pid) for zid, pid in sessions.items()
+            )
+
+        return ended
 
     def saw(self, token: Token, came: bool) -> None:
         """A server of another process appeared or disappeared."""
         if token.type_name == self._client.type_name and self._key.endswith("/" + token.type_hash):
-            self._servers += 1 if came else -1
+            servers = Counter(self._servers)
+            servers[token.node.zid] += 1 if came else -1
+            self._servers = +servers  # replaced as a whole: other threads read it
 
     def request(self, number: int, request: Any) -> None:
         """Send a request to the servers in other processes, if any; held back while the session is being reopened."""

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.rmw.zenoh.apart import WAITING, take_apart
 from bot_console.runtime.rmw.zenoh.declared import Declared, Publisher, Querier, Query, Received, TokenSeen, TokenWatch
-from bot_console.runtime.rmw.zenoh.domain.sockets import Socket
+from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, lives
 from bot_console.runtime.rmw.zenoh.keeping_publisher import KeepingPublisher
 from bot_console.runtime.rmw.zenoh.kept_threads import here, keep
 from bot_console.runtime.rmw.zenoh.lifetime import Lifetime
@@ -272,6 +272,17 @@ class Session(Lifetime):
         with contextlib.suppress(self.errors()):
             return {str(each) for each in (*self._zenoh.info.peers_zid(), *self._zenoh.info.routers_zid())}
         return set()
+
+    def pid_of(self, zid: str) -> int | None:
+        """The process of another session; None if it is unknown or on another machine."""
+        return None
+
+    def is_told_truly(self, zid: str, pid: int | None) -> bool:
+        """Whether what another session has withdrawn is gone, rather than the link to it lost for a moment.
+
+        `pid` is what `pid_of` has returned before.
+        """
+        return zid in self.linked() or (pid is not None and not lives(pid))
 
     def watch_links(self, changed: Callable[[str, bool], None]) -> Declared:
         """Call back with the id of each session that is or gets linked (True), or whose link is lost (False)."""

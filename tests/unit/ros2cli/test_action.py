@@ -15,6 +15,7 @@ class Server:
 
     def __init__(self, gone_at: range, answers_at: int) -> None:
         self._action_name = "/fibonacci"
+        self._endpoints = SimpleNamespace(goal=SimpleNamespace(has_ended=False))
         self._gone_at = gone_at
         self._answers_at = answers_at
         self.looks = 0
@@ -27,6 +28,9 @@ class Server:
         return self.looks == self._answers_at
 
 
+NODE: Any = SimpleNamespace(
+    context=SimpleNamespace(bus=SimpleNamespace(watch_servers=lambda goal: lambda: goal.has_ended))
+)
 FUTURE = SimpleNamespace(done=None, result=lambda: "result")
 
 
@@ -36,7 +40,7 @@ def outcome(monkeypatch: pytest.MonkeyPatch) -> Any:
 
     def waited(server: Server) -> Any:
         monkeypatch.setattr(action, "spin_until", server.looked)
-        return action._outcome(None, server, FUTURE)  # type: ignore[arg-type]
+        return action._outcome(NODE, server, FUTURE)  # type: ignore[arg-type]
 
     return waited
 
@@ -48,3 +52,12 @@ def test_a_server_that_has_ended_is_told(outcome: Any) -> None:
 
 def test_a_server_that_is_back_is_waited_for(outcome: Any) -> None:
     assert outcome(Server(range(3, 5), 40)) == "result"
+
+
+def test_a_server_that_has_ended_for_certain_is_told_at_the_second_look(monkeypatch: pytest.MonkeyPatch) -> None:
+    server = Server(range(3, 99), 99)
+    server._endpoints.goal.has_ended = True
+    monkeypatch.setattr(action, "spin_until", server.looked)
+    with pytest.raises(NoAnswer, match="has ended since it was asked"):
+        action._outcome(NODE, server, FUTURE)  # type: ignore[arg-type]
+    assert server.looks == 4

@@ -17,7 +17,9 @@ class Asking:
         self.looks = 0
         self.gone_at: tuple[int, ...] = ()
         self.frozen: dict[int, list[str]] = {}
-        self.context = SimpleNamespace(bus=SimpleNamespace(stopped=lambda: self.frozen))
+        self.ended = False
+        bus = SimpleNamespace(stopped=lambda: self.frozen, watch_servers=lambda endpoint: lambda: self.ended)
+        self.context, self.endpoint = SimpleNamespace(bus=bus), None
         self.service_name = "/robot/get"
         self._answers = answers
 
@@ -65,6 +67,21 @@ def test_a_node_that_ends_while_it_is_asked_is_told() -> None:
     with pytest.raises(NoAnswer, match=r"^nobody answers /robot/get: its node has ended"):
         asked(it)
     assert it.looks == 6
+
+
+def test_a_node_that_has_ended_for_certain_is_told_at_the_second_look(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(direct_node, "GONE", 99)
+    it = Asking(answers=False)
+    it.gone_at, it.ended = tuple(range(1, 20)), True
+    with pytest.raises(NoAnswer, match=r"^nobody answers /robot/get: its node has ended"):
+        asked(it)
+    assert it.looks == 2
+
+
+def test_a_node_that_is_still_there_is_waited_for_whatever_is_known() -> None:
+    it = Asking(answers=True)
+    it.ended = True
+    assert asked(it) == "answer"
 
 
 def test_an_answer_is_waited_for_where_the_node_is_not_seen_once() -> None:

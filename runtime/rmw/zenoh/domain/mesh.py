@@ -140,6 +140,11 @@ class MeshSession(Session):
         found = sockets(os.path.dirname(self.socket.path))
         return {each.zid: each.pid for each in found if each != self.socket and each.is_stopped()}
 
+    def pid_of(self, zid: str) -> int | None:
+        """The process of another session of the mesh."""
+        found = sockets(os.path.dirname(self.socket.path))
+        return next((each.pid for each in found if zid.startswith(each.zid)), None)
+
     def close(self) -> None:
         """Leave the mesh and discard all declarations; does nothing if it has already been left."""
         self._look_no_more()

@@ -1,9 +1,13 @@
 """Requests and responses of other processes whose end is not their own: neither is served nor believed."""
 
+import os
+import subprocess
+import sys
 from types import SimpleNamespace
 
 from bot_console.runtime.rmw.endpoints import ClientEndpoint, NodeId, ServiceEndpoint
 from bot_console.runtime.rmw.zenoh.services import Asking, Served
+from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.wire.attachment import pack
 from example_interfaces.srv import AddTwoInts
 from rclpy.serialization import serialize_message
@@ -52,3 +56,57 @@ def test_a_response_that_was_cut_is_not_believed(notices):
     asking._replied(sent, pack(1, 5, GID, sent))
     ((number, response),) = client.queue
     assert (number, response.sum) == (1, 3)
+
+
+def server(zid):
+    return SimpleNamespace(type_name=TYPE, type_hash="hash", node=SimpleNamespace(zid=zid))
+
+
+class Links:
+    """A session with the links and processes of others, as far as they are known."""
+
+    is_told_truly = Session.is_told_truly
+
+    def __init__(self):
+        self.ids, self.pids = {"a", "b"}, {"a": os.getpid(), "b": None}
+
+    def linked(self):
+        return self.ids
+
+    def pid_of(self, zid):
+        return self.pids[zid]
+
+
+def asked_of(session, *servers):
+    client = ClientEndpoint(NodeId("n", "/"), NAME, TYPE, lambda: None, AddTwoInts, gid=GID)
+    asking = Asking(session, client, "key/hash")
+    for each in servers:
+        asking.saw(server(each), True)
+    return asking, asking.watch_servers()
+
+
+def test_a_server_that_is_withdrawn_over_a_link_that_stands_has_ended():
+    asking, ended = asked_of(Links(), "a", "b")
+    assert asking.has_server and not ended()
+    asking.saw(server("a"), False)
+    assert not ended(), "the other one is there"
+    asking.saw(server("b"), False)
+    assert ended() and not asking.has_server
+
+
+def test_a_lost_link_is_no_end_unless_the_process_has_ended():
+    links = Links()
+    asking, ended = asked_of(links, "a")
+    links.ids = set()
+    asking.saw(server("a"), False)
+    assert not ended(), "its process lives, and may link itself anew"
+    gone = subprocess.Popen([sys.executable, "-c", ""])
+    links.pids["a"] = gone.pid
+    asking, ended = asked_of(links, "a")
+    gone.wait()
+    asking.saw(server("a"), False)
+    assert ended()
+
+
+def test_where_no_server_was_present_nothing_is_known():
+    assert not asked_of(Links())[1]()
