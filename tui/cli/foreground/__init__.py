@@ -1,1 +1,1 @@
-"""An app in the foreground of a terminal: its descriptors, its signals, and the watch for hangs."""
+"""A program in the foreground of a terminal: its descriptors, its signals, the watch for hangs, hints it has given."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -11,6 +10,7 @@ from bot_console.runtime.workspace.choices import launch_file_paths
 from bot_console.runtime.workspace.demos import is_demo
 from bot_console.runtime.workspace.discover import Workspace, default_folders, use, workspace
 from bot_console.runtime.workspace.own import FIRST_VARIABLE, NAME, PAGE_NAME, ROOT, is_own
+from bot_console.tui.cli.foreground.once_per_shell import tell_once
 
 PROGRAM_LAUNCH = ROOT / "launch" / "program.launch.py"
 """Runs what a person has named, which is not ours."""
@@ -48,14 +48,14 @@ def launch_environment(file: str) -> dict[str, str]:
 
 
 def tell_whose(package: str) -> None:
-    """Say on stderr that a named package is the workspace's, if one of ours has the same name."""
+    """Say on stderr, once per shell, that a named package is the workspace's, if one of ours has the same name."""
     here = workspace()
     if package not in (NAME, PAGE_NAME):
         return  # no package is looked for: the folder that one works in may be large
     found = here.packages.get(package)
     if found is not None and not is_own(found):
         built_in = f"; the robot that comes along is '{NAME}'" if package != NAME else ", not the one that comes along"
-        print(f"[INFO] [bot-console]: package '{package}' is the one in {found.folder}{built_in}", file=sys.stderr)
+        tell_once(f"[INFO] [bot-console]: package '{package}' is the one in {found.folder}{built_in}")
 
 
 def config_folders() -> tuple[Path, ...]:

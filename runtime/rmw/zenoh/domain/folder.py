@@ -51,6 +51,15 @@ def domain_folder(domain: int) -> str:
     return folder
 
 
+def runtime_folder(name: str) -> str:
+    """Return a folder for other short-lived files of the user, made and checked as those of the domains are."""
+    base = base_folder()
+    folder = os.path.join(base, name)
+    _private_folder(base)
+    _private_folder(folder)
+    return folder
+
+
 def _user() -> int:
     """The user id; 0 on Windows, where the temporary folder is private to the user and has no mode."""
     return os.geteuid() if hasattr(os, "geteuid") else 0

@@ -1,0 +1,58 @@
+"""Hints that one reading is enough for: a shell in a terminal is told the same only once."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import sys
+
+FOLDER = "told"
+"""The folder of the marks, beside those of the domains."""
+
+
+def tell_once(text: str) -> None:
+    """Print a text on stderr; on a terminal only if it was not printed in the same session of it before.
+
+    Where nobody reads, as in scripts and logs, it is printed each time, and nothing is remembered.
+    """
+    from bot_console.runtime.terse import is_read
+
+    if not is_read() or _is_new(text):
+        print(text, file=sys.stderr)
+
+
+def _is_new(text: str) -> bool:
+    """Whether the shell of this terminal has not been told; from now on it has. Where that cannot be kept, it is."""
+    from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, runtime_folder
+
+    try:
+        shell = os.getsid(0)
+        folder = runtime_folder(FOLDER)
+        _forget_ended_shells(folder)
+        digest = hashlib.blake2b(text.encode(errors="surrogateescape"), digest_size=8).hexdigest()
+        os.close(os.open(os.path.join(folder, f"{shell}.{_start(shell)}.{digest}"), os.O_CREAT | os.O_EXCL, 0o600))
+    except FileExistsError:
+        return False
+    except (OSError, AttributeError, FolderRefusedError):  # AttributeError: Windows has no sessions
+        return True
+    return True
+
+
+def _forget_ended_shells(folder: str) -> None:
+    from bot_console.runtime.rmw.zenoh.domain.sockets import lives
+
+    for name in os.listdir(folder):
+        shell = name.partition(".")[0]
+        if shell.isdecimal() and not lives(int(shell)):
+            with contextlib.suppress(OSError):
+                os.unlink(os.path.join(folder, name))
+
+
+def _start(pid: int) -> str:
+    """When a process began, which tells it from an earlier one of the same id; "0" if the system does not tell."""
+    try:
+        with open(f"/proc/{pid}/stat", "rb") as file:
+            return file.read().rpartition(b")")[2].split()[19].decode()
+    except (OSError, IndexError):
+        return "0"
