@@ -377,7 +377,7 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
     def last_words(self, error: BaseException) -> str:
         """Stop the robot, save the traceback, and return a one-line summary."""
         with contextlib.suppress(Exception):  # nothing may come between a fault and the restored terminal
-            self.console_of_robot.all_stop(True)
+            self.console_of_robot.all_stop(True, "bot-console has failed")
         details = keep(error)
         text = f"bot-console: ended by a fault of its own, the robot was stopped: {reason(error)}"
         return text + (f"; details in {details}" if details else "")

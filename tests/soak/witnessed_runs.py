@@ -2,9 +2,9 @@
 
     python tests/soak/witnessed_runs.py --runs 50 --busy 2 [--only person]
 
-A witness's odometry is the judge, in a process of its own. Prints one JSON object: for each of the groups `stop`,
-`person` and `monitor` how many runs there were, how many of them moved when they were to stand, and how long (s) the
-robot went on.
+A witness of the ground truth is the judge, in a process of its own. Prints one JSON object: for each of the groups
+`stop`, `person`, `monitor` and `kept` (stops that outlive locks and consoles) how many
+runs there were, how many of them moved when they were to stand, and how long (s) the robot went on.
 """
 
 from __future__ import annotations
@@ -22,8 +22,11 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 sys.path.insert(0, str(Path(__file__).parent))
 from headless_under_load import busy_processes
+from processes.kept_stops import KEPT
 from processes.live_robot import LiveRobot, live_robot
-from processes.losses import GROUPS
+from processes.losses import GROUPS as LOSSES
+
+GROUPS = {**LOSSES, "kept": KEPT}
 
 
 def witnessed(group: str, runs: int, robot: LiveRobot) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""A live robot in processes of its own, and a witness in another one whose odometry tells whether it moves."""
+"""A live robot in processes of its own, and a witness in another one that sees from ground truth whether it moves."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ node = rclpy.create_node("witness")
 def tell(message):
     twist = message.twist.twist
     print(time.monotonic(), max(abs(twist.linear.x), abs(twist.angular.z)), flush=True)
-node.create_subscription(Odometry, "odom", tell, 10)
+node.create_subscription(Odometry, "ground_truth", tell, 10)
 rclpy.spin(node)
 """
 
@@ -70,13 +70,12 @@ CONFIG = get_package_share_directory("bot_console_robot") + "/config/indoor_conf
 
 
 def node(executable, name, remappings=()):
-    return Node(package="bot_console_robot", executable=executable, name=name, parameters=[CONFIG, {"seed": 1}],
+    return Node(package="bot_console_robot", executable=executable, name=name, parameters=[CONFIG],
                 remappings=list(remappings))
 
 
 def generate_launch_description():
     return LaunchDescription([
-        node("simulator_node", "simulator"),
         node("controller_node", "motion_controller", [("cmd_vel", "cmd_vel_nav")]),
         node("robot_node", "robot_navigator", [("cmd_vel", "cmd_vel_desired")]),
     ])
@@ -84,7 +83,7 @@ def generate_launch_description():
 
 
 class LiveRobot:
-    """The base with its navigator in one process, the safety monitor in another, the witness in a third."""
+    """Its base, its safety monitor, its other nodes and the witness, each in a process of its own."""
 
     def __init__(self, folder: Path, environment: Mapping[str, str]) -> None:
         self.folder = folder
@@ -94,6 +93,7 @@ class LiveRobot:
         self._log = (folder / "robot.log").open("ab")
         (folder / "system.launch.py").write_text(SYSTEM)
         self.console("--headless", "--duration", "1e9", "--launch", str(folder / "system.launch.py"), "--no-simulator")
+        self.base = self.start_base()
         self.monitor = self.start_monitor()
         witness = self.program(WITNESS, stdout=subprocess.PIPE)
         threading.Thread(target=self._read, args=(witness,), daemon=True).start()
@@ -119,6 +119,11 @@ class LiveRobot:
         file = self.folder / f"program{len(self._started)}.py"
         file.write_text(text)
         return self.console("run", str(file), *words, stdout=stdout)
+
+    def start_base(self) -> subprocess.Popen[bytes]:
+        """Start the simulator, at the start of its world."""
+        self.base = self.console("run", "bot_console_robot", "simulator_node", "--ros-args", "-p", "seed:=1")
+        return self.base
 
     def start_monitor(self) -> subprocess.Popen[bytes]:
         """Start the safety monitor."""

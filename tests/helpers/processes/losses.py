@@ -1,4 +1,4 @@
-"""Ways in which a robot loses the person who drives or has stopped it, each judged by the witness's odometry.
+"""Ways in which a robot loses the person who drives or has stopped it, each judged by the witness.
 
 Each brings the robot from driving to rest, watches it stand, hands it back, and sees it drive again; it returns how
 long (s) the robot went on. What is beside the point takes as long as it takes.
