@@ -19,6 +19,7 @@ from bot_console.tui.opening import Opening
 from bot_console.tui.pane_requests import PaneRequests
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.recording import RecordingApp
+from bot_console.tui.safety.early_stop import EarlyStop
 from bot_console.tui.screens.tuning.requests import TuningRequests
 from bot_console.tui.text.shown import brief, counted, harmless
 from bot_console.tui.theme import THEMES
@@ -91,6 +92,11 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
         self.stage = Stage(self, look.arrangement, self._opening.pane, lambda: self._snapshot)
         self._plugins = plugins
         self._keyboard = Keyboard(self, self._deal, self.stage.typing)
+        self.key_watch = self.early_stop = EarlyStop(
+            idle=lambda: self.input_is_handled and self._keyboard.is_idle,
+            typing=self.stage.typing,
+            held=lambda: self._reached and self._snapshot.drive.stopped_here,
+        )
         self._reach, self._reached = reach, False
         if console is not None:
             self.take_up(System(console, launcher, command_line))
@@ -106,12 +112,13 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
         self._snapshot = ConsoleSnapshot()
         self.parts = AppParts(
             *(self, self, self.stage, system.console, system.command_line),
+            early_stop=self.early_stop,
             redraw=self.redraw,
             open=self.open,
             changed=self.panes_changed,
         )
         self.command_handler, self.faults = self.parts.command_handler, self.parts.faults
-        self._keyboard.waits = self.parts.late_stop.waits
+        self.early_stop.attach(system.console, lambda: self._act_on_stop(self.parts.stopping.hold))
         self._reached = True
 
     async def on_event(self, event: events.Event) -> None:
@@ -278,10 +285,13 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
 
     def action_all_stop(self) -> None:
         """Stop and hold the robot, or release it."""
+        self._act_on_stop(self.parts.stopping.wanted)
+
+    def _act_on_stop(self, act: Callable[[], None]) -> None:
         if self.parts.quitting.keep_held():
             self.notify("The robot stays held.")
         else:
-            self.parts.stopping.wanted()
+            act()
             self.pull()
 
     async def action_quit(self) -> None:

@@ -19,7 +19,7 @@ from bot_console.tui.faults import Faults, PaneMaker
 from bot_console.tui.keymap import stops
 from bot_console.tui.opening import Opening
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.safety.late_stop import LateStop
+from bot_console.tui.safety.early_stop import EarlyStop
 from bot_console.tui.safety.quitting import Quitting
 from bot_console.tui.safety.safety_news import SafetyNews
 from bot_console.tui.safety.stopping import Stopping
@@ -47,6 +47,7 @@ class AppParts:
         console: Console,
         lines: CommandLine | None,
         *,
+        early_stop: EarlyStop,
         redraw: Callable[[], None],
         open: Callable[[Opening], None],
         changed: Callable[[], None],
@@ -56,7 +57,7 @@ class AppParts:
         self._stage = stage
         self.quitting = Quitting(app, console)
         self.stopping = Stopping(app, console)
-        self.late_stop = LateStop(self.stopping, stage.typing)
+        self._early_stop = early_stop
         self.leaving = Leaving(app, console, redraw, holds=not isinstance(console, ReadOnlyConsole))
         self.command_handler = CommandHandler(
             app, stage, self.stopping, console, lines or NoCommandLine(), open, self.leaving.run
@@ -76,7 +77,7 @@ class AppParts:
         """
         if not isinstance(event, events.Key):
             return False
-        return (overtaken and not stops(event.key) and self.quitting.asking) or self.late_stop.was_done(event)
+        return (overtaken and not stops(event.key) and self.quitting.asking) or self._early_stop.has_acted(event)
 
     def beat(self) -> None:
         """Ten times a second: take in what running command lines print, and show figures that were held back."""

@@ -1,24 +1,28 @@
 """From the byte in the terminal to the base's word that it is locked; JSON.
 
-    python tests/benchmarks/bench_stopping.py [--presses 50] [--busy 2] [--only logs plot] [--wanted-nice -10]
+    python tests/benchmarks/bench_stopping.py [--presses 50] [--floods 5] [--busy 2] [--only logs plot]
+        [--wanted-nice -10]
 
 A console attached to a live robot in processes of their own, driven over a pseudo-terminal; the base's answer is heard
-by another process. Wall time in ms: p50, p99 and the longest of so many presses of `!`, alone and beside loads, and of
-the first key and of `q` in fresh consoles. `--wanted-nice` is the priority of all that is measured, for machines that
-others work on; busy processes have the usual one.
+by another process. Wall time in ms: p50, p99 and the longest of so many presses of `!`, alone, beside loads and behind
+floods of input, and of the first key and of `q` in fresh consoles. `--wanted-nice` is the priority of all that is
+measured, for machines that others work on; busy processes have the usual one.
 """
 
 from __future__ import annotations
 
 import argparse
 import contextlib
+import fcntl
 import json
 import os
 import shutil
 import statistics
+import struct
 import subprocess
 import sys
 import tempfile
+import termios
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -96,6 +100,17 @@ LOADS: dict[str, tuple[str, list[str]]] = {
     "endless regular expression": (LOGS, ["2", "/", "re:(.|\\w)*%%", "\r"]),
 }
 """A program that makes the load, and keys that are pressed once it runs."""
+PASTE = "\x1b[200~" + "text with a ! in it, " * 1500 + "\x1b[201~"
+MOVES = [f"\x1b[<35;{10 + at % 90};{5 + at % 30}M" for at in range(15_000)]
+WHEEL = ["\x1b[<65;60;20M"] * 2_000
+FLOODS: dict[str, tuple[list[str], float, int]] = {
+    "900 moves of a mouse at a hand's pace": (MOVES[:900], 0.005, 0),
+    "15,000 moves and 300 resizes": (MOVES, 0.0, 50),
+    "2,000 steps of a wheel": (WHEEL, 0.0, 0),
+    "200 keys of all kinds": ([*"12345678?\x1bjkgG" * 14], 0.0, 0),
+    "a paste of 30 kB": ([PASTE], 0.0, 0),
+}
+"""What is typed before the key, the seconds between two of them, and after how many the terminal is resized."""
 PATIENCE = 60.0
 BETWEEN = 0.15
 """Seconds between two presses."""
@@ -116,6 +131,11 @@ class Base:
         for line in process.stdout:
             moment, locked = line.split()
             self._said.append((float(moment), locked == b"true"))
+
+    @property
+    def locked(self) -> bool:
+        """Whether it is locked, as far as it has said."""
+        return bool(self._said) and self._said[-1][1]
 
     def says(self, locked: bool, since: float) -> float | None:
         """When it first said so after a moment; None when it has not."""
@@ -182,7 +202,33 @@ def presses(robot: LiveRobot, base: Base, load: str, count: int) -> dict[str, An
     return summary(stops) | {"release": summary(releases), "lost": lost, "pressed again": again}
 
 
-def press(terminal: Terminal, base: Base, locked: bool) -> tuple[float | None, int]:
+def flooded(robot: LiveRobot, base: Base, flood: str, count: int) -> dict[str, Any]:
+    """Press `!` again and again right behind a flood of input, each time on a robot that is not held."""
+    pieces, pause, resized = FLOODS[flood]
+    times: list[float] = []
+    lost = 0
+    with console(robot) as terminal:
+        for _ in range(count):
+            for number, each in enumerate(pieces):
+                terminal.type(each)
+                if pause:
+                    time.sleep(pause)
+                if resized and number % resized == 0:
+                    size = struct.pack("HHHH", 40 - number // resized % 2, 120 - number // resized % 7, 0, 0)
+                    fcntl.ioctl(terminal.master, termios.TIOCSWINSZ, size)
+            taken, _ = press(terminal, base, locked=True, patience=PATIENCE)
+            if taken is None:
+                lost += 1
+            else:
+                times.append(taken)
+            time.sleep(1.0)  # the key may still have its turn to come
+            while base.locked:
+                robot.typed("release", "--all")
+                wait(lambda: not base.locked, 5.0)
+    return summary(times) | {"lost": lost}
+
+
+def press(terminal: Terminal, base: Base, locked: bool, patience: float = 10.0) -> tuple[float | None, int]:
     """Press `!` until the base is as wanted: ms from the last press, None where that did not come; presses in between.
 
     A console that has not heard of a stop's acknowledgement sends the stop again instead of releasing, so a release
@@ -191,7 +237,7 @@ def press(terminal: Terminal, base: Base, locked: bool) -> tuple[float | None, i
     for extra in range(1 if locked else 1 + MORE):
         began = time.monotonic()
         terminal.type("!")
-        answered = wait(lambda: base.says(locked, began), 10.0 if locked else 5.0)  # noqa: B023 # called here alone
+        answered = wait(lambda: base.says(locked, began), patience if locked else 5.0)  # noqa: B023 # called here alone
         if answered is not None:
             return (answered - began) * 1000, extra
     return None, extra
@@ -253,6 +299,7 @@ def main() -> None:
     """Run as the words of the command say."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--presses", type=int, default=50)
+    parser.add_argument("--floods", type=int, default=5, help="presses behind each flood")
     parser.add_argument("--consoles", type=int, default=10, help="for the first key and q")
     parser.add_argument("--busy", type=int, default=0)
     parser.add_argument("--only", nargs="*", default=[], help="words of the names of loads")
@@ -271,6 +318,11 @@ def main() -> None:
                     if not options.only or any(word in load for word in options.only):
                         report["stop (ms)"][load] = presses(robot, base, load, options.presses)
                         print(load, report["stop (ms)"][load], file=sys.stderr, flush=True)
+                report["stop behind a flood (ms)"] = behind = {}
+                for flood in FLOODS:
+                    if options.floods and (not options.only or any(word in flood for word in options.only)):
+                        behind[flood] = flooded(robot, base, flood, options.floods)
+                        print(flood, behind[flood], file=sys.stderr, flush=True)
                 if options.consoles:
                     report |= first_key_and_quit(robot, options.consoles)
     finally:

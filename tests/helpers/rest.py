@@ -20,7 +20,6 @@ from typing import Any
 from unittest.mock import patch
 from weakref import WeakKeyDictionary
 
-from bot_console.tui.safety import late_stop
 from bot_console.tui.terminal.output import SparingApp
 from textual import _callback, _wait
 from textual import app as app_module
@@ -102,7 +101,6 @@ def at_rest() -> Iterator[None]:
         patch.object(app_module, "wait_for_idle", rest_undrawn),
         patch.object(pilot_module, "wait_for_idle", rest),
         patch.object(pilot_module.Pilot, "_wait_for_screen", _screen_at_rest),
-        patch.object(late_stop, "LATE_S", float(10**6)),
     ):
         yield
 

@@ -178,6 +178,20 @@ class Console(ConsoleReading, Protocol):
         """
         ...
 
+    def hold_early(self, press: str) -> None:
+        """Hold the robot for a key press whose turn has not come, under an id of its own; send zero velocity now.
+
+        `press` names the press. May be called from any thread.
+        """
+        ...
+
+    def settle_early(self, press: str, *, keep: bool) -> None:
+        """Keep what is held for a press until it is released like any stop, or withdraw it and nothing else.
+
+        May be called from any thread.
+        """
+        ...
+
     def release(self, others: Sequence[str]) -> None:
         """Withdraw this console's stop and the stops of others with these keys (see `DriveInfo.stops`)."""
         ...

@@ -11,7 +11,9 @@ from collections.abc import Iterable
 from typing import Any
 
 from textual import events
+from textual._parser import ParseTimeout
 from textual._xterm_parser import XTermParser
+from textual.message import Message
 from textual.screen import Screen
 
 ESC = "\x1b"
@@ -34,6 +36,27 @@ class EscapeParser(XTermParser):
             if not key.key.startswith(ALT):  # with which nothing can be bound
                 yield events.Key("escape", ESC)
             yield key
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether the parser waits for the rest of a sequence."""
+        return self._timeout_time is not None
+
+    def begin_anew(self) -> None:
+        """Forget a sequence that the parser does not know."""
+        self._timeout_time = None
+        self._tokens.clear()
+        parser: Any = self
+        self._gen = parser.parse(self._tokens.append)
+        self._awaiting = next(self._gen)
+
+    def given_up(self) -> Iterable[Message]:
+        """The keys that a sequence stands for of which nothing more comes."""
+        if self.is_waiting:
+            self._timeout_time = None
+            self._awaiting = self._gen.throw(ParseTimeout())
+        while self._tokens:
+            yield self._tokens.popleft()
 
 
 def told_apart(event: events.Key, screen: Screen[Any]) -> list[events.Key]:

@@ -1,7 +1,7 @@
-"""The thread that reads keys from the terminal, as Textual's own (8.2) does, but which ends at once when told to.
+"""The thread that reads keys from the terminal in place of Textual's own (8.2).
 
-Textual's checks ten times a second whether it should end, and once more with nothing to read: quitting took it 0.1 to
-0.2 s.
+It notices keys that stop the robot at once, and ends as soon as it is told to. Textual's checks ten times a second
+whether it should end, and once more with nothing to read: quitting took it 0.1 to 0.2 s.
 """
 
 from __future__ import annotations
@@ -10,19 +10,27 @@ import contextlib
 import fcntl
 import os
 import select
+import signal
 import threading
-from codecs import getincrementaldecoder
+import time
+from collections.abc import Iterable
 from functools import partial
-from typing import Any
+from types import FrameType
+from typing import Any, Protocol
 
-from bot_console.tui.keys.escape_parser import EscapeParser
-from bot_console.tui.keys.pasted import Pasted
-from textual._parser import ParseError
+from bot_console.tui.keys.input_queue import InputQueue
+from bot_console.tui.keys.terminal_events import TerminalEvents
+from textual import events
+from textual.geometry import Size
+from textual.message import Message
 
 LOOK = 0.1
-"""Seconds after which a lone Esc is looked at again: it may have begun a sequence."""
+"""Seconds after which is looked again whether the thread is to end, if it cannot be woken."""
 AT_ONCE = 4096
-"""Bytes that are read at a time."""
+"""Bytes that a terminal holds at a time."""
+MAX_READ = 65536
+"""Bytes that are read before the keys among them are passed on."""
+INPUT = (events.InputEvent, events.Resize, events.AppFocus, events.AppBlur)
 FIRST = 100
 """Our descriptors begin here, beyond those that programs close or count."""
 
@@ -62,36 +70,101 @@ class Ending(threading.Event):
         return descriptor in ready
 
 
-def ends_at_once(driver: Any) -> None:
-    """Make a Linux driver of Textual read keys in a thread that ends as soon as it is told to."""
+class Watch(Protocol):
+    """Is given the keys that stop the robot where they are read, in the thread that reads them."""
+
+    @property
+    def due(self) -> float | None:
+        """When `look` is to be called, by `time.monotonic`; None if not at all."""
+        ...
+
+    def is_stop(self, event: events.Key) -> bool:
+        """Whether a key may stop the robot."""
+        ...
+
+    def typed(self, event: events.Key, *, alone: bool) -> None:
+        """Take note of such a key, before it is passed on; `alone` says whether nothing was read before it."""
+        ...
+
+    def look(self) -> None:
+        """Do what is due."""
+        ...
+
+
+class Unwatched:
+    """No key stops anything."""
+
+    due = None
+
+    def is_stop(self, event: events.Key) -> bool:
+        """No."""
+        return False
+
+    def typed(self, event: events.Key, *, alone: bool) -> None:
+        """Nothing."""
+
+    def look(self) -> None:
+        """Nothing."""
+
+
+def reads_input(driver: Any, app: Any, watch: Watch) -> InputQueue:
+    """Make a Linux driver of Textual read in a thread of ours, and pass on what was read without piling it up."""
     driver.exit_event = ending = Ending()
-    driver.run_input_thread = partial(take_keys, driver, ending)
+    queue = InputQueue(app, driver._loop)
+    driver.run_input_thread = partial(take_keys, driver, ending, watch)
+    send, start = driver.send_message, driver.start_application_mode
+
+    def pass_on(message: Message) -> None:
+        # What the terminal answers is not input, and tells when it can take more.
+        (queue.put if isinstance(message, INPUT) else send)(message)
+
+    def signalled(number: int, frame: FrameType | None) -> None:
+        if not driver._in_band_window_resize:  # else the terminal reports it itself
+            queue.resized(size_now)
+
+    def size_now() -> events.Resize:
+        size = Size(*driver._get_terminal_size())
+        return events.Resize(size, size)
+
+    def start_with_resizes() -> None:
+        start()
+        if threading.current_thread() is threading.main_thread():
+            signal.signal(signal.SIGWINCH, signalled)
+
+    driver.send_message, driver.start_application_mode = pass_on, start_with_resizes
+    return queue
 
 
-def take_keys(driver: Any, ending: Ending) -> None:
+def take_keys(driver: Any, ending: Ending, watch: Watch) -> None:
     """Pass on what is typed until told to end, or until the terminal closes.
 
     Bytes that are not text are shown as such.
     """
-    parser: Any = EscapeParser(driver._debug)
-    pasted = Pasted()
-    decode = getincrementaldecoder("utf-8")("replace").decode
+    source = TerminalEvents(driver._debug, watch.is_stop, lambda event, alone: watch.typed(event, alone=alone))
     while not ending.is_set():
-        if ending.readable(driver.fileno, LOOK):
-            try:
-                typed = os.read(driver.fileno, AT_ONCE)
-            except BlockingIOError:  # somebody has made the terminal not to block, and has taken what there was
-                continue
-            if not typed:  # the terminal is gone, and would be readable for good
+        now = time.monotonic()
+        due = min((each for each in (source.due, watch.due) if each is not None), default=now + LOOK)
+        if ending.readable(driver.fileno, max(0.0, min(LOOK, due - now))):
+            typed = _read(driver.fileno)
+            if typed is None:  # the terminal is gone, and would be readable for good
                 break
-            if text := decode(typed):
-                _hand_on(driver, parser.feed(pasted.without_escapes(text)))
-        _hand_on(driver, parser.tick())
-    with contextlib.suppress(EOFError, ParseError):
-        for _ in parser.feed(""):
-            pass
+            _hand_on(driver, source.feed(typed, time.monotonic()))
+        _hand_on(driver, source.expire(time.monotonic()))
+        watch.look()
 
 
-def _hand_on(driver: Any, events: Any) -> None:
-    for event in events:
-        driver.process_message(event)
+def _read(descriptor: int) -> bytes | None:
+    """All that was typed, so that a key is seen behind what the terminal holds before it; None at the end."""
+    typed = b""
+    with contextlib.suppress(BlockingIOError):  # somebody made the terminal non-blocking, and took what there was
+        while len(typed) < MAX_READ and (not typed or select.select([descriptor], [], [], 0)[0]):
+            read = os.read(descriptor, AT_ONCE)
+            if not read:
+                return typed or None
+            typed += read
+    return typed
+
+
+def _hand_on(driver: Any, messages: Iterable[Message]) -> None:
+    for message in messages:
+        driver.process_message(message)

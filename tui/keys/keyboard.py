@@ -60,10 +60,13 @@ class Keyboard:
         self._count = 0
         self.passes: Callable[[Typed], bool] = lambda _: True
         """Whether a key may be dealt with yet; one that may not holds those behind it up."""
-        self.waits: Callable[[Typed], None] = lambda _: None
-        """Told of a key that is not dealt with at once."""
         self._overtaken = 0.0
         """When the last key was typed that waited for nothing, by the clock of Textual's events."""
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether all keys have been handled, with their effects."""
+        return not (self._under_way or self._waiting)
 
     @property
     def is_busy(self) -> bool:
@@ -92,8 +95,6 @@ class Keyboard:
             await self._next()
         elif len(self._waiting) == 1:
             self._be_patient()
-        if event in self._waiting:
-            self.waits(event)
 
     def _is_one_too_many(self, event: Typed) -> bool:
         if len(self._waiting) < REPEATS or (isinstance(event, events.Key) and stops(event.key)):

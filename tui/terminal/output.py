@@ -12,7 +12,8 @@ import asyncio
 from collections.abc import Mapping
 from typing import Any, cast
 
-from bot_console.tui.keys.input_thread import ends_at_once
+from bot_console.tui.keys.input_queue import InputQueue
+from bot_console.tui.keys.input_thread import Unwatched, Watch, reads_input
 from bot_console.tui.terminal.clipboard import osc52, within
 from bot_console.tui.terminal.closing import let_go
 from bot_console.tui.terminal.composing.cache_limits import limit_cut_cache, limit_query_cache
@@ -54,6 +55,8 @@ class SparingApp(App[None]):
         self._held = False
         self._copied = ""
         """What is on its way to the clipboard."""
+        self.key_watch: Watch = Unwatched()
+        self._input: InputQueue | None = None
 
     def get_default_screen(self) -> Screen[Any]:
         """A screen that composes nothing while nothing may be drawn."""
@@ -120,6 +123,11 @@ class SparingApp(App[None]):
         """Whether a batch of changes is open, until whose end nothing is drawn."""
         return bool(self._batch_count)
 
+    @property
+    def input_is_handled(self) -> bool:
+        """Whether the app has handled all input that was read."""
+        return self._input is None or self._input.is_idle
+
     def how_it_draws(self) -> str:
         """The state on which drawing depends, on one line, to diagnose why nothing is drawn."""
         driver = self._driver_or_none()
@@ -142,7 +150,7 @@ class SparingApp(App[None]):
             takes_up_again(driver)
             leaves_an_empty_screen(driver)
             if SUPPORTED:
-                ends_at_once(driver)
+                self._input = reads_input(driver, self, self.key_watch)
         return driver
 
     def _driver_or_none(self) -> Any:

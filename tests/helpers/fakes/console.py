@@ -52,6 +52,10 @@ class FakeView(SearchedView):
         return super().look()
 
 
+EARLY = "early "
+"""Before a press, the key of the stop for it."""
+
+
 class FakeConsole(FakeProfiles, FakeSeries):
     """A console over one snapshot; it takes what the descriptors allow, and remembers what it was asked."""
 
@@ -275,9 +279,18 @@ class FakeConsole(FakeProfiles, FakeSeries):
             self.traffic.stop()
         if not self.closed:
             self.sent.append((0.0, 0.0))
-            own = [each for each in self.current.drive.stops if each.here]
+            own = [each for each in self.current.drive.stops if each.here and not each.key.startswith(EARLY)]
             new = [RobotStop("ours", "this console", reason, here=True)] if hold and not own else []
             self.hold([each for each in self.current.drive.stops if hold or not each.here] + new)
+
+    def hold_early(self, press: str) -> None:
+        self.asked.append(("hold_early", press))
+        self.hold([*self.current.drive.stops, RobotStop(EARLY + press, "this console", "ALL STOP", here=True)])
+
+    def settle_early(self, press: str, *, keep: bool) -> None:
+        self.asked.append(("settle_early", press, keep))
+        if not keep:
+            self.hold([each for each in self.current.drive.stops if each.key != EARLY + press])
 
     def release(self, others: Sequence[str]) -> None:
         self.asked.append(("release", *others))

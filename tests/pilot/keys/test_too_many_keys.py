@@ -16,7 +16,6 @@ STOP = "exclamation_mark"
 
 async def behind(session: Session, *keys: str) -> list[str]:
     """Type keys of which none has its turn yet; those that wait."""
-    session.app.parts.late_stop.later = lambda look: None
     await session.app._keyboard.hold(lambda _: False)
     for each in keys:
         session.app.post_message(events.Key(each, "!" if each == STOP else each))

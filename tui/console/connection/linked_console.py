@@ -190,6 +190,15 @@ class LinkedConsole:
         if hold:
             self._node.traffic.stop()  # else it would drive on as soon as the robot is released
 
+    def hold_early(self, press: str) -> None:
+        """Hold the robot for a key press whose turn has not come."""
+        self._node.drive.hold_early(press)
+        self._node.traffic.stop()
+
+    def settle_early(self, press: str, *, keep: bool) -> None:
+        """Keep that stop, or withdraw what was held for this press alone."""
+        self._node.drive.settle_early(press, keep=keep)
+
     def await_standing(self, patience: float) -> None:
         """Wait until the robot's locks hold it, so many seconds at most."""
         self._node.drive.await_standing(patience)

@@ -210,6 +210,12 @@ class NoConsole:
     def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
         """Nothing: there is nobody to tell it to."""
 
+    def hold_early(self, press: str) -> None:
+        """Nothing."""
+
+    def settle_early(self, press: str, *, keep: bool) -> None:
+        """Nothing."""
+
     def release(self, others: Sequence[str]) -> None:
         """Nobody is there to be asked."""
 

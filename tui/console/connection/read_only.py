@@ -113,6 +113,14 @@ class ReadOnlyConsole(NoConsole):
         else:
             self._tell(f"the robot stays locked: {WHY}")
 
+    def hold_early(self, press: str) -> None:
+        """Hold the robot for a key press whose turn has not come."""
+        self._console.hold_early(press)
+
+    def settle_early(self, press: str, *, keep: bool) -> None:
+        """Keep that stop, or withdraw it: the key was none that stops."""
+        self._console.settle_early(press, keep=keep)
+
     def release(self, others: Sequence[str]) -> None:
         """Refused."""
         self.all_stop(False)

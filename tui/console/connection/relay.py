@@ -132,6 +132,14 @@ class ConsoleRelay:
         """Lock the robot's emergency stop, or take this console's stop back, and zero velocity now."""
         self._now.all_stop(hold, reason)
 
+    def hold_early(self, press: str) -> None:
+        """Hold the robot for a key press whose turn has not come."""
+        self._now.hold_early(press)
+
+    def settle_early(self, press: str, *, keep: bool) -> None:
+        """Keep that stop, or withdraw what was held for this press alone."""
+        self._now.settle_early(press, keep=keep)
+
     def release(self, others: Sequence[str]) -> None:
         """Take back this console's stop and the stops of others."""
         self._now.release(others)

@@ -100,6 +100,7 @@ class RosConsole(ConsoleRelay):
         self._linking = threading.RLock()  # a signal that ends the console stops too, amid a stop
         self._early_stop: tuple[bool, str] | None = None
         """The newest stop, or its release, that was asked for before there was a link."""
+        self._early_presses: set[str] = set()
         self._problem = ""
         self._faults: set[str] = set()
         self._robot: DriveNode | None = None
@@ -158,6 +159,8 @@ class RosConsole(ConsoleRelay):
             self._robot = robot
             if self._early_stop is not None:
                 robot.link.stop(*self._early_stop)
+            for each in self._early_presses:
+                robot.link.hold_early(each)
         return robot
 
     def _join(self, robot: DriveNode) -> tuple[ConsoleNode, LinkedConsole]:
@@ -286,10 +289,24 @@ class RosConsole(ConsoleRelay):
                 self._early_stop = (hold, reason)
             super().all_stop(hold, reason)
 
+    def hold_early(self, press: str) -> None:
+        """Hold the robot for a key press whose turn has not come; without a link as soon as there is one."""
+        with self._linking:
+            if self._robot is None:
+                self._early_presses.add(press)
+            super().hold_early(press)
+
+    def settle_early(self, press: str, *, keep: bool) -> None:
+        """Keep that stop, or withdraw what was held for this press alone."""
+        with self._linking:
+            self._early_presses.discard(press)
+            super().settle_early(press, keep=keep)
+
     @property
     def _unsent(self) -> bool:
         """Whether a stop has been asked for that nothing could be sent for."""
-        return self._robot is None and self._early_stop is not None and self._early_stop[0]
+        stopped = self._early_stop is not None and self._early_stop[0]
+        return self._robot is None and (stopped or bool(self._early_presses))
 
     def await_standing(self, patience: float) -> None:
         """Wait until a stop holds the robot, so many seconds at most; without a link nothing is waited for."""

@@ -30,6 +30,14 @@ class StopConsole(NoConsole):
         """Lock the robot's emergency stop, or take this console's stop back."""
         self._robot.link.stop(hold, reason)
 
+    def hold_early(self, press: str) -> None:
+        """Hold the robot for a key press whose turn has not come."""
+        self._robot.link.hold_early(press)
+
+    def settle_early(self, press: str, *, keep: bool) -> None:
+        """Keep that stop, or withdraw what was held for this press alone."""
+        self._robot.link.settle_early(press, keep=keep)
+
     def release(self, others: Sequence[str]) -> None:
         """Take back this console's stop and the stops of others."""
         self._robot.link.stop(False, "", others)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Sequence, Set
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -19,6 +19,7 @@ from bot_console.tui.console.robot.command_topics import (
     TELEOP,
     CommandTopics,
 )
+from bot_console.tui.console.robot.early_stops import EarlyStops
 from bot_console.tui.console.robot.fleet import Fleet, Published, Scope, steered_of
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 from bot_console.tui.console.robot.stop_holders import with_gone
@@ -26,6 +27,7 @@ from bot_console.tui.console.robot.stop_link import STATUS, StopLink, is_lock
 from bot_console.tui.console.robot.stop_means.configured import ConfiguredMeans
 from bot_console.tui.console.robot.stop_means.means import means_of
 from bot_console.tui.console.robot.stop_means.sequence import StopSequence
+from bot_console.tui.console.robot.verdict import Velocity, Verdict
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.node import Node
@@ -48,17 +50,6 @@ ANYHOW = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
 """Hears every publisher, whatever it offers."""
 NO_COMMAND = "no command on cmd_vel for 0.5 s"
 NO_ARBITER = "the node that takes cmd_vel_teleop has ended; start it again to drive"
-
-Velocity = tuple[float, float]
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """What an arbiter made of the command it chose: the rule or parameter that limited it, and the result."""
-
-    limited_by: str = ""
-    asked: Velocity | None = None
-    limited: Velocity | None = None
 
 
 @dataclass(frozen=True)
@@ -87,7 +78,7 @@ class Surroundings:
 class DriveLink:
     """Publishes Twists where the robot listens for a person, and watches the command chain.
 
-    `drive` and `stop` may be called from any thread.
+    `drive`, `stop`, `hold_early` and `settle_early` may be called from any thread.
     """
 
     def __init__(
@@ -103,6 +94,7 @@ class DriveLink:
         self._watching: dict[str, Any] = {}
         self._seen: dict[str, Velocity] = {}
         self._stop = StopLink(node)
+        self._early = EarlyStops(self._stop)
         self._zeros = False
         self._means = StopSequence([means_of(node, each) for each in means], now)
         self._unlocked: tuple[CommandTopics, ...] = ()
@@ -182,7 +174,7 @@ class DriveLink:
         for status in message.status:
             values = {each.key: each.value for each in status.values}
             if "limited_by" in values:
-                self._verdict = Verdict(values["limited_by"], _velocity(values, "asked"), _velocity(values, "final"))
+                self._verdict = Verdict.of(values)
                 self._heard[VERDICT] = self._now()
 
     def _kind(self, topic: str) -> Any:
@@ -228,12 +220,27 @@ class DriveLink:
             self._stop.stop(reason, kept=reason == BY_PERSON)
         else:
             self._stop.release(others)
-        self._zeros = self._acted = hold
+        self._acted = hold
+        self._send_zeros(repeated=hold or bool(self._early))
+
+    def _send_zeros(self, *, repeated: bool) -> None:
+        """Send zero velocity now, and `repeated` while a stop holds; robots without a lock get their means as well."""
+        self._zeros = repeated
         self._zero_all()
-        if not hold:
+        if not repeated:
             self._means.release()
         elif self._needs_means:
             self._means.hold()
+
+    def hold_early(self, press: str) -> None:
+        """Hold the robot for a key press whose turn has not come, with a stop of its own."""
+        self._early.hold(press)
+        self._send_zeros(repeated=True)
+
+    def settle_early(self, press: str, *, keep: bool) -> None:
+        """Make that stop one of this console's, or withdraw it and no other."""
+        if self._early.settle(press, keep=keep):
+            self._send_zeros(repeated=False)
 
     def steer(self, hold: bool) -> None:
         """Claim or hand back the steering; a claim is to be repeated ten times a second."""
@@ -381,11 +388,3 @@ def _topic(names: Set[str], token: str) -> str:
     """The shortest topic that ends in a token; empty when there is none."""
     fitting = [name for name in names if name.rsplit("/", 1)[-1] == token]
     return min(fitting, key=lambda name: (len(name), name), default="")
-
-
-def _velocity(values: Mapping[str, str], prefix: str) -> Velocity | None:
-    """A velocity given as `<prefix>.linear` and `<prefix>.angular`; None if they are missing."""
-    try:
-        return float(values[f"{prefix}.linear"]), float(values[f"{prefix}.angular"])
-    except (KeyError, ValueError):
-        return None

@@ -13,7 +13,7 @@ import threading
 import time
 import uuid
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -62,6 +62,8 @@ class RequestedStop:
 
     reason: str
     kept: bool
+    alone: bool = False
+    """Whether it stands beside the requester's other stops, and only `withdraw` takes it back."""
 
 
 class StopLink:
@@ -189,12 +191,18 @@ class StopLink:
         A stop that is not `kept` ends with the robot's nodes, unless this requester is still there.
         """
         with self._changed:
-            id = next((id for id, each in self._requested.items() if each.kept is kept), "")
+            id = next((id for id, each in self._requested.items() if each.kept is kept and not each.alone), "")
             return self._request(id or uuid.uuid4().hex, RequestedStop(reason, kept))
 
     def add_stop(self, reason: str, *, kept: bool = True) -> str:
         """Lock with a stop beside any other of this requester, which `withdraw` takes back alone; returns its id."""
-        return self._request(uuid.uuid4().hex, RequestedStop(reason, kept))
+        return self._request(uuid.uuid4().hex, RequestedStop(reason, kept, alone=True))
+
+    def join(self, id: str) -> None:
+        """Make a stop that was added one of this requester's ordinary stops."""
+        with self._changed:
+            if id in self._requested:
+                self._requested[id] = replace(self._requested[id], alone=False)
 
     def _request(self, id: str, stop: RequestedStop) -> str:
         with self._changed:
@@ -205,11 +213,12 @@ class StopLink:
         return id
 
     def release(self, others: Iterable[str] = ()) -> None:
-        """Withdraw all our own stops, and the stops of others by their ids; the remaining stops hold."""
+        """Withdraw our own stops except those that stand alone, and the stops of others by their ids."""
         with self._changed:
             own = {each.id for state in self._states.values() for each in state.stops if each.key == self._key}
-            ids = {*self._requested, *own, *others}
-            self._requested.clear()
+            left = {id: each for id, each in self._requested.items() if each.alone}
+            ids = {*self._requested, *own, *others} - left.keys()
+            self._requested = left
         self._release(ids)
 
     def withdraw(self, id: str) -> None:

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 from bot_console.tui.keys import input_thread
-from bot_console.tui.keys.input_thread import Ending, ends_at_once
+from bot_console.tui.keys.input_thread import Ending, Unwatched, take_keys
 
 PATIENCE = 20.0
 """Seconds after which a test gives up; nothing is measured by it."""
@@ -28,11 +28,13 @@ class Rig:
         self.came = threading.Semaphore(0)
         self.events: list[Any] = []
         self.driver: Any = SimpleNamespace(_debug=False, fileno=self.slave, process_message=self._take)
-        ends_at_once(self.driver)
+        self.driver.exit_event = Ending()
+        self.watch: Any = Unwatched()
         self.start()
 
     def start(self) -> None:
-        self.thread = threading.Thread(target=self.driver.run_input_thread, daemon=True)
+        taking = (self.driver, self.driver.exit_event, self.watch)
+        self.thread = threading.Thread(target=take_keys, args=taking, daemon=True)
         self.thread.start()
 
     def _take(self, event: Any) -> None:

@@ -1,0 +1,115 @@
+"""A stop key is seen by the thread that reads the terminal, whatever comes before it and even if the screen hangs.
+
+A console over a made-up robot, in a process and a pseudo-terminal of its own. The thread that draws hangs from the
+first frame on, so that whatever holds the robot is not that thread.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import struct
+import sys
+import termios
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+from terminal import Terminal
+
+HELPERS = Path(__file__).resolve().parents[2] / "helpers"
+PROGRAM = """
+import sys
+from pathlib import Path
+sys.path.insert(0, sys.argv[1])
+from bot_console.runtime.importer import install
+install()
+from bot_console.tui.app import BotConsoleApp
+from fakes.command_line import FakeCommandLine
+from samples import live
+
+console, launcher = live()
+
+def note(text):
+    with open("notes", "a") as file:
+        print(text, file=file)
+
+def noting(name):
+    call = getattr(console, name)
+    def noted(*given, **named):
+        call(*given, **named)
+        note(f"{name} {given} {named}")
+    setattr(console, name, noted)
+
+def hang():
+    note("hangs")
+    Path("resume").read_text()  # a pipe, into which nobody has written yet
+
+for each in ("all_stop", "hold_early", "settle_early", "release"):
+    noting(each)
+BotConsoleApp(console, launcher, FakeCommandLine(console.asked), on_first_frame=hang).run()
+"""
+MOVES = "".join(f"\x1b[<35;{10 + at % 90};{5 + at % 30}M" for at in range(3000))
+BEFORE = {
+    "nothing": "",
+    "mouse moves": MOVES,
+    "wheel steps": "\x1b[<65;60;20M" * 1000,
+    "clicks": "\x1b[<0;60;20M\x1b[<0;60;20m" * 300,
+    "keys": "12345678?gG" * 20,
+    "a paste with the key in it": "\x1b[200~" + "text with a ! in it, " * 1500 + "\x1b[201~",
+    "answers of a terminal": "\x1b]11;rgb:!/!/!\x1b\\\x1bP>|term(!)\x1b\\\x1b[M!!!\x1b[?62;22c",
+    "half of a sequence": "\x1b[<35;10;",
+}
+
+
+class Console:
+    """The console in its terminal, and what was asked of the robot."""
+
+    def __init__(self, folder: Path) -> None:
+        (folder / "program.py").write_text(PROGRAM)
+        os.mkfifo(folder / "resume")
+        self.folder = folder
+        self.terminal = Terminal([str(folder / "program.py"), str(HELPERS)], folder)
+
+    def notes(self) -> list[str]:
+        """What has happened."""
+        path = self.folder / "notes"
+        return path.read_text().splitlines() if path.exists() else []
+
+    def until(self, note: str) -> None:
+        """Wait for something."""
+        self.terminal.read_until(lambda: any(each.startswith(note) for each in self.notes()), note)
+
+    def type(self, text: str) -> None:
+        """Type, and read what the console writes meanwhile, so that neither waits for the other."""
+        for at in range(0, len(text), 1000):
+            self.terminal.type(text[at : at + 1000])
+            self.terminal.drain(0.0)
+
+
+@pytest.fixture
+def console(tmp_path: Path) -> Iterator[Console]:
+    console = Console(tmp_path)
+    try:
+        console.until("hangs")
+        yield console
+    finally:
+        console.terminal.close()
+
+
+@pytest.mark.parametrize(
+    "before",
+    [each if each in ("nothing", "mouse moves") else pytest.param(each, marks=pytest.mark.soak) for each in BEFORE],
+)
+def test_robot_is_held_once_while_the_screen_hangs_and_its_turn_keeps_it(console: Console, before: str) -> None:
+    console.type(BEFORE[before])
+    for width in range(100, 130):
+        fcntl.ioctl(console.terminal.master, termios.TIOCSWINSZ, struct.pack("HHHH", 40, width, 0, 0))
+    console.type("!")
+    console.until("hold_early")
+    assert console.notes() == ["hangs", "hold_early ('1',) {}"]
+    (console.folder / "resume").write_text("go on")
+    console.until("settle_early")
+    assert console.notes()[2:] == ["all_stop (True,) {}", "settle_early ('1',) {'keep': True}"]

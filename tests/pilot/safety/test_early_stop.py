@@ -1,0 +1,113 @@
+"""A `!` behind input that is not handled yet holds the robot at once; its turn decides whether it was text."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.keymap import TABLE
+from bot_console.tui.keys.remapping import remap
+from bot_console.tui.look import Look
+from piloting import Session, run
+from samples import live
+from textual import events
+
+STOP = "exclamation_mark"
+
+
+def held(session: Session) -> bool:
+    return bool(session.console.current.drive.stopped_here)
+
+
+async def behind(session: Session, *keys: str) -> None:
+    """Type keys of which none has its turn yet, as the thread that reads them sees them."""
+    await session.app._keyboard.hold(lambda _: False)
+    for each in keys:
+        event = events.Key(each, "!" if each == STOP else each if len(each) == 1 else None)
+        if session.app.early_stop.is_stop(event):
+            session.app.early_stop.typed(event, alone=True)
+        session.app.post_message(event)
+        await session.settle()
+
+
+async def their_turn(session: Session) -> None:
+    await session.app._keyboard.let_go()
+    await session.settle()
+
+
+def test_stop_does_not_wait_for_the_keys_before_and_its_turn_does_not_release() -> None:
+    async def play(session: Session) -> None:
+        await behind(session, "3", "2", STOP)
+        assert held(session)
+        await their_turn(session)
+        assert held(session), "its turn released what it had held"
+        await session.press(STOP)
+        assert not held(session)
+
+    run(live(), play)
+
+
+def test_pressing_again_before_anything_is_shown_does_not_release() -> None:
+    async def play(session: Session) -> None:
+        await behind(session, "3", STOP, STOP, STOP, STOP)
+        await their_turn(session)
+        assert held(session)
+
+    run(live(), play)
+
+
+def test_stop_is_released_in_its_turn_if_it_was_shown() -> None:
+    async def play(session: Session) -> None:
+        await session.press(STOP)
+        await behind(session, "3", STOP)
+        assert held(session)
+        await their_turn(session)
+        assert not held(session)
+
+    run(live(), play)
+
+
+def test_stop_behind_a_key_that_opens_a_field_is_withdrawn_and_becomes_a_letter() -> None:
+    async def play(session: Session) -> None:
+        await session.press("2")
+        await behind(session, "slash", STOP)
+        assert held(session), "nobody can know yet that it is a letter"
+        await their_turn(session)
+        assert not held(session) and session.app.focused.value == "!"
+
+    run(live(), play)
+
+
+def test_letter_leaves_the_stop_of_another_press_alone() -> None:
+    async def play(session: Session) -> None:
+        await session.press("2")
+        await behind(session, STOP, "slash", STOP)
+        await their_turn(session)
+        assert session.app.focused.value == "!"
+        assert held(session), session.console.asked
+
+    run(live(), play)
+
+
+@pytest.mark.parametrize(
+    "keys", [("question_mark",), ("ctrl+p", "escape"), ("1", "enter", "escape"), ("V",), ("colon", "escape")]
+)
+def test_stop_holds_over_whatever_is_on_the_screen(keys: tuple[str, ...]) -> None:
+    async def play(session: Session) -> None:
+        await behind(session, *keys, STOP)
+        assert held(session)
+        await their_turn(session)
+        assert held(session)
+
+    run(live(), play)
+
+
+def test_own_key_of_a_person_holds_at_once_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    for scope, keys in list(TABLE.items()):
+        monkeypatch.setitem(TABLE, scope, keys)
+
+    async def play(session: Session) -> None:
+        await behind(session, "3", "f9")
+        assert held(session)
+        await their_turn(session)
+        assert held(session)
+
+    run(live(), play, look=Look(keys=remap({"app.stop": "f9"})))

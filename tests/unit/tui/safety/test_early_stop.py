@@ -1,0 +1,164 @@
+"""A stop key holds the robot where it is read, under an id of its own, and only text takes that back."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from bot_console.tui.keymap import TABLE
+from bot_console.tui.keys.remapping import remap
+from bot_console.tui.safety.early_stop import TURN_TIMEOUT_S, EarlyStop
+from textual import events
+
+
+class Rig:
+    """An early stop, and a robot that notes what is asked of it."""
+
+    def __init__(self, *, attached: bool = True) -> None:
+        self.idle, self.typing, self.held, self.now = True, False, False, 0.0
+        self.asked: list[Any] = []
+        self.early = EarlyStop(lambda: self.idle, lambda: self.typing, lambda: self.held, lambda: self.now)
+        if attached:
+            self.attach()
+
+    def attach(self) -> None:
+        self.early.attach(self, lambda: self.asked.append("stop"))
+
+    def hold_early(self, press: str) -> None:
+        self.asked.append(("hold", press))
+
+    def settle_early(self, press: str, *, keep: bool) -> None:
+        self.asked.append(("keep" if keep else "withdraw", press))
+
+    def press(self, key: str = "exclamation_mark", character: str | None = "!", *, alone: bool = True) -> events.Key:
+        event = events.Key(key, character)
+        assert self.early.is_stop(event)
+        self.early.typed(event, alone=alone)
+        return event
+
+    def wait(self) -> None:
+        """Let the time pass in which a key may have its turn."""
+        assert self.early.due is not None
+        self.now = self.early.due
+        self.early.look()
+
+
+def test_key_with_nothing_before_it_has_its_turn_and_holds_nothing_early() -> None:
+    rig = Rig()
+    event = rig.press()
+    rig.early.look()
+    assert rig.early.due == TURN_TIMEOUT_S and not rig.asked
+    assert rig.early.has_acted(event) and rig.asked == ["stop"] and rig.early.due is None
+
+
+def test_key_with_nothing_before_it_is_a_letter_in_a_text_field() -> None:
+    rig = Rig()
+    rig.typing = True
+    assert not rig.early.has_acted(rig.press()) and not rig.asked
+
+
+@pytest.mark.parametrize("typing", [False, True])
+def test_key_behind_other_input_holds_at_once(typing: bool) -> None:
+    for alone, idle in ((False, True), (True, False)):
+        rig = Rig()
+        rig.idle, rig.typing = idle, typing
+        rig.press(alone=alone)
+        assert rig.asked == [("hold", "1")]
+
+
+@pytest.mark.parametrize("typing", [False, True])
+def test_key_that_a_hung_screen_does_not_handle_holds(typing: bool) -> None:
+    rig = Rig()
+    rig.typing = typing
+    rig.press()
+    rig.wait()
+    assert rig.asked == [("hold", "1")] and rig.early.due is None
+
+
+def test_turn_of_a_held_key_is_a_stop_and_keeps_it() -> None:
+    rig = Rig()
+    event = rig.press(alone=False)
+    assert rig.early.has_acted(event)
+    assert rig.asked == [("hold", "1"), "stop", ("keep", "1")]
+
+
+def test_only_the_press_that_turns_out_to_be_text_is_withdrawn() -> None:
+    rig = Rig()
+    first, second = rig.press(alone=False), rig.press()
+    rig.typing = True
+    assert not rig.early.has_acted(first), "it is a letter"
+    rig.typing = False
+    assert rig.early.has_acted(second)
+    assert rig.asked == [("hold", "1"), ("hold", "2"), ("withdraw", "1"), "stop", ("keep", "2")]
+
+
+def test_stop_that_nobody_has_seen_yet_is_not_released_by_pressing_again() -> None:
+    rig = Rig()
+    first, second = rig.press(alone=False), rig.press(alone=False)
+    assert rig.early.has_acted(first)
+    rig.held = True
+    assert rig.early.has_acted(second) and rig.asked.count("stop") == 2
+
+
+def test_key_that_was_to_release_what_the_screen_showed_still_does() -> None:
+    rig = Rig()
+    rig.held = True
+    event = rig.press(alone=False)
+    assert not rig.early.has_acted(event) and rig.asked == [("hold", "1"), ("keep", "1")]
+
+
+def test_key_that_was_to_release_holds_if_somebody_else_has_released_before_its_turn() -> None:
+    rig = Rig()
+    rig.held = True
+    event = rig.press(alone=False)
+    rig.held = False
+    assert rig.early.has_acted(event) and "stop" in rig.asked
+
+
+def test_key_pressed_before_there_is_a_robot_holds_it_as_soon_as_there_is_one() -> None:
+    rig = Rig(attached=False)
+    rig.press(alone=False)
+    rig.attach()
+    assert rig.asked == [("hold", "1")]
+
+
+def test_link_that_fails_leaves_the_key_to_its_turn() -> None:
+    rig = Rig()
+    event = rig.press()
+    rig.early.attach(object(), lambda: None)  # type: ignore[arg-type] # any failure
+    rig.wait()
+    rig.attach()
+    assert rig.early.has_acted(event) and rig.asked == ["stop"]
+
+
+@pytest.fixture
+def with_own_key(monkeypatch: pytest.MonkeyPatch) -> None:
+    for scope, keys in list(TABLE.items()):
+        monkeypatch.setitem(TABLE, scope, keys)
+
+
+@pytest.mark.usefixtures("with_own_key")
+def test_key_that_is_no_letter_stops_in_a_text_field_too() -> None:
+    remap({"app.stop": "f9"})
+    rig = Rig()
+    rig.typing = True
+    assert rig.early.has_acted(rig.press("f9", None)) and "stop" in rig.asked
+
+
+@pytest.mark.usefixtures("with_own_key")
+def test_escape_and_own_key_that_arrive_as_one_key_stop() -> None:
+    remap({"app.stop": "Q"})
+    rig = Rig()
+    both = rig.press("alt+shift+q", "Q", alone=False)
+    parted = [events.Key("escape", "\x1b"), events.Key("Q", "Q")]
+    for each in parted:
+        each.time = both.time
+    assert [rig.early.has_acted(each) for each in parted] == [False, True]
+
+
+@pytest.mark.usefixtures("with_own_key")
+def test_alt_with_own_key_that_means_something_else_is_withdrawn() -> None:
+    remap({"app.stop": "Q"})
+    rig = Rig()
+    assert not rig.early.has_acted(rig.press("alt+shift+q", "Q", alone=False))
+    assert rig.asked == [("hold", "1"), ("withdraw", "1")]

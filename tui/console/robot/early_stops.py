@@ -1,0 +1,32 @@
+"""Stops for key presses whose turn has not come."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.robot.stop_link import StopLink
+
+REASON = "ALL STOP"
+
+
+class EarlyStops:
+    """Holds the robot for each press with a stop of its own. May be used from any thread."""
+
+    def __init__(self, link: StopLink) -> None:
+        self._link = link
+        self._ids: dict[str, str] = {}
+
+    def __bool__(self) -> bool:
+        """Whether any press holds the robot."""
+        return bool(self._ids)
+
+    def hold(self, press: str) -> None:
+        """Hold the robot."""
+        self._ids[press] = self._link.add_stop(REASON)
+
+    def settle(self, press: str, *, keep: bool) -> bool:
+        """Make the stop one of the console's, or withdraw it and no other; whether that was the console's last."""
+        id = self._ids.pop(press, "")
+        if not id or keep:
+            self._link.join(id)
+            return False
+        self._link.withdraw(id)
+        return not self._link.info.here

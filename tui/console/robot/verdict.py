@@ -1,0 +1,31 @@
+"""What a velocity arbiter reports about its last decision."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+Velocity = tuple[float, float]
+"""m/s and rad/s."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What an arbiter made of the command it chose: the rule or parameter that limited it, and the result."""
+
+    limited_by: str = ""
+    asked: Velocity | None = None
+    limited: Velocity | None = None
+
+    @classmethod
+    def of(cls, values: Mapping[str, str]) -> Verdict:
+        """Read the values of a report."""
+        return cls(values["limited_by"], _velocity(values, "asked"), _velocity(values, "final"))
+
+
+def _velocity(values: Mapping[str, str], prefix: str) -> Velocity | None:
+    """A velocity given as `<prefix>.linear` and `<prefix>.angular`; None if they are missing."""
+    try:
+        return float(values[f"{prefix}.linear"]), float(values[f"{prefix}.angular"])
+    except (KeyError, ValueError):
+        return None

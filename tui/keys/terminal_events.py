@@ -1,0 +1,190 @@
+"""Turns what a terminal sends into Textual's events, with Textual's own parser (8.2) for keys and mouse reports.
+
+The parser is given whole sequences only. What it does not know is dropped; it would wait for more, and take the keys
+that are typed next for a part of it. It takes a tenth of a millisecond for a sequence, so that keys that stop the robot
+are looked for first, and mouse moves that the next one makes needless are not parsed at all.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+from itertools import groupby
+from typing import Any
+
+from bot_console.tui.keys.escape_parser import ESC, EscapeParser
+from bot_console.tui.keys.input_queue import MAX_WHEEL_STEPS
+from bot_console.tui.keys.sequences import Kind, Piece, Splitter
+from textual import events
+from textual.message import Message
+
+KEYBOARD_PROTOCOL = re.compile(
+    r"\x1b\[(?P<code>\d*)(?::(?P<shifted>\d*)(?::\d*)?)?"
+    r"(?:;(?P<modifiers>\d*)(?::(?P<kind>\d*))?)?(?:;(?P<text>[\d:]*))?(?P<final>[u~ABCDEFHPQRS])"
+)
+"""A key in the keyboard protocol of kitty, with all the parts that a terminal may add."""
+OTHER_KEYS = re.compile(r"\x1b\[27;(?P<modifiers>\d+);(?P<code>\d+)~")
+"""A key in the manner of xterm's modifyOtherKeys."""
+MOUSE = re.compile(r"\x1b\[(?:M.*|(<?\d+);[-\d;]+[Mm])", re.DOTALL)
+"""A mouse report; the group is the number of the button."""
+MOVE, WHEEL = 32, 64
+"""Bits of its number."""
+STRINGS = frozenset("]PX^_")
+"""After an Esc: a text that answers a question, of this program or of the one before it."""
+RELEASED = "3"
+SHIFT, LOCKS = 1, 64 | 128
+"""Bits of the modifiers: Shift; Caps Lock and Num Lock."""
+MAX_KNOWN = 1024
+"""Sequences whose keys are remembered."""
+
+Notice = Callable[[events.Key, bool], None]
+
+
+class TerminalEvents:
+    """Makes events of bytes; a sequence that cannot be parsed spoils nothing but itself."""
+
+    def __init__(
+        self,
+        debug: bool = False,
+        stops: Callable[[events.Key], bool] = lambda _: False,
+        notice: Notice = lambda _, __: None,
+    ) -> None:
+        """`notice` is given each key that `stops`, as soon as possible, and whether it came alone."""
+        self._splitter = Splitter()
+        self._parser: Any = EscapeParser(debug)
+        self._known: dict[str, list[tuple[str, str | None]]] = {}
+        self._stops = stops
+        self._notice = notice
+
+    @property
+    def due(self) -> float | None:
+        """When `expire` is to be called, by the clock whose times `feed` gets; None if not at all."""
+        return self._splitter.due
+
+    def feed(self, data: bytes, now: float) -> list[Message]:
+        """The events of the next bytes, which may stop anywhere; `now` in s."""
+        return self._events(self._splitter.feed(data, now))
+
+    def expire(self, now: float) -> list[Message]:
+        """The keys that have waited in vain to become an escape sequence."""
+        return self._events(self._splitter.expire(now))
+
+    def _events(self, pieces: list[Piece]) -> list[Message]:
+        parts = [*self._without_stops(_without_needless_moves(pieces))]
+        parsed: dict[int, list[Message]] = {}
+        for at, (kind, text) in enumerate(parts):
+            if (kind in (Kind.SEQUENCE, Kind.KEYS) and not MOUSE.fullmatch(text)) or kind is Kind.STOP:
+                parsed[at] = self._parsed(kind, text)
+                for number, each in enumerate(parsed[at]):
+                    if isinstance(each, events.Key) and self._stops(each):
+                        self._notice(each, at == number == 0)
+        return [
+            event for at, (kind, text) in enumerate(parts)
+            for event in (parsed[at] if at in parsed else self._parsed(kind, text))
+        ]  # fmt: skip
+
+    def _without_stops(self, pieces: Iterable[Piece]) -> Iterator[Piece]:
+        """The pieces, with keys that stop the robot taken out of texts."""
+        for piece in pieces:
+            found = {each for each in set(piece.text) if any(map(self._is_stop, self._parsed(Kind.TEXT, each)))} if (
+                piece.kind is Kind.TEXT) else set[str]()  # fmt: skip
+            if not found:
+                yield piece
+                continue
+            for is_stop, letters in groupby(piece.text, found.__contains__):
+                if is_stop:
+                    yield from (Piece(Kind.STOP, each) for each in letters)
+                else:
+                    yield Piece(Kind.TEXT, "".join(letters))
+
+    def _is_stop(self, message: Message) -> bool:
+        return isinstance(message, events.Key) and self._stops(message)
+
+    def _parsed(self, kind: Kind, text: str) -> list[Message]:
+        try:
+            if kind is Kind.PASTE:
+                return [events.Paste(text)]
+            if kind is Kind.SEQUENCE:
+                return self._once(text, self._sequence)
+            if kind is Kind.KEYS:
+                return self._keys(text)
+            return [event for each in text for event in self._once(each, self._fed)]
+        except Exception:  # a number that is none, or too large
+            self._parser.begin_anew()
+            return []
+
+    def _once(self, text: str, parse: Callable[[str], list[Message]]) -> list[Message]:
+        """Events, which are keys most of the time: the keys of a text are parsed once."""
+        known = self._known.get(text)
+        if known is not None:
+            return [events.Key(key, character) for key, character in known]
+        found = parse(text)
+        keys = [(each.key, each.character) for each in found if isinstance(each, events.Key)]
+        if len(keys) == len(found) > 0 and len(self._known) < MAX_KNOWN:
+            self._known[text] = keys
+        return found
+
+    def _fed(self, text: str) -> list[Message]:
+        return list(self._parser.feed(text))
+
+    def _sequence(self, text: str) -> list[Message]:
+        if text[1] in STRINGS:
+            return []
+        given = with_text(text)
+        found = self._fed(given) if given else []
+        if self._parser.is_waiting:
+            self._parser.begin_anew()
+            if not text.startswith(f"{ESC}["):
+                return self._keys(text)
+        return found
+
+    def _keys(self, text: str) -> list[Message]:
+        if text == ESC:
+            return [events.Key("escape", ESC)]
+        return [*self._fed(text), *self._parser.given_up()]
+
+
+def _without_needless_moves(pieces: Iterable[Piece]) -> Iterator[Piece]:
+    """The pieces; of mouse moves in a row with the same button only the last one, of wheel steps the last few."""
+    for button, same in groupby(pieces, _moved_button):
+        if button is None:
+            yield from same
+        else:
+            yield from [*same][-(MAX_WHEEL_STEPS if int(button[1:]) & WHEEL else 1) :]
+
+
+def _moved_button(piece: Piece) -> str | None:
+    """The button of a mouse move or wheel step; None for anything else."""
+    match = MOUSE.fullmatch(piece.text) if piece.kind is Kind.SEQUENCE else None
+    button = match[1] if match else None
+    return button if button and button[0] == "<" and int(button[1:]) & (MOVE | WHEEL) else None
+
+
+def with_text(sequence: str) -> str:
+    """A key of the keyboard protocol as Textual can read it: with the text it stands for; empty for a released key."""
+    match = KEYBOARD_PROTOCOL.fullmatch(sequence)
+    other = OTHER_KEYS.fullmatch(sequence)
+    shifted = ""
+    if other is not None:
+        code, modifiers, text, final = other["code"], other["modifiers"], "", "u"
+    elif match is not None and match["kind"] == RELEASED:
+        return ""
+    elif match is not None and (":" in sequence or match["final"] == "u"):
+        code, modifiers, text, final = match["code"], match["modifiers"] or "", match["text"] or "", match["final"]
+        shifted = match["shifted"] or ""
+    else:
+        return sequence
+    if final == "u" and not text:
+        text = _text_of(code, shifted, int(modifiers or "1") - 1)
+    return f"{ESC}[{code}" + (f";{modifiers}" if modifiers or text else "") + (f";{text}" if text else "") + final
+
+
+def _text_of(code: str, shifted: str, modifiers: int) -> str:
+    """The code of the letter that a key stands for, as far as that is known; empty for a key that is no letter."""
+    pressed = modifiers & ~LOCKS
+    if pressed & ~SHIFT:
+        return ""
+    letter = chr(int(shifted if pressed and shifted else code or "1"))
+    # What Shift makes of a letter or digit only the terminal knows.
+    is_known = letter.isprintable() and not (pressed and not shifted and letter.isalnum())
+    return str(ord(letter)) if is_known else ""

@@ -1,0 +1,135 @@
+"""A stop is noticed where keys are read: the robot does not wait for whatever was typed or moved before the key."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+from bot_console.tui.keymap import stops
+from bot_console.tui.keys.escape_parser import ALT
+from textual import events
+
+TURN_TIMEOUT_S = 0.1
+"""How long a stop key may wait for its turn when there is nothing before it: the screen may hang."""
+
+
+class Holder(Protocol):
+    """Holds the robot for single key presses; the methods may be called from any thread."""
+
+    def hold_early(self, press: str) -> None:
+        """Hold the robot for a key press whose turn has not come."""
+        ...
+
+    def settle_early(self, press: str, *, keep: bool) -> None:
+        """Keep that stop until it is released like any other, or withdraw it and nothing else."""
+        ...
+
+
+@dataclass(eq=False)
+class Press:
+    """A press of the stop key that has not had its turn."""
+
+    id: str
+    event: events.Key
+    due: float
+    """When the robot is held for it."""
+    releases: bool
+    """Whether the person saw the robot held by this console, and so meant to release it."""
+    is_held: bool = False
+
+
+class EarlyStop:
+    """Holds the robot for stop keys that have to wait, and decides what they mean when their turn comes.
+
+    The thread that reads keys calls `typed` and `look`, the app's thread calls `attach` and `has_acted`.
+    """
+
+    def __init__(
+        self,
+        idle: Callable[[], bool],
+        typing: Callable[[], bool],
+        held: Callable[[], bool],
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """`idle`: all earlier input is done. `typing`: a text field has the focus. `held`: the screen says so."""
+        self._idle = idle
+        self._typing = typing
+        self._held = held
+        self._clock = clock
+        self._holder: Holder | None = None
+        self._stop: Callable[[], None] = lambda: None
+        self._presses: list[Press] = []
+        self._count = 0
+        self._lock = threading.Lock()
+
+    def attach(self, holder: Holder, stop: Callable[[], None]) -> None:
+        """Act on a robot from now on, also for keys pressed before; `stop` is what such a key does in its turn."""
+        with self._lock:
+            self._holder, self._stop = holder, stop
+            for each in self._presses:
+                if each.is_held:
+                    holder.hold_early(each.id)
+
+    @property
+    def due(self) -> float | None:
+        """When `look` is to be called, by the clock; None if not at all."""
+        return min((each.due for each in [*self._presses] if not each.is_held), default=None)
+
+    def is_stop(self, event: events.Key) -> bool:
+        """Whether a key may stop the robot; with Alt it may be two keys, Esc and that one."""
+        character = event.character if event.key.startswith(ALT) else None
+        return stops(event.key) or (character is not None and stops(character))
+
+    def typed(self, event: events.Key, *, alone: bool) -> None:
+        """Take note of a stop key; `alone` says whether it was read with nothing before it."""
+        with self._lock:
+            is_next = alone and not self._presses and self._idle()
+            self._count += 1
+            press = Press(str(self._count), event, self._clock(), releases=self._held() and not self._presses)
+            self._presses.append(press)
+            if is_next:
+                press.due += TURN_TIMEOUT_S
+            else:
+                self._hold(press)
+
+    def look(self) -> None:
+        """Hold the robot for keys that have waited too long."""
+        now = self._clock()
+        with self._lock:
+            for each in self._presses:
+                if not each.is_held and now >= each.due:
+                    self._hold(each)
+
+    def _hold(self, press: Press) -> None:
+        press.is_held = True
+        if self._holder is not None:
+            try:
+                self._holder.hold_early(press.id)
+            except Exception:  # of the link to the robot: keys must still be read
+                press.is_held, press.due = False, math.inf
+
+    def has_acted(self, event: events.Key) -> bool:
+        """Whether a key whose turn has come has done what it does; if not, it is a key like any other.
+
+        It releases only a stop that was on the screen when it was pressed.
+        """
+        with self._lock:
+            press = next((each for each in self._presses if _is_of(event, each)), None)
+            if press is None:
+                return False
+            self._presses.remove(press)
+        is_text = not stops(event.key) or (event.is_printable and self._typing())
+        releases = press.releases and self._held()
+        if press.is_held and self._holder is not None:
+            self._holder.settle_early(press.id, keep=not is_text)
+        if not (is_text or releases):
+            self._stop()
+        return not (is_text or releases)
+
+
+def _is_of(event: events.Key, press: Press) -> bool:
+    return event is press.event or (event.time == press.event.time and stops(event.key))
