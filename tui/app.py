@@ -93,10 +93,9 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
         self._plugins = plugins
         self._keyboard = Keyboard(self, self._deal, self.stage.typing)
         self.key_watch = self.early_stop = EarlyStop(
-            idle=lambda: self.input_is_handled and self._keyboard.is_idle,
-            typing=self.stage.typing,
-            held=lambda: self._reached and self._snapshot.drive.stopped_here,
-        )
+            lambda: self.input_is_handled and self._keyboard.is_idle, self.stage.typing,
+            lambda: self._reached and self._snapshot.drive.stopped_here,
+        )  # fmt: skip
         self._reach, self._reached = reach, False
         if console is not None:
             self.take_up(System(console, launcher, command_line))
@@ -118,7 +117,6 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
             changed=self.panes_changed,
         )
         self.command_handler, self.faults = self.parts.command_handler, self.parts.faults
-        self.early_stop.attach(system.console, lambda: self._act_on_stop(self.parts.stopping.hold))
         self._reached = True
 
     async def on_event(self, event: events.Event) -> None:
@@ -285,14 +283,8 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
 
     def action_all_stop(self) -> None:
         """Stop and hold the robot, or release it."""
-        self._act_on_stop(self.parts.stopping.wanted)
-
-    def _act_on_stop(self, act: Callable[[], None]) -> None:
-        if self.parts.quitting.keep_held():
-            self.notify("The robot stays held.")
-        else:
-            act()
-            self.pull()
+        self.parts.act_on_stop(self.parts.stopping.wanted)
+        self.pull()
 
     async def action_quit(self) -> None:
         """Quit, but ask first when values would be lost."""

@@ -58,6 +58,7 @@ class AppParts:
         self.quitting = Quitting(app, console)
         self.stopping = Stopping(app, console)
         self._early_stop = early_stop
+        early_stop.attach(console, lambda: self.act_on_stop(self.stopping.hold))
         self.leaving = Leaving(app, console, redraw, holds=not isinstance(console, ReadOnlyConsole))
         self.command_handler = CommandHandler(
             app, stage, self.stopping, console, lines or NoCommandLine(), open, self.leaving.run
@@ -78,6 +79,13 @@ class AppParts:
         if not isinstance(event, events.Key):
             return False
         return (overtaken and not stops(event.key) and self.quitting.asking) or self._early_stop.has_acted(event)
+
+    def act_on_stop(self, act: Callable[[], None]) -> None:
+        """Do what a stop key does; while the question whether to quit holds the robot, it stays held instead."""
+        if self.quitting.keep_held():
+            self._app.notify("The robot stays held.")
+        else:
+            act()
 
     def beat(self) -> None:
         """Ten times a second: take in what running command lines print, and show figures that were held back."""

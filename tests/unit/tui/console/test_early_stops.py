@@ -1,0 +1,111 @@
+"""Stops for key presses whose turn has not come hold the robot's lock under an id of their own."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+
+import pytest
+from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.robot.drive_link import DriveLink
+from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
+from bot_console_robot.safety.emergency_stop import BASE, EmergencyStop
+from rclpy.clock import Clock, ClockType
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+
+_domains = itertools.count(3300)
+
+
+class Rig:
+    """The link of a console, and a lock."""
+
+    def __init__(self) -> None:
+        self.context = Context()
+        self.context.init(["test"], domain_id=next(_domains))
+        self.nodes = [Node(name, context=self.context) for name in ("console", "base")]
+        self.executor = SingleThreadedExecutor(context=self.context)
+        for each in self.nodes:
+            self.executor.add_node(each)
+        self.stop = EmergencyStop(
+            self.nodes[1], Clock(clock_type=ClockType.STEADY_TIME), BASE, "emergency_stop/nobody", lambda: None
+        )
+        self.link = DriveLink(self.nodes[0])
+        lock = (Endpoint(f"/{BASE}", ("diagnostic_msgs/msg/DiagnosticStatus",)),)
+        self.link.follow(GraphInfo(nodes=(NodeInfo("/base", publishers=lock),)))
+        self.settle()
+
+    def settle(self) -> DriveInfo:
+        """Let all messages arrive; what the console then shows."""
+        for _ in range(60):
+            self.executor.spin_once(timeout_sec=0)
+        return self.link.info(WorldInfo())
+
+    @property
+    def locked(self) -> bool:
+        return self.stop.lock.held
+
+    def close(self) -> None:
+        for each in self.nodes:
+            each.destroy_node()
+        self.context.try_shutdown()
+
+
+@pytest.fixture
+def rig() -> Iterator[Rig]:
+    rig = Rig()
+    yield rig
+    rig.close()
+
+
+def test_press_locks_and_is_shown_as_the_stop_of_this_console(rig: Rig) -> None:
+    rig.link.hold_early("1")
+    info = rig.settle()
+    assert rig.locked and info.stopped_here and info.stop_confirmed and info.stop_holder == "this console"
+    assert [each.here for each in info.stops] == [True]
+
+
+def test_press_that_was_text_is_withdrawn_and_no_other_stop_is(rig: Rig) -> None:
+    rig.link.hold_early("1")
+    rig.link.early_stops.settle("1", keep=False)
+    assert not rig.settle().stopped and not rig.locked
+    for other in (lambda: rig.link.hold_early("2"), lambda: rig.link.stop(True, "ALL STOP")):
+        other()
+        rig.link.hold_early("3")
+        rig.settle()
+        rig.link.early_stops.settle("3", keep=False)
+        assert rig.settle().stopped_here and rig.locked
+
+
+def test_console_releases_all_its_stops_at_once_and_shows_them_as_one(rig: Rig) -> None:
+    rig.link.hold_early("1")
+    rig.link.stop(True, "ALL STOP")
+    rig.link.early_stops.settle("1", keep=True)
+    assert len(rig.settle().stops) == 1 and len(rig.stop.lock.stops) == 2
+    rig.link.stop(False, "")
+    assert not rig.settle().stopped and not rig.locked
+
+
+def test_release_leaves_a_press_alone_whose_turn_has_not_come(rig: Rig) -> None:
+    rig.link.stop(True, "ALL STOP")
+    rig.link.hold_early("1")
+    rig.settle()
+    rig.link.stop(False, "")
+    assert rig.settle().stopped_here and rig.locked
+
+
+def test_press_that_was_text_is_withdrawn_after_somebody_else_released_an_earlier_stop(rig: Rig) -> None:
+    rig.link.hold_early("1")
+    rig.link.early_stops.settle("1", keep=True)
+    rig.settle()
+    other = DriveLink(rig.nodes[1])
+    other.follow(GraphInfo(nodes=(NodeInfo("/base", publishers=(
+        Endpoint(f"/{BASE}", ("diagnostic_msgs/msg/DiagnosticStatus",)),)),)))  # fmt: skip
+    rig.settle()
+    other.stop(False, "", [each.key for each in other.info(WorldInfo()).stops])
+    assert not rig.settle().stopped
+    rig.link.hold_early("2")
+    rig.settle()
+    rig.link.early_stops.settle("2", keep=False)
+    assert not rig.settle().stopped and not rig.locked
