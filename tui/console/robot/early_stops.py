@@ -29,4 +29,4 @@ class EarlyStops:
             self._link.join(id)
             return False
         self._link.withdraw(id)
-        return not self._link.info.here
+        return not self._link.has_stop

@@ -242,6 +242,11 @@ class StopLink:
             self._send(STEER, "", {"id": uuid.uuid4().hex})
 
     @property
+    def has_stop(self) -> bool:
+        """Whether this requester wants the robot stopped."""
+        return bool(self._requested)
+
+    @property
     def stopping(self) -> bool:
         """Whether a requested stop is not acknowledged by every lock."""
         return bool(self._requested) and not self.info.confirmed

@@ -79,7 +79,7 @@ def test_turn_of_a_held_key_is_a_stop_and_keeps_it() -> None:
     rig = Rig()
     event = rig.press(alone=False)
     assert rig.early.has_acted(event)
-    assert rig.asked == [("hold", "1"), "stop", ("keep", "1")]
+    assert rig.asked == [("hold", "1"), ("keep", "1"), "stop"]
 
 
 def test_only_the_press_that_turns_out_to_be_text_is_withdrawn() -> None:
@@ -89,7 +89,7 @@ def test_only_the_press_that_turns_out_to_be_text_is_withdrawn() -> None:
     assert not rig.early.has_acted(first), "it is a letter"
     rig.typing = False
     assert rig.early.has_acted(second)
-    assert rig.asked == [("hold", "1"), ("hold", "2"), ("withdraw", "1"), "stop", ("keep", "2")]
+    assert rig.asked == [("hold", "1"), ("hold", "2"), ("withdraw", "1"), ("keep", "2"), "stop"]
 
 
 def test_stop_that_nobody_has_seen_yet_is_not_released_by_pressing_again() -> None:
