@@ -90,8 +90,7 @@ class RosConsole(ConsoleRelay):
         self._launch_info = launch_info
         self._active_profile = active_profile
         self._capabilities = capabilities or Capabilities()
-        self._graph_events = graph_events
-        self._frozen, self._types, self._stop_means = frozen, types, stop_means
+        self._graph_events, self._frozen, self._types, self._stop_means = graph_events, frozen, types, stop_means
         self._history_file = history
         self._link = link
         self._foreign = foreign
