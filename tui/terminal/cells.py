@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterable
 from functools import lru_cache
 from typing import NamedTuple
@@ -17,6 +18,10 @@ from textual.strip import Strip
 NARROW = re.compile(r"[\x20-\x7e\xa0-\xac\xae-\u02ff\u2190-\u2199\u2500-\u25fc\u2800-\u28ff]*")
 """Texts whose letters take one cell each in every terminal."""
 
+ACTING = frozenset(("Cc", "Cf", "Cs"))
+"""Categories of characters that terminals obey or that cannot be encoded: controls, formatting, surrogates."""
+UNSHOWN = "?"
+
 
 class Cells(NamedTuple):
     """Letters and SGR codes, one of each per cell; `uneven` if not all letters are one cell wide."""
@@ -29,7 +34,8 @@ class Cells(NamedTuple):
 def cells_of(segments: Iterable[Segment], colours: ColorSystem, plain: bool = False) -> Cells:
     """The cells of a segment of a line. A wide letter occupies its first cell; the second one is empty.
 
-    `plain` is for terminals that show only ASCII: drawing characters are replaced by similar letters.
+    Characters that act on a terminal are left out. `plain` is for terminals that show only ASCII: drawing characters
+    are replaced by similar letters.
     """
     letters: list[str] = []
     styles: list[str] = []
@@ -51,6 +57,10 @@ def cells_of(segments: Iterable[Segment], colours: ColorSystem, plain: bool = Fa
 def _spread(text: str, letters: list[str]) -> None:
     for letter in text:
         width = get_character_cell_size(letter)
+        if unicodedata.category(letter) in ACTING:
+            # What acts on a terminal never reaches it, whoever has drawn it; where it has a width it leaves a mark.
+            letters += [UNSHOWN] * max(0, width)
+            continue
         if width:
             letters.append(letter)
             letters += [""] * (width - 1)

@@ -5,7 +5,11 @@ from __future__ import annotations
 import unicodedata
 
 from bot_console.tui.pane_table import PANES
+from bot_console.tui.screens.facts import FactsScreen
+from bot_console.tui.screens.output import OutputScreen
+from bot_console.tui.terminal.cells import cells_of
 from piloting import Session, run
+from rich.color import ColorSystem
 from samples import BELL, empty, hostile
 
 
@@ -73,5 +77,18 @@ def test_the_arguments_form_and_the_picker_show_harmless_text() -> None:
         await session.settle()
         # The value of a field is the person's own text, and Textual shows it cell by cell.
         assert "evil[red]" in session.text()
+
+    run(hostile(), play, (120, 40))
+
+
+def test_heading_of_a_detail_screen_writes_no_control_character() -> None:
+    async def play(session: Session) -> None:
+        for screen in (FactsScreen(BELL, [(BELL, [BELL])]), OutputScreen(BELL, BELL)):
+            session.app.push_screen(screen)
+            await session.settle()
+            for strip in session.app.screen._compositor.render_strips():
+                written = "".join(cells_of(strip, ColorSystem.TRUECOLOR).letters)
+                assert harmful(written) == [], written
+            await session.press("escape")
 
     run(hostile(), play, (120, 40))
