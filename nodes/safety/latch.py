@@ -85,7 +85,7 @@ class Latch:
             return self.steered_by != steered
         if request.verb == HAND_BACK:
             return self._steering.pop(request.key, None) is not None
-        reason = request.reason if request.verb == STOP else f"a request that nobody understands: {request.verb!r}"
+        reason = request.reason if request.verb == STOP else f"a request that nobody understands: {request.verb[:40]!r}"
         return self._stop(request.holder, reason, request.key, request.id, request.kept)
 
     def _unnamed_of(self, request: Request) -> list[str]:

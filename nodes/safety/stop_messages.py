@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from dataclasses import dataclass
 from typing import Any, cast
@@ -98,7 +99,7 @@ def state_of(message: DiagnosticStatus) -> State:
         stops = ()
     elif not stops:  # of a node that reports only that it is locked
         holder, reason = _short(values.get("holder", "")), _short(values.get("reason", ""))
-        stops = (Stop(f"{CROWD}@{turn}@{instance}", CROWD, holder, reason, turn),)
+        stops = (Stop(_older_id(CROWD, turn, instance), CROWD, holder, reason, turn),)
     lock = Lock(stops, turn, releases_of(values.get("released")))
     challenge, steered_by, answers = (_short(values.get(key, "")) for key in ("challenge", "steered_by", "answers"))
     return State(lock, instance, challenge, steered_by, answers)
@@ -116,9 +117,14 @@ def stops_of(text: str | None, instance: str = "") -> tuple[Stop, ...]:
         if len(row) >= 4:
             key, holder, reason = (_short(str(each)) for each in row[:3])
             turn = _number(str(row[3]))
-            id = _short(str(row[4])) if len(row) > 4 else f"{key}@{turn}@{instance}"
+            id = _short(str(row[4])) if len(row) > 4 else _older_id(key, turn, instance)
             found.append(Stop(id, key, holder, reason, turn, len(row) < 6 or row[5] is not False))
     return tuple(found)
+
+
+def _older_id(key: str, turn: int, instance: str) -> str:
+    """The id of a stop in the report of an older lock: the same each time, and short whatever the report contains."""
+    return hashlib.sha256(json.dumps([key, turn, instance]).encode()).hexdigest()[:32]
 
 
 def releases_text(released: tuple[Release, ...]) -> str:

@@ -213,6 +213,20 @@ def test_the_report_of_an_older_lock_is_read_and_each_of_its_stops_told_apart() 
     assert not latch.follow(state_of(report(1)).lock) and latch.follow(state_of(report(3)).lock)
 
 
+@pytest.mark.parametrize("text", ["x" * 1000, "\ud800" * 1000, "[" * 1000, "9" * 1000])
+def test_a_lock_reports_what_another_reads_however_long_the_texts_that_it_was_sent(text: str) -> None:
+    """Otherwise a release of the stop as one reports it would not be one of the stop that the other holds."""
+    keys = ("request", "id", "stops", "turn", "instance", "holder")
+    message = DiagnosticStatus(
+        name=text, message=text, hardware_id=text, values=[KeyValue(key=key, value=text) for key in keys]
+    )
+    latch = Latch()
+    latch.request(request_of(message), 0)
+    latch.follow(state_of(message).lock)
+    assert len(latch.lock.stops) == 2
+    assert state_of(state_message(State(latch.lock, "1"), "node")).lock == latch.lock
+
+
 def test_a_state_that_cannot_be_read_is_a_lock() -> None:
     assert state_of(DiagnosticStatus()).lock.held
     assert request_of(DiagnosticStatus()).verb == ""
