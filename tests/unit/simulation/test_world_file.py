@@ -42,9 +42,9 @@ def test_a_mistake_is_named_with_its_place(change: dict[str, Any], words: str) -
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("size: [", "is not YAML"),
+        ("size: [", "is not valid YAML"),
         ("- 1\n", "the file needs keys and values"),
-        ("size: !!int", "is not YAML"),
+        ("size: !!int", "is not valid YAML"),
         (f"size: [0x{'f' * 5000}, 2.0]", "size[0] needs a number from -1e+06 to 1e+06"),
         (f"size: 0x{'f' * 5000}", "thousands of digits"),
         (f"size: [1{'0' * 400}, 2.0]", "size[0] needs a number from -1e+06 to 1e+06"),
