@@ -11,6 +11,7 @@ from bot_console.tui.widgets.diagram.chart.plan import Style, planned
 from bot_console.tui.widgets.diagram.drawing import Drawing
 from hypothesis import given
 from hypothesis import strategies as some
+from samples import graph as robot
 from scenes.reading_charts import Reader
 
 KIND = ("a/msg/B",)
@@ -82,6 +83,25 @@ def test_boxes_with_the_same_links_share_one_line() -> None:
     assert drawing.text().count("◀") == 3
 
 
+def test_frames_are_left_out_rather_than_the_picture_being_too_high() -> None:
+    found = chart("simulator>sensor: raw", "sensor>robot: scan", "simulator>robot: odom", "robot>simulator: cmd_vel")
+    drawing = draw_chart(found, 60, 5)
+    readable(found, drawing)
+    assert drawing.text() == picture("""
+        [simulator]◀─ cmd_vel ───╮
+         ├ raw ▶[sensor]         │
+         │       ╰ scan ▶[robot]─╯
+         ╰──────── odom ▶[     ]
+    """)
+
+
+def test_the_robot_fits_a_terminal_of_80_columns_and_24_lines() -> None:
+    found = shown(robot(), GraphView()).bundles.chart
+    drawing = draw_chart(found, 77, 16)
+    readable(found, drawing)
+    assert drawing.width <= 77 and len(drawing.rows) <= 16
+
+
 def test_words_are_left_out_rather_than_the_picture_being_too_wide() -> None:
     found = chart("source>target: " + " ".join(f"a_rather_long_word_{at}" for at in range(6)))
     assert "+3" in draw_chart(found, 100, 20).text() and "+5" in draw_chart(found, 60, 20).text()
@@ -111,7 +131,10 @@ def test_no_later_line_runs_through_an_arrow_head() -> None:
     readable(found, drawn(found, planned(found, Style(rightward=9, slack=10), 80)))
 
 
-@pytest.mark.parametrize("style", [Style(), Style(rightward=3, slack=4, words=2, pad=0), Style(rightward=9, slack=10)])
+@pytest.mark.parametrize(
+    "style",
+    [Style(), Style(rightward=3, slack=4, words=2, pad=0), Style(rightward=9, slack=10), Style(slack=4, framed=False)],
+)
 @given(
     ends=some.lists(
         some.tuples(some.integers(0, 9), some.integers(0, 9), some.integers(1, 4)),

@@ -18,8 +18,8 @@ WIDE = 116
 """Columns from which on a chain of boxes runs from left to right rather than down."""
 RIGHTWARD = (8, 3, 2, 1, 0)
 SLACK = (0, 4, 10)
-WORDS = ((99, 1), (99, 0), (3, 1), (3, 0), (1, 1), (1, 0))
-"""Words on a line, and the blanks around them."""
+WORDS = ((99, 1, True), (99, 0, True), (99, 1, False), (99, 0, False), (3, 0, True), (3, 0, False), (1, 0, False))
+"""Words on a line, the blanks around them, and whether boxes have frames."""
 SOME_LINKS, MANY_LINKS = 24, 80
 """Links from which on few plans are tried, and only one."""
 
@@ -52,11 +52,14 @@ def _styles(chart: Chart, width: int) -> Iterator[Style]:
     if count > MANY_LINKS:
         yield Style(words=3)
     elif count > SOME_LINKS:
-        for (words, pad), right in product((WORDS[0], WORDS[3], WORDS[5]), (4, 0) if wide else (0,)):
-            yield Style(right, 4, words, pad)
+        for (words, pad, framed), right in product((WORDS[0], WORDS[3], WORDS[5], WORDS[6]), (4, 0) if wide else (0,)):
+            yield Style(right * framed, 4, words, pad, framed)
     else:
-        for (words, pad), right, slack in product(WORDS, RIGHTWARD if wide else (0,), SLACK[::2] if wide else SLACK):
-            yield Style(right, slack, words, pad)
+        for (words, pad, framed), right, slack in product(
+            WORDS, RIGHTWARD if wide else (0,), SLACK[::2] if wide else SLACK
+        ):
+            if framed or not right:
+                yield Style(right, slack, words, pad, framed)
 
 
 def draw_chart(chart: Chart, width: int, height: int) -> Drawing:
@@ -100,7 +103,7 @@ def _draw_forward(lines: Lines, plan: Plan, link: ChartLink) -> None:
     source, target, edges = plan.placed[link.source], plan.placed[link.target], _edges(plan, link)
     port, owner = target.ports_in[link.id], source.box.id
     start = source.out
-    if source.out == source.bottom:
+    if not source.rightward:
         start += 1
         lines.stub(source.trunk, start, UP, edges, owner)
     else:
@@ -145,28 +148,35 @@ def _draw_bracket(lines: Lines, target: Placed, x: int, port: int, edges: frozen
 
 
 def _draw_box(placed: Placed, outgoing: bool, runs: dict[int, list[Run]], places: dict[str, Place]) -> None:
-    box, x, width = placed.box, placed.x, placed.box.width
     rows = placed.member_rows()
-    items = [item for item, _ in box.members]
+    items = [item for item, _ in placed.box.members]
     for y in range(placed.y, placed.bottom + 1):
         member = min(range(len(rows)), key=lambda at: abs(rows[at] - y))
-        if y == placed.y:
-            loop = f" {box.loop} " if box.loop else ""
-            text = f"╭{loop}{'─' * (width - 2 - cell_len(loop))}╮"
-        elif y == placed.bottom:
-            text = "╰" + "─" * (width - 2) + "╯"
-            if outgoing and placed.out == y:
-                text = f"{text[:2]}┬{text[3:]}"
-            if placed.back_row == y:
-                text = text[:-1] + "┴"
-        elif y in rows:
-            label = box.members[member][1]
-            text = f"│ {label}{' ' * (width - 3 - cell_len(label))}│"
-        elif len(rows) > 1 and rows[0] < y < rows[-1]:
-            text = "├" + "─" * (width - 2) + "┤"
-        else:
-            text = "│" + " " * (width - 2) + "│"
-        runs.setdefault(y, []).append(Run(x, text, items[member]))
+        text = _framed_row(placed, y, outgoing) if placed.framed else _bare_row(placed, y)
+        runs.setdefault(y, []).append(Run(placed.x, text, items[member]))
     for item, row in zip(items, rows, strict=True):
         one = len(items) == 1
-        places[item] = Place(x, placed.y if one else row, width, placed.height if one else 1, True)
+        y, height = (placed.y, placed.height) if one else (row, 1)
+        places[item] = Place(placed.x, y, placed.width, height, True)
+
+
+def _framed_row(placed: Placed, y: int, outgoing: bool) -> str:
+    box, inside, rows = placed.box, placed.width - 2, placed.member_rows()
+    if y == placed.y:
+        loop = f" {box.loop} " if box.loop else ""
+        return f"╭{loop}{'─' * (inside - cell_len(loop))}╮"
+    if y == placed.bottom:
+        text = "╰" + "─" * inside
+        if outgoing and not placed.rightward:
+            text = f"{text[:2]}┬{text[3:]}"
+        return text + ("┴" if placed.back_row == y else "╯")
+    if y in rows:
+        label = box.members[rows.index(y)][1]
+        return f"│ {label}{' ' * (inside - 1 - cell_len(label))}│"
+    return "├" + "─" * inside + "┤" if rows[0] < y < rows[-1] else "│" + " " * inside + "│"
+
+
+def _bare_row(placed: Placed, y: int) -> str:
+    rows, texts = placed.member_rows(), placed.box.texts(framed=False)
+    text = texts[rows.index(y)] if y in rows else ""
+    return f"[{text}{' ' * (placed.width - 2 - cell_len(text))}]"

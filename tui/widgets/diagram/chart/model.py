@@ -17,10 +17,17 @@ class ChartBox:
     loop: str = ""
     """What leads from the box to itself; written into its upper edge."""
 
-    @property
-    def width(self) -> int:
-        """The width in cells, with the frame."""
-        return max(4 + max(cell_len(label) for _, label in self.members), cell_len(self.loop) + 4 if self.loop else 0)
+    def texts(self, framed: bool) -> list[str]:
+        """The text of each row; without a frame, what leads from the box to itself stands in the first one."""
+        labels = [label for _, label in self.members]
+        return labels if framed or not self.loop else [f"{labels[0]} {self.loop}", *labels[1:]]
+
+    def width(self, framed: bool) -> int:
+        """The width in cells, with the frame or the brackets."""
+        widest = max(map(cell_len, self.texts(framed)))
+        if not framed:
+            return widest + 2
+        return max(widest + 4, cell_len(self.loop) + 4 if self.loop else 0)
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,6 @@ from bot_console.tui.widgets.diagram.chart.model import Chart, ChartBox, ChartLi
 from bot_console.tui.widgets.diagram.chart.order import ordered
 from rich.cells import cell_len
 
-FRAME = 2
 BRACKET = 2
 """Cells between a box of several members and the line from which an arrow leads to each of them, with the arrow."""
 LOOK_BACK_ROWS = 40
@@ -32,6 +31,18 @@ class Style:
     """Words on a line at most."""
     pad: int = 1
     """Cells kept free on both sides of the words."""
+    framed: bool = True
+    """Whether boxes have a frame; a row for each name and each arrow is all that the others take."""
+
+    @property
+    def frame(self) -> int:
+        """The rows of the upper and of the lower edge of a box."""
+        return int(self.framed)
+
+    @property
+    def dash(self) -> int:
+        """The cells of line at least between words and what they lead to."""
+        return int(self.framed)
 
 
 @dataclass
@@ -42,17 +53,24 @@ class Placed:
     x: int
     y: int
     height: int
+    framed: bool = True
     trunk: int = -1
     out: int = -1
+    rightward: bool = False
     ports_in: dict[str, int] = field(default_factory=lambda: {})
     """The row of each link that ends here, by id."""
     back_row: int = -1
     """The row on which links to earlier boxes leave."""
 
     @property
+    def width(self) -> int:
+        """The width in cells."""
+        return self.box.width(self.framed)
+
+    @property
     def right(self) -> int:
         """The first column right of it."""
-        return self.x + self.box.width
+        return self.x + self.width
 
     @property
     def bottom(self) -> int:
@@ -61,9 +79,9 @@ class Placed:
 
     def member_rows(self) -> list[int]:
         """The rows of its members."""
-        count = len(self.box.members)
-        first = self.y + 1 + (self.height - FRAME - (2 * count - 1)) // 2
-        return [first + 2 * at for at in range(count)]
+        count, step = len(self.box.members), 1 + self.framed
+        first = self.y + (self.height - (step * (count - 1) + 1)) // 2
+        return [first + step * at for at in range(count)]
 
 
 @dataclass(frozen=True)
@@ -139,8 +157,9 @@ class _Builder:
         several = len(box.members) > 1
         rightward = rightward and bool(outs) and not several
         right_ports = len(back_in) + (back_out and not several) + rightward
-        inner = max(2 * len(box.members) - 1, len(ins), right_ports, 1)
-        wants = _Wants(box, ins, outs, back_in, back_out, rightward, inner + FRAME)
+        style = self._style
+        inner = max((1 + style.framed) * (len(box.members) - 1) + 1, len(ins), right_ports, 1)
+        wants = _Wants(box, ins, outs, back_in, back_out, rightward, inner + 2 * style.frame, style)
         spot = self._spot(wants)
         self._settle(wants, spot)
 
@@ -154,7 +173,7 @@ class _Builder:
         first = max((each + 2 for each in live), default=0) + left
         sure = first
         for each in wants.ins:
-            room = cell_len(self._label(each)) + 4 + left
+            room = cell_len(self._label(each)) + 2 + 2 * self._style.dash + left
             first = max(first, self._column(each) + room) if self._column(each) == max(live) else first
             sure = max(sure, max(live) + room)
         edges = {each.right + 1 + left for each in self.plan.placed.values()}
@@ -168,7 +187,7 @@ class _Builder:
             top += 1
 
     def _ports(self, wants: _Wants, top: int) -> list[int]:
-        start = top + 1 + (wants.height - FRAME - len(wants.ins)) // 2
+        start = top + (wants.height - len(wants.ins)) // 2
         return [start + at for at in range(len(wants.ins))]
 
     def _fits(self, wants: _Wants, x: int, top: int) -> bool:
@@ -176,7 +195,7 @@ class _Builder:
         several = len(wants.box.members) > 1
         bracket = BRACKET if several else 0
         begin = x - (bracket if wants.ins else 0)
-        end = x + wants.box.width + (bracket if wants.back_in else 0) + (2 if wants.rightward else 0)
+        end = x + wants.width + (bracket if wants.back_in else 0) + (2 if wants.rightward else 0)
         bottom = top + wants.height
         if not cells.free_for_box(begin, end, range(top, bottom)):
             return False
@@ -194,7 +213,7 @@ class _Builder:
     def _reaches(self, link: ChartLink, port: int, end: int, wants: _Wants) -> bool:
         """Whether the link can run along a row to the left side of its target, with its words."""
         source, cells = self.plan.placed[link.source], self._cells
-        below = source.out == source.bottom
+        below = not source.rightward
         if port < source.out + below:
             return False
         ended = self._trunk_end[link.source]
@@ -215,21 +234,21 @@ class _Builder:
         }
         begin = self.plan.placed[link.source].trunk + 1
         taken = [x for x in range(begin, end) if (x, port) in self._cells.down or x in passing]
-        length = cell_len(self._label(link))
+        length, dash = cell_len(self._label(link)), self._style.dash
         stop = end - 1  # the arrow
         for wall in [*reversed(taken), begin - 1]:
-            if stop - wall - 1 >= length + 2:
-                return stop - 1 - length
+            if stop - wall - 1 >= length + 2 * dash:
+                return stop - dash - length
             stop = wall
         return None
 
     def _settle(self, wants: _Wants, spot: tuple[int, int]) -> None:
         x, top = spot
         cells, box = self._cells, wants.box
-        found = Placed(box, x, top, wants.height)
+        found = Placed(box, x, top, wants.height, self._style.framed, rightward=wants.rightward)
         several = len(box.members) > 1
         begin = x - (BRACKET if several and wants.ins else 0)
-        end = x + box.width + (BRACKET if several and wants.back_in else 0)
+        end = x + wants.width + (BRACKET if several and wants.back_in else 0)
         cells.add(cells.boxes, ((at, y) for y in range(top, top + wants.height) for at in range(begin, end)))
         for link, port in zip(wants.ins, self._ports(wants, top), strict=True):
             gap = self._gap(link, port, begin, wants)
@@ -316,15 +335,17 @@ class _Builder:
 
     def add_alone(self, boxes: Sequence[ChartBox], room: int) -> None:
         """Boxes without links, in rows below the others."""
+        style = self._style
         x, top, high = 0, self._cells.bottom, 0
         for box in boxes:
-            height = 2 * len(box.members) + 1
-            if x and x + box.width > room:
+            width = box.width(style.framed)
+            height = (1 + style.framed) * (len(box.members) - 1) + 1 + 2 * style.frame
+            if x and x + width > room:
                 x, top, high = 0, top + high, 0
-            self.plan.placed[box.id] = Placed(box, x, top, height)
-            cells = ((at, y) for y in range(top, top + height) for at in range(x, x + box.width))
+            self.plan.placed[box.id] = Placed(box, x, top, height, style.framed)
+            cells = ((at, y) for y in range(top, top + height) for at in range(x, x + width))
             self._cells.add(self._cells.boxes, cells)
-            x, high = x + box.width + 1, max(high, height)
+            x, high = x + width + 1, max(high, height)
         self._measure()
 
 
@@ -339,12 +360,18 @@ class _Wants:
     back_out: bool
     rightward: bool
     height: int
+    style: Style
+
+    @property
+    def width(self) -> int:
+        """The width of the box."""
+        return self.box.width(self.style.framed)
 
     def right_rows(self, top: int) -> list[int]:
         """The rows of the lines that lead back: those that end here first, the one that begins here last."""
         several = len(self.box.members) > 1
         count = len(self.back_in) + (self.back_out and not several)
-        start = top + 1 + (self.height - FRAME - count - self.rightward) // 2
+        start = top + (self.height - count - self.rightward) // 2
         rows = [start + at for at in range(count)]
         if self.rightward and self.back_out:
             rows[-1] += 1
@@ -353,7 +380,7 @@ class _Wants:
     def trunk(self, x: int, top: int) -> tuple[int, int]:
         """The column of the trunk and the row on which it leaves the box."""
         if not self.rightward:
-            return x + 2, top + self.height - 1
+            return x + 1 + self.style.frame, top + self.height - 1
         before = len(self.back_in)
         count = before + self.back_out + 1
-        return x + self.box.width + 1, top + 1 + (self.height - FRAME - count) // 2 + before
+        return x + self.width + 1, top + (self.height - count) // 2 + before
