@@ -83,7 +83,7 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
         look = look or Look()
         self.theme = THEMES[look.theme].name
         self.use_colours()
-        self.plain, self.state_store = look.plain, look.state_store
+        self.plain, self.state_store, self.graph_hides = look.plain, look.state_store, look.graph_hides
         self.set_keymap({**look.keys})
         self._refresh_hz = refresh_hz
         self._opening = opening or Opening()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from bot_console.tui.console.graph.connections import TOOL_NAMES
 from bot_console.tui.layout.arrangement import Arrangement
 from bot_console.tui.state_store import MemoryStore, StateStore
 
@@ -23,3 +24,5 @@ class Look:
     state_store: StateStore = field(default_factory=MemoryStore)
     """What the panes keep from run to run."""
     notes: tuple[str, ...] = ()
+    graph_hides: tuple[str, ...] = TOOL_NAMES
+    """Patterns of the names of topics and nodes that the graph leaves out."""

@@ -36,6 +36,7 @@ def look_of(options: Options) -> Look:
         keys,
         StateFiles(_system(options)),
         (*notes, *store.problems),
+        settings.graph_hides,
     )
 
 

@@ -1,10 +1,11 @@
 """The filter grammar that every pane speaks.
 
     filter  = words with blanks between; all of them must hold
-    word    = [!] [node: | sev: | at: | time: | re:] text            `!` turns any word around
+    word    = [!] [node: | topic: | sev: | at: | time: | re:] text   `!` turns any word around
     text    = without blanks, or "in quotes with blanks"
 
-`node:` looks at the node's name, in either spelling (`arm.left.zoo`, `/arm/left/zoo`), `node:=` at the whole of it;
+`node:` looks at the node's name, in either spelling (`arm.left.zoo`, `/arm/left/zoo`), `node:=` at the whole of it,
+`node:arm|base` at either; `topic:scan|odom` looks at a topic's name, where there is none at the text;
 `sev:` at a log line's severity (`warn`, `>=warn`, `<error`, `info,fatal`), `at:` at where it was logged (`file.py`,
 `file.py:12`, a function), `time:` at when (see `spans`); `re:` is a regular expression over the text; a plain word may
 stand in the text or in the node's name. Nothing looks at upper or lower case.
@@ -14,8 +15,8 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from bot_console.tui.console.logs.patterns import Pattern
 from bot_console.tui.console.logs.spans import Span, parse_span
@@ -31,20 +32,23 @@ SEVERITY_WORDS: Mapping[str, Severity] = {
     "fatal": Severity.FATAL,
 }
 ALL = frozenset(Severity)
-_WORD = re.compile(r'(!?)(?:(node|sev|at|time|re):)?(?:"([^"]*)"(?=\s|$)|(\S*))(?:\s+|$)')
+_WORD = re.compile(r'(!?)(?:(node|topic|sev|at|time|re):)?(?:"([^"]*)"(?=\s|$)|(\S*))(?:\s+|$)')
 
 
 @dataclass(frozen=True, slots=True)
 class NodeTerm:
-    """Part of a node's name, in the dotted spelling, or the whole name."""
+    """Part of a node's name, in the dotted spelling, or the whole name; `others` are alternatives."""
 
     part: str
     exclude: bool = False
     whole: bool = False
+    others: tuple[NodeTerm, ...] = ()
 
     def stands_in(self, node: str) -> bool:
         """Whether the name contains it."""
-        return self.part == dotted(node) if self.whole else self.part in dotted(node)
+        name = dotted(node)
+        found = self.part == name if self.whole else self.part in name
+        return found or any(each.stands_in(node) for each in self.others)
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +107,7 @@ class Query:
         """Whether a text of a node passes, ignoring the terms that apply to log lines only."""
         if any(term.stands_in(node) is term.exclude for term in self.nodes):
             return False
-        return all(self._found(term, text, node) is not term.exclude for term in self.texts)
+        return all(self.found(term, text, node) is not term.exclude for term in self.texts)
 
     def passes(self, record: LogRecord) -> bool:
         """Whether a log line passes."""
@@ -117,7 +121,8 @@ class Query:
         )
 
     @staticmethod
-    def _found(term: TextTerm, text: str, node: str) -> bool:
+    def found(term: TextTerm, text: str, node: str) -> bool:
+        """Whether a term stands in a text or in the name of its node."""
         return term.pattern.search(text) or (term.name is not None and term.name.stands_in(node))
 
 
@@ -126,8 +131,11 @@ def dotted(node: str) -> str:
     return "." + node.lower().replace("/", ".").lstrip(".")
 
 
-def parse(text: str) -> Query:
-    """Parse a filter; raises `ValueError` with a readable text for a bad pattern, severity or time."""
+def parse(text: str, *, lists: bool = False) -> Query:
+    """Parse a filter; raises `ValueError` with a readable text for a bad pattern, severity or time.
+
+    With `lists`, a plain word such as `scan|odom` stands for either.
+    """
     nodes: list[NodeTerm] = []
     texts: list[TextTerm] = []
     places: list[PlaceTerm] = []
@@ -140,7 +148,16 @@ def parse(text: str) -> Query:
                 texts.append(_plain("!", exclude=False))  # a lone exclamation mark is a word like others
             continue
         exclude = bool(sign)
-        if field == "sev":
+        choices = [each for each in word.split("|") if each]
+        if field == "topic" and choices:
+            texts.append(TextTerm(_any_of(choices), None, exclude))
+        elif field == "node" and len(choices) > 1:
+            first, *others = (_node(each, exclude) for each in choices)
+            nodes.append(replace(first, others=tuple(others)))
+        elif lists and not field and not quoted and len(choices) > 1:
+            first, *others = (NodeTerm(_part(each)) for each in choices)
+            texts.append(TextTerm(_any_of(choices), replace(first, others=tuple(others)), exclude))
+        elif field == "sev":
             wanted = _severities(word)
             severities = severities - wanted if exclude else severities & wanted
         elif field == "node":
@@ -166,6 +183,11 @@ def _place(word: str, exclude: bool) -> PlaceTerm:
     if colon and line.isdecimal() and len(line) < 10:
         return PlaceTerm(name.lower(), int(line), exclude)
     return PlaceTerm(word.lower(), None, exclude)
+
+
+def _any_of(words: Sequence[str]) -> Pattern:
+    """A pattern for one of several plain words."""
+    return Pattern("|".join(map(re.escape, words))) if len(words) > 1 else Pattern(words[0], literal=True)
 
 
 def _part(word: str) -> str:

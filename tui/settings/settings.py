@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, cast
 
+from bot_console.tui.console.graph.connections import TOOL_NAMES
 from bot_console.tui.console.recording import RingSize
 from bot_console.tui.console.robot.stop_means.configured import ConfiguredMeans, configured_means
 from bot_console.tui.files.folders import config_folder
@@ -50,6 +51,10 @@ stop_means: []
 #  - switch: /controller_manager         # controllers of ros2_control
 #    controllers: [diff_drive_controller]
 
+# The graph: topics and nodes that are left out until D is pressed; /camera/* is all of a namespace. What ROS hides (a
+# part of the name begins with an underscore) is left out anyway.
+graph_hides: [{", ".join(TOOL_NAMES)}]
+
 # Keys: the id of an action, as `bot-console config --keys` lists them, and the keys that do it from now on.
 keys: {{}}
 #  app.quit: ctrl+d
@@ -69,6 +74,8 @@ class Settings:
     keep_minutes: float = KEEP_MINUTES
     keep_megabytes: float = KEEP_MEGABYTES
     stop_means: tuple[ConfiguredMeans, ...] = ()
+    graph_hides: tuple[str, ...] = TOOL_NAMES
+    """Patterns of the names of topics and nodes that the graph leaves out."""
 
     @property
     def kept(self) -> RingSize | None:
@@ -126,8 +133,20 @@ def _settings(data: object, path: str) -> Settings:
     means, wrong_means = configured_means(given.pop("stop_means", None))
     wrong += [f"{path}: stop_means: {each}" for each in wrong_means]
     keys = _keys(given.pop("keys", None), path, wrong)
+    hides = _names(given.pop("graph_hides", list(TOOL_NAMES)), f"{path}: graph_hides", wrong)
     wrong += [f"{path}: '{str(name)[:40]}' is no setting" for name in given]
-    return Settings(theme, glyphs, layout, keys, tuple(wrong), keep[0], keep[1], means)
+    return Settings(theme, glyphs, layout, keys, tuple(wrong), keep[0], keep[1], means, hides)
+
+
+def _names(value: object, name: str, wrong: list[str]) -> tuple[str, ...]:
+    if value is None:
+        return ()
+    if isinstance(value, list):
+        items = cast("list[object]", value)
+        if all(isinstance(each, str) and each.startswith("/") for each in items):
+            return tuple(map(str, items))
+    wrong.append(f"{name}: a list of names that begin with a slash, such as [/rosout, /camera/*]")
+    return TOOL_NAMES
 
 
 def _number(value: object, most: float, default: float, name: str, wrong: list[str]) -> float:

@@ -29,7 +29,8 @@ async def draw_topics(session: Session) -> None:
 
 def colours(view: DiagramView, item: str) -> set[object]:
     """The colours in the line on which an item stands."""
-    line = view.render_line(view.places[item].y + 1 - view.scroll_offset.y)
+    place = view.places[item]
+    line = view.render_line(place.y + place.height // 2 - view.scroll_offset.y)
     return {each.style.color for each in line if each.style and item.rpartition("/")[2] in each.text}
 
 
@@ -384,16 +385,20 @@ def test_details_are_something_to_go_to() -> None:
     run(live(), play, (120, 40))
 
 
-def test_a_picture_that_does_not_fit_has_a_map() -> None:
+def test_a_picture_has_a_map_only_where_it_does_not_fit() -> None:
     async def play(session: Session) -> None:
+        def has_map() -> bool:
+            return any(line.count("▏") and "●" in line for line in session.lines())
+
         session.console.change(graph=fleet(8))
         await session.press("3")
+        await session.settle()
+        assert picture(session).excess == 1.0 and not has_map()
+        session.console.change(graph=fleet(13))
+        await draw_topics(session)
         await session.app.workers.wait_for_complete()
         await session.settle()
-        assert any(line.count("▏") and "●" in line for line in session.lines())
-        await session.press("F")
-        await session.settle()
-        assert not any("▏" in line for line in session.lines()), "eight boxes fit"
+        assert has_map()
 
     run(live(), play, (120, 40))
 
@@ -439,3 +444,52 @@ def test_frames_of_tf2_in_the_place_of_the_picture() -> None:
         assert not console.sights.looked_at and picture(session).display
 
     run(system, play, (120, 40))
+
+
+def test_the_list_names_each_topic_with_its_publishers_and_subscribers() -> None:
+    async def play(session: Session) -> None:
+        await session.press("3", *"mmmm")
+        assert session.pane(GraphPane).border_subtitle.startswith("List")
+        text = " ".join(session.text().split()).replace("│ │", "")
+        assert "/odom /simulator → /motion_controller /robot_navigator /telemetry_publisher" in text
+        assert "/cmd_vel_teleop (none) → /safety_monitor" in text
+        await session.press("down", "enter")
+        assert "published by" in session.text()
+        await session.press("escape", "m")
+        assert session.pane(GraphPane).border_subtitle.startswith("Flow")
+
+    run(live(), play, (80, 24))
+
+
+def test_the_robot_is_drawn_without_scrolling_at_80_columns_and_described_at_120() -> None:
+    async def small(session: Session) -> None:
+        await session.press("3")
+        view = picture(session)
+        assert view.excess == 1.0 and view.max_scroll_x == view.max_scroll_y == 0
+        assert {"/simulator", "/safety_monitor", "line:/safety_monitor>/simulator"} <= items(session)
+        assert "No publisher   cmd_vel_teleop" in session.text() and "telemetry ×2" in session.text()
+        assert "Flow · 6 nodes · 6 of 11 topics" in session.text()
+
+    async def large(session: Session) -> None:
+        await session.press("3")
+        assert "sends  /scan_raw" in session.text() and "reads  /cmd_vel" in session.text()
+        picture(session).choose("line:/safety_monitor>/simulator")
+        await session.settle()
+        assert "/cmd_vel  /safety_monitor → /simulator" in session.text()
+
+    run(live(), small, (80, 24))
+    run(live(), large, (120, 40))
+
+
+def test_the_filter_suggests_names() -> None:
+    async def play(session: Session) -> None:
+        await session.press("3", "slash")
+        await session.type("topic:cmd_vel_n")
+        await session.settle()
+        await session.press("right", "enter")
+        assert session.pane(GraphPane).words == "topic:cmd_vel_nav"
+        assert items(session) == {
+            "/motion_controller", "/safety_monitor", "line:/motion_controller>/safety_monitor",
+        }  # fmt: skip
+
+    run(live(), play)

@@ -1,19 +1,22 @@
-"""`bot-console graph`: writes the ROS graph to a file, lists what is odd about it, and compares it with a file."""
+"""`bot-console graph`: writes the ROS graph to a file or as text, lists its findings, and compares it with a file."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from bot_console.tui.cli.system.reached_console import reached_console, settled
 from bot_console.tui.console.connection.ros_console import RosConsole
+from bot_console.tui.console.graph.connections import connections, is_hidden, is_own_service, unconnected
 from bot_console.tui.console.graph.expected import Expected, differences, read, written
 from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.format import harmless
+from bot_console.tui.settings.settings import read_settings
 
 STILL = 1.0
 """Seconds for which the graph must not change before it counts as known."""
@@ -53,9 +56,29 @@ def _judge(console: RosConsole, expected: Expected | None, given: argparse.Names
         for each in found:
             print(f"{'fault' if each.fault else 'hint '}  {harmless(each.text)}")
         return 1 if any(each.fault for each in found) else 0
+    if given.text:
+        print(*lines_of(info, read_settings().graph_hides), sep="\n")
+        return 0
     topics = [each.name for each in info.topics] if given.rates else []
     print(written(info, _measured(console, topics, given.measure)), end="")
     return 0
+
+
+def lines_of(info: GraphInfo, hides: Iterable[str]) -> Iterator[str]:
+    """Each topic, service and action with who gives and who takes it, then the nodes that have none of them.
+
+    What `hides` names is left out, as in the graph pane, and so are private services that nobody calls.
+    """
+    hides = tuple(hides)
+    info = replace(info, nodes=tuple(each for each in info.nodes if not is_hidden(each.name, hides)))
+    found = [
+        (kind, name, text)
+        for kind, name, text in connections(info)
+        if not is_hidden(name, hides) and not (kind == "service" and is_own_service(name, info.nodes))
+    ]
+    yield from (harmless(text) for _, _, text in found)
+    alone = unconnected(info.nodes, {(kind, name) for kind, name, _ in found})
+    yield from (f"{harmless(each)}  without topics, services and actions" for each in alone)
 
 
 def _compare(console: RosConsole, expected: Expected, given: argparse.Namespace) -> int:
@@ -98,12 +121,13 @@ def _measured(console: RosConsole, topics: list[str], seconds: float) -> Mapping
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         "bot-console graph",
-        description="Write the ROS graph as a file, tell what is odd about it, or compare it with a file.",
+        description="Write the ROS graph as a file or as lines of text, list its findings, or compare it with a file.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--check", metavar="FILE", help="compare with a file; each difference is a line")
+    what.add_argument("--text", action="store_true", help="one line for each topic, service and action, to be read")
     what.add_argument("--findings", action="store_true", help="what is odd, such as a topic that nobody publishes")
     parser.add_argument("--rates", action="store_true", help="write the rates of topics, too")
     parser.add_argument("--wait", type=float, default=5.0, metavar="S", help="seconds to wait for the graph (5)")

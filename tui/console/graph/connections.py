@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterable, Iterator
+from fnmatch import fnmatchcase
 
 from bot_console.tui.console.graph.qos import mismatched
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 
 NOBODY = "(none)"
+TOOL_NAMES = ("/rosout", "/parameter_events", "/statistics", "/rosout_agg", "/diagnostics_agg")
+"""Topics of every node, and of tools: with them each drawing is a knot."""
+
 KINDS: tuple[tuple[str, Callable[[NodeInfo], Iterable[Endpoint]], Callable[[NodeInfo], Iterable[Endpoint]]], ...] = (
     ("topic", lambda node: node.publishers, lambda node: node.subscriptions),
     ("service", lambda node: node.clients, lambda node: node.services),
@@ -35,6 +39,19 @@ def connections(
             wrong = {each for _, each, _ in broken.get(name, ())} if kind == "topic" else set[str]()
             what = name if kind == "topic" else f"{kind} {name}"
             yield kind, name, f"{what}  {said(givers.get(name, ()))} → {said(takers.get(name, ()), wrong)}"
+
+
+def is_hidden(name: str, patterns: Iterable[str]) -> bool:
+    """Whether a node or a topic is hidden by one of the patterns, or by ROS (a part begins with an underscore)."""
+    return "/_" in name or any(fnmatchcase(name, each) for each in patterns)
+
+
+def is_own_service(service: str, nodes: Iterable[NodeInfo]) -> bool:
+    """Whether a service is one of a node's private ones, such as those for parameters, and nobody calls it."""
+    nodes = list(nodes)
+    return any(service.startswith(f"{node.name}/") for node in nodes) and not any(
+        each.name == service for node in nodes for each in node.clients
+    )
 
 
 def unconnected(nodes: Iterable[NodeInfo], names: Container[tuple[str, str]]) -> list[str]:

@@ -148,9 +148,11 @@ class _Names:
 
     def box(self, box: str) -> str:
         name = box.removeprefix(SPACE)
-        short = _last(name) if self._boxes[_last(name)] == 1 else name
-        text = cut_name(harmless(short), LONGEST)
-        return f"▸ {text}  {counted(self._members.get(box, 0), 'node')}" if box.startswith(SPACE) else text
+        space = box.startswith(SPACE)
+        # Beside folded namespaces, a node says which one it is in.
+        unique = self._boxes[_last(name)] == 1 and (space or not self._members)
+        text = cut_name(harmless(_last(name) if unique else name), LONGEST)
+        return f"▸ {text}  {counted(self._members.get(box, 0), 'node')}" if space else text
 
     def words(
         self, pair: Pair, links: Iterable[str], faulty: Collection[str], rates: Mapping[str, str] = MappingProxyType({})

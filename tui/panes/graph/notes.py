@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
+from bot_console.tui.console.graph.connections import TOOL_NAMES, is_hidden
 from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo
 from bot_console.tui.format import counted, cut, harmless
@@ -12,7 +13,7 @@ from bot_console.tui.panes.graph.about import ends_of, node_of, summary
 from bot_console.tui.panes.graph.bundles import LINE
 from bot_console.tui.panes.graph.items import TOPIC
 from bot_console.tui.panes.graph.namespaces import SPACE
-from bot_console.tui.panes.graph.view import GraphView, Mode, Shown, is_debug
+from bot_console.tui.panes.graph.view import GraphView, Mode, Shown
 from rich.cells import cell_len
 
 GAP = "  "
@@ -121,7 +122,7 @@ def _ends(
     words: list[str] = []
     lonely: list[str] = []
     for each in ends:
-        if is_debug(each.name):
+        if is_hidden(each.name, TOOL_NAMES):
             continue
         others = [one for one in ends_of(info, each.name)[1 if publishing else 0] if "/_" not in one]
         if not others:

@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.graph.connections import TOOL_NAMES
 from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.console.sights.model import Sights
@@ -27,13 +28,14 @@ from bot_console.tui.panes.graph.details import (
     narrowed,
 )
 from bot_console.tui.panes.graph.export import exported
+from bot_console.tui.panes.graph.filtering import completed, matches
 from bot_console.tui.panes.graph.focus_history import FocusHistory
 from bot_console.tui.panes.graph.frames import FramesView
 from bot_console.tui.panes.graph.items import ACTION, SERVICE, TOPIC, is_link
 from bot_console.tui.panes.graph.namespaces import SPACE, namespace_of, outermost, unfolded
 from bot_console.tui.panes.graph.notes import caption, dead_ends, item_notes, summary_of
 from bot_console.tui.panes.graph.rates import Rates
-from bot_console.tui.panes.graph.view import GraphView, Mode, Shown, matches, shown
+from bot_console.tui.panes.graph.view import GraphView, Mode, Shown, shown
 from bot_console.tui.panes.graph.view_state import KEPT, ViewState, view_state_of
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.diagram.chart.drawing import WIDE
@@ -88,8 +90,13 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     def on_mount(self) -> None:
         """Restore the view of the last run."""
         left = view_state_of(self.state_store.get(KEPT))
-        self._view, self._folds = left.view, left.folds
+        self._view, self._folds = replace(left.view, hides=self._hides), left.folds
         self._rates.wanted = left.rates
+
+    @property
+    def _hides(self) -> tuple[str, ...]:
+        """The names that the settings leave out."""
+        return getattr(self.host, "graph_hides", TOOL_NAMES)
 
     def on_unmount(self) -> None:
         """Save the view."""
@@ -241,17 +248,20 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     def ask_words(self, line: Line) -> None:
         """Ask for search words at the bottom of the pane."""
-        self.query_one(Prompt).ask(line)
+        self.query_one(Prompt).ask(replace(line, complete=self._completed))
+
+    def _completed(self, text: str) -> str:
+        return completed(text, self._info or GraphInfo())
 
     def filter_is(self, words: str) -> None:
         """Draw the items that pass, and those linked to them."""
         self._frames.filter_by(words)
-        self._view = replace(self._view, query=parse(words))
+        self._view = replace(self._view, query=parse(words, lists=True))
         self._draw()
 
     def find(self, words: str, step: int) -> bool:
         """Select the next node or topic whose own name matches."""
-        query = parse(words)
+        query = parse(words, lists=True)
         if self._frames.open:
             return self._frames.find(query, step)
         return self._picture.find(lambda item: self._matches(item, query), step)
@@ -260,7 +270,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         """Whether the selected item matches."""
         if self._frames.open:
             return self._frames.stands_on(parse(words))
-        return bool(self._picture.selected) and self._matches(self._picture.selected, parse(words))
+        return bool(self._picture.selected) and self._matches(self._picture.selected, parse(words, lists=True))
 
     def _matches(self, item: str, query: Query) -> bool:
         return any(matches(each, query) for each in self._shown.bundles.links.get(item, (item,)))

@@ -8,21 +8,19 @@ from dataclasses import dataclass, field, replace
 from enum import Enum
 from types import MappingProxyType
 
-from bot_console.tui.console.graph.connections import connections, unconnected
+from bot_console.tui.console.graph.connections import TOOL_NAMES, connections, is_hidden, unconnected
 from bot_console.tui.console.graph.qos import mismatched
 from bot_console.tui.console.model import GraphInfo, NodeInfo
 from bot_console.tui.console.query import Query
 from bot_console.tui.format import counted, harmless
 from bot_console.tui.panes.graph.bundles import Bundles, bundled
+from bot_console.tui.panes.graph.filtering import filtered
 from bot_console.tui.panes.graph.focus_history import Focus, around
 from bot_console.tui.panes.graph.items import ACTION, SERVICE, TOPIC, is_link
 from bot_console.tui.panes.graph.namespaces import SPACE, box_of, folded_edges
 from bot_console.tui.widgets.diagram.chart.model import Chart
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
 from bot_console.tui.widgets.diagram.listing import Listing
-
-DEBUG_TOPICS = ("/rosout", "/parameter_events", "/statistics", "/rosout_agg", "/diagnostics_agg")
-"""Topics of every node, and of tools: with them each drawing is a knot."""
 
 LONGEST, SHORT = 40, 16
 
@@ -43,7 +41,10 @@ class GraphView:
 
     mode: Mode = Mode.FLOW
     query: Query = field(default_factory=Query)
+    hides: tuple[str, ...] = TOOL_NAMES
+    """Patterns of the names of topics and nodes that are left out, such as `/camera/*`."""
     debug: bool = False
+    """Whether what `hides` names, and what ROS hides, is drawn, too."""
     dead_sinks: bool = True
     leaves: bool = True
     services: bool = False
@@ -104,16 +105,18 @@ class Shown:
 
 def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingProxyType({})) -> Shown:
     """Select nodes and topics, and convert them to items and edges; `rates` are appended to topic names."""
-    nodes = [each for each in info.nodes if view.debug or not each.hidden]
+    nodes = [each for each in info.nodes if view.debug or not is_hidden(each.name, view.hides)]
     edges = _edges(nodes, view)
     topics = {TOPIC + each.name for each in info.topics} | {each for edge in edges for each in edge if is_link(each)}
     everything = len(nodes) + len(topics)
-    kept = {each for each in topics if view.debug or not is_debug(each.partition(":")[2])}
+    kept = {each for each in topics if view.debug or not is_hidden(each.partition(":")[2], view.hides)}
     sources, sinks = {b for _, b in edges}, {a for a, _ in edges}
     dead_ends = frozenset(each for each in kept if each not in sources or each not in sinks)
     counts = Counter(each for edge in edges for each in edge)
     kept = {each for each in kept if _wanted(each, view, sources, sinks, counts)}
-    ids = _filtered({each.name for each in nodes} | kept, edges, view.query)
+    ids = filtered(
+        {each.name for each in nodes} | kept, edges, view.query, both_ends=view.mode in (Mode.FLOW, Mode.LIST)
+    )
     edges = [(a, b) for a, b in edges if a in ids and b in ids]
     broken = mismatched(info)
     faults = {
@@ -227,11 +230,6 @@ def _last(item: str) -> str:
     return item.rpartition("/")[2]
 
 
-def is_debug(topic: str) -> bool:
-    """Whether a topic is for debugging: logs, parameter events, statistics, parts of actions, hidden names."""
-    return topic in DEBUG_TOPICS or "/_" in topic
-
-
 def _wanted(topic: str, view: GraphView, sources: set[str], sinks: set[str], counts: Mapping[str, int]) -> bool:
     if not topic.startswith(TOPIC):
         return True
@@ -240,27 +238,6 @@ def _wanted(topic: str, view: GraphView, sources: set[str], sinks: set[str], cou
     if not view.dead_sinks and topic not in sinks:
         return False
     return view.leaves or counts[topic] > 1
-
-
-def _filtered(ids: set[str], edges: list[tuple[str, str]], query: Query) -> set[str]:
-    """The matching items and those linked to them; an excluding word excludes both."""
-    if not query.terms:
-        return ids
-    excluding, positive = query.part(exclude=True), query.part(exclude=False)
-    allowed = {each for each in ids if matches(each, excluding)}
-    found = {each for each in allowed if matches(each, positive)}
-    if positive.terms:
-        found |= {b for a, b in edges if a in found} | {a for a, b in edges if b in found}
-    return found & allowed
-
-
-def matches(item: str, query: Query) -> bool:
-    """Whether a node or a topic passes a filter by its own name."""
-    return query.matches(*_words(item))
-
-
-def _words(item: str) -> tuple[str, str]:
-    return (item.partition(":")[2], "") if is_link(item) else ("", item.removeprefix(SPACE))
 
 
 def _nodes_only(nodes: list[str], edges: list[tuple[str, str]], label: _Labels) -> Digraph:

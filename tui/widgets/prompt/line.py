@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import ClassVar
 
 from bot_console.tui import keymap
@@ -10,12 +11,24 @@ from bot_console.tui.widgets.prompt.question import Asker, Line
 from rich.cells import cell_len
 from textual.binding import BindingType
 from textual.containers import Horizontal
-from textual.suggester import SuggestFromList
+from textual.suggester import Suggester, SuggestFromList
 from textual.widget import Widget
 from textual.widgets import Input, Label
 
 AROUND = 5
 """Columns around the label and at the end of the text."""
+
+
+class _Completing(Suggester):
+    """Suggests what a function makes of the text, which may change from moment to moment."""
+
+    def __init__(self, complete: Callable[[str], str]) -> None:
+        super().__init__(use_cache=False, case_sensitive=True)
+        self._complete = complete
+
+    async def get_suggestion(self, value: str) -> str | None:
+        """The text as it may go on."""
+        return self._complete(value) or None
 
 
 class Prompt(Asker[str], Horizontal):
@@ -52,7 +65,10 @@ class Prompt(Asker[str], Horizontal):
         self._label.update(harmless(line.label))
         field = self._field
         suggestions = line.suggestions
-        field.suggester = SuggestFromList(suggestions, case_sensitive=False) if suggestions else None
+        if line.complete is not None:
+            field.suggester = _Completing(line.complete)
+        else:
+            field.suggester = SuggestFromList(suggestions, case_sensitive=False) if suggestions else None
         field.select_on_focus = not suggestions
         field.value = line.text
         field.cursor_position = len(line.text)

@@ -56,6 +56,9 @@ class Line(Question[str]):
     suggestions: Sequence[str] = ()
     """The first that begins as the text does is shown dim; the right arrow key takes it."""
 
+    complete: Callable[[str], str] | None = None
+    """How a text may go on, shown dim likewise; empty where it is complete or unknown."""
+
 
 @dataclass(frozen=True)
 class Confirmation(Question[None]):

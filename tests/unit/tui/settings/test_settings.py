@@ -40,6 +40,11 @@ def test_what_is_set_is_taken(tmp_path: Path) -> None:
     )
 
 
+def test_what_the_graph_hides_can_be_chosen(tmp_path: Path) -> None:
+    assert read_settings(written(tmp_path, "graph_hides: [/tf, /camera/*]")).graph_hides == ("/tf", "/camera/*")
+    assert read_settings(written(tmp_path, "graph_hides: []")).graph_hides == ()
+
+
 @pytest.mark.parametrize(
     ("text", "says"),
     [
@@ -55,6 +60,8 @@ def test_what_is_set_is_taken(tmp_path: Path) -> None:
         ("keys: {parameters.undo: q}", "q is taken by parameters.undo and app.quit"),
         ("keys: {app.quit: '1'}", "1 is taken by"),
         ("theme: !!python/object:os.system x", "settings.yaml"),
+        ("graph_hides: /rosout", "graph_hides: a list of names that begin with a slash"),
+        ("graph_hides: [rosout]", "graph_hides: a list of names that begin with a slash"),
         ("a: &a [*a]", "is no setting"),
         ("\x00", "settings.yaml"),
         (f"keys: {{app.quit: 0x{'f' * 5000}}}", "a whole number has thousands of digits"),

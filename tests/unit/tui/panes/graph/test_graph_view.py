@@ -50,7 +50,7 @@ def test_hidden_nodes_and_tool_topics_come_on_request() -> None:
     ],
 )
 def test_filters(words: str, expected: set[str]) -> None:
-    assert ids(GraphView(query=parse(words))) == expected
+    assert ids(GraphView(mode=Mode.ALL, query=parse(words))) == expected
 
 
 def test_a_topic_with_two_types_is_told() -> None:

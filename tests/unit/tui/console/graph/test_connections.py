@@ -1,0 +1,41 @@
+"""The graph as lines of text."""
+
+from __future__ import annotations
+
+from bot_console.tui.cli.verbs.graph import lines_of
+from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+
+TRIGGER = ("std_srvs/srv/Trigger",)
+
+
+def ends(*names: str, qos: str = "") -> tuple[Endpoint, ...]:
+    return tuple(Endpoint(name, ("a/msg/B",), qos) for name in names)
+
+
+INFO = GraphInfo(
+    (
+        NodeInfo("/lidar", ends("/scan", "/rosout", qos="best effort volatile 5")),
+        NodeInfo("/nav", ends("/cmd_vel"), ends("/scan", qos="reliable volatile 5"), (Endpoint("/nav/get", TRIGGER),)),
+        NodeInfo("/base", (), ends("/cmd_vel", "/goal"), (Endpoint("/reset", TRIGGER),)),
+        NodeInfo("/person", clients=(Endpoint("/reset", TRIGGER),), action_clients=ends("/drive")),
+        NodeInfo("/idle"),
+        NodeInfo("/_hidden", ends("/cmd_vel")),
+    ),
+    silent=("/base",),
+)
+
+
+def test_each_connection_is_one_line() -> None:
+    assert list(lines_of(INFO, ("/rosout",))) == [
+        "/cmd_vel  /nav → /base (no answer)",
+        "/goal  (none) → /base (no answer)",
+        "/scan  /lidar → ✗/nav",
+        "service /reset  /person → /base (no answer)",
+        "action /drive  /person → (none)",
+        "/idle  without topics, services and actions",
+    ]
+
+
+def test_names_can_be_left_out() -> None:
+    lines = list(lines_of(INFO, ("/rosout", "/base", "/g*")))
+    assert lines[0] == "/cmd_vel  /nav → (none)" and not any("/goal" in each for each in lines)
