@@ -16,7 +16,7 @@ from rich.cells import cell_len
 
 WIDE = 116
 """Columns from which on a chain of boxes runs from left to right rather than down."""
-RIGHTWARD = (8, 3, 2, 1, 0)
+RIGHTWARD = (99, 3, 2, 1, 0)
 SLACK = (0, 4, 10)
 WORDS = ((99, 1, True), (99, 0, True), (99, 1, False), (99, 0, False), (3, 0, True), (3, 0, False), (1, 0, False))
 """Words on a line, the blanks around them, and whether boxes have frames."""
