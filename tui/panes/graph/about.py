@@ -5,8 +5,7 @@ from __future__ import annotations
 from bot_console.tui.console.graph.findings import SILENT
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.format import counted, harmless
-from bot_console.tui.panes.graph.items import ACTION, SERVICE, TOPIC
-from bot_console.tui.panes.graph.namespaces import SPACE
+from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC
 
 
 def summary(info: GraphInfo, item: str) -> str:

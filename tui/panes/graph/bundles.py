@@ -7,8 +7,7 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
-from bot_console.tui.panes.graph.items import ACTION, SERVICE, TOPIC, is_link
-from bot_console.tui.panes.graph.namespaces import SPACE, namespace_of
+from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC, is_link, namespace_of
 from bot_console.tui.text.shown import counted, cut_name, harmless
 from bot_console.tui.widgets.diagram.chart.model import Chart, ChartBox, ChartLink
 

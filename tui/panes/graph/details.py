@@ -8,7 +8,7 @@ from bot_console.tui.console.graph.findings import Finding, findings
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo
 from bot_console.tui.format import value_text
 from bot_console.tui.panes.graph.about import ends_of, node_of, server_types, types_of
-from bot_console.tui.panes.graph.items import ACTION, SERVICE, TOPIC
+from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, TOPIC
 from bot_console.tui.widgets.prompt.question import Option
 
 ITEM, DETAIL, PANE, TYPE = "item ", "detail ", "pane ", "type "

@@ -7,8 +7,7 @@ from itertools import product
 
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.query import NodeTerm, Query, TextTerm
-from bot_console.tui.panes.graph.items import is_link
-from bot_console.tui.panes.graph.namespaces import SPACE
+from bot_console.tui.panes.graph.namespaces import SPACE, is_link
 
 FIELDS = ("node:", "topic:")
 Term = NodeTerm | TextTerm

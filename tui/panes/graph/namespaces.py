@@ -1,13 +1,21 @@
-"""Namespaces as boxes: the contents of a folded one are drawn as a single item. Pure."""
+"""The ids of what is drawn, and namespaces as boxes: the contents of a folded one are a single item. Pure."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 
+TOPIC, SERVICE, ACTION = "topic:", "service:", "action:"
+LINKS = (TOPIC, SERVICE, ACTION)
+"""How the ids of items begin that stand between nodes."""
 SPACE = "namespace:"
 """Begins the id of a box that stands for all nodes of a namespace."""
 FEWEST = 2
 """Nodes that a namespace has at least to be worth a box."""
+
+
+def is_link(item: str) -> bool:
+    """Whether an item links nodes: a topic, a service, an action."""
+    return item.startswith(LINKS)
 
 
 def namespace_of(node: str) -> str:
@@ -31,6 +39,11 @@ def outermost(nodes: Iterable[str], above: str = "") -> frozenset[str]:
     if len(found) == 1 and counts[space := next(iter(found))] == len(below):
         return outermost(below, space) or found
     return found
+
+
+def folds_of(nodes: Sequence[str], most: int) -> frozenset[str]:
+    """What is folded until a person says otherwise: with more than `most` nodes, the outermost namespaces."""
+    return outermost(nodes) if len(nodes) > most else frozenset()
 
 
 def unfolded(folded: frozenset[str], space: str, nodes: Iterable[str], most: int) -> frozenset[str]:

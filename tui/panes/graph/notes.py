@@ -11,8 +11,7 @@ from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo
 from bot_console.tui.format import counted, cut, harmless
 from bot_console.tui.panes.graph.about import ends_of, node_of, summary
 from bot_console.tui.panes.graph.bundles import LINE
-from bot_console.tui.panes.graph.items import TOPIC
-from bot_console.tui.panes.graph.namespaces import SPACE
+from bot_console.tui.panes.graph.namespaces import SPACE, TOPIC
 from bot_console.tui.panes.graph.view import GraphView, Mode, Shown
 from rich.cells import cell_len
 
@@ -46,6 +45,13 @@ def summary_of(info: GraphInfo, found: Shown, item: str) -> str:
     source, _, target = item.removeprefix(LINE).partition(">")
     names = " ".join(each.partition(":")[2] for each in links)
     return harmless(f"{source.removeprefix(SPACE)} → {target.removeprefix(SPACE)}  {names}")
+
+
+def nothing_drawn(info: GraphInfo, found: Shown) -> str:
+    """Why there is no drawing; empty while there is one."""
+    if found.graph.items:
+        return ""
+    return "Nothing matches the filter; escape clears it." if info.nodes else "No nodes yet ..."
 
 
 def item_notes(

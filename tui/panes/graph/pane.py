@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any, ClassVar
 
 from bot_console.tui import keymap
@@ -31,9 +30,18 @@ from bot_console.tui.panes.graph.export import exported
 from bot_console.tui.panes.graph.filtering import completed, matches
 from bot_console.tui.panes.graph.focus_history import FocusHistory
 from bot_console.tui.panes.graph.frames import FramesView
-from bot_console.tui.panes.graph.items import ACTION, SERVICE, TOPIC, is_link
-from bot_console.tui.panes.graph.namespaces import SPACE, namespace_of, outermost, unfolded
-from bot_console.tui.panes.graph.notes import caption, dead_ends, item_notes, summary_of
+from bot_console.tui.panes.graph.namespaces import (
+    ACTION,
+    SERVICE,
+    SPACE,
+    TOPIC,
+    folds_of,
+    is_link,
+    namespace_of,
+    outermost,
+    unfolded,
+)
+from bot_console.tui.panes.graph.notes import caption, dead_ends, item_notes, nothing_drawn, summary_of
 from bot_console.tui.panes.graph.rates import Rates
 from bot_console.tui.panes.graph.view import GraphView, Mode, Shown, shown
 from bot_console.tui.panes.graph.view_state import KEPT, ViewState, view_state_of
@@ -48,7 +56,6 @@ from bot_console.tui.widgets.words import Words
 from rich.text import Text
 from textual.app import ComposeResult
 
-NO_RATES: Mapping[str, str] = MappingProxyType({})
 MANY = 40
 """Nodes from which on namespaces are folded until a person unfolds them."""
 
@@ -90,13 +97,8 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     def on_mount(self) -> None:
         """Restore the view of the last run."""
         left = view_state_of(self.state_store.get(KEPT))
-        self._view, self._folds = replace(left.view, hides=self._hides), left.folds
+        self._view, self._folds = replace(left.view, hides=getattr(self.host, "graph_hides", TOOL_NAMES)), left.folds
         self._rates.wanted = left.rates
-
-    @property
-    def _hides(self) -> tuple[str, ...]:
-        """The names that the settings leave out."""
-        return getattr(self.host, "graph_hides", TOOL_NAMES)
 
     def on_unmount(self) -> None:
         """Save the view."""
@@ -141,13 +143,12 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         info = self._info
         if info is None:
             return
-        nodes = self._visible
-        folded = self._folds if self._folds is not None else outermost(nodes) if len(nodes) > MANY else frozenset[str]()
+        folded = self._folds if self._folds is not None else folds_of(self._visible, MANY)
         self._view = replace(self._view, folded=folded, focus=self._focus_history.now)
         # Topics as boxes of their own: names are cut where it does not fit otherwise.
         for short in (False, True) if self._view.mode in (Mode.ACTIVE, Mode.ALL) else (False,):
             self._view = replace(self._view, short=short)
-            self._shown = shown(info, self._view, self._texts)
+            self._shown = shown(info, self._view, self._rates.shown(self._measures))
             self._tell_dead_ends()
             faults = self._shown.bundles.faults or self._shown.faults
             self._picture.show(self._shown.content, self._shown.dead_ends, faults, self._shown.silent)
@@ -174,11 +175,6 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             return self._rates.wanted
         return self._view.mode is Mode.FLOW and self._picture.outer_size.width >= WIDE
 
-    @property
-    def _texts(self) -> Mapping[str, str]:
-        """The rates to write on the lines."""
-        return self._rates.texts if self._measures else NO_RATES
-
     def _ask_nodes(self) -> None:
         """Have nodes probed for liveness while the pane is visible."""
         wanted = self.console.sights if self.display else None
@@ -204,30 +200,24 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             return
         info = self._info or GraphInfo()
         self.caption(caption(info, self._shown, self._view, self.words))
-        if self._picture.places:
-            text = summary_of(info, self._shown, self._picture.selected)
-        elif self._problem:
-            text = self._problem
-        else:
-            text = "Nothing matches the filter; escape clears it." if info.nodes else "No nodes yet ..."
-        self.query_one("#graph-status", Words).say(text)
+        text = summary_of(info, self._shown, self._picture.selected)
+        self.query_one("#graph-status", Words).say(text or self._problem or nothing_drawn(info, self._shown))
         self._tell_more()
 
     def _tell_dead_ends(self) -> None:
         """Count what has one end only; where it fits, name it."""
         words = self.query_one("#graph-dead-ends", Words)
         lines = dead_ends(self._shown, max(1, self.content_size.width - 2))
-        words.display = bool(lines)
+        words.display = bool(lines) and not self._frames.open
         words.styles.height = max(1, len(lines))
         words.say(Text("\n".join(lines)))
 
     def _tell_more(self) -> None:
         """Describe the selected item in the rows that the drawing leaves free."""
-        picture, item = self._picture, self._picture.selected
-        width, free = picture.outer_size.width - 2, picture.free_rows - 1
-        lines: list[str] = []
-        if self._view.mode is Mode.FLOW and width >= WIDE - 2 and item:
-            lines = item_notes(self._snapshot, self._shown, item, self._texts, width, free)
+        picture, rates = self._picture, self._rates.shown(self._measures)
+        width, lines = picture.outer_size.width - 2, list[str]()
+        if self._view.mode is Mode.FLOW and width >= WIDE - 2:
+            lines = item_notes(self._snapshot, self._shown, picture.selected, rates, width, picture.free_rows - 1)
         picture.set_footer(lines)
 
     def on_diagram_view_selected(self, event: DiagramView.Selected) -> None:
@@ -390,6 +380,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         frames = self._frames
         frames.toggle()
         self._picture.display = not frames.open
+        self._tell_dead_ends()
         self.focus_target()
         self.tick()
         self._tell()

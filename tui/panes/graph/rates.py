@@ -20,6 +20,10 @@ class Rates:
         self.texts: Mapping[str, str] = {}
         self._looked = 0.0
 
+    def shown(self, on: bool) -> Mapping[str, str]:
+        """The texts, or none."""
+        return self.texts if on else {}
+
     def look(self, traffic: Traffic, topics: Sequence[str], now: float) -> bool:
         """Measure these topics, and read the rates every few seconds; returns whether any text has changed."""
         if now - self._looked < RATE_POLL_S:

@@ -16,8 +16,7 @@ from bot_console.tui.format import counted, harmless
 from bot_console.tui.panes.graph.bundles import Bundles, bundled
 from bot_console.tui.panes.graph.filtering import filtered
 from bot_console.tui.panes.graph.focus_history import Focus, around
-from bot_console.tui.panes.graph.items import ACTION, SERVICE, TOPIC, is_link
-from bot_console.tui.panes.graph.namespaces import SPACE, box_of, folded_edges
+from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC, box_of, folded_edges, is_link
 from bot_console.tui.widgets.diagram.chart.model import Chart
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
 from bot_console.tui.widgets.diagram.listing import Listing
