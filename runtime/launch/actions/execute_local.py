@@ -174,7 +174,8 @@ class ExecuteLocal(Action):
     def prepare(self, context: LaunchContext) -> None:
         """Evaluate the description."""
         self.__process_description.prepare(context, self)
-        self.__details = self.__new_details()
+        if not self.__executed:  # a second execution is refused, and the process of the first keeps its details
+            self.__details = self.__new_details()
 
     def __new_details(self) -> dict[str, Any]:
         description = self.__process_description

@@ -140,6 +140,37 @@ def test_the_same_action_twice(run: Launch) -> None:
     assert re.match(r"ExecuteLocal action 'p-\d+': executed more than once: <", outcome.caught)
 
 
+AGAIN: dict[str, Callable[[Any], Any]] = {
+    "itself": lambda process: process,
+    "in a group": lambda process: GroupAction([process]),
+    "from a function": lambda process: OpaqueFunction(function=lambda context: [process]),
+    "by a timer": lambda process: TimerAction(period=0.0, actions=[process]),
+    "in a nested description": lambda process: LaunchDescription([process]),
+}
+"""Ways in which a handler executes a process once more."""
+
+
+@pytest.mark.parametrize("again", AGAIN)
+@pytest.mark.parametrize("after", ["start", "output"])
+def test_executing_a_running_action_again_leaves_its_process_whole(run: Launch, again: str, after: str) -> None:
+    ended: list[int] = []
+    process = python(
+        "print('up', flush=True); input()",
+        respawn=after == "start",
+        on_exit=lambda event, context: ended.append(event.pid),
+    )
+    entity = AGAIN[again](process)
+    handlers = {
+        "start": OnProcessStart(target_action=process, on_start=[entity]),
+        "output": OnProcessIO(target_action=process, on_stdout=lambda event: entity),
+    }
+    outcome = run([RegisterEventHandler(handlers[after]), process])
+    assert re.match(r"ExecuteLocal action 'p-\d+': executed more than once: <", outcome.caught)
+    assert "exception occurred" not in outcome.text, "only the second execution fails"
+    assert len(ended) == 1
+    assert process.process_details is not None and process.process_details["pid"] == ended[0]
+
+
 def test_a_text_as_command_is_taken_apart(run: Launch) -> None:
     process = ExecuteProcess(cmd="/x y")
     assert [each[0].describe() for each in process.cmd] == ["'/'", "'x'", "' '", "'y'"]
