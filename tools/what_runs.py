@@ -7,9 +7,13 @@ A package counts as here where the runtime serves it; what is known to be missin
 
 from __future__ import annotations
 
+import json
 import sys
+from collections.abc import Sequence
+from fnmatch import fnmatch
 from pathlib import Path
 
+import yaml
 from bot_console.runtime.further_interfaces import unverified_folders
 from bot_console.runtime.importer import install, is_embedded
 from bot_console.runtime.missing_packages import explain_missing_package
@@ -23,6 +27,29 @@ ROS 2. `python tools/what_runs.py` generates the page from what the runtime prov
 
 | package | here | what is missing, or how to get it |
 | --- | --- | --- |
+"""
+RELEASES = {"jazzy": "7.1.5", "kilted": "9.1.2"}
+"""The rclpy that PyPI has of each distribution."""
+LIVE = Path(__file__).resolve().parents[1] / "tests" / "contract" / "live"
+FOLLOWED = f"""
+## Which releases are followed
+
+The runtime follows ROS 2 Jazzy: recordings of rclpy 7.1.3, launch 3.4.3, launch_ros 0.26.6, ros2cli 0.32.2, and of
+rclpy 7.1.4 the parameter callbacks and cancelled tasks. `.ci/run` replays all recordings, and runs the recorded rclpy
+programs on the rclpy that PyPI has, with Fast DDS: {RELEASES["jazzy"]} of Jazzy (in the wheel called 7.1.6) and
+{RELEASES["kilted"]} of Kilted. Where those differ from the recordings, in how many of the 965 programs, and what the
+runtime does:
+
+| what | Jazzy {RELEASES["jazzy"]} | Kilted {RELEASES["kilted"]} | here | why |
+| --- | --- | --- | --- | --- |
+"""
+KEPT = """
+22 of the programs cannot run there, because PyPI has no `example_interfaces`.
+
+## What differs from Jazzy on purpose, or is not done yet
+
+| where | here | in Jazzy | why |
+| --- | --- | --- | --- |
 """
 PARTS = {
     "cv_bridge": "compressed images and Bayer patterns need OpenCV: `pip install 'bot-console[opencv]'`",
@@ -80,10 +107,42 @@ def row(package: str) -> str:
     return f"| `{package}` | no | {why} |"
 
 
+def decisions() -> list[tuple[dict[str, str], dict[str, list[str]]]]:
+    """What was decided where a live rclpy differs, each with the cases that differ, by distribution."""
+    found = {each: json.loads((LIVE / f"{each}.json").read_text("utf-8")) for each in RELEASES}
+    rows: list[tuple[dict[str, str], dict[str, list[str]]]] = []
+    for row in yaml.safe_load((LIVE / "decisions.yaml").read_text("utf-8")):
+        cases = {
+            distro: [case for case in outcomes if _matches(case, row["cases"], row.get("except", ()))]
+            for distro, outcomes in found.items()
+        }
+        rows.append((row, cases))
+    return rows
+
+
+def _matches(case: str, patterns: Sequence[str], but: Sequence[str]) -> bool:
+    return any(fnmatch(case, each) for each in patterns) and not any(fnmatch(case, each) for each in but)
+
+
+def differences() -> str:
+    """The rows of the second table."""
+    lines = ""
+    for row, cases in decisions():
+        shown = (f"differs ({len(cases[each])})" if cases[each] else "as recorded" for each in RELEASES)
+        lines += f"| {row['what']} | {' | '.join(shown)} | as {row['here']} | {row['why']} |\n"
+    return lines
+
+
+def kept() -> str:
+    """The rows of the third table."""
+    rows = yaml.safe_load((Path(__file__).parent / "kept_differences.yaml").read_text("utf-8"))
+    return "".join(f"| {row['where']} | {row['here']} | {row['jazzy']} | {row['why']} |\n" for row in rows)
+
+
 def page() -> str:
     """The whole page."""
     install()
-    return HEAD + "".join(f"{row(each)}\n" for each in BY_FREQUENCY)
+    return HEAD + "".join(f"{row(each)}\n" for each in BY_FREQUENCY) + FOLLOWED + differences() + KEPT + kept()
 
 
 def main() -> None:

@@ -9,7 +9,7 @@ import asyncio
 import logging
 import threading
 import traceback
-from collections.abc import Iterable
+from collections.abc import Coroutine, Generator, Iterable
 from concurrent.futures import Future
 from typing import Any, cast
 
@@ -224,10 +224,10 @@ class LaunchService:
         self.__context._set_is_shutdown(True)
         self.__context.emit_event_sync(Shutdown(reason=reason, due_to_sigint=due_to_sigint))
 
-    def shutdown(self, force_sync: bool = False) -> asyncio.Future[None] | None:
+    def shutdown(self, force_sync: bool = False) -> Coroutine[Any, Any, None] | None:
         """Shut down, from any thread; before the service runs, this ends it as soon as it starts.
 
-        Returns an awaitable within a coroutine unless `force_sync` is set; the request is made either way.
+        Returns a coroutine unless `force_sync` is set; the request is made either way.
         """
         reason = "LaunchService.shutdown() called"
         with self.__guard:
@@ -239,17 +239,26 @@ class LaunchService:
                 loop = None
         if loop is not None:
             self._shutdown(reason=reason, due_to_sigint=False)
-        return None if force_sync else _done()
+        return None if force_sync else _Done()
 
 
-def _done() -> asyncio.Future[None] | None:
-    """Return a completed future; None outside coroutines."""
-    loop = _running_loop()
-    if loop is None:
-        return None
-    future = loop.create_future()
-    future.set_result(None)
-    return future
+class _Done(Coroutine[Any, Any, None]):
+    """A coroutine that has nothing to do: it may be awaited, made a task, or dropped without a warning."""
+
+    def __await__(self) -> Generator[Any, Any, None]:
+        return
+        yield
+
+    def send(self, value: Any) -> Any:
+        """End."""
+        raise StopIteration
+
+    def throw(self, *error: Any) -> Any:
+        """Raise what is thrown."""
+        raise error[0]
+
+    def close(self) -> None:
+        """Do nothing."""
 
 
 def _running_loop() -> asyncio.AbstractEventLoop | None:

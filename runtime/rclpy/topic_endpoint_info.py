@@ -136,14 +136,9 @@ class TopicEndpointInfo:
                 f"  Reliability: {qos.reliability.name}",
                 f"  History (Depth): {history}",
                 f"  Durability: {qos.durability.name}",
-                f"  Lifespan: {_duration(qos.lifespan)}",
-                f"  Deadline: {_duration(qos.deadline)}",
+                f"  Lifespan: {qos.lifespan}",
+                f"  Deadline: {qos.deadline}",
                 f"  Liveliness: {qos.liveliness.name}",
-                f"  Liveliness lease duration: {_duration(qos.liveliness_lease_duration)}",
+                f"  Liveliness lease duration: {qos.liveliness_lease_duration}",
             )
         )
-
-
-def _duration(duration: Any) -> str:
-    """The text of a duration; unlimited ones as upstream's middleware reports them."""
-    return str(duration) if duration.nanoseconds else "Infinite"

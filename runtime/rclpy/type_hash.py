@@ -11,6 +11,7 @@ class TypeHash:
     """A type's hash: version of the scheme (1 is RIHS01) and 32 bytes; raises `AssertionError` for other types."""
 
     _TYPE_HASH_SIZE = SIZE
+    __slots__ = ("_value", "_version")
 
     def __init__(self, version: int = -1, value: bytes = bytes(SIZE)) -> None:
         self.version = version

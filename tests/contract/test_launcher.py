@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,9 +9,10 @@ import pytest
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
 from launcher_bench import PATIENCE
+from rigs import domains
 from scenes.launcher_rigs import DECLARED, AttachedRig, FakeRig, HostedRig, LauncherRig, MachineRig, RosRig
 
-_domains = itertools.cycle(range(20, 102))  # up to 101 each DDS takes on every system
+_domains = domains()
 
 
 WAYS = [

@@ -9,10 +9,11 @@ from __future__ import annotations
 import contextlib
 import inspect
 import itertools
+import os
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
@@ -73,7 +74,15 @@ PROFILES: dict[str, tuple[str, dict[str, dict[str, Value]] | None]] = {
 }
 
 T = TypeVar("T")
-_domains = itertools.cycle(range(20, 102))  # up to 101 each DDS takes on every system
+
+
+def domains() -> Iterator[int]:
+    """Domains for systems of this process, from 20 to 79: other workers have others."""
+    worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
+    return itertools.cycle(range(20 + worker % 3 * 20, 40 + worker % 3 * 20))
+
+
+_domains = domains()
 
 Sides = Callable[[str], None]
 """Called before the robot, and before the console, is connected: chooses how they are."""

@@ -1,7 +1,10 @@
 """The page of what runs says what can be imported."""
 
 import importlib.util
+import json
 from pathlib import Path
+
+from helpers.recorded.cases import differing_on_purpose
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -20,3 +23,17 @@ def test_the_page_is_made_by_the_script():
 def test_packages_that_are_not_here_say_what_brings_them():
     rows = [each.strip("|").split("|") for each in tool().page().splitlines() if each.startswith("| `")]
     assert [row[0] for row in rows if row[1].strip() == "no" and not row[2].strip()] == []
+
+
+def test_each_difference_of_a_live_rclpy_has_one_decision():
+    what_runs = tool()
+    for distro in what_runs.RELEASES:
+        outcomes = json.loads((what_runs.LIVE / f"{distro}.json").read_text("utf-8"))
+        decided = sorted(case for _, cases in what_runs.decisions() for case in cases[distro])
+        assert decided == sorted(outcomes)
+    assert [row["what"] for row, cases in what_runs.decisions() if not any(cases.values())] == []
+
+
+def test_the_runtime_differs_from_the_recordings_where_it_is_decided_that_it_does():
+    newer = {case for row, cases in tool().decisions() if row["here"] == "newer" for case in cases["jazzy"]}
+    assert newer == set(differing_on_purpose("rclpy"))

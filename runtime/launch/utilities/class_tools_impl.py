@@ -7,8 +7,8 @@ from typing import Any
 
 
 def isclassinstance(obj: object) -> bool:
-    """Whether an object has attributes of its own, and is neither a class nor a function."""
-    return hasattr(obj, "__dict__") and not inspect.isclass(obj) and not inspect.isroutine(obj)
+    """Whether an object is neither a class nor a function."""
+    return not inspect.isclass(obj) and not inspect.isroutine(obj)
 
 
 def is_a(obj: object, entity_type: Any) -> bool:

@@ -10,6 +10,7 @@ from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, Owner
 from bot_console.runtime.rmw.graph_tables import NamesAndTypes, collect
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError
 from rclpy.impl.graph_wait import require_valid, wait_until_there
+from rclpy.node_parts import mangled
 from rclpy.node_parts.topic_names import expand_name, remapped
 
 if TYPE_CHECKING:
@@ -24,9 +25,14 @@ class NodeGraph:
     context: Any
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
-        """All topics with their types, by name; raises `RCLError` after a shutdown of the context."""
+        """All topics with their types, by name; raises `RCLError` after a shutdown of the context.
+
+        With `no_demangle` by the names that DDS has, and with the two topics of each service.
+        """
         self._ros_use_graph("topic")
         tables = self._ros_bus.tables()
+        if no_demangle:
+            return collect(mangled.all_ends(tables))
         return collect(
             pair for each in tables for ends in (each.publishers, each.subscriptions) for pair in ends.pairs()
         )
@@ -71,6 +77,8 @@ class NodeGraph:
     ) -> NamesAndTypes:
         """The topics that a node publishes, with types; raises `NodeNameNonExistentError`."""
         owner = self._ros_who("publisher", node_name, node_namespace)
+        if no_demangle:
+            return collect(mangled.written_by(self._ros_bus.tables(), owner))
         return collect(pair for each in self._ros_bus.tables() for pair in each.publishers.of(owner))
 
     def get_subscriber_names_and_types_by_node(
@@ -78,6 +86,8 @@ class NodeGraph:
     ) -> NamesAndTypes:
         """The topics that a node subscribes to, with types; raises `NodeNameNonExistentError`."""
         owner = self._ros_who("subscriber", node_name, node_namespace)
+        if no_demangle:
+            return collect(mangled.read_by(self._ros_bus.tables(), owner))
         return collect(pair for each in self._ros_bus.tables() for pair in each.subscriptions.of(owner))
 
     def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
@@ -100,12 +110,10 @@ class NodeGraph:
         owner = name, namespace or "/"
         if any(each.has(owner) for each in self._ros_bus.tables()):
             return owner
-        for argument, problem in (
-            ("node_name", names.validate_node_name(owner[0])),
-            ("node_namespace", names.validate_namespace(owner[1])),
-        ):
-            if problem:
-                raise RCLError(f"failed to get {what} names and types: {argument} argument is invalid: {problem[0]}")
+        problem = names.validate_namespace(owner[1]) or names.validate_node_name(owner[0])
+        if problem:
+            number = names.result_of(problem[0])
+            raise RCLError(f"failed to get {what} names and types: {problem[0]}, result: {number}")
         raise NodeNameNonExistentError(f"cannot get {what} names and types for nonexistent node: error not set")
 
     def count_publishers(self, topic_name: str) -> int:
@@ -147,14 +155,14 @@ class NodeGraph:
         require_valid(
             self.context, f"Failed to get information by topic for {'publishers' if publisher else 'subscriptions'}"
         )
-        name = topic if no_mangle else remapped(self, expand_name(self, topic))
+        name = topic.removeprefix(mangled.TOPIC) if no_mangle else remapped(self, expand_name(self, topic))
         tables = [each.publishers if publisher else each.subscriptions for each in self._ros_bus.tables()]
         kind = TopicEndpointTypeEnum.PUBLISHER if publisher else TopicEndpointTypeEnum.SUBSCRIPTION
         return [
             TopicEndpointInfo(
                 node_name=each.node.name,
                 node_namespace=each.node.namespace,
-                topic_type=each.type_name,
+                topic_type=mangled.type_name(each.type_name) if no_mangle else each.type_name,
                 topic_type_hash=_type_hash(each),
                 endpoint_type=kind,
                 endpoint_gid=list(each.gid),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Collection, Mapping
 from pathlib import Path
@@ -12,6 +13,16 @@ GIVEN = bool(os.environ.get("BOT_CONSOLE_ORACLE"))
 RECORDINGS = Path(os.environ.get("BOT_CONSOLE_ORACLE", "")).absolute()
 NOT_GIVEN = "BOT_CONSOLE_ORACLE names no recordings"
 DIFFERS = Path(__file__).parents[2] / "acceptance" / "differs_on_purpose.yaml"
+
+
+def recorded_areas() -> dict[str, list[str]]:
+    """The ids of all recorded rclpy cases, by area; none where there are no recordings."""
+    if not GIVEN:
+        return {}
+    areas: dict[str, list[str]] = {}
+    for case in json.loads((RECORDINGS / "rclpy" / "expected.json").read_text("utf-8"))["cases"]:
+        areas.setdefault(case.partition("/")[0], []).append(case)
+    return areas
 
 
 def differing_on_purpose(kind: str) -> dict[str, str]:

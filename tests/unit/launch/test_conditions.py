@@ -84,3 +84,7 @@ def test_public_launch_files_ask_a_condition_directly() -> None:
     context = LaunchContext()
     assert IfCondition("1")._predicate_func(context)
     assert UnlessCondition("0")._predicate_func(context)
+
+
+def test_a_condition_without_a_predicate_is_false() -> None:
+    assert Condition().evaluate(LaunchContext()) is False

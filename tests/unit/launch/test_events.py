@@ -489,3 +489,12 @@ def test_emitting_in_the_loop_is_refused_instead_of_waiting_for_itself(log_lines
     service.include_launch_description(LaunchDescription([inside]))
     assert service.run() == 1
     assert "return the action EmitEvent(event=...)" in "\n".join(log_lines)
+
+
+def test_shutdown_returns_a_coroutine_outside_of_coroutines_too() -> None:
+    service = LaunchService()
+    loop = asyncio.new_event_loop()
+    loop.run_until_complete(loop.create_task(service.shutdown()))
+    loop.close()
+    assert service.shutdown(force_sync=True) is None
+    assert service.run() == 0

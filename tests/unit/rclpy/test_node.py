@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
+from rclpy.duration import Duration
 from rclpy.exceptions import (
     InvalidNamespaceException,
     InvalidNodeNameException,
@@ -158,7 +159,7 @@ def test_what_an_unknown_node_has(system: Any, what: str) -> None:
     ask = getattr(system, f"get_{what}_names_and_types_by_node")
     with pytest.raises(NodeNameNonExistentError, match=f"^cannot get {what} names and types for nonexistent node"):
         ask("nobody", "/")
-    with pytest.raises(RCLError, match="node_name argument is invalid: node name must not be empty"):
+    with pytest.raises(RCLError, match="node name must not be empty, result: 1"):
         ask("", "/")
 
 
@@ -285,3 +286,52 @@ def test_a_tilde_without_a_slash_behind_it(ros: Any) -> None:
     with pytest.raises(InvalidTopicNameException, match="a tilde '~' that is not followed by a forward slash"):
         node.create_publisher(String, "~foo", 1)
     assert node.create_publisher(String, "~/foo", 1).topic_name == "/n/foo"
+
+
+def test_topics_and_services_by_their_names_on_dds(ros: Any) -> None:
+    node = ros.node("n", namespace="/ns", start_parameter_services=False, enable_rosout=False)
+    node.create_publisher(String, "said", 1)
+    node.create_subscription(Int32, "heard", lambda message: None, 1)
+    node.create_client(Trigger, "asked")
+    node.create_service(Trigger, "offered", lambda request, response: response)
+    request, response = (f"std_srvs::srv::dds_::Trigger_{each}_" for each in ("Request", "Response"))
+    said = ("rt/ns/said", ["std_msgs::msg::dds_::String_"])
+    heard = ("rt/ns/heard", ["std_msgs::msg::dds_::Int32_"])
+    asked = [("rq/ns/askedRequest", [request]), ("rr/ns/askedReply", [response])]
+    offered = [("rq/ns/offeredRequest", [request]), ("rr/ns/offeredReply", [response])]
+
+    def ours(pairs: Any) -> list[Any]:
+        return [each for each in pairs if "/ns/" in each[0] and "type_description" not in each[0]]
+
+    assert ours(node.get_topic_names_and_types(no_demangle=True)) == sorted([said, heard, *asked, *offered])
+    published = node.get_publisher_names_and_types_by_node("n", "/ns", no_demangle=True)
+    assert ours(published) == sorted([said, asked[0], offered[1]])
+    subscribed = node.get_subscriber_names_and_types_by_node("n", "/ns", no_demangle=True)
+    assert ours(subscribed) == sorted([heard, asked[1], offered[0]])
+    [info] = node.get_publishers_info_by_topic("rt/ns/said", no_mangle=True)
+    assert info.topic_type == "std_msgs::msg::dds_::String_"
+
+
+@pytest.mark.parametrize(
+    ("name", "namespace", "problem"),
+    [
+        ("bad-name", "/", "node name must not contain characters other than alphanumerics or '_', result: 2"),
+        ("", "/", "node name must not be empty, result: 1"),
+        ("n", "x", "namespace must be absolute, it must lead with a '/', result: 2"),
+    ],
+)
+def test_graph_queries_refuse_invalid_names_with_the_result_of_rmw(
+    ros: Any, name: str, namespace: str, problem: str
+) -> None:
+    with pytest.raises(RCLError) as refused:
+        ros.node().get_publisher_names_and_types_by_node(name, namespace)
+    assert str(refused.value) == f"failed to get publisher names and types: {problem}"
+
+
+def test_a_duration_of_zero_is_not_printed_as_infinite(ros: Any) -> None:
+    node = ros.node()
+    node.create_publisher(String, "said", 1)
+    [info] = node.get_publishers_info_by_topic("said")
+    assert "Lifespan: Infinite" in str(info)
+    info.qos_profile.lifespan = Duration(nanoseconds=0)
+    assert "Lifespan: 0 nanoseconds" in str(info)

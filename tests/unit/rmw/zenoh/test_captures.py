@@ -1,12 +1,18 @@
-"""Captures of running systems, as `bot-console doctor --capture` writes them: each fits our format byte by byte."""
+"""Captures of running systems, as `bot-console doctor --capture` writes them: each fits our format byte by byte.
+
+`own.json` is from our runtime, `rmw_zenoh_cpp-0.2.10-jazzy.json` from rclpy nodes over rmw_zenoh_cpp and its router.
+"""
 
 import json
 from pathlib import Path
 
 import pytest
+from bot_console.runtime.importer import is_embedded
 from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, pack, unpack
 from bot_console.runtime.rmw.zenoh.wire.qos_text import encode_qos
 from bot_console.runtime.rmw.zenoh.wire.tokens import entity_token, node_token, parse_token
+from bot_console.runtime.rosidl import type_hash
+from rosidl_runtime_py.utilities import get_interface
 
 CAPTURES = sorted((Path(__file__).parents[3] / "captures").glob("*.json"))
 
@@ -26,8 +32,8 @@ def capture(request):
     return json.loads(request.param.read_text(encoding="utf-8"))
 
 
-def test_there_is_one():
-    assert CAPTURES
+def test_the_real_middleware_is_among_them():
+    assert "rmw_zenoh_cpp-0.2.10-jazzy" in [each.stem for each in CAPTURES]
 
 
 def test_tokens_are_those_that_we_would_write(capture):
@@ -47,5 +53,12 @@ def test_attachments_are_those_that_we_would_write_and_name_their_publisher(capt
 def test_profiles_are_read_and_written_alike(capture):
     for key in capture["tokens"]:
         token = parse_token(key)
-        if token.kind in ("MP", "MS"):
+        if token.kind != "NN":
             assert encode_qos(token.qos) == key.split("/")[12]
+
+
+def test_types_have_the_hashes_that_we_compute(capture):
+    tokens = [each for each in map(parse_token, capture["tokens"]) if each.kind != "NN"]
+    captured = {each.type_name: each.type_hash for each in tokens if is_embedded(each.type_name.partition("/")[0])}
+    assert captured == {name: type_hash.text(get_interface(name)) for name in captured}
+    assert len(captured) > 10

@@ -1,0 +1,17 @@
+"""Runs before a recorded case on the rclpy of PyPI: the types of `example_interfaces`, which PyPI does not have.
+
+`test_msgs` has the same Fibonacci action. There is no service like AddTwoInts: cases that need it cannot run there.
+What else is missing is lent as it is to `bot-console attach --ros`.
+"""
+
+import sys
+import types
+
+import test_msgs.action
+from bot_console.tui.cli.attach.console_needs import lend_missing
+
+lend_missing()
+example_interfaces = types.ModuleType("example_interfaces")
+action = types.ModuleType("example_interfaces.action")
+vars(action)["Fibonacci"] = test_msgs.action.Fibonacci
+sys.modules.update({"example_interfaces": example_interfaces, "example_interfaces.action": action})
