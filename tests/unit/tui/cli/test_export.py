@@ -65,7 +65,7 @@ def test_a_word_that_is_no_navigator_is_refused_and_not_taken_for_ours(tmp_path:
     description = get_launch_description_from_python_launch_file(str(tmp_path / NAME / "launch/robot_system.launch.py"))
     context = LaunchContext()
     context.launch_configurations["navigator"] = "mine"
-    with pytest.raises(RuntimeError, match="navigator:=mine: take true, false, goals or a Python file"):
+    with pytest.raises(RuntimeError, match="navigator:=mine: expected true, false, goals or a Python file"):
         for entity in description.entities:
             if not isinstance(entity, Node):
                 entity.execute(context)
