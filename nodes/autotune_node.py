@@ -73,7 +73,7 @@ class AutoTune(Node):
         self.create_subscription(LaserScan, "scan", self._on_scan, SCANS)
         self.create_subscription(UInt32, "collisions", self._on_collisions, LATCHED)
         self.create_subscription(DiagnosticArray, "diagnostics", self._on_diagnostics, 10)
-        self.create_timer(0.5, self._look, self._group, clock=self._steady)
+        self.create_timer(0.5, self._poll, self._group, clock=self._steady)
         self.get_logger().info(f"Will adjust {self._node} {self._name} once a safety monitor is watching")
 
     def _forget(self) -> None:
@@ -113,7 +113,7 @@ class AutoTune(Node):
             return "the robot is stopped"
         return "" if self._client.services_are_ready() else f"{self._node} is not running"
 
-    async def _look(self) -> None:
+    async def _poll(self) -> None:
         """Runs twice a second: stops at once if adjusting is not allowed, and moves on after a period or a
         collision.
         """
@@ -132,7 +132,7 @@ class AutoTune(Node):
                     )
                     await self._send(self._climber.danger())
                 elif elapsed >= float(self.get_parameter("period").value) and self._speeds:
-                    await self._send(self._climber.judged(self._score()))
+                    await self._send(self._climber.evaluated(self._score()))
         finally:
             self._busy = False
 
@@ -147,8 +147,8 @@ class AutoTune(Node):
         self._suspended = why
         if self._climber is not None and not math.isnan(self._before):
             back = await self._set(self._before)
-            told = f"{self._name} restored to {self._before:g}" if not back else f"{self._name} stays: {back}"
-            self.get_logger().warning(f"Not adjusting, {why}: {told}")
+            reported = f"{self._name} restored to {self._before:g}" if not back else f"{self._name} stays: {back}"
+            self.get_logger().warning(f"Not adjusting, {why}: {reported}")
         self._climber = None
 
     async def _ready(self) -> bool:

@@ -15,9 +15,9 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
-PERIOD = 0.05
+CONTROL_PERIOD_S = 0.05
 """Interval between commands, in s."""
-LIFETIME_NS = 500_000_000
+MAX_AGE_NS = 500_000_000
 """Inputs older than this are ignored."""
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -46,7 +46,7 @@ class MotionController(Node):
         self.create_subscription(Odometry, "odom", self._on_odometry, 10)
         self.create_subscription(PoseStamped, "goal_pose", self._on_goal, 10)
         self.create_subscription(Path, "route", self._on_route, LATCHED)
-        self.create_timer(PERIOD, self._control, clock=self._steady)
+        self.create_timer(CONTROL_PERIOD_S, self._control, clock=self._steady)
         self.get_logger().info("Controlling the velocity")
 
     def _read_gains(self) -> Gains:
@@ -88,21 +88,21 @@ class MotionController(Node):
         self._desired_stamp = self._steady.now().nanoseconds
 
     def _control(self) -> None:
-        fresh = self._steady.now().nanoseconds - self._desired_stamp <= LIFETIME_NS
+        fresh = self._steady.now().nanoseconds - self._desired_stamp <= MAX_AGE_NS
         allowed = self._desired if fresh else None
         target = self._follower.target
         pose = _pose_of(self._odometry) if target and self._odometry is not None else None
         if pose and target and self._follower.arrived(pose[0], pose[1]):
             self.get_logger().info(f"Reached x = {target[0]:.2f} m, y = {target[1]:.2f} m")
         if pose and self._follower.target:
-            wanted = self._follower.steer(pose, allowed, PERIOD, self._gains)
+            wanted = self._follower.steer(pose, allowed, CONTROL_PERIOD_S, self._gains)
         elif allowed:
             wanted = allowed
         else:
             self._fall_silent()
             return
         self._silent = False
-        self._publish(*self._velocity.step(*wanted, PERIOD, self._gains))
+        self._publish(*self._velocity.step(*wanted, CONTROL_PERIOD_S, self._gains))
 
     def _fall_silent(self) -> None:
         """Publish one zero velocity, then nothing, so that others can drive."""

@@ -10,7 +10,7 @@ from bot_console_robot.common.scans import Floats
 
 SAME_THING = 0.35
 """Neighbouring returns closer than this (m) belong to the same object."""
-FEWEST = 3
+MIN_BEAMS = 3
 """Minimum number of beams for an object to be reported."""
 
 
@@ -56,4 +56,4 @@ def find(ranges: Floats, first: float, increment: float) -> list[Detection]:
     middle_x, middle_y = np.add.reduceat(x, starts) / beams, np.add.reduceat(y, starts) / beams
     width = np.hypot(x[ends - 1] - x[starts], y[ends - 1] - y[starts])
     things = np.array((middle_x, middle_y, width, np.minimum.reduceat(depth, starts)), np.float64)
-    return [Detection(*map(float, thing)) for thing in np.transpose(things[:, beams >= FEWEST])]
+    return [Detection(*map(float, thing)) for thing in np.transpose(things[:, beams >= MIN_BEAMS])]

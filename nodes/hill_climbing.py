@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-SMALLEST = 0.25
+MIN_STEP = 0.25
 """The smallest step as a fraction of the first one: the search never stops, because the optimum may move."""
 FORGETTING = 0.1
 """How much of the difference to the latest score the remembered best score adopts in each period."""
@@ -24,7 +24,7 @@ class HillClimber:
         self._direction: float = 1.0
         self._best_score: float | None = None
 
-    def judged(self, score: float) -> float:
+    def evaluated(self, score: float) -> float:
         """Record the score of the current value; returns the value to try next."""
         if self._best_score is None or score >= self._best_score:
             self.best, self._best_score = self.value, score
@@ -35,7 +35,7 @@ class HillClimber:
             return self._go(self.value)
         self._best_score -= FORGETTING * (self._best_score - score)
         self._direction = -self._direction
-        self._step = max(SMALLEST * self._first, 0.5 * self._step)
+        self._step = max(MIN_STEP * self._first, 0.5 * self._step)
         self.value = self.best
         return self.value
 

@@ -36,11 +36,11 @@ if TYPE_CHECKING:
 ACTIONS: Any = nav2_msgs.action  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- the same
 MESSAGES: Any = nav2_msgs.msg  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- the same
 """Generated at import time, so a type checker does not know them."""
-PERIOD = 0.05
+CONTROL_PERIOD_S = 0.05
 """Interval between control steps, in s."""
 NO_VALID_PATH = 208
 """Error code of Nav2."""
-STANDS_FOR = ("bt_navigator", "amcl")
+NAV2_NODES = ("bt_navigator", "amcl")
 """Nav2 nodes whose `get_state` service programs wait for before they start."""
 
 
@@ -66,7 +66,7 @@ class Navigator(Node):
         self._known = WorldModel(self, self._seconds)
         self._current: Goal | None = None
         self.create_subscription(PoseStamped, "goal_pose", self._on_goal_pose, 10)
-        for name in STANDS_FOR:
+        for name in NAV2_NODES:
             self.create_service(GetState, f"{name}/get_state", _active)
         self._servers = [
             self._server(ACTIONS.NavigateToPose, "navigate_to_pose", self._to_pose),
@@ -78,7 +78,7 @@ class Navigator(Node):
             self._server(ACTIONS.Wait, "wait", self._wait),
             self._server(ACTIONS.ComputePathToPose, "compute_path_to_pose", self._compute),
         ]
-        self.create_timer(PERIOD, self._control, clock=self._steady)
+        self.create_timer(CONTROL_PERIOD_S, self._control, clock=self._steady)
         self.get_logger().info("Ready for goals on navigate_to_pose and goal_pose")
 
     def _server(self, kind: Any, name: str, execute: Callable[[Any], Any]) -> Any:
@@ -154,7 +154,7 @@ class Navigator(Node):
             return
         self._announce(message.pose)
         goal = self._begin(Way(points, heading, self._known.limits()))
-        goal.done.add_done_callback(lambda done: self._tell_end(done.result() or 0))
+        goal.done.add_done_callback(lambda done: self._publish_result(done.result() or 0))
 
     def _announce(self, pose: Pose) -> None:
         here = self._known.pose or (0.0, 0.0, 0.0)
@@ -163,7 +163,7 @@ class Navigator(Node):
             f"to ({pose.position.x:.2f}, {pose.position.y:.2f})"
         )
 
-    def _tell_end(self, code: int) -> None:
+    def _publish_result(self, code: int) -> None:
         self.get_logger().info("Goal succeeded" if not code else f"Goal failed, error code {code}")
 
     async def _travel(
@@ -180,25 +180,25 @@ class Navigator(Node):
         task = Way(points, heading, self._known.limits())
         message = kind.Feedback()
         code = await run_goal(self, self._begin(task, handle), lambda: feedback(task, message), message)
-        self._tell_end(code)
+        self._publish_result(code)
         return code
 
     async def _to_pose(self, handle: ServerGoalHandle) -> Any:
-        code = await self._travel(handle, [handle.request.pose.pose], self._tell_way, ACTIONS.NavigateToPose)
+        code = await self._travel(handle, [handle.request.pose.pose], self._publish_path, ACTIONS.NavigateToPose)
         return ACTIONS.NavigateToPose.Result(error_code=code)
 
     async def _through_poses(self, handle: ServerGoalHandle) -> Any:
         poses = [each.pose for each in handle.request.poses]
 
-        def tell(task: Way, message: Any) -> None:
-            self._tell_way(task, message)
+        def report(task: Way, message: Any) -> None:
+            self._publish_path(task, message)
             message.number_of_poses_remaining = _left_of(poses, task, self._known.pose)
 
         return ACTIONS.NavigateThroughPoses.Result(
-            error_code=await self._travel(handle, poses, tell, ACTIONS.NavigateThroughPoses)
+            error_code=await self._travel(handle, poses, report, ACTIONS.NavigateThroughPoses)
         )
 
-    def _tell_way(self, task: Way, message: Any) -> None:
+    def _publish_path(self, task: Way, message: Any) -> None:
         pose = self._known.pose or (0.0, 0.0, 0.0)
         message.current_pose.header.stamp = self.get_clock().now().to_msg()
         message.current_pose.header.frame_id = "map"
@@ -234,11 +234,11 @@ class Navigator(Node):
     async def _spin(self, handle: ServerGoalHandle) -> Any:
         task, message = Spin(handle.request.target_yaw, self._known.limits()), ACTIONS.Spin.Feedback()
 
-        def tell() -> None:
+        def report() -> None:
             message.angular_distance_traveled = task.turned
 
         goal = self._begin(task, handle)
-        code = await run_goal(self, goal, tell, message)
+        code = await run_goal(self, goal, report, message)
         return ACTIONS.Spin.Result(error_code=code, total_elapsed_time=goal.duration(self._seconds()))
 
     async def _straight(self, sign: float, handle: ServerGoalHandle) -> Any:
@@ -248,22 +248,22 @@ class Navigator(Node):
         allowance = asked.time_allowance.sec + asked.time_allowance.nanosec * 1e-9
         task = Straight(distance, asked.speed, allowance, self._known.limits())
 
-        def tell() -> None:
+        def report() -> None:
             message.distance_traveled = task.travelled
 
         goal = self._begin(task, handle)
-        code = await run_goal(self, goal, tell, message)
+        code = await run_goal(self, goal, report, message)
         return kind.Result(error_code=code, total_elapsed_time=goal.duration(self._seconds()))
 
     async def _wait(self, handle: ServerGoalHandle) -> Any:
         asked, message = handle.request.time, ACTIONS.Wait.Feedback()
         task = Wait(asked.sec + asked.nanosec * 1e-9)
 
-        def tell() -> None:
+        def report() -> None:
             message.time_left.sec, message.time_left.nanosec = divmod(int(task.left * 1e9), 1_000_000_000)
 
         goal = self._begin(task, handle)
-        code = await run_goal(self, goal, tell, message)
+        code = await run_goal(self, goal, report, message)
         return ACTIONS.Wait.Result(error_code=code, total_elapsed_time=goal.duration(self._seconds()))
 
     def _compute(self, handle: ServerGoalHandle) -> Any:

@@ -26,7 +26,7 @@ from std_srvs.srv import Trigger
 
 LEFT_OUT = ("use_sim_time", "start_type_description_service")
 """Parameters that every node has and no preset contains."""
-LOOK, LOOKS = 0.05, 40
+NODE_POLL_S, MAX_NODE_POLLS = 0.05, 40
 """Interval in s at which a new client checks for its services, and number of checks: discovery takes time on a
 network.
 """
@@ -86,8 +86,8 @@ class Presets(Node):
             )
             if reason:
                 stuck = [each for each in reversed(done) if await self._set(each, before[each])]
-                told = f"; {', '.join(stuck)} could not be restored" if stuck else ""
-                raise PresetError(f"nothing was set: {node} refused: {reason}{told}")
+                reported = f"; {', '.join(stuck)} could not be restored" if stuck else ""
+                raise PresetError(f"nothing was set: {node} refused: {reason}{reported}")
             done.append(node)
         return sum(map(len, wanted.values()))
 
@@ -131,7 +131,7 @@ class Presets(Node):
         if node not in self._clients:
             self._clients[node] = AsyncParameterClient(self, node, callback_group=self._group)
         client = self._clients[node]
-        for _ in range(LOOKS):
+        for _ in range(MAX_NODE_POLLS):
             if client.services_are_ready():
                 return client
             if not self.count_services(f"{node}/set_parameters"):
@@ -147,7 +147,7 @@ class Presets(Node):
             timer.cancel()
             over.set_result(None)
 
-        timer = self.create_timer(LOOK, end, callback_group=self._group)
+        timer = self.create_timer(NODE_POLL_S, end, callback_group=self._group)
         await over
         self.destroy_timer(timer)
 

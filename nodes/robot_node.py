@@ -17,7 +17,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import LaserScan
 
-TURNING_AGAIN = 1.0
+REPORT_INTERVAL_S = 1.0
 """Minimum interval, in s, between two reports of a blocked way."""
 
 
@@ -93,7 +93,7 @@ class RobotNavigator(Node):
         )
         if decision.blocked and not self._was_blocked:
             self.get_logger().warning(
-                f"⚠ Obstacle at {decision.nearest:.2f}m - Turning!", throttle_duration_sec=TURNING_AGAIN
+                f"⚠ Obstacle at {decision.nearest:.2f}m - Turning!", throttle_duration_sec=REPORT_INTERVAL_S
             )
         self._was_blocked = decision.blocked
         command = Twist()

@@ -25,11 +25,11 @@ from rclpy.parameter import Parameter
 from sensor_msgs.msg import LaserScan
 
 TELEOP, NAVIGATION = "cmd_vel_teleop", "cmd_vel_nav"
-LIFETIME_NS = 500_000_000
+MAX_AGE_NS = 500_000_000
 """A command or scan older than this is dead."""
-LATE_NS = LIFETIME_NS // 4
+LATE_NS = MAX_AGE_NS // 4
 """A scan older than this is late for one of ten in a second: from then on a simulator is asked for its time."""
-WATCH_PERIOD = 0.1
+WATCH_PERIOD_S = 0.1
 """Seconds between two looks at what has died."""
 ZEROS = 10
 """Zero commands that are sent when the last source has died, before silence."""
@@ -51,8 +51,8 @@ class SafetyMonitor(Node):
         self._declare()
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._robot_time = RobotTime(self, self._steady)
-        self._arbiter = Arbiter({TELEOP: self._now, NAVIGATION: self._robot_time.now}, LIFETIME_NS)
-        self._scan = ScanWatch(self._robot_time.now, LIFETIME_NS)
+        self._arbiter = Arbiter({TELEOP: self._now, NAVIGATION: self._robot_time.now}, MAX_AGE_NS)
+        self._scan = ScanWatch(self._robot_time.now, MAX_AGE_NS)
         self._verdict = Verdict("", (0.0, 0.0), (0.0, 0.0), NO_COMMAND, math.inf)
         self._zeros = 0
         self._commands = self.create_publisher(Twist, "cmd_vel", 10)
@@ -63,7 +63,7 @@ class SafetyMonitor(Node):
         locked = "its parameter start_locked is true" if self._start_locked else ""
         stop_file = str(self.get_parameter(STOP_FILE).value)
         self._stop = EmergencyStop(self, self._steady, ARBITER, BASE, self._decide, locked=locked, stop_file=stop_file)
-        self.create_timer(WATCH_PERIOD, self._watch, clock=self._steady)
+        self.create_timer(WATCH_PERIOD_S, self._watch, clock=self._steady)
         self.get_logger().info(f"Watching: slower from {self._warning} m, stop at {self._emergency} m")
 
     def _declare(self) -> None:
@@ -132,7 +132,7 @@ class SafetyMonitor(Node):
         if self._zeros <= ZEROS:
             self._command(verdict)
         if changed:
-            self._tell(verdict)
+            self._report(verdict)
             self._publish_diagnostics()
 
     def _judge(self) -> Verdict:
@@ -152,7 +152,7 @@ class SafetyMonitor(Node):
         command.linear.x, command.angular.z = verdict.final
         self._commands.publish(command)
 
-    def _tell(self, verdict: Verdict) -> None:
+    def _report(self, verdict: Verdict) -> None:
         log = self.get_logger()
         if verdict.limited_by == "emergency_stop_distance":
             log.warning(f"⚠ Stopped: obstacle at {verdict.nearest:.2f} m, nearer than {self._emergency} m")

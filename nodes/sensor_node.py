@@ -33,7 +33,7 @@ class SensorHandler(Node):
         self.create_subscription(LaserScan, "scan", self._on_scan, SCANS)
         self._count = 0
         self._beams = (0, 0)
-        self._health = HealthReport(self, "scan", self._look)
+        self._health = HealthReport(self, "scan", self._poll)
         self._read()
         self._timer = self.create_timer(1.0 / self._rate, self._process)
         self.get_logger().info(f"Filtering scans at {self._rate} Hz")
@@ -55,7 +55,7 @@ class SensorHandler(Node):
         self._newest = scan
         self._count += 1
 
-    def _look(self) -> Health:
+    def _poll(self) -> Health:
         """Report the number of scans in the last second."""
         count, self._count = self._count, 0
         beams, things = self._beams

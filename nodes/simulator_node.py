@@ -82,7 +82,7 @@ class Simulator(Node):
         )
         self._signals = Signals(self, self._model)
         self._left_out = 0.0
-        self._health = HealthReport(self, "time", self._look)
+        self._health = HealthReport(self, "time", self._poll)
         self._begin()
         self.create_timer(STEP, self._tick, clock=self._steady)
 
@@ -90,7 +90,7 @@ class Simulator(Node):
         self._clock_messages = self.create_publisher(ClockMessage, "/clock", 10)
         self._scans = self.create_publisher(LaserScan, "scan", 10)
         self._odometry = self.create_publisher(Odometry, "odom", 10)
-        self._told = messages.Odometer(messages.ODOM, self._model.footprint)
+        self._reported = messages.Odometer(messages.ODOM, self._model.footprint)
         self._truth = self.create_publisher(Odometry, "ground_truth", 10)
         self._true = messages.Odometer(messages.MAP, self._model.footprint)
         self._bumper = self.create_publisher(Bool, "bumper", LATCHED)
@@ -214,14 +214,14 @@ class Simulator(Node):
             return
         due = (self._steady.now().nanoseconds - self._origin) // STEP_NS - self._done
         if due > CATCH_UP:
-            self._tell_lag((due - CATCH_UP) * STEP)
+            self._report_lag((due - CATCH_UP) * STEP)
             self._done += due - CATCH_UP
             due = CATCH_UP
         for _ in range(due):
             self._advance()
         self._done += due
 
-    def _look(self) -> Health:
+    def _poll(self) -> Health:
         """Report whether the simulation has kept up with real time since the last call."""
         left_out, self._left_out = self._left_out, 0.0
         simulation = self._simulation
@@ -236,7 +236,7 @@ class Simulator(Node):
             return WARN, "paused", values
         return (WARN, f"{left_out:.2f} s left out", values) if left_out else (OK, "in real time", values)
 
-    def _tell_lag(self, missing: float) -> None:
+    def _report_lag(self, missing: float) -> None:
         """Report a lag once; report again only after a while without lag."""
         self._left_out += missing
         now = self._steady.now().nanoseconds
@@ -256,13 +256,13 @@ class Simulator(Node):
             self._bumped = simulation.collisions.touching
             self._bumper.publish(Bool(data=self._bumped))
         if began:
-            self._tell_collision()
+            self._report_collision()
         if simulation.steps % self._odom_every == 0:
             self._publish_poses()
         if simulation.steps % self._scan_every == 0:
             self._publish_scan()
 
-    def _tell_collision(self) -> None:
+    def _report_collision(self) -> None:
         log = self._simulation.collisions
         self._collisions.publish(UInt32(data=log.count))
         if log.last:
@@ -276,11 +276,11 @@ class Simulator(Node):
         simulation, drive, frames = self._simulation, self._simulation.drive, self._frames
         stamp = messages.time_of(simulation.time_ns)
         wheels = (drive.linear, drive.angular)
-        told = frames.in_odom(simulation.odometry.pose)
-        self._odometry.publish(self._told.tell(told, wheels, stamp))
+        reported = frames.in_odom(simulation.odometry.pose)
+        self._odometry.publish(self._reported.report(reported, wheels, stamp))
         if wanted(self._truth):
             true, speeds = frames.in_map(simulation.pose), (simulation.speed, simulation.turn_rate)
-            self._truth.publish(self._true.tell(true, speeds, stamp))
+            self._truth.publish(self._true.report(true, speeds, stamp))
         self._signals.publish(simulation, stamp)
 
     def _publish_scan(self) -> None:

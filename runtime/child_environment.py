@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
 
-from bot_console.runtime.child_range import children_meet
+from bot_console.runtime.child_discovery import children_meet
 from bot_console.runtime.commands import BIN, COMMAND_VARIABLE, command
 from bot_console.runtime.importer import embedded_names, is_installed
 from bot_console.runtime.process.scratch import scratch
@@ -23,14 +23,14 @@ from bot_console.runtime.workspace.program import source_folders
 RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 """Not imported from `rmw`: launch, which uses this module, knows no middleware."""
 
-STAND_IN = '''\
+SHIM = '''\
 """Stands in for an embedded package until the embedded runtime is in place, and gives way to it."""
 
 import sys
 
 sys.path.extend(each for each in {folders!r} if each not in sys.path)
 
-from bot_console.runtime.stand_in import give_way
+from bot_console.runtime.shim import give_way
 
 give_way(__name__)
 '''
@@ -42,7 +42,7 @@ class ChildEnvironment:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         """Held while the folders are filled: launches of one process may start programs at the same time."""
-        self._stood_in: set[str] = set()
+        self._shimmed: set[str] = set()
 
     def added_to(self, env: Mapping[str, str]) -> dict[str, str]:
         """An environment with the folders first on both paths; one without PATH was not inherited, and stays."""
@@ -53,28 +53,28 @@ class ChildEnvironment:
             COMMAND_VARIABLE: command(),
             **({} if children_meet() else {RANGE_VARIABLE: "OFF"}),
             "PATH": _joined([str(BIN / "ros2"), *_venv()], env["PATH"]),
-            "PYTHONPATH": _joined([str(self._stand_ins()), *source_folders()], env.get("PYTHONPATH", "")),
+            "PYTHONPATH": _joined([str(self._shims()), *source_folders()], env.get("PYTHONPATH", "")),
         }
 
     @cached_property
     def _folder(self) -> Path:
         return Path(tempfile.mkdtemp(prefix="child-", dir=scratch()))
 
-    def _stand_ins(self) -> Path:
+    def _shims(self) -> Path:
         """The folder of stand-ins; a package that has come to the workspace since the last process gets one now."""
         with self._lock:
             folder = self._folder / "python"
             folder.mkdir(exist_ok=True)
-            new = [each for each in embedded_names() if each not in self._stood_in]
+            new = [each for each in embedded_names() if each not in self._shimmed]
             for name in new:  # links, as writing so many files would take longer than starting a process
-                os.symlink(self._stand_in, folder / f"{name}.py")
-            self._stood_in.update(new)
+                os.symlink(self._shim, folder / f"{name}.py")
+            self._shimmed.update(new)
             return folder
 
     @cached_property
-    def _stand_in(self) -> Path:
+    def _shim(self) -> Path:
         file = self._folder / "stand_in.py"
-        file.write_text(STAND_IN.format(folders=[str(Path(__file__).absolute().parents[2]), *_dependencies()]))
+        file.write_text(SHIM.format(folders=[str(Path(__file__).absolute().parents[2]), *_dependencies()]))
         return file
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 
 VARIABLE = "ROS_DOMAIN_ID"
-MOST_DIGITS = 10
+MAX_DIGITS = 10
 
 
 def domain_id() -> int:
@@ -18,4 +18,4 @@ def domain_id() -> int:
 
 def is_domain(text: str) -> bool:
     """Whether a text is a domain's number; an empty one stands for domain 0."""
-    return not text or (text.isascii() and text.isdecimal() and len(text) <= MOST_DIGITS)
+    return not text or (text.isascii() and text.isdecimal() and len(text) <= MAX_DIGITS)

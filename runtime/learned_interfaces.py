@@ -32,17 +32,17 @@ def learned_folders() -> Mapping[str, Path]:
     return _folders
 
 
-def learn(type_name: str, type_hash: str, told: Any) -> str:
+def learn(type_name: str, type_hash: str, reported: Any) -> str:
     """Take the response of a node's `get_type_description`; the type can be imported afterwards.
 
     Gives why it cannot, with the node as the subject that is left out; empty where all is well.
     """
     from bot_console.runtime.rosidl.parse import DefinitionError
 
-    refused = refusal(told)
+    refused = refusal(reported)
     if refused:
         return refused
-    texts = {each.type_name: each.raw_file_contents for each in told.type_sources if each.encoding in KINDS}
+    texts = {each.type_name: each.raw_file_contents for each in reported.type_sources if each.encoding in KINDS}
     try:
         if not all(re.fullmatch(TYPE_NAME, each) for each in (type_name, *texts)):
             raise DefinitionError("a name that no type has")
@@ -55,11 +55,11 @@ def learn(type_name: str, type_hash: str, told: Any) -> str:
     return "" if here == type_hash else "has other definitions of the types in it than there are here"
 
 
-def refusal(told: Any) -> str:
+def refusal(reported: Any) -> str:
     """Why a response of `get_type_description` tells nothing; empty for one that does."""
-    if told is None:
+    if reported is None:
         return "has not described it"
-    return "" if told.successful else f"does not describe it: {told.failure_reason}"
+    return "" if reported.successful else f"does not describe it: {reported.failure_reason}"
 
 
 def _has_hash(type_name: str, type_hash: str, texts: Mapping[str, str]) -> bool:
@@ -95,10 +95,10 @@ def _keep(texts: Mapping[str, str]) -> None:
             place.write_text(text, encoding="utf-8")
             new.append(f"{package}.{kind}")
         _folders[package] = _kept() / package
-    _tell_of_more(new)
+    _report_more(new)
 
 
-def _tell_of_more(modules: Iterable[str]) -> None:
+def _report_more(modules: Iterable[str]) -> None:
     """Modules that were imported before they had all their classes look again which there are."""
     import importlib
     import sys

@@ -15,7 +15,7 @@ from bot_console.runtime.process.fork_server import ForkServer, function_named
 
 CAN_FORK = hasattr(os, "fork")
 WARM_UP = "bot_console.runtime.warm_up:warm_up"
-PREPARE = "bot_console.runtime.needed_imports:import_needed"
+PREPARE = "bot_console.runtime.import_prefetch:import_needed"
 
 _guard = threading.Lock()
 _beginnings: list[str] = []

@@ -24,11 +24,11 @@ from typing import IO, Any
 from bot_console.runtime.user_folders import cache_folder
 
 SCHEME = "https://"
-LARGEST = 1_000_000
+MAX_FILE_BYTES = 1_000_000
 """Bytes of a parameter file at most."""
 SILENCE = 5.0
 """Seconds that a server may be silent."""
-PATIENCE = 15.0
+FETCH_TIMEOUT_S = 15.0
 """Seconds that all of it may take."""
 PIECE = 65_536
 
@@ -131,7 +131,7 @@ def _check(address: str) -> None:
             f"{address}: anybody on the way could change what comes by http; give an https:// address "
             "(http:// is for a server on this machine: 127.0.0.1, [::1] or localhost)"
         )
-    if not fits or not address.isascii() or any(letter <= " " for letter in address):
+    if not fits or not address.isascii() or any(character <= " " for character in address):
         raise RemoteError(wrong)
 
 
@@ -188,14 +188,14 @@ def _asked(address: str, tag: str) -> tuple[bytes, str] | None:
 
 def _content(address: str, answer: Any) -> bytes:
     """The body, as far as size and time allow."""
-    end = time.monotonic() + PATIENCE
+    end = time.monotonic() + FETCH_TIMEOUT_S
     content = b""
     while piece := answer.read1(PIECE):
         content += piece
-        if len(content) > LARGEST:
-            raise RemoteError(f"{address} is larger than {LARGEST // 1000} kB, which no parameter file is")
+        if len(content) > MAX_FILE_BYTES:
+            raise RemoteError(f"{address} is larger than {MAX_FILE_BYTES // 1000} kB, which no parameter file is")
         if time.monotonic() > end:
-            raise _OutOfReach(f"it took more than {PATIENCE:g} s")
+            raise _OutOfReach(f"it took more than {FETCH_TIMEOUT_S:g} s")
     if answer.length:
         raise _OutOfReach("it broke off")
     return content

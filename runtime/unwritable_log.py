@@ -9,7 +9,7 @@ import sys
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 
-_told: set[str] = set()
+_reported: set[str] = set()
 
 
 class UnwritableLog(logging.Handler):
@@ -27,8 +27,8 @@ class UnwritableLog(logging.Handler):
             return
         folder = os.path.dirname(str(getattr(self, "baseFilename", "")))
         text = f"log files are not complete: {folder} cannot be written ({error.strerror})"
-        if text not in _told:
-            _told.add(text)
+        if text not in _reported:
+            _reported.add(text)
             notify(current(), text)
 
 

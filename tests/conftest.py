@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.importer import install
-from bot_console.tui.cli.attach.console_needs import lend_missing
+from bot_console.tui.cli.attach.console_needs import provide_missing
 from hypothesis import settings
 from hypothesis.internal.conjecture import providers
 
@@ -23,7 +23,7 @@ ON_ROS = os.environ.get("BOT_CONSOLE_TESTS_ON") == "ros"
 """Whether the ROS names are to mean what the machine has: for `-m ros`."""
 
 if ON_ROS:
-    lend_missing()
+    provide_missing()
 else:
     install()
     for variable in ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE"):
@@ -77,10 +77,10 @@ def apart(socket_folder: str) -> Iterator[None]:
     yield
     if _takes_part() and not before:
         from bot_console.runtime.rmw.zenoh.domain.domain_bus import close_shared_buses
-        from bot_console.tui.cli.system.domain import run_apart
+        from bot_console.tui.cli.system.domain import run_in_worker
 
         close_shared_buses()
-        run_apart()
+        run_in_worker()
 
 
 def _takes_part() -> bool:
@@ -112,9 +112,9 @@ def notices() -> Iterator[list[str]]:
     """What the runtime has told about its programs, in the order in which it was told."""
     from bot_console.runtime.process import on_notice
 
-    told: list[str] = []
-    forget = on_notice(lambda process, text: told.append(text))
-    yield told
+    reported: list[str] = []
+    forget = on_notice(lambda process, text: reported.append(text))
+    yield reported
     forget()
 
 

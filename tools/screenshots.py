@@ -43,7 +43,7 @@ GENTLE = """# Gentle: near people
 """
 RESPONSE = 3.0
 """Seconds of driving with each of two sets."""
-PATIENCE = 30.0
+TIMEOUT_S = 30.0
 FONTS = "'DejaVu Sans Mono', 'Fira Code', Menlo, Consolas, monospace"
 FONT_FACE = re.compile(r"@font-face \{.*?\}", re.DOTALL)
 UNIQUE = re.compile(r"terminal-\d+-")
@@ -62,7 +62,7 @@ class Photographer:
 
     async def until(self, condition: Callable[[], object]) -> None:
         """Wait until something is so."""
-        for _ in range(int(PATIENCE / 0.05)):
+        for _ in range(int(TIMEOUT_S / 0.05)):
             if condition():
                 return
             await self._pilot.pause(0.05)
@@ -95,7 +95,7 @@ class Photographer:
 
     async def steer_until_limited(self) -> None:
         """Drive on, with a key now and then as the dead-man wants it, until something stands ahead."""
-        for _ in range(int(PATIENCE)):
+        for _ in range(int(TIMEOUT_S)):
             if self._session.console.snapshot().drive.limited_by == "warning_distance":
                 return
             await self.press("w", "s")
@@ -124,7 +124,7 @@ class Photographer:
 
 def _keys(text: str) -> list[str]:
     """The keys that type a text."""
-    return [{".": "full_stop", "_": "underscore"}.get(letter, letter) for letter in text]
+    return [{".": "full_stop", "_": "underscore"}.get(character, character) for character in text]
 
 
 async def tune(at: Photographer) -> None:

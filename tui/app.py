@@ -9,24 +9,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from bot_console.tui import keymap
+from bot_console.tui.appearance import Appearance
 from bot_console.tui.arrangement.arrival import COMING_STATUS, ArrivingApp, System
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.files.crash import keep, reason
-from bot_console.tui.keys.keyboard import LONGEST_PASTE, Keyboard
+from bot_console.tui.keys.keyboard import MAX_PASTE_CHARACTERS, Keyboard
 from bot_console.tui.layout.named import OVERVIEW
-from bot_console.tui.look import Look
 from bot_console.tui.opening import Opening
 from bot_console.tui.pane_requests import PaneRequests
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.recording import RecordingApp
 from bot_console.tui.safety.early_stop import EarlyStop
 from bot_console.tui.screens.tuning.requests import TuningRequests
-from bot_console.tui.text.shown import brief, counted, harmless
+from bot_console.tui.text.sanitize import brief, counted, sanitize
 from bot_console.tui.theme import THEMES
 from bot_console.tui.time_cursor import TimeCursor
-from bot_console.tui.widgets.coming_pane import ComingPane
 from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.pane_area import PaneArea
+from bot_console.tui.widgets.pane_placeholder import PanePlaceholder
 from bot_console.tui.widgets.tabs import Tabs
 from textual import events
 from textual.app import ComposeResult
@@ -39,11 +39,11 @@ from textual.widgets import Static
 if TYPE_CHECKING:
     from bot_console.tui.console.command_line import CommandLine
     from bot_console.tui.console.protocol import Console, Launcher
-    from bot_console.tui.panes.broken import BrokenPane
+    from bot_console.tui.panes.broken_pane import BrokenPane
     from bot_console.tui.panes.pane import Pane
 
 HERE = Path(__file__).parent
-SEEN_AT_ONCE = 2
+VISIBLE_AT_ONCE = 2
 """Notifications for which the corner has room."""
 
 P = TypeVar("P", bound="Pane")
@@ -69,7 +69,7 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
         refresh_hz: float = 10.0,
         opening: Opening | None = None,
         on_first_frame: Callable[[], None] = lambda: None,
-        look: Look | None = None,
+        appearance: Appearance | None = None,
         plugins: Callable[[], Sequence[PaneEntry]] = tuple,
         reach: Callable[[], System] | None = None,
     ) -> None:
@@ -80,16 +80,20 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
         super().__init__()
         for each in THEMES.values():
             self.register_theme(each)
-        look = look or Look()
-        self.theme = THEMES[look.theme].name
+        appearance = appearance or Appearance()
+        self.theme = THEMES[appearance.theme].name
         self.use_colours()
-        self.plain, self.state_store, self.graph_hides = look.plain, look.state_store, look.graph_hides
-        self.set_keymap({**look.keys})
+        self.plain, self.state_store, self.graph_hides = (
+            appearance.plain,
+            appearance.state_store,
+            appearance.graph_hides,
+        )
+        self.set_keymap({**appearance.keys})
         self._refresh_hz = refresh_hz
         self._opening = opening or Opening()
         self.time_cursor = TimeCursor()
         self._on_first_frame = on_first_frame
-        self.stage = Stage(self, look.arrangement, self._opening.pane, lambda: self._snapshot)
+        self.stage = Stage(self, appearance.arrangement, self._opening.pane, lambda: self._snapshot)
         self._plugins = plugins
         self._keyboard = Keyboard(self, self._deal, self.stage.typing)
         self.key_watch = self.early_stop = EarlyStop(
@@ -98,11 +102,11 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
         )  # fmt: skip
         self._reach, self._reached = reach, False
         if console is not None:
-            self.take_up(System(console, launcher, command_line))
+            self.attach(System(console, launcher, command_line))
         else:
             self._keyboard.passes = lambda _: False
 
-    def take_up(self, system: System) -> None:
+    def attach(self, system: System) -> None:
         """Start acting on a system."""
         from bot_console.tui.app_parts import AppParts
         from bot_console.tui.console.model import ConsoleSnapshot
@@ -123,9 +127,9 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
         """Handle keys one at a time, in order; those that quit from anywhere wait for nothing."""
         if not isinstance(event, (events.Key, events.Paste)) or event.is_forwarded:
             await self._deal(event)
-        elif isinstance(event, events.Paste) and len(event.text) > LONGEST_PASTE:
+        elif isinstance(event, events.Paste) and len(event.text) > MAX_PASTE_CHARACTERS:
             self.notify(
-                f"{len(event.text):,} letters were pasted, and none of them taken: {LONGEST_PASTE:,} at most",
+                f"{len(event.text):,} letters were pasted, and none of them taken: {MAX_PASTE_CHARACTERS:,} at most",
                 severity="error",
             )
         elif isinstance(event, events.Key) and keymap.quits_at_once(event.key):
@@ -147,7 +151,7 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
                 yield from self.made_at_once()
             else:
                 yield from (
-                    ComingPane(id, title, chosen=chosen) for id, title, chosen in self.stage.at_first(self.size)
+                    PanePlaceholder(id, title, chosen=chosen) for id, title, chosen in self.stage.at_first(self.size)
                 )
         yield from self.parts.widgets() if self._reached else (Static("", id=COMING_STATUS, markup=False),)
         yield KeyBar()
@@ -170,7 +174,7 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
         """Start polling for snapshots."""
         self.pull()
         if self._refresh_hz > 0:
-            self.set_interval(1.0 / self._refresh_hz, self._beat)
+            self.set_interval(1.0 / self._refresh_hz, self._heartbeat)
 
     def _open_first(self) -> None:
         if self._opening != Opening(self._opening.pane):
@@ -183,7 +187,7 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
     def _all_there(self) -> None:
         self._open_first()
         self._on_first_frame()
-        self.call_later(self._keyboard.let_go)
+        self.call_later(self._keyboard.detach)
         self.call_later(self._add_plugins)
 
     async def _add_plugins(self) -> None:
@@ -193,13 +197,13 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
             self.stage.plugins = [*found]
             await self.faults.add(found)
 
-    def _beat(self) -> None:
+    def _heartbeat(self) -> None:
         self.pull()
         with self.batch_update():
             for pane in self.panes():
                 if not pane.is_ending:
                     pane.tick()
-            self.parts.beat()
+            self.parts.heartbeat()
 
     def pull(self) -> None:
         """Take the newest snapshot and let the visible panes draw what has changed."""
@@ -208,13 +212,13 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
             return
         self._snapshot = snapshot
         with self.batch_update():
-            self.stage.heed(snapshot)
+            self.stage.observe(snapshot)
             for pane in self.visible_panes():
                 pane.show(snapshot)
             if self.parts.status.is_attached:  # not while the screen is made or taken away
                 self.parts.status.show(snapshot, self.gate.held_back)
-        for asker in self.parts.askers():
-            asker.look()
+        for requester in self.parts.requesters():
+            requester.poll()
         for text in self.parts.safety_news.since(snapshot):
             self.notify(text, severity="warning")
 
@@ -357,9 +361,9 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
         markup: bool = False,
     ) -> None:
         """Show a notification; the text of nodes and people is never parsed as markup."""
-        if len(self._notifications) >= SEEN_AT_ONCE:
+        if len(self._notifications) >= VISIBLE_AT_ONCE:
             self.clear_notifications()  # the newest, a refusal above all, must have room
-        super().notify(brief(message), title=harmless(title), severity=severity, timeout=timeout, markup=False)
+        super().notify(brief(message), title=sanitize(title), severity=severity, timeout=timeout, markup=False)
 
     def contain(self, error: Exception, culprits: list[DOMNode]) -> bool:
         """End only the pane or screen whose code raised; False where none can be blamed."""

@@ -26,9 +26,9 @@ from bot_console.tui.safety.stopping import Stopping
 from bot_console.tui.screens.arrange import ArrangeScreen
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.question import QuestionScreen
-from bot_console.tui.terminal.leaving import Leaving
+from bot_console.tui.terminal.suspension import Leaving
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Asker
+from bot_console.tui.widgets.prompt.question import Requester
 from bot_console.tui.widgets.status_bar import StatusBar
 from bot_console.tui.widgets.streams.panels import StreamPanels
 from textual import events
@@ -87,10 +87,10 @@ class AppParts:
         else:
             act()
 
-    def beat(self) -> None:
+    def heartbeat(self) -> None:
         """Ten times a second: take in what running command lines print, and show figures that were held back."""
-        self.command_handler.look()
-        self.status.beat()
+        self.command_handler.poll()
+        self.status.heartbeat()
 
     def arrange(self) -> None:
         """Arrange the panes with keys, if there is room for that."""
@@ -101,13 +101,13 @@ class AppParts:
         """Show what a pane is for, and its keys."""
         self._app.push_screen(HelpScreen(pane.scopes, pane.TITLE, pane.HELP or ""))
 
-    def askers(self) -> Sequence[Asker[Any]]:
+    def requesters(self) -> Sequence[Requester[Any]]:
         """Everything that has an open question."""
         # An open prompt has the keyboard; nobody has it while the terminal has lost it. To look through all that is on
         # the screen at each snapshot takes a tenth of what the thread that draws does in a pane where nothing changes.
         screen = self._app.screen_stack[0]
         within = screen.focused.ancestors if screen.focused is not None else screen.walk_children(Prompt)
-        found: list[Asker[Any]] = [each for each in within if isinstance(each, Prompt) and each.is_open]
+        found: list[Requester[Any]] = [each for each in within if isinstance(each, Prompt) and each.is_open]
         if isinstance(self._app.screen, QuestionScreen):
             found.append(self._app.screen)
         return found

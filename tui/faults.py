@@ -8,7 +8,7 @@ from typing import Any, Protocol, TypeVar
 
 from bot_console.tui.files.crash import keep, reason
 from bot_console.tui.pane_table import PaneEntry
-from bot_console.tui.panes.broken import BrokenPane
+from bot_console.tui.panes.broken_pane import BrokenPane
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.screens.overlay import Overlay
 from bot_console.tui.screens.question import QuestionScreen
@@ -62,7 +62,7 @@ class Faults:
         self._ending.add(pane)
         pane.display = False
         with contextlib.suppress(Exception):  # the fault may lie there as well
-            pane.let_go()
+            pane.detach()
         self._app.call_later(self._replace, pane, self._broken(pane.id or "", error))
 
     def _broken(self, id: str, error: Exception) -> BrokenPane:

@@ -8,14 +8,14 @@ from shlex import quote
 
 from bot_console.tui.console.model import ConsoleSnapshot, Kind, ParameterInfo, Range, Severity, Value
 from bot_console.tui.console.parameter_types import ARRAYS
-from bot_console.tui.text.shown import brief as brief
-from bot_console.tui.text.shown import counted as counted
-from bot_console.tui.text.shown import cut as cut
-from bot_console.tui.text.shown import cut_name as cut_name
-from bot_console.tui.text.shown import harmless as harmless
+from bot_console.tui.text.sanitize import brief as brief
+from bot_console.tui.text.sanitize import counted as counted
+from bot_console.tui.text.sanitize import cut as cut
+from bot_console.tui.text.sanitize import cut_name as cut_name
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.text.yaml_flow import in_quotes, is_plain, items, quoted, unquoted
 
-LETTERS = {
+SEVERITY_CHARACTERS = {
     Severity.UNSET: " ",
     Severity.DEBUG: "D",
     Severity.INFO: "I",
@@ -25,10 +25,10 @@ LETTERS = {
 }
 
 
-def profile_text(snapshot: ConsoleSnapshot) -> str:
+def profile_label(snapshot: ConsoleSnapshot) -> str:
     """The active profile, and how many values differ from it; empty where there is none."""
     changed = f", {snapshot.profile_changes} changed" if snapshot.profile_changes else ""
-    return harmless(snapshot.active_profile) + changed if snapshot.active_profile else ""
+    return sanitize(snapshot.active_profile) + changed if snapshot.active_profile else ""
 
 
 def value_text(value: Value, *, exact: bool = False) -> str:
@@ -79,7 +79,7 @@ def number_text(value: float) -> str:
     if not math.isfinite(value):
         return ".nan" if math.isnan(value) else (".inf" if value > 0 else "-.inf")
     text = f"{value:.10g}"
-    return text if any(letter in text for letter in ".en") else text + ".0"
+    return text if any(character in text for character in ".en") else text + ".0"
 
 
 def figure(value: float, sign: str = "") -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.terminal.guard import GuardedApp
+from bot_console.tui.terminal.exception_guard import GuardedApp
 
 if TYPE_CHECKING:
     from bot_console.tui.console.protocol import Console
@@ -32,7 +32,7 @@ class RecordingApp(GuardedApp):
         if pane is None:
             return
         if recording.info.folder:
-            pane.tell_later(recording.stop())
+            pane.report_later(recording.stop())
         else:
             self._ask(pane, "record all topics into", "", recording.start)
 
@@ -44,11 +44,11 @@ class RecordingApp(GuardedApp):
         if recording.info.kept_s:
             self._ask(pane, f"save the last {recording.info.kept_s / 60:g} min to", "_before", recording.keep)
         else:
-            pane.tell_later(recording.keep(""))
+            pane.report_later(recording.keep(""))
 
     def _ask(self, pane: Pane, label: str, ending: str, order: Callable[[str], Future[Answer]]) -> None:
         def write(path: Path) -> Answer:
-            pane.tell_later(order(str(path)))
+            pane.report_later(order(str(path)))
             return Answer(True)
 
         pane.ask_file(label, f"rosbag2_{time.strftime('%Y_%m_%d-%H_%M_%S')}{ending}", write)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Protocol
 
 
-class LooksAtTime(Protocol):
+class FollowsTime(Protocol):
     """Something that shows the state at a moment."""
 
     def time_moved(self, stamp: int | None) -> None:
@@ -19,19 +19,19 @@ class TimeCursor:
     def __init__(self) -> None:
         self.stamp: int | None = None
         """The moment, in ns since the epoch; None is now."""
-        self._followers: list[LooksAtTime] = []
+        self._followers: list[FollowsTime] = []
 
-    def follow(self, follower: LooksAtTime) -> None:
+    def follow(self, follower: FollowsTime) -> None:
         """Notify a follower of each move from now on."""
         if follower not in self._followers:
             self._followers.append(follower)
 
-    def leave(self, follower: LooksAtTime) -> None:
+    def leave(self, follower: FollowsTime) -> None:
         """Stop notifying it."""
         if follower in self._followers:
             self._followers.remove(follower)
 
-    def move(self, stamp: int | None, mover: LooksAtTime | None = None) -> None:
+    def move(self, stamp: int | None, mover: FollowsTime | None = None) -> None:
         """Look at another moment; whoever moves the cursor is not notified."""
         if stamp == self.stamp:
             return

@@ -9,7 +9,7 @@ from bot_console_robot.common.diagnostics import status
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.node import Node
 
-PERIOD = 1.0
+STATUS_PERIOD_S = 1.0
 """Seconds between two statuses."""
 Health = tuple[bytes, str, Mapping[str, object]]
 """Level, message and values."""
@@ -20,15 +20,15 @@ class HealthReport:
     anyway.
     """
 
-    def __init__(self, node: Node, part: str, look: Callable[[], Health]) -> None:
+    def __init__(self, node: Node, part: str, poll: Callable[[], Health]) -> None:
         self._node = node
         self._name = f"{node.get_name()}: {part}"
-        self._look = look
+        self._poll = poll
         self._publisher = node.create_publisher(DiagnosticArray, "diagnostics", 10)
-        node.create_timer(PERIOD, self._tell)
+        node.create_timer(STATUS_PERIOD_S, self._report)
 
-    def _tell(self) -> None:
-        level, message, values = self._look()
+    def _report(self) -> None:
+        level, message, values = self._poll()
         if self.wanted:
             self._publisher.publish(status(self._name, level, message, values, self._node.get_clock().now().to_msg()))
 

@@ -60,7 +60,7 @@ class Goal:
         else:
             self._handle.succeed()
 
-    def tell(self, message: Any) -> None:
+    def report(self, message: Any) -> None:
         """Publish feedback while the goal is active."""
         if self._handle is not None and not self.done.done():
             self._handle.publish_feedback(message)
@@ -69,11 +69,11 @@ class Goal:
 async def run_goal(node: Node, goal: Goal, fill: Callable[[], None], message: Any) -> int:
     """Await a goal, publishing feedback meanwhile; returns its error code. `fill` completes the feedback message."""
 
-    def tell() -> None:
+    def report() -> None:
         fill()
-        goal.tell(message)
+        goal.report(message)
 
-    timer = node.create_timer(FEEDBACK, tell, clock=Clock(clock_type=ClockType.STEADY_TIME))
+    timer = node.create_timer(FEEDBACK, report, clock=Clock(clock_type=ClockType.STEADY_TIME))
     try:
         code = await goal.done
     finally:

@@ -24,7 +24,7 @@ CLEARANCE = 0.05
 """Distance in m to keep between the hull and obstacles, on paths and ahead."""
 CORRIDOR = 0.25
 """Half the width (m) of the area checked ahead and behind."""
-SCAN_LIFE = 1.0
+SCAN_TIMEOUT_S = 1.0
 """Seconds after which a scan is outdated and the robot stands still."""
 
 
@@ -45,7 +45,7 @@ class WorldModel:
         node.create_subscription(Odometry, "ground_truth", self._on_truth, 10)
         node.create_subscription(Odometry, "odom", self._on_odometry, 10)
         node.create_subscription(LaserScan, "scan", self._on_scan, SCANS)
-        self._told = node.create_publisher(PoseWithCovarianceStamped, "amcl_pose", LATCHED)
+        self._reported = node.create_publisher(PoseWithCovarianceStamped, "amcl_pose", LATCHED)
 
     def _on_map(self, message: OccupancyGrid) -> None:
         meta = message.info
@@ -69,11 +69,11 @@ class WorldModel:
         if not all(map(math.isfinite, pose)):
             return
         self.pose = pose
-        if self._told.get_subscription_count():
-            told = PoseWithCovarianceStamped()
-            told.header.stamp, told.header.frame_id = message.header.stamp, "map"
-            told.pose.pose = place
-            self._told.publish(told)
+        if self._reported.get_subscription_count():
+            reported = PoseWithCovarianceStamped()
+            reported.header.stamp, reported.header.frame_id = message.header.stamp, "map"
+            reported.pose.pose = place
+            self._reported.publish(reported)
 
     def _on_scan(self, scan: LaserScan) -> None:
         ranges = ranges_of(scan)
@@ -92,7 +92,7 @@ class WorldModel:
         if self.pose is None:
             return None
         now = self._seconds()
-        fresh = self._scan is not None and now - self._scan[0] < SCAN_LIFE
+        fresh = self._scan is not None and now - self._scan[0] < SCAN_TIMEOUT_S
         ahead, behind = self._scan[1:] if self._scan is not None and fresh else (0.0, 0.0)
         return Seen(now, self.pose, ahead, behind)
 

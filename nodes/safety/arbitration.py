@@ -14,7 +14,7 @@ FRONT = math.radians(60.0)
 """Half the angle ahead, in rad, in which things stand in the way of driving on."""
 WITNESSES = 2
 """Beams that must see a thing; a single one may be dust."""
-LEAST, MOST = 1e-6, 4 * math.pi
+MIN_SOURCES, MAX_SOURCES = 1e-6, 4 * math.pi
 """Angles (rad) between and of beams that a sensor can mean."""
 EDGE = 1e-6
 """Radians that float32 angles may be off."""
@@ -77,8 +77,8 @@ def nearest_ahead(ranges: npt.NDArray[np.float32], first: float, increment: floa
     """
     if (
         not (math.isfinite(first) and math.isfinite(increment))
-        or abs(first) > MOST
-        or not LEAST < abs(increment) < MOST
+        or abs(first) > MAX_SOURCES
+        or not MIN_SOURCES < abs(increment) < MAX_SOURCES
     ):
         return None
     front = ranges[_beams_ahead(len(ranges), first, increment)]

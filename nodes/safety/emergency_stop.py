@@ -11,9 +11,9 @@ from bot_console_robot.safety.lock import NODE, Lock, new_id
 from bot_console_robot.safety.stop_file import StopFile, StopFileError, UnreadableStopFileError
 from bot_console_robot.safety.stop_messages import (
     State,
-    question_of,
     request_message,
     request_of,
+    specification_of,
     state_message,
     state_of,
 )
@@ -36,7 +36,7 @@ WATCH_PERIOD_S = 0.1
 """Between two looks at who has fallen silent."""
 GONE = 3
 """Looks in which the arbiter is not there before the base locks; all end together when a system ends."""
-REPORT_LOOKS = 10
+REPORT_POLLS = 10
 """Looks between two reports of an unchanged state, so that no recorded report stands for it longer."""
 MAX_INSTANCES = 100
 """Starts of the other node that are told apart."""
@@ -76,7 +76,7 @@ class EmergencyStop:
         self._other = other
         self._other_instances: list[str] = []
         self._other_challenge = ""
-        self._others = self._gone = self._looks = 0
+        self._others = self._gone = self._polls = 0
         self._settled = Lock()
         self._file = StopFile(stop_file, node.get_namespace()) if stop_file else None
         self._filed: Lock | None = None
@@ -120,7 +120,7 @@ class EmergencyStop:
             self._node.get_logger().warning(text, throttle_duration_sec=REFUSAL_LOG_PERIOD_S)
         changed = self._latch.request(request, self._now())
         self._settle(changed)
-        question = question_of(message)
+        question = specification_of(message)
         if question or (not changed and request.verb in (STOP, RELEASE)):
             self._publish(question)  # who asks again has not heard the answer, or has heard a recorded one since
 
@@ -170,8 +170,8 @@ class EmergencyStop:
 
     def _watch(self) -> None:
         self._settle(self._latch.watch(self._now()))
-        self._looks += 1
-        if self._looks % REPORT_LOOKS == 0:
+        self._polls += 1
+        if self._polls % REPORT_POLLS == 0:
             self._publish()
         if self._other == ARBITER and self._other_instances:
             self._gone = 0 if self._others else self._gone + 1

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from bot_console_robot.safety.lock import CROWD, MAX_STOPS, NODE, UNNAMED, Lock, Stop, new_id
+from bot_console_robot.safety.lock import MAX_STOPS, NODE, OTHERS, UNNAMED, Lock, Stop, new_id
 
-SILENCE_NS = 1_000_000_000
+SILENCE_TIMEOUT_NS = 1_000_000_000
 """A console that holds the steering is gone when it has not been heard for so long."""
 STOP, RELEASE, STEER, HAND_BACK = "stop", "release", "steer", "hand_back"
 SILENT = "held the steering and fell silent"
@@ -80,7 +80,7 @@ class Latch:
                 return False
             return self.release(self._unnamed_of(request) if request.ids is None else request.ids, request.holder)
         if request.verb == STEER:
-            key = request.key if request.key in self._steering or len(self._steering) < MAX_STOPS else CROWD
+            key = request.key if request.key in self._steering or len(self._steering) < MAX_STOPS else OTHERS
             steered, self._steering[key] = self.steered_by, (request.holder, now, request.id)
             return self.steered_by != steered
         if request.verb == HAND_BACK:
@@ -123,7 +123,7 @@ class Latch:
 
     def watch(self, now: int) -> bool:
         """Lock when a console that holds the steering has fallen silent."""
-        silent = [key for key, (_, heard, _) in self._steering.items() if now - heard > SILENCE_NS]
+        silent = [key for key, (_, heard, _) in self._steering.items() if now - heard > SILENCE_TIMEOUT_NS]
         for key in silent:
             holder, _, id = self._steering.pop(key)
             # Two locks that have heard the same last word make the same stop. Was it released, this is another silence.

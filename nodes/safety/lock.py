@@ -10,7 +10,7 @@ NODE = "node"
 """The key of stops that a node of the robot made, not a person; every release of a program's own covers these."""
 MAX_STOPS = 50
 """Stops that are told apart; those beyond share one place, whose key is `CROWD`."""
-CROWD = "others"
+OTHERS = "others"
 MAX_RELEASES = 100
 """Releases that are remembered, the latest; a copy of a stop released before those locks the robot again."""
 UNNAMED = "unnamed-"
@@ -134,9 +134,9 @@ def _latest(releases: Iterable[Release]) -> tuple[Release, ...]:
 def _limited(stops: Iterable[Stop]) -> tuple[Stop, ...]:
     """The stops in order, those beyond all measure as one that no single requester releases."""
     ordered = sorted(stops, key=_order_of_stop)
-    named = [each for each in ordered if each.key != CROWD]
-    crowd = [each for each in ordered if each.key == CROWD][:1]
+    named = [each for each in ordered if each.key != OTHERS]
+    crowd = [each for each in ordered if each.key == OTHERS][:1]
     if len(named) > MAX_STOPS and not crowd:
         over = named[MAX_STOPS]
-        crowd = [replace(over, id=new_id(), key=CROWD)]
+        crowd = [replace(over, id=new_id(), key=OTHERS)]
     return tuple(sorted((*named[:MAX_STOPS], *crowd), key=_order_of_stop))

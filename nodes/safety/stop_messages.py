@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 from bot_console_robot.safety.latch import RELEASE, Request
-from bot_console_robot.safety.lock import CROWD, MAX_RELEASES, MAX_STOPS, Lock, Release, Stop
+from bot_console_robot.safety.lock import MAX_RELEASES, MAX_STOPS, OTHERS, Lock, Release, Stop
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 RELEASED = "released"
@@ -68,7 +68,7 @@ def request_of(message: DiagnosticStatus) -> Request:
     )
 
 
-def question_of(message: DiagnosticStatus) -> str:
+def specification_of(message: DiagnosticStatus) -> str:
     """The text in a request that the answer is to quote; empty if there is none."""
     return _short(_values(message).get("question", ""))
 
@@ -99,7 +99,7 @@ def state_of(message: DiagnosticStatus) -> State:
         stops = ()
     elif not stops:  # of a node that reports only that it is locked
         holder, reason = _short(values.get("holder", "")), _short(values.get("reason", ""))
-        stops = (Stop(_older_id(CROWD, turn, instance), CROWD, holder, reason, turn),)
+        stops = (Stop(_older_id(OTHERS, turn, instance), OTHERS, holder, reason, turn),)
     lock = Lock(stops, turn, releases_of(values.get("released")))
     challenge, steered_by, answers = (_short(values.get(key, "")) for key in ("challenge", "steered_by", "answers"))
     return State(lock, instance, challenge, steered_by, answers)

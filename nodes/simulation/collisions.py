@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 TOUCH = 0.003
 """A gap in m below which the robot touches; pymunk lets bodies overlap by about 1 mm."""
-PAUSE = 0.5
+SAME_COLLISION_S = 0.5
 """Seconds without contact after which the next contact is a new collision."""
 
 
@@ -28,14 +28,14 @@ class CollisionLog:
         self.count = 0
         self.last: Collision | None = None
         self.touching = False
-        self._last_touch = -PAUSE
+        self._last_touch = -SAME_COLLISION_S
 
     def update(self, time: float, gap: float, x: float, y: float, speed: float, what: str) -> bool:
         """Record the gap in m at a time in s; returns whether a new collision began."""
         self.touching = gap < TOUCH
         if not self.touching:
             return False
-        began = time - self._last_touch >= PAUSE
+        began = time - self._last_touch >= SAME_COLLISION_S
         self._last_touch = time
         if began:
             self.count += 1

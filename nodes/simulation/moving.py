@@ -9,7 +9,7 @@ import pymunk
 from bot_console_robot.simulation.engine import pointer, set_position, set_velocity
 from bot_console_robot.simulation.geometry import Mover, Point
 
-PATIENCE = 2.0
+TURN_BACK_AFTER_S = 2.0
 """Seconds they wait before they turn back."""
 
 
@@ -64,7 +64,7 @@ class MovingObstacle:
 
     def _wait(self, dt: float) -> None:
         self._waited += dt
-        if self._waited >= PATIENCE:
+        if self._waited >= TURN_BACK_AFTER_S:
             self._waited = 0.0
             self._direction = -self._direction
             self._choose_next()

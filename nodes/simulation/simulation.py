@@ -104,9 +104,9 @@ class Simulation:
         metrics.update(x, y, heading, speed)
         # Nothing can come closer than the distance driven, so most steps need no search of the surroundings.
         self._least_gap = gap = self._least_gap - (math.hypot(dx, dy) + self._movers_way)
-        return (gap < TOUCH or gap < metrics.min_clearance) and self._look_around()
+        return (gap < TOUCH or gap < metrics.min_clearance) and self._scan_surroundings()
 
-    def _look_around(self) -> bool:
+    def _scan_surroundings(self) -> bool:
         """Search the surroundings; returns whether a collision began. Called when a contact or a new minimum is
         possible.
         """

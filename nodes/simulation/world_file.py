@@ -30,7 +30,7 @@ KEYS = {
     "moving", "route", "scatter",
 }  # fmt: skip
 
-LARGEST = 1e6
+MAX_NUMBER = 1e6
 """Limit for any number in a world, in its unit."""
 
 
@@ -164,8 +164,8 @@ def _number(where: str, value: object, low: float = -math.inf, high: float = mat
         raise WorldError(f"{where} needs a number, got {value!r}")
     if isinstance(value, float) and not math.isfinite(value):
         raise WorldError(f"{where} needs a number, got {value!r}")
-    if abs(value) > LARGEST:
-        raise WorldError(f"{where} needs a number from {-LARGEST:g} to {LARGEST:g}")
+    if abs(value) > MAX_NUMBER:
+        raise WorldError(f"{where} needs a number from {-MAX_NUMBER:g} to {MAX_NUMBER:g}")
     if not low <= value <= high:
         raise WorldError(f"{where} is {value}, allowed is {low} to {high}")
     return float(value)

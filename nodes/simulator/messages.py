@@ -75,7 +75,7 @@ class Odometer:
         self._position, self._orientation = place.position, place.orientation
         self._linear, self._angular = motion.linear, motion.angular
 
-    def tell(self, pose: Pose, velocity: tuple[float, float], stamp: Time) -> Odometry:
+    def report(self, pose: Pose, velocity: tuple[float, float], stamp: Time) -> Odometry:
         """The message, to be published before the next call; m/s, rad/s."""
         x, y, heading = pose
         self._header.stamp = stamp

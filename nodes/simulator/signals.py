@@ -25,7 +25,7 @@ FULL_VOLTAGE, EMPTY_VOLTAGE, CAPACITY = 12.6, 11.0, 1.8
 """V, V, Ah: three lithium cells."""
 LASTS = 9000.0
 """Seconds until the battery is empty; simulated time, so that a run repeats."""
-BATTERY_EVERY = 20
+POSES_PER_BATTERY_STATE = 20
 """Poses between two states of the battery: one a second at 20 Hz."""
 
 
@@ -83,16 +83,16 @@ class Signals:
         if self._imu.get_subscription_count():
             self._imu.publish(self._inertia(simulation, passed, stamp))
         self._speed = drive.linear
-        if self._count % BATTERY_EVERY == 1 and self._battery.get_subscription_count():
+        if self._count % POSES_PER_BATTERY_STATE == 1 and self._battery.get_subscription_count():
             self._battery.publish(self._charge(simulation, stamp))
 
     def _moving(self, simulation: Simulation, stamp: Time) -> list[TransformStamped]:
         """Where odometry has the robot, and how far it is off: `map` to `odom` puts it right."""
-        told, true = self._frames.in_odom(simulation.odometry.pose), self._frames.in_map(simulation.pose)
-        turn = math.remainder(true.heading - told.heading, 2.0 * math.pi)
+        reported, true = self._frames.in_odom(simulation.odometry.pose), self._frames.in_map(simulation.pose)
+        turn = math.remainder(true.heading - reported.heading, 2.0 * math.pi)
         cosine, sine = math.cos(turn), math.sin(turn)
-        x, y = true.x - (cosine * told.x - sine * told.y), true.y - (sine * told.x + cosine * told.y)
-        return [_at(MAP, ODOM, Pose(x, y, turn), stamp), _at(ODOM, self._model.footprint, told, stamp)]
+        x, y = true.x - (cosine * reported.x - sine * reported.y), true.y - (sine * reported.x + cosine * reported.y)
+        return [_at(MAP, ODOM, Pose(x, y, turn), stamp), _at(ODOM, self._model.footprint, reported, stamp)]
 
     def _inertia(self, simulation: Simulation, passed: float, stamp: Time) -> Imu:
         message = Imu()

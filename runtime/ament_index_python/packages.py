@@ -9,9 +9,9 @@ from pathlib import Path
 
 from ament_index_python.resources import get_resources, get_search_paths
 from bot_console.runtime.rosidl.texts import PREFIX, standard_packages
+from bot_console.runtime.workspace.builtin_package import NAME as OWN
+from bot_console.runtime.workspace.builtin_package import own_is_first
 from bot_console.runtime.workspace.discover import workspace
-from bot_console.runtime.workspace.own import NAME as OWN
-from bot_console.runtime.workspace.own import own_is_first
 
 NAME = re.compile(r"^[a-zA-Z0-9][a-zA-Z0-9_-]*$")
 

@@ -65,10 +65,10 @@ def _gray(image: np.ndarray, kind: str) -> np.ndarray:
 def _from_yuv(image: np.ndarray, order: str) -> np.ndarray:
     """Red, green and blue of pairs of pixels that share their colour (ITU-R BT.601)."""
     pairs = image.reshape(image.shape[0], -1, 4).astype(np.float32)
-    at = {letter: order.index(letter) for letter in "uv"}
-    bright = pairs[..., [index for index, letter in enumerate(order) if letter == "y"]]
+    at = {character: order.index(character) for character in "uv"}
+    bright = pairs[..., [index for index, character in enumerate(order) if character == "y"]]
     y = 1.164 * (bright - 16.0)
-    u, v = (pairs[..., at[letter]][..., None] - 128.0 for letter in "uv")
+    u, v = (pairs[..., at[character]][..., None] - 128.0 for character in "uv")
     channels = (y + 1.596 * v, y - 0.813 * v - 0.391 * u, y + 2.018 * u)
     rgb = np.stack(channels, axis=-1).reshape(image.shape[0], -1, 3)
     return np.clip(np.rint(rgb), 0, 255).astype(np.uint8)

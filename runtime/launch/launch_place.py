@@ -19,17 +19,17 @@ class LaunchPlace(NamedTuple):
     """The entity being visited; None while reading a file."""
 
 
-def tell_place(error: BaseException, file: str, line: int | None = None, entity: Any = None) -> None:
+def report_place(error: BaseException, file: str, line: int | None = None, entity: Any = None) -> None:
     """Attach to an exception where it was raised; a place attached earlier, nearer to its origin, is kept."""
     # not setattr: a user's exception may be a frozen dataclass
     error.__dict__.setdefault(ATTRIBUTE, LaunchPlace(file, line, entity))
 
 
-def tell_visited(error: BaseException, entity: Any) -> None:
+def report_visited(error: BaseException, entity: Any) -> None:
     """Attach to an exception the entity whose visit raised it, and the entity's origin if known."""
     origin = str(getattr(entity, "origin", ""))
     file, _, line = origin.rpartition(":")
     if line.isdigit():
-        tell_place(error, file, int(line), entity)
+        report_place(error, file, int(line), entity)
     else:
-        tell_place(error, origin, entity=entity)
+        report_place(error, origin, entity=entity)

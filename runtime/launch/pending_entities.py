@@ -6,7 +6,7 @@ import asyncio
 from collections import deque
 from typing import Any
 
-from launch.launch_place import tell_visited
+from launch.launch_place import report_visited
 
 
 class PendingEntities:
@@ -58,6 +58,6 @@ class PendingEntities:
         if not future.cancelled():
             error = future.exception()
             if error is not None:
-                tell_visited(error, entity)
+                report_visited(error, entity)
                 self._failures.append(error)
         self.wake()

@@ -11,7 +11,7 @@ from launch.child import PythonProgram
 
 NEEDS_SHELL = re.compile(r"[;&|<>()`$*?#~\n]|\[[^\]]*\]")
 """Characters outside quotes that a shell would interpret."""
-APART = ("bag", "daemon", "doctor", "wtf")
+SEPARATE_PROGRAMS = ("bag", "daemon", "doctor", "wtf")
 """`ros2` commands that are separate programs, not verbs of this runtime."""
 QUOTED = re.compile(r"'[^']*'|\"[^\"`$\\]*\"")
 
@@ -36,7 +36,7 @@ def ros2_words(command: Sequence[str], shell: bool) -> list[str] | None:
             words = shlex.split(line)
         except ValueError:  # the shell gives a better error message
             return None
-    if not words or os.path.basename(words[0]) != "ros2" or (words[1:2] and words[1] in APART):
+    if not words or os.path.basename(words[0]) != "ros2" or (words[1:2] and words[1] in SEPARATE_PROGRAMS):
         return None
     return words[1:]
 

@@ -14,7 +14,7 @@ from launch_testing.test_run import entities_of
 
 from launch import LaunchDescription, LaunchService
 
-END_LIMIT = 30.0
+END_TIMEOUT_S = 30.0
 """Seconds within which a launch ends once it shall."""
 
 
@@ -57,7 +57,7 @@ class Running:
         """End what runs, unless it does that itself, and wait for it; the loop goes on."""
         if not self._ends_itself:
             self.service.shutdown()
-        self._ended.result(END_LIMIT)
+        self._ended.result(END_TIMEOUT_S)
 
     def close(self) -> None:
         """End all."""
@@ -65,5 +65,5 @@ class Running:
             self.shutdown()
         finally:
             self.loop.call_soon_threadsafe(self.loop.stop)
-            self._thread.join(END_LIMIT)
+            self._thread.join(END_TIMEOUT_S)
             self.loop.close()

@@ -63,5 +63,5 @@ def _what_it_has(package: str, executable: str) -> str:
         names = sorted(executables(package))
     except PackageNotFoundError:
         return ""
-    mend = to_add(package, executable)
-    return f"{package} has: {', '.join(names) or 'none'}{mend}." if names or mend else ""
+    hint = to_add(package, executable)
+    return f"{package} has: {', '.join(names) or 'none'}{hint}." if names or hint else ""

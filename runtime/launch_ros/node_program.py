@@ -12,11 +12,11 @@ from typing import Any
 
 from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 from bot_console.runtime.plain_file import examine
+from bot_console.runtime.workspace.builtin_package import ROOT, is_own
 from bot_console.runtime.workspace.demos import IMPORT_NAME
 from bot_console.runtime.workspace.discover import workspace
 from bot_console.runtime.workspace.executables import Executable, executables
 from bot_console.runtime.workspace.launched import Program, entry_point, find_packages_in, python_file
-from bot_console.runtime.workspace.own import ROOT, is_own
 from bot_console.runtime.workspace.program import source_folders
 from launch.child import PythonProgram
 from launch_ros import component_container

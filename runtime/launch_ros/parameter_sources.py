@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
-from launch.child import News, tell_news
+from launch.child import News, report_news
 from launch.substitutions import LaunchConfiguration
 from launch.utilities import perform_substitutions
 from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
 
-def tell_given(context: LaunchContext, node: str, parameters: Sequence[Any], origin: str) -> None:
+def report_given(context: LaunchContext, node: str, parameters: Sequence[Any], origin: str) -> None:
     """Report which parameters a launch file gives a node; files report their own. `origin` is the action's line."""
     given = {
         name: source
@@ -23,7 +23,7 @@ def tell_given(context: LaunchContext, node: str, parameters: Sequence[Any], ori
         for name, source in _sources(context, entry, origin)
     }
     if given:
-        tell_news(News(0, "launch", "given", {"node": node, "parameters": given}))
+        report_news(News(0, "launch", "given", {"node": node, "parameters": given}))
 
 
 def _sources(context: LaunchContext, entry: Any, origin: str) -> Iterator[tuple[str, str]]:

@@ -29,8 +29,8 @@ class TimedResult(unittest.TextTestResult):
 
 def write_report(path: str, name: str, result: TimedResult) -> None:
     """Write what came of a result's tests; one that never began, as when the launch died, is among them."""
-    told = [("failure", result.failures), ("error", result.errors), ("skipped", result.skipped)]
-    tests = list(dict.fromkeys([*result.seconds, *(test for _, pairs in told for test, _ in pairs)]))
+    reported = [("failure", result.failures), ("error", result.errors), ("skipped", result.skipped)]
+    tests = list(dict.fromkeys([*result.seconds, *(test for _, pairs in reported for test, _ in pairs)]))
     numbers = {
         "tests": str(len(tests)),
         "failures": str(len(result.failures)),
@@ -44,7 +44,7 @@ def write_report(path: str, name: str, result: TimedResult) -> None:
         where, _, method = test.id().rpartition(".")
         seconds = str(round(result.seconds.get(test, 0.0), 3))
         case = ElementTree.SubElement(suite, "testcase", {"classname": where, "name": method, "time": seconds})
-        for kind, pairs in told:
+        for kind, pairs in reported:
             for text in (text for which, text in pairs if which is test):
                 ElementTree.SubElement(case, kind, {"message": text})
     ElementTree.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)

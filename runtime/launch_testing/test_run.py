@@ -19,7 +19,7 @@ from launch_testing.proc_info_handler import ActiveProcInfoHandler
 
 from launch import LaunchDescription, LaunchDescriptionSource, LaunchService
 
-START_LIMIT = 15.0
+START_TIMEOUT_S = 15.0
 """Seconds within which what is tested has to be ready, as upstream."""
 DESCRIPTION = "generate_test_description"
 
@@ -102,7 +102,7 @@ class TestRun:
         self, ready: threading.Event, suite: unittest.TestSuite, result: unittest.TestResult, service: LaunchService
     ) -> None:
         try:
-            if ready.wait(getattr(self._description, READY_TIMEOUT, START_LIMIT)):
+            if ready.wait(getattr(self._description, READY_TIMEOUT, START_TIMEOUT_S)):
                 suite.run(result)
             else:
                 result.addError(self._whole(), _raised("Timed out waiting for processes to start up"))

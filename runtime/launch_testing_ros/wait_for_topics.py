@@ -35,8 +35,8 @@ class WaitForTopics:
         self._all_there = threading.Event()
         self._context = Context()
         rclpy.init(context=self._context)
-        letters = "".join(random.choices(string.ascii_lowercase, k=10))
-        self._node = Node(f"_test_node_{letters}", context=self._context, namespace=node_namespace)
+        characters = "".join(random.choices(string.ascii_lowercase, k=10))
+        self._node = Node(f"_test_node_{characters}", context=self._context, namespace=node_namespace)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
         for name, kind in self.topic_tuples:

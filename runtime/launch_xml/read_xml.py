@@ -24,7 +24,7 @@ def read_xml(text: str) -> tuple[ElementTree.Element, Lines]:
     try:
         parser.Parse(text, True)
     except expat.ExpatError as error:
-        told = ElementTree.ParseError(str(error))
-        told.code, told.position = error.code, (error.lineno, error.offset)
-        raise told from error
+        reported = ElementTree.ParseError(str(error))
+        reported.code, reported.position = error.code, (error.lineno, error.offset)
+        raise reported from error
     return builder.close(), lines

@@ -30,7 +30,7 @@ class WaitingThread(Protocol):
         ...
 
 
-class Seat(Protocol):
+class TurnTaker(Protocol):
     """A thread's place in a stepped run, as the thread sees it."""
 
     detached: bool
@@ -94,6 +94,6 @@ class ClockSource(Protocol):
         """Block until steady time reaches the deadline (ns)."""
         ...
 
-    def seat(self, thread: WaitingThread) -> Seat | None:
+    def task(self, thread: WaitingThread) -> TurnTaker | None:
         """Return a seat for a new thread of a node process; None if threads run freely."""
         ...

@@ -7,7 +7,7 @@ from collections.abc import Callable
 Explain = Callable[[BaseException], "str | None"]
 """Returns the cause of an exception and how to fix it, or None for an unknown one."""
 
-MEND = "mend"
+HINT = "mend"
 """Attribute of an exception that holds its own explanation: the cause and how to fix it, as a text."""
 
 _explainers: list[Explain] = []
@@ -21,7 +21,7 @@ def explain_with(explain: Explain) -> None:
 
 def explanation(exception: BaseException) -> str | None:
     """Return the exception's own explanation, else the first from a registered function; None if there is none."""
-    if own := getattr(exception, MEND, ""):
+    if own := getattr(exception, HINT, ""):
         return str(own)
     for explain in _explainers:
         text = explain(exception)

@@ -38,7 +38,7 @@ def is_open() -> bool:
     return _pipe.descriptor >= 0
 
 
-def tell(kind: str, **facts: Any) -> None:
+def report(kind: str, **facts: Any) -> None:
     """Send a fact to the parent; does nothing without one. Never blocks."""
     if _pipe.descriptor < 0:
         return

@@ -30,8 +30,8 @@ def anybody_listens() -> bool:
     return bool(_hooks) or data_pipe.is_open()
 
 
-def tell_fact(kind: str, **facts: Any) -> None:
+def report_fact(kind: str, **facts: Any) -> None:
     """Publish a fact made of plain values; never blocks."""
-    data_pipe.tell(kind, **facts)
+    data_pipe.report(kind, **facts)
     for hook in tuple(_hooks):
         hook(kind, facts)

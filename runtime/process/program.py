@@ -9,7 +9,7 @@ from collections.abc import Callable
 from types import FunctionType, ModuleType
 from typing import Any
 
-from .crashes import MEND, explain_with
+from .crashes import HINT, explain_with
 from .node.thread_state import local
 from .virtual.fresh_import import FreshModules
 
@@ -91,7 +91,7 @@ class _EntryPoint:
             module: Any = importlib.import_module(self._module) if modules is None else modules.load(self._module)
         except ModuleNotFoundError as error:
             if error.name and f"{self._module}.".startswith(f"{error.name}."):  # else a module that this one imports
-                setattr(error, MEND, NO_ENTRY.format(f"the module {self._module}", ""))
+                setattr(error, HINT, NO_ENTRY.format(f"the module {self._module}", ""))
             raise
         found = module
         for name in self._function.split("."):
@@ -102,7 +102,7 @@ class _EntryPoint:
                     raise  # which has its own explanation
                 functions = _functions(module)
                 has = f"; it has {', '.join(functions)}" if functions else ""
-                setattr(error, MEND, NO_ENTRY.format(f"{self._function}() of {self._module}", has))
+                setattr(error, HINT, NO_ENTRY.format(f"{self._function}() of {self._module}", has))
                 raise
         return found
 

@@ -123,5 +123,5 @@ class RealTime:
         """Block until `time.monotonic_ns()` reaches the deadline."""
         _RealWakeup().wait(deadline_ns)
 
-    def seat(self, thread: WaitingThread) -> None:
+    def task(self, thread: WaitingThread) -> None:
         """Return None: threads run freely."""

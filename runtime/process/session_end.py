@@ -11,24 +11,24 @@ import signal
 import time
 from pathlib import Path
 
-GRACE_S = 1.0
+EXIT_TIMEOUT_S = 1.0
 """Seconds that they get after SIGTERM, and again after SIGKILL."""
-LOOK_S = 0.02
+EXIT_POLL_S = 0.02
 
 
-def end_session(session: int, grace: float = GRACE_S) -> None:
+def end_session(session: int, grace: float = EXIT_TIMEOUT_S) -> None:
     """Send SIGTERM, then SIGKILL, to all other processes of a session until none is left, or time is up.
 
     `session` is the pid of the process that began it; `grace` is in seconds.
     """
     for number in (signal.SIGTERM, signal.SIGKILL):
-        deadline, told = time.monotonic() + grace, set[int]()
+        deadline, reported = time.monotonic() + grace, set[int]()
         while (left := _members(session)) and time.monotonic() < deadline:
-            for pid in left - told:
+            for pid in left - reported:
                 with contextlib.suppress(OSError):  # it has ended, or belongs to another user
                     os.kill(pid, number)
-            told |= left
-            time.sleep(LOOK_S)
+            reported |= left
+            time.sleep(EXIT_POLL_S)
 
 
 def _members(session: int) -> set[int]:

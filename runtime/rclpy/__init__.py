@@ -135,14 +135,14 @@ def spin(node: Node, executor: Executor | None = None) -> None:
     executor = get_global_executor() if executor is None else executor
     try:
         executor.add_node(node)
-        _tell_unused(node)
+        _report_unused(node)
         while executor.context.ok():
             executor.spin_once()
     finally:
         executor.remove_node(node)
 
 
-def _tell_unused(node: Node) -> None:
+def _report_unused(node: Node) -> None:
     """Warn on a terminal of command-line values for parameters that are undeclared when spinning begins."""
     from rclpy.impl.command_line import is_read
 

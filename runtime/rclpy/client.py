@@ -11,7 +11,7 @@ from typing import Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import ClientEndpoint
-from rclpy.executor_parts.answer_wait import wait_until_settled
+from rclpy.executor_parts.future_wait import wait_until_settled
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import CLIENT, Entity
 from rclpy.impl.graph_wait import require_valid, wait_until_there
@@ -91,7 +91,7 @@ class Client(Entity):
         future._when_settled(partial(self._pending_requests.pop, number, None))
         self._node._ros_bus.request(self.endpoint, number, request)
         if self.events is not None:
-            self.events.tell(0, self.endpoint, number, request=request)
+            self.events.report(0, self.endpoint, number, request=request)
         return future
 
     def get_pending_request(self, sequence_number: int) -> Future[Any]:
@@ -117,7 +117,7 @@ class Client(Entity):
         except IndexError:
             return None
         if self.events is not None:
-            self.events.tell(3, self.endpoint, number, response=response)
+            self.events.report(3, self.endpoint, number, response=response)
         future = self._pending_requests.pop(number, None)
         if future is not None:
             future._set_executor(self.sink)

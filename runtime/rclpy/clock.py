@@ -261,17 +261,17 @@ class ROSClock(Clock):
             timer.time_jumped(after < before)
 
     def _jump(self, jump: TimeJump, switch: Callable[[], None]) -> None:
-        told = [each for each in self._jump_handles if _tells(each.threshold, jump)]
-        for each in told:
+        reported = [each for each in self._jump_handles if _reports(each.threshold, jump)]
+        for each in reported:
             if each.pre_callback is not None:
                 each.pre_callback()
         switch()
-        for each in told:
+        for each in reported:
             if each.post_callback is not None:
                 each.post_callback(jump)
 
 
-def _tells(threshold: JumpThreshold, jump: TimeJump) -> bool:
+def _reports(threshold: JumpThreshold, jump: TimeJump) -> bool:
     if jump.clock_change in (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED):
         return threshold.on_clock_change
     delta = jump.delta.nanoseconds

@@ -6,7 +6,7 @@ from typing import Any
 
 from rclpy.constants import S_TO_NS
 
-LIMIT = 2**63
+MAX_NS = 2**63
 
 
 class Duration:
@@ -17,7 +17,7 @@ class Duration:
 
     def __init__(self, *, seconds: float = 0, nanoseconds: int = 0) -> None:
         total = int(seconds * S_TO_NS) + int(nanoseconds)
-        if not -LIMIT <= total < LIMIT:
+        if not -MAX_NS <= total < MAX_NS:
             raise OverflowError("Total nanoseconds value is too large to store in C duration.")
         self._nanoseconds = total
 

@@ -17,7 +17,7 @@ from rclpy.executor_parts.ready_callbacks import ReadyCallbacks
 from rclpy.executor_parts.ready_callbacks import TimeoutObject as TimeoutObject
 from rclpy.executor_parts.ready_callbacks import await_or_execute as await_or_execute
 from rclpy.executor_parts.timer_heap import TimerHeap
-from rclpy.executor_parts.worker_pool import WorkerPool, cpu_count, tell_unfetched_at_exit
+from rclpy.executor_parts.worker_pool import WorkerPool, cpu_count, report_unfetched_at_exit
 from rclpy.impl.reexports import reexporting
 from rclpy.task import Future, Task
 from rclpy.utilities import get_default_context, timeout_sec_to_nsec
@@ -214,13 +214,13 @@ class Executor(ReadyCallbacks):
                     return item
                 group.block(item)
             if self._is_shutdown or context.ended or condition is not None:
-                self._look_for_end(condition)
+                self._check_for_end(condition)
             if not self._new_batch():
                 self._wait(deadline)
                 if self._held:
                     self._release_held()
 
-    def _look_for_end(self, condition: Condition | None) -> None:
+    def _check_for_end(self, condition: Condition | None) -> None:
         """Raise the exception that ends the wait for work, if there is a reason to."""
         context = self._context
         if self._is_shutdown:
@@ -355,7 +355,7 @@ class MultiThreadedExecutor(Executor):
             raise ValueError("max_workers must be greater than 0")
         self._pool = WorkerPool(num_threads, "executor")
         self._futures: deque[Task[Any]] = deque()
-        tell_unfetched_at_exit(self, self._futures)
+        report_unfetched_at_exit(self, self._futures)
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Give one callback to the pool."""

@@ -137,11 +137,11 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         )
         self._clock = ROSClock()
         self._ros_init_parameters(arguments, overrides, undeclared, automatic)
-        self._ros_tell_missed_files(arguments)
+        self._ros_report_missed_files(arguments)
         self._time_source = TimeSource(node=self)
         self._time_source.attach_clock(self._clock)
 
-    def _ros_tell_missed_files(self, arguments: list[Any]) -> None:
+    def _ros_report_missed_files(self, arguments: list[Any]) -> None:
         if remapping.remap_node_name(self._ros_remap_rules, self._ros_name):
             return  # whoever remapped its name knew it, such as launch, which reports this in its own way
         own = self.get_fully_qualified_name()

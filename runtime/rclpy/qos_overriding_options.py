@@ -102,10 +102,10 @@ def _declare_qos_parameters(  # pyright: ignore[reportUnusedFunction] -- node_pa
             parameter = node.get_parameter(name)
         setattr(qos, word, _policy_value(policy, parameter.value))
     if options.callback is not None:
-        _refuse_where_told(options.callback(qos), about)
+        _refuse_where_requested(options.callback(qos), about)
 
 
-def _refuse_where_told(answer: Any, about: str) -> None:
+def _refuse_where_requested(answer: Any, about: str) -> None:
     """Raise if a callback has returned a failure: a `QosCallbackResult`, or a bool as in older releases."""
     if isinstance(answer, bool):
         if not answer:

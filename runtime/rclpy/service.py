@@ -64,7 +64,7 @@ class Service(Entity):
         if self.endpoint.queue:
             self.notify()  # in a reentrant group the next one may begin before this one has ended
         if self.events is not None:
-            self.events.tell(1, client, number, request=request)
+            self.events.report(1, client, number, request=request)
         if self._is_async:
             return self._respond_later(client, number, request)
         self.send_response(self._callback(request, self.srv_type.Response()), (client, number))
@@ -80,7 +80,7 @@ class Service(Entity):
         self.use()
         self._node._ros_bus.respond(header[0], header[1], response)
         if self.events is not None:
-            self.events.tell(2, header[0], header[1], response=response)
+            self.events.report(2, header[0], header[1], response=response)
 
     def configure_introspection(self, clock: Any, service_event_qos_profile: Any, introspection_state: Any) -> None:
         """Publish the service's activity on a topic next to it."""

@@ -27,7 +27,7 @@ class ServiceEvents:
         self._clock = clock
         self._publisher = entity._node.create_publisher(self._event, entity.service_name + EVENT_TOPIC, qos_profile)
 
-    def tell(self, kind: int, client: Any, number: int, *, request: Any = None, response: Any = None) -> None:
+    def report(self, kind: int, client: Any, number: int, *, request: Any = None, response: Any = None) -> None:
         """Publish one event, with request and response only in the state CONTENTS."""
         if self.state == ServiceIntrospectionState.OFF:
             return

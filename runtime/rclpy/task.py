@@ -33,9 +33,9 @@ class Future(Generic[T]):
         self._set_executor(executor)
 
     def __del__(self) -> None:
-        self.tell_unfetched()
+        self.report_unfetched()
 
-    def tell_unfetched(self) -> None:
+    def report_unfetched(self) -> None:
         """Print the exception, once, if there is one that was never retrieved."""
         if getattr(self, "_exception", None) is not None and not self._exception_fetched:
             self._exception_fetched = True

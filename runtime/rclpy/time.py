@@ -9,7 +9,7 @@ from rclpy.constants import S_TO_NS
 from rclpy.duration import Duration
 from rclpy.impl.reexports import reexporting
 
-LIMIT = 2**63
+MAX_NS = 2**63
 
 
 class Time:
@@ -31,7 +31,7 @@ class Time:
         if nanoseconds < 0:
             raise ValueError("Nanoseconds value must not be negative")
         total = int(seconds * S_TO_NS) + int(nanoseconds)
-        if total >= LIMIT:
+        if total >= MAX_NS:
             raise OverflowError("Total nanoseconds value is too large to store in C time point.")
         self._nanoseconds = total
         self._clock_type = clock_type
@@ -64,7 +64,7 @@ class Time:
     def __add__(self, other: Any) -> Time:
         if isinstance(other, Duration):
             total = self._nanoseconds + other.nanoseconds
-            if not 0 <= total < LIMIT:
+            if not 0 <= total < MAX_NS:
                 raise OverflowError("Addition leads to overflow in C storage.")
             return Time._of(total, self._clock_type)
         return NotImplemented
@@ -81,7 +81,7 @@ class Time:
             total = self._nanoseconds - other.nanoseconds
             if total < 0:
                 raise ValueError("Subtraction leads to negative time.")
-            if total >= LIMIT:
+            if total >= MAX_NS:
                 raise OverflowError("Total nanoseconds value is too large to store in C time point.")
             return Time._of(total, self._clock_type)
         return NotImplemented

@@ -23,9 +23,9 @@ class ArgumentsError(ValueError):
     `warning` is what rcl logs before the error, if anything.
     """
 
-    def __init__(self, text: str, mend: str = "", warning: str = "") -> None:
+    def __init__(self, text: str, hint: str = "", warning: str = "") -> None:
         super().__init__(text)
-        self.mend = mend
+        self.hint = hint
         self.warning = warning
 
 
@@ -109,11 +109,11 @@ def _parameter(word: str, value: str, parsed: Arguments) -> None:
         lexer.expect(Lexeme.SEPARATOR)
         parsed.parameters.add_value(node, name, value[lexer.index :])
     except (GrammarError, ParameterYamlError) as error:
-        mend = "" if ":=" in value or "=" not in value else f"write {word} {value.replace('=', ':=', 1)}, with a colon"
+        hint = "" if ":=" in value or "=" not in value else f"write {word} {value.replace('=', ':=', 1)}, with a colon"
         if value.endswith(":="):
-            mend = f"the value follows without a blank: {word} {value}VALUE"
+            hint = f"the value follows without a blank: {word} {value}VALUE"
         raise ArgumentsError(
-            f"Couldn't parse parameter override rule: '{word} {value}'. Error: {error}", mend
+            f"Couldn't parse parameter override rule: '{word} {value}'. Error: {error}", hint
         ) from None
 
 
@@ -138,7 +138,7 @@ def _parameters_file(word: str, value: str, parsed: Arguments) -> None:
     try:
         parsed.parameters.add_file(value)
     except ParameterYamlError as error:
-        raise ArgumentsError(f"Couldn't parse params file: '{word} {value}'. Error: {error}", error.mend) from None
+        raise ArgumentsError(f"Couldn't parse params file: '{word} {value}'. Error: {error}", error.hint) from None
 
 
 def _remap(word: str, value: str, parsed: Arguments) -> None:

@@ -29,7 +29,18 @@ class LocalPublisher:
     """A publisher of this process."""
 
     __slots__ = (
-        *("_aim", "_lifespan", "_lock", "_now", "_number", "_outlet", "_tap", "elsewhere", "endpoint", "history"),
+        *(
+            "_aim",
+            "_lifespan",
+            "_lock",
+            "_now",
+            "_number",
+            "_remote_publisher",
+            "_tap",
+            "elsewhere",
+            "endpoint",
+            "history",
+        ),
         *("lease", "on_event", "on_publish", "open"),
     )
 
@@ -45,7 +56,7 @@ class LocalPublisher:
         self.lease: int | None = lease if manual and lease not in INFINITE else None
         """How long (ns) it counts as alive without asserting its liveliness; None for as long as it exists."""
         self._aim: Aim = (), None
-        self._outlet: SubscriptionEndpoint | None = None
+        self._remote_publisher: SubscriptionEndpoint | None = None
         self.elsewhere = 0
         """Number of matched subscriptions in other processes."""
         self.open = True
@@ -134,20 +145,20 @@ class LocalPublisher:
 
     def matched_count(self) -> int:
         """Number of matched subscriptions, including other processes'."""
-        return len(self.targets) - (self._outlet is not None) + self.elsewhere
+        return len(self.targets) - (self._remote_publisher is not None) + self.elsewhere
 
     def is_heard(self) -> bool:
         """Whether anybody receives what is published: a subscription, here or elsewhere, or an observer."""
         return bool(self.targets) or self._tap.hear is not None
 
-    def send_elsewhere(self, outlet: SubscriptionEndpoint | None) -> None:
+    def send_elsewhere(self, remote_publisher: SubscriptionEndpoint | None) -> None:
         """Set the target that takes each message, serialized, for other processes; None if nobody wants it there."""
         with self._lock:
-            if outlet is self._outlet or not self.open:
+            if remote_publisher is self._remote_publisher or not self.open:
                 return
-            targets = tuple(each for each in self.targets if each is not self._outlet)
-            self._outlet = outlet
-            self.targets = targets if outlet is None else (*targets, outlet)
+            targets = tuple(each for each in self.targets if each is not self._remote_publisher)
+            self._remote_publisher = remote_publisher
+            self.targets = targets if remote_publisher is None else (*targets, remote_publisher)
 
     @property
     def published(self) -> int:

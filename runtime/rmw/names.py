@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import re
 
-NODE_NAME_LIMIT = 255
-TOPIC_NAME_LIMIT = 247
-NAMESPACE_LIMIT = 245
+MAX_NODE_NAME = 255
+MAX_TOPIC_NAME = 247
+MAX_NAMESPACE = 245
 
 Problem = tuple[str, int]
 
@@ -30,8 +30,8 @@ def validate_node_name(name: str) -> Problem | None:
         return "node name must not contain characters other than alphanumerics or '_'", outside.start()
     if name[0].isdigit():
         return "node name must not start with a number", 0
-    if len(name) > NODE_NAME_LIMIT:
-        return f"node name length should not exceed '{NODE_NAME_LIMIT}'", NODE_NAME_LIMIT - 1
+    if len(name) > MAX_NODE_NAME:
+        return f"node name length should not exceed '{MAX_NODE_NAME}'", MAX_NODE_NAME - 1
     return None
 
 
@@ -44,8 +44,8 @@ def validate_namespace(namespace: str) -> Problem | None:
     problem = _validate_full(namespace, "namespace")
     if problem:
         return problem
-    if len(namespace) > NAMESPACE_LIMIT:
-        return "namespace should not exceed 'RMW_NAMESPACE_MAX_NAME_LENGTH'", NAMESPACE_LIMIT - 1
+    if len(namespace) > MAX_NAMESPACE:
+        return "namespace should not exceed 'RMW_NAMESPACE_MAX_NAME_LENGTH'", MAX_NAMESPACE - 1
     return None
 
 
@@ -56,8 +56,8 @@ def validate_full_topic_name(name: str) -> Problem | None:
     problem = _validate_full(name, "topic name")
     if problem:
         return problem
-    if len(name) > TOPIC_NAME_LIMIT:
-        return "topic length should not exceed '255U - 8U'", TOPIC_NAME_LIMIT - 1
+    if len(name) > MAX_TOPIC_NAME:
+        return "topic length should not exceed '255U - 8U'", MAX_TOPIC_NAME - 1
     return None
 
 
@@ -164,7 +164,7 @@ _NODE_NAME_PROBLEMS = (
     "node name must not be empty",
     "node name must not contain characters other than alphanumerics or '_'",
     "node name must not start with a number",
-    f"node name length should not exceed '{NODE_NAME_LIMIT}'",
+    f"node name length should not exceed '{MAX_NODE_NAME}'",
 )
 
 

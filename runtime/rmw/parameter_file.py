@@ -34,8 +34,8 @@ def read_parameter_file(path: str, overrides: ParameterOverrides) -> None:
             raise ParameterYamlError("Error parsing a event near line 0") from None
         why = getattr(error, "strerror", None) or error
         hint = hint_for(path)
-        mend = f"{os.path.abspath(path)}: {why}{hint and f'; {hint}'}"
-        raise ParameterYamlError("Error opening YAML file", mend) from None
+        cause = f"{os.path.abspath(path)}: {why}{hint and f'; {hint}'}"
+        raise ParameterYamlError("Error opening YAML file", cause) from None
     reader = _Reader(overrides)
     handlers = {
         yaml.ScalarEvent: reader.scalar,
@@ -55,7 +55,7 @@ def read_parameter_file(path: str, overrides: ParameterOverrides) -> None:
         text = f"Error parsing a event near line {reader.line}"
         raise ParameterYamlError(text, _not_yaml(path, content, error)) from None
     except ParameterYamlError as error:
-        error.mend = _underscore(path, content)
+        error.hint = _underscore(path, content)
         raise
 
 

@@ -27,9 +27,9 @@ def chosen(slots: Slots) -> Any:
 class ParameterYamlError(ValueError):
     """A parameter file or value is refused; the message has rcl's wording. `mend` adds how to fix it."""
 
-    def __init__(self, text: str, mend: str = "") -> None:
+    def __init__(self, text: str, hint: str = "") -> None:
         super().__init__(text)
-        self.mend = mend
+        self.hint = hint
 
 
 class NodeOverrides:

@@ -40,7 +40,7 @@ def scalar_value(text: str) -> Scalar:
     return text if number is None else number
 
 
-MOST_DIGITS = 19
+MAX_DIGITS = 19
 """Decimal digits of the largest integer; Python refuses to convert more than 4,300."""
 
 
@@ -57,7 +57,7 @@ def _integer(text: str) -> int | None:
         return None
     digits = found[2]
     base = _base(digits)
-    if base == 10 and len(digits) > MOST_DIGITS:
+    if base == 10 and len(digits) > MAX_DIGITS:
         return None
     value = int(digits, base)
     if found[1] == "-":

@@ -7,7 +7,7 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
 
-from bot_console.runtime.terse import is_read
+from bot_console.runtime.exit_messages import is_read
 
 FEW = 8
 """Names that fit a hint of one line or two."""
@@ -16,8 +16,8 @@ _WRONG_TYPE = r"Wrong parameter type, expected 'Type\.(\w+)' got 'Type\.(\w+)'"
 
 def advise(text: Callable[[], str]) -> None:
     """Print a hint on stderr if stderr is a terminal; `text` is called only then, and an empty hint is not printed."""
-    if is_read() and (said := text()):
-        print(said, file=sys.stderr)
+    if is_read() and (message := text()):
+        print(message, file=sys.stderr)
 
 
 def no_parameter(node: str, name: str, names: Iterable[str]) -> str:

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from functools import partial
 
-from bot_console.runtime.terse import ended_code, place_fault
+from bot_console.runtime.exit_messages import ended_code, place_fault
 from ros2cli.advice import advise, usage
 from ros2cli.command import Command, Result, Verb
 
@@ -42,9 +42,9 @@ class HelpFormatter(argparse.RawDescriptionHelpFormatter):
 
 def _columns() -> int:
     """The width of the terminal in columns, as `shutil.get_terminal_size` determines it."""
-    told = os.environ.get("COLUMNS", "")
-    if told.isdecimal() and int(told):
-        return int(told)
+    reported = os.environ.get("COLUMNS", "")
+    if reported.isdecimal() and int(reported):
+        return int(reported)
     try:
         found = os.get_terminal_size(sys.__stdout__.fileno()).columns if sys.__stdout__ else 0
     except (ValueError, OSError):  # closed, or no terminal

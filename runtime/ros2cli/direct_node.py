@@ -19,7 +19,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 HIDDEN = "_"
-LOOK = 0.5
+SERVER_POLL_S = 0.5
 """Seconds without an answer after which it is looked whether there can be one, again and again."""
 GONE = 20
 """Looks for which whoever was asked has to be gone: links are made anew meanwhile, and upstream waits for good."""
@@ -170,7 +170,7 @@ def answer(node: Node, client: Any, future: Any) -> Any:
     service = client.service_name
     gone = 0
     has_ended = node.context.bus.watch_servers(client.endpoint)
-    while not spin_until(node, future.done, LOOK):
+    while not spin_until(node, future.done, SERVER_POLL_S):
         gone = 0 if client.service_is_ready() else gone + 1
         if gone > GONE or (gone >= SURE and has_ended()):
             raise NoAnswer(f"nobody answers {service}: its node has ended since it was asked; see what it printed")

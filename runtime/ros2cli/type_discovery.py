@@ -15,7 +15,7 @@ from rosidl_runtime_py.utilities import get_message
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-PATIENCE = 2.0
+DESCRIPTION_TIMEOUT_S = 2.0
 """Seconds that a node may take to describe a type."""
 MISSING = (ValueError, AttributeError, ModuleNotFoundError)
 
@@ -94,13 +94,13 @@ def _asked(node: Node, name: str, inquiry: Any) -> str:
 
     client = node.create_client(GetTypeDescription, f"{name}/get_type_description")
     try:
-        spin_until(node, client.service_is_ready, PATIENCE)
+        spin_until(node, client.service_is_ready, DESCRIPTION_TIMEOUT_S)
         type_name, type_hash = next(inquiry)
         while True:
             request = GetTypeDescription.Request(type_name=type_name, type_hash=type_hash, include_type_sources=True)
             future = client.call_async(request)
-            if not spin_until(node, future.done, PATIENCE):
-                return f"has not described it within {PATIENCE:g} s"
+            if not spin_until(node, future.done, DESCRIPTION_TIMEOUT_S):
+                return f"has not described it within {DESCRIPTION_TIMEOUT_S:g} s"
             type_name, type_hash = inquiry.send(future.result())
     except StopIteration as over:
         return over.value

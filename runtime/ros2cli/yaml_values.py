@@ -6,24 +6,24 @@ import contextlib
 from collections.abc import Generator
 from typing import IO, Any, cast
 
-MOST_BITS = 14_000
+MAX_BITS = 14_000
 """Of a whole number; Python writes none of more than 4,300 digits, and no field holds one of more than 64 bits."""
 
 
 def read_values(source: str | IO[str]) -> Any:
-    """The values; raises `YAMLError`, and `RuntimeError` as `told_faults` does."""
+    """The values; raises `YAMLError`, and `RuntimeError` as `report_yaml_errors` does."""
     if source == "{}":  # what most calls without values say; importing the library takes a fifth of a verb's time
         return {}
     import yaml
 
-    with told_faults():
+    with report_yaml_errors():
         found = yaml.safe_load(source)
         _refuse_endless(found, set())
         return found
 
 
 @contextlib.contextmanager
-def told_faults() -> Generator[None]:
+def report_yaml_errors() -> Generator[None]:
     """Guard code that reads YAML: a `YAMLError` passes unchanged, as ROS 2 shows it, too.
 
     Raises `RuntimeError`, which a command prints on one line, for the other exceptions that the library lets escape.
@@ -41,7 +41,7 @@ def told_faults() -> Generator[None]:
 def _refuse_endless(value: Any, seen: set[int]) -> None:
     """Raise `OverflowError` for integers too long to print; an alias is visited once, as it may contain itself."""
     if isinstance(value, int):
-        if value.bit_length() > MOST_BITS:
+        if value.bit_length() > MAX_BITS:
             raise OverflowError("endless number")
     elif isinstance(value, (list, dict)) and id(cast(object, value)) not in seen:
         seen.add(id(cast(object, value)))

@@ -28,16 +28,16 @@ class Source:
         self._locals = 0
         self._holders: dict[Sequence[str], str] = {(): "m"}
 
-    def name(self, letter: str, value: Any) -> str:
+    def name(self, character: str, value: Any) -> str:
         """Return a name by which the function refers to a value."""
-        found = f"{letter}{len(self.names)}"
+        found = f"{character}{len(self.names)}"
         self.names[found] = value
         return found
 
-    def local(self, letter: str) -> str:
+    def local(self, character: str) -> str:
         """Return a name for a local variable of the function."""
         self._locals += 1
-        return f"{letter}{self._locals}"
+        return f"{character}{self._locals}"
 
     def nested(self, cls: Any) -> Iterator[tuple[str, str, Any]]:
         """The single nested messages, outer ones first: a local name, the expression it stands for, and the class."""

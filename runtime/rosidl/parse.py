@@ -65,12 +65,12 @@ def _part(name: str, rows: list[tuple[int, str]], package: str, where: str) -> D
 def _without_comment(line: str) -> str:
     """Return a line up to its comment; a `#` inside quotes is no comment."""
     quote = ""
-    for index, letter in enumerate(line):
+    for index, character in enumerate(line):
         if quote:
-            quote = "" if letter == quote and line[index - 1] != "\\" else quote
-        elif letter in "\"'":
-            quote = letter
-        elif letter == "#":
+            quote = "" if character == quote and line[index - 1] != "\\" else quote
+        elif character in "\"'":
+            quote = character
+        elif character == "#":
             return line[:index]
     return line
 

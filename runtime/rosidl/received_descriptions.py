@@ -46,19 +46,20 @@ def describe_texts(wanted: str, texts: Mapping[str, str]) -> Description:
     return _with_references(wanted, found)
 
 
-def plain_description(told: Any) -> Description:
+def plain_description(reported: Any) -> Description:
     """A `type_description_interfaces/msg/TypeDescription` as plain data."""
     return {
-        "type_description": _plain(told.type_description),
-        "referenced_type_descriptions": [_plain(each) for each in told.referenced_type_descriptions],
+        "type_description": _plain(reported.type_description),
+        "referenced_type_descriptions": [_plain(each) for each in reported.referenced_type_descriptions],
     }
 
 
-def _plain(told: Any) -> Description:
+def _plain(reported: Any) -> Description:
     return {
-        "type_name": told.type_name,
+        "type_name": reported.type_name,
         "fields": [
-            {"name": each.name, "type": {name: getattr(each.type, name) for name in FIELD_TYPE}} for each in told.fields
+            {"name": each.name, "type": {name: getattr(each.type, name) for name in FIELD_TYPE}}
+            for each in reported.fields
         ],
     }
 

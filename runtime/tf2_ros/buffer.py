@@ -151,7 +151,7 @@ class Buffer(BufferCore, BufferInterface):
             future.set_result(True)
             return future
 
-        def look_again() -> None:
+        def poll_again() -> None:
             try:
                 if not future.done() and is_so():
                     future.set_result(True)
@@ -159,8 +159,8 @@ class Buffer(BufferCore, BufferInterface):
                 future.set_exception(LookupException(f"Failed to transform: {error}"))
 
         with self._callbacks_lock:
-            self._new_data_callbacks.append(look_again)
-        future.add_done_callback(lambda _: self._remove_callback(look_again))
+            self._new_data_callbacks.append(poll_again)
+        future.add_done_callback(lambda _: self._remove_callback(poll_again))
         return future
 
 

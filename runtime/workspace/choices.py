@@ -16,7 +16,7 @@ def package_names() -> list[str]:
     return sorted({*workspace().packages, *get_resources("packages")})
 
 
-def executable_names(package: str) -> list[str]:
+def all_executable_names(package: str) -> list[str]:
     """Names of a package's executables; none for an unknown package."""
     from ament_index_python.packages import PackageNotFoundError
     from bot_console.runtime.workspace.executables import executables

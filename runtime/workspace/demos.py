@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 
-from bot_console.runtime.workspace.own import ROOT
+from bot_console.runtime.workspace.builtin_package import ROOT
 from bot_console.runtime.workspace.package import EntryPoint, Package
 from bot_console.runtime.workspace.share import link
 

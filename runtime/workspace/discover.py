@@ -11,8 +11,8 @@ from pathlib import Path
 from types import MappingProxyType
 
 from bot_console.runtime.process.scratch import scratch
+from bot_console.runtime.workspace.builtin_package import NAME, PAGE_NAME, is_own, own_is_first, own_package, own_share
 from bot_console.runtime.workspace.demos import demo_packages, demo_share, is_demo
-from bot_console.runtime.workspace.own import NAME, PAGE_NAME, is_own, own_is_first, own_package, own_share
 from bot_console.runtime.workspace.package import Package, read_package
 from bot_console.runtime.workspace.share import share_folder
 

@@ -8,8 +8,8 @@ import sys
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+from bot_console.runtime.workspace.builtin_package import NAME, ROOT, SECOND_SPELLING, own_package
 from bot_console.runtime.workspace.export_readme import readme
-from bot_console.runtime.workspace.own import NAME, ROOT, SECOND_SPELLING, own_package
 
 ROS_PYTHON = {"numpy": "python3-numpy", "yaml": "python3-yaml"}
 """Keys of rosdep for libraries; pymunk has none and comes from pip."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.runtime.workspace.choices import executable_names, package_names
+from bot_console.runtime.workspace.choices import all_executable_names, package_names
 from bot_console.runtime.workspace.discover import workspace
 
 
@@ -17,7 +17,7 @@ def no_package(package: str) -> str:
 
 def no_executable(package: str, name: str) -> str:
     """For a package without that executable."""
-    has = ", ".join(executable_names(package)) or "none"
+    has = ", ".join(all_executable_names(package)) or "none"
     return f"No executable found: '{name}' is not in package '{package}', which has: {has}{to_add(package, name)}"
 
 

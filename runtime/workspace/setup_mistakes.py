@@ -7,7 +7,7 @@ import builtins
 from collections.abc import Iterator
 
 ALWAYS_THERE = frozenset(dir(builtins)) | {"__file__", "__builtins__", "__annotations__", "__class__", "__qualname__"}
-OUT_OF_SIGHT = frozenset({"exec", "globals", "locals", "vars", "NameError"})
+HIDDEN_SCOPES = frozenset({"exec", "globals", "locals", "vars", "NameError"})
 """What a file reads that defines names without writing them, as `exec` of a version file, or can do without one."""
 NEVER_CALLED = (ast.Tuple, ast.List, ast.Dict, ast.Constant, ast.JoinedStr)
 
@@ -41,7 +41,7 @@ def _undefined(tree: ast.Module) -> Iterator[tuple[int, str]]:
                 bound.add(each.id)
         else:
             bound.update(_bound_by(each))
-    if "*" in bound or any(name.id in OUT_OF_SIGHT for name in read):  # which names that brings is not known here
+    if "*" in bound or any(name.id in HIDDEN_SCOPES for name in read):  # which names that brings is not known here
         return
     for name in read:
         if name.id not in bound:

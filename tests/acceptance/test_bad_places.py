@@ -9,14 +9,14 @@ import sys
 from pathlib import Path
 
 import pytest
-from bot_console.runtime.terse import told
-from bot_console.tui.cli.live.own_host import start_host
+from bot_console.runtime.exit_messages import run_and_report
+from bot_console.tui.cli.live.child_host import start_host
 from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import ProcessState
 from launcher_bench import WAITS
 
-PATIENCE = 120.0
+TIMEOUT_S = 120.0
 """Seconds (wall) until a command that hangs fails its test."""
 
 
@@ -29,7 +29,7 @@ def command(words: list[str], folder: Path, **options: object) -> subprocess.Com
         env=environment,
         stderr=subprocess.PIPE,
         text=True,
-        timeout=PATIENCE,
+        timeout=TIMEOUT_S,
         check=False,
         **options,
     )
@@ -41,7 +41,7 @@ def command(words: list[str], folder: Path, **options: object) -> subprocess.Com
     [["--help"], ["setup", "bash"], ["ros2", "pkg", "list"], ["ros2", "interface", "show", "std_msgs/msg/String"]],
     ids=" ".join,
 )
-def test_a_full_disk_is_told_once(words: list[str], tmp_path: Path) -> None:
+def test_a_full_disk_is_reported_once(words: list[str], tmp_path: Path) -> None:
     with open("/dev/full", "w") as full:
         done = command(words, tmp_path, stdout=full)
     assert done.returncode == 1
@@ -64,7 +64,7 @@ def test_streams_that_were_closed_are_no_fault(closed: str, tmp_path: Path) -> N
     line = ["sh", "-c", f'exec "$0" "$@" {closed}', *program]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     done = subprocess.run(
-        line, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=PATIENCE, check=False
+        line, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=TIMEOUT_S, check=False
     )
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
@@ -80,7 +80,7 @@ def test_launched_nodes_have_their_streams_where_those_of_the_launch_were_closed
     line = ["sh", "-c", 'exec "$0" "$@" <&- >&-', *words]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "ROS_LOG_DIR": str(tmp_path / "log")}
     done = subprocess.run(
-        line, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=PATIENCE, check=False
+        line, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=TIMEOUT_S, check=False
     )
     logs = "".join(each.read_text() for each in (tmp_path / "log").rglob("*.log"))
     assert done.returncode == 0 and "process has finished cleanly" in logs, (done.stderr, logs)
@@ -92,34 +92,34 @@ def test_a_sign_that_the_terminal_does_not_have_is_no_fault(tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize("words", [["run", "x.py"], ["ros2", "pkg", "list"], ["launch", "x.launch.py"]], ids=" ".join)
-def test_a_folder_that_was_deleted_is_told(words: list[str], tmp_path: Path) -> None:
+def test_a_folder_that_was_deleted_is_reported(words: list[str], tmp_path: Path) -> None:
     there = tmp_path / "gone"
     there.mkdir()
     program = "import os, sys; os.rmdir(os.getcwd()); from bot_console.tui.cli.main import program; program()"
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(each for each in sys.path if each)}
     done = subprocess.run(
         [sys.executable, "-c", program, *words], cwd=there, env=environment, capture_output=True, text=True,
-        timeout=PATIENCE, check=False,
+        timeout=TIMEOUT_S, check=False,
     )  # fmt: skip
     assert done.returncode == 1 and "Traceback" not in done.stderr
     assert done.stderr.strip().endswith("the folder you are in was deleted; go to another one (cd) and try again")
 
 
-def test_an_import_that_fails_in_a_deleted_folder_is_told_as_such(
+def test_an_import_that_fails_in_a_deleted_folder_is_reported_as_such(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def fails() -> int:
         raise SystemError("error return without exception set")  # what Python 3.13.0 says
 
     with pytest.raises(SystemError):
-        told(fails)
+        run_and_report(fails)
     there = tmp_path / "gone"
     there.mkdir()
     monkeypatch.chdir(there)
     there.rmdir()
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("sys.stdout", io.StringIO())
-        assert told(fails) == 1
+        assert run_and_report(fails) == 1
     assert capsys.readouterr().err.endswith("the folder you are in was deleted; go to another one (cd) and try again\n")
 
 
@@ -132,8 +132,8 @@ def test_a_launch_goes_on_without_log_files_where_the_home_cannot_be_written(tmp
     home.write_text("no folder")
     extra = {"HOME": str(home), "ROS_LOG_DIR": "", "ROS_HOME": "", "TMPDIR": str(tmp_path)}
     done = command(["launch", "say.launch.py"], tmp_path, env=extra, stdout=subprocess.PIPE)
-    said = done.stdout + done.stderr
-    assert done.returncode == 0 and "here we are" in said and "Traceback" not in said
+    message = done.stdout + done.stderr
+    assert done.returncode == 0 and "here we are" in message and "Traceback" not in message
     assert f"log files are not kept: {home}/.ros/log cannot be written" in done.stderr
 
 
@@ -149,7 +149,7 @@ def test_files_of_the_working_folder_are_no_libraries_of_the_launch_host(
     monkeypatch.chdir(tmp_path)
     host = start_host(log=tmp_path / "host.log")
     launcher = HostedLauncher(host.connection, lambda *record: None, lambda *printed: None)
-    answer = launcher.launch(str(PROGRAM_LAUNCH), {"program": str(node), "isolation": isolation}).result(PATIENCE)
+    answer = launcher.launch(str(PROGRAM_LAUNCH), {"program": str(node), "isolation": isolation}).result(TIMEOUT_S)
     states = [each.state for each in launcher.info().processes]
     launcher.close()
     host.end()
@@ -171,7 +171,10 @@ def test_a_node_below_a_path_that_is_not_utf_8_logs_as_any_other(tmp_path: Path)
 
 
 def test_a_character_that_the_c_locale_does_not_have_is_replaced(tmp_path: Path) -> None:
-    program = "from bot_console.runtime.terse import told; told(lambda: print(chr(0xfffd), 'held') or 0)"
+    program = (
+        "from bot_console.runtime.exit_messages import run_and_report; "
+        "run_and_report(lambda: print(chr(0xfffd), 'held') or 0)"
+    )
     locale = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), **locale}
     done = subprocess.run(
@@ -182,7 +185,7 @@ def test_a_character_that_the_c_locale_does_not_have_is_replaced(tmp_path: Path)
 
 @pytest.mark.skipif(os.name == "nt", reason="limits are those of POSIX")
 @pytest.mark.parametrize(
-    ("limit", "words", "said"),
+    ("limit", "words", "message"),
     [
         ("-v 30000", ["topic", "list"], "there is too little memory (a limit is shown by `ulimit -v`)"),
         ("-v 30000", ["stop"], "bot-console: there is too little memory (a limit is shown by `ulimit -v`)"),
@@ -190,13 +193,15 @@ def test_a_character_that_the_c_locale_does_not_have_is_replaced(tmp_path: Path)
         ("-f 0", ["export", "there"], "not exported: "),
     ],
 )
-def test_a_limit_of_the_shell_is_told_on_one_line(limit: str, words: list[str], said: str, tmp_path: Path) -> None:
+def test_a_limit_of_the_shell_is_reported_on_one_line(
+    limit: str, words: list[str], message: str, tmp_path: Path
+) -> None:
     program = [sys.executable, "-c", "import sys; sys.argv[0] = 'bot-console'\n"
                "from bot_console.tui.cli.main import program; program()", *words]  # fmt: skip
     line = ["sh", "-c", f'ulimit {limit}; exec "$0" "$@"', *program]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "BOT_CONSOLE_USER_DIR": str(tmp_path)}
     done = subprocess.run(
-        line, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=PATIENCE, check=False
+        line, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=TIMEOUT_S, check=False
     )
     assert done.returncode == 1 and done.stdout == ""
-    assert done.stderr.startswith(said) and len(done.stderr.splitlines()) == 1, done.stderr
+    assert done.stderr.startswith(message) and len(done.stderr.splitlines()) == 1, done.stderr

@@ -23,7 +23,7 @@ from pty_meter import Terminal
 CONSOLE = [sys.executable, "-m", "bot_console.tui"]
 SIZE = (120, 40)
 WARM = 8.0
-LONGEST = 60.0
+MAX_SECONDS = 60.0
 RUNS = 2
 WAYS = {"nothing": (0, False), "kept": (2, False), "kept and recorded": (2, True)}
 """Minutes that are kept, and whether a bag is recorded."""
@@ -38,11 +38,11 @@ def cost(minutes: int, recorded: bool, seconds: float) -> float:
         settings.parent.mkdir(parents=True)
         settings.write_text(f"keep_minutes: {minutes}\n")
         terminal = Terminal(CONSOLE, SIZE)
-        terminal.run(LONGEST, lambda: "actual" in terminal.text())
+        terminal.run(MAX_SECONDS, lambda: "actual" in terminal.text())
         terminal.run(WARM)
         if recorded:
             terminal.press("R")
-            terminal.run(LONGEST, lambda: "record all topics" in terminal.text())
+            terminal.run(MAX_SECONDS, lambda: "record all topics" in terminal.text())
             for key in ("\x15", os.path.join(folder, "bag"), "\r"):
                 terminal.press(key)
                 terminal.run(1.0)

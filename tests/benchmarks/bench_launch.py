@@ -111,7 +111,7 @@ MEASURES: dict[str, tuple[Callable[[Path], Path], str, int]] = {
 GOALS = {"nodes": 3.0, "includes_python": 5.0, "includes_xml": 5.0}
 
 
-def cpu_of_launch(make: Callable[[Path], Path], said: str, times: int) -> float:
+def cpu_of_launch(make: Callable[[Path], Path], message: str, times: int) -> float:
     """CPU seconds of a launch to its end; raises `RuntimeError` unless it ends well and says something so often."""
     with tempfile.TemporaryDirectory() as folder:
         path = make(Path(folder))
@@ -126,7 +126,7 @@ def cpu_of_launch(make: Callable[[Path], Path], said: str, times: int) -> float:
             check=False,
         )
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    if done.returncode != 0 or (said and done.stdout.count(said) != times):
+    if done.returncode != 0 or (message and done.stdout.count(message) != times):
         raise RuntimeError(
             f"the launch of {path.name} did not do its work:\n{done.stdout[-2000:]}{done.stderr[-2000:]}"
         )

@@ -131,11 +131,11 @@ def service_call() -> float:
     executor = SingleThreadedExecutor()
     for node in (server, client):
         executor.add_node(node)
-    asker = client.create_client(SetParameters, "/bench/set_parameters")
+    requester = client.create_client(SetParameters, "/bench/set_parameters")
     request = SetParameters.Request(parameters=[Parameter("speed", value=2.0).to_parameter_msg()])
 
     def call(number: int) -> None:
-        future = asker.call_async(request)
+        future = requester.call_async(request)
         while not future.done():
             executor.spin_once()
 

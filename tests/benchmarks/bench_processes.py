@@ -59,7 +59,7 @@ BARE_DOMAIN, ROS_DOMAIN = 1, 0
 ROUNDS = 3
 ROUND_TRIPS = 100
 CALLS = 50
-PATIENCE = 60.0
+TIMEOUT_S = 60.0
 Send = Callable[[], Any]
 
 
@@ -142,7 +142,7 @@ def other(way: Bare | Ros, kinds: Sequence[str]) -> None:
         reached.clear()
         wanted[0] = int(line)
         if counts[0] < wanted[0]:
-            reached.wait(PATIENCE)
+            reached.wait(TIMEOUT_S)
         print(json.dumps([counts[0], time.process_time()]), flush=True)
 
 
@@ -167,7 +167,7 @@ class Other:
 
 
 def until(true: Callable[[], bool]) -> None:
-    deadline = time.monotonic() + PATIENCE
+    deadline = time.monotonic() + TIMEOUT_S
     while not true():
         if time.monotonic() > deadline:
             raise TimeoutError
@@ -207,7 +207,7 @@ class Pair:
             self._back.clear()
             began = time.perf_counter()
             self._ping()
-            self._back.wait(PATIENCE)
+            self._back.wait(TIMEOUT_S)
             self._times.append(time.perf_counter() - began)
 
     def figures(self) -> dict[str, float]:

@@ -101,22 +101,22 @@ class Watched:
             node.destroy_node()
 
 
-def first_look(count: int) -> float:
+def first_poll(count: int) -> float:
     """Milliseconds of the console's first look at a graph."""
     watched = Watched(count)
-    cost = least(lambda: GraphWatch(watched.console, lambda graph: None).look(), 1)
+    cost = least(lambda: GraphWatch(watched.console, lambda graph: None).poll(), 1)
     watched.end()
     return cost * MILLI
 
 
-def look_after_change(count: int) -> float:
+def poll_after_change(count: int) -> float:
     """Milliseconds of a look after one publisher came or went."""
     watched, costs = Watched(count), []
-    watched.watch.look()
+    watched.watch.poll()
     for number in range(2 * RUNS):
         publisher = watched.nodes[0].create_publisher(Float64, f"new{number}", 10)
         start = time.process_time()
-        watched.watch.look()
+        watched.watch.poll()
         costs.append(time.process_time() - start)
         watched.nodes[0].destroy_publisher(publisher)
     watched.end()
@@ -158,9 +158,9 @@ def end(executor: Any, nodes: list[Any]) -> None:
 CURVES: dict[str, tuple[Callable[[int], float], tuple[int, ...]]] = {
     "set_parameters_atomically_us_each": (set_atomically, (10, 100, 1_000, 10_000)),
     "laserscan_fan_out_us_each": (fan_out, (1, 10, 50, 200)),
-    "first_look_ms": (first_look, (10, 50, 200, 500)),
+    "first_look_ms": (first_poll, (10, 50, 200, 500)),
     "parameters_read_s": (parameters_read, (10, 100, 500)),
-    "look_after_change_ms": (look_after_change, (10, 50, 200, 500)),
+    "look_after_change_ms": (poll_after_change, (10, 50, 200, 500)),
 }
 
 

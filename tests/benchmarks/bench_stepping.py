@@ -52,14 +52,14 @@ def floor_of_a_turn() -> float:
 def turn_by_wakeups() -> float:
     """Two processes of a stepped run that wake each other."""
     with stepped() as clock:
-        doors = clock.wakeup(), clock.wakeup()
+        addresses = clock.wakeup(), clock.wakeup()
 
         def player(mine: int) -> Callable[[], None]:
             def run() -> None:
                 for _ in range(TURNS // 2):
-                    doors[mine].wait()
-                    doors[mine].clear()
-                    doors[1 - mine].set()
+                    addresses[mine].wait()
+                    addresses[mine].clear()
+                    addresses[1 - mine].set()
 
             return run
 
@@ -67,7 +67,7 @@ def turn_by_wakeups() -> float:
         for process, mine in zip(processes, (0, 1), strict=True):
             process.start(player(mine))
         start = cpu()
-        doors[0].set()
+        addresses[0].set()
         processes[1].wait()
         return (cpu() - start) / TURNS * 1e6
 
@@ -98,14 +98,14 @@ def wait_that_need_not_hand_on() -> float:
 
 def turn_in_real_time() -> float:
     """Two processes in real time that wake each other."""
-    doors = RealTime().wakeup(), RealTime().wakeup()
+    addresses = RealTime().wakeup(), RealTime().wakeup()
 
     def player(mine: int) -> Callable[[], None]:
         def run() -> None:
             for _ in range(TURNS // 2):
-                doors[mine].wait()
-                doors[mine].clear()
-                doors[1 - mine].set()
+                addresses[mine].wait()
+                addresses[mine].clear()
+                addresses[1 - mine].set()
 
         return run
 
@@ -113,7 +113,7 @@ def turn_in_real_time() -> float:
     for process, mine in zip(processes, (0, 1), strict=True):
         process.start(player(mine))
     start = cpu()
-    doors[0].set()
+    addresses[0].set()
     processes[1].wait()
     return (cpu() - start) / TURNS * 1e6
 

@@ -111,7 +111,7 @@ FLOODS: dict[str, tuple[list[str], float, int]] = {
     "a paste of 30 kB": ([PASTE], 0.0, 0),
 }
 """What is typed before the key, the seconds between two of them, and after how many the terminal is resized."""
-PATIENCE = 60.0
+TIMEOUT_S = 60.0
 BETWEEN = 0.15
 """Seconds between two presses."""
 MORE = 5
@@ -122,7 +122,7 @@ class Base:
     """What the base says of its lock, as another process hears it."""
 
     def __init__(self, robot: LiveRobot) -> None:
-        self._said: list[tuple[float, bool]] = []
+        self._last_message: list[tuple[float, bool]] = []
         process = robot.program(HEARD, stdout=subprocess.PIPE)
         threading.Thread(target=self._read, args=(process,), daemon=True).start()
 
@@ -130,16 +130,18 @@ class Base:
         assert process.stdout is not None
         for line in process.stdout:
             moment, locked = line.split()
-            self._said.append((float(moment), locked == b"true"))
+            self._last_message.append((float(moment), locked == b"true"))
 
     @property
     def locked(self) -> bool:
         """Whether it is locked, as far as it has said."""
-        return bool(self._said) and self._said[-1][1]
+        return bool(self._last_message) and self._last_message[-1][1]
 
-    def says(self, locked: bool, since: float) -> float | None:
+    def message_of(self, locked: bool, since: float) -> float | None:
         """When it first said so after a moment; None when it has not."""
-        return next((moment for moment, said in list(self._said) if moment >= since and said is locked), None)
+        return next(
+            (moment for moment, message in list(self._last_message) if moment >= since and message is locked), None
+        )
 
 
 @contextlib.contextmanager
@@ -164,9 +166,9 @@ def console(robot: LiveRobot) -> Iterator[Terminal]:
         terminal.close()
 
 
-def wait(true: Callable[[], Any], patience: float = PATIENCE) -> Any:
+def wait(true: Callable[[], Any], timeout_s: float = TIMEOUT_S) -> Any:
     """What is true at last; None when it does not come about."""
-    deadline = time.monotonic() + patience
+    deadline = time.monotonic() + timeout_s
     while time.monotonic() < deadline:
         if found := true():
             return found
@@ -216,7 +218,7 @@ def flooded(robot: LiveRobot, base: Base, flood: str, count: int) -> dict[str, A
                 if resized and number % resized == 0:
                     size = struct.pack("HHHH", 40 - number // resized % 2, 120 - number // resized % 7, 0, 0)
                     fcntl.ioctl(terminal.master, termios.TIOCSWINSZ, size)
-            taken, _ = press(terminal, base, locked=True, patience=PATIENCE)
+            taken, _ = press(terminal, base, locked=True, timeout_s=TIMEOUT_S)
             if taken is None:
                 lost += 1
             else:
@@ -228,7 +230,7 @@ def flooded(robot: LiveRobot, base: Base, flood: str, count: int) -> dict[str, A
     return summary(times) | {"lost": lost}
 
 
-def press(terminal: Terminal, base: Base, locked: bool, patience: float = 10.0) -> tuple[float | None, int]:
+def press(terminal: Terminal, base: Base, locked: bool, timeout_s: float = 10.0) -> tuple[float | None, int]:
     """Press `!` until the base is as wanted: ms from the last press, None where that did not come; presses in between.
 
     A console that has not heard of a stop's acknowledgement sends the stop again instead of releasing, so a release
@@ -237,7 +239,7 @@ def press(terminal: Terminal, base: Base, locked: bool, patience: float = 10.0) 
     for extra in range(1 if locked else 1 + MORE):
         began = time.monotonic()
         terminal.type("!")
-        answered = wait(lambda: base.says(locked, began), patience if locked else 5.0)  # noqa: B023 # called here alone
+        answered = wait(lambda: base.message_of(locked, began), timeout_s if locked else 5.0)  # noqa: B023 # called here alone
         if answered is not None:
             return (answered - began) * 1000, extra
     return None, extra
@@ -313,7 +315,7 @@ def main() -> None:
                 threading.Thread(target=prefer, args=(options.wanted_nice,), daemon=True).start()
             with live_robot(folder, sockets) as robot:
                 base = Base(robot)
-                wait(lambda: base.says(False, 0.0))
+                wait(lambda: base.message_of(False, 0.0))
                 for load in LOADS:
                     if not options.only or any(word in load for word in options.only):
                         report["stop (ms)"][load] = presses(robot, base, load, options.presses)

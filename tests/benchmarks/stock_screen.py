@@ -55,9 +55,9 @@ class StockScreen(App[None]):
         for number in range(20):
             table.add_row(f"parameter_{number}", str(number))
         table.focus()
-        self.set_interval(1 / HERTZ, self.beat)
+        self.set_interval(1 / HERTZ, self.heartbeat)
 
-    def beat(self) -> None:
+    def heartbeat(self) -> None:
         self.step += 1
         at = self.step / HERTZ
         self.speeds.append(1 + math.sin(at / 3))

@@ -62,15 +62,15 @@ def test_the_frozen_process_is_known_at_once_with_its_nodes(here):
     assert {pid: list(nodes) for pid, nodes in here.context.bus.stopped().items()} == {here.frozen: ["/other/peer"]}
 
 
-def test_who_joins_later_is_told_which_process_is_frozen_and_sees_the_others(here, monkeypatch):
+def test_who_joins_later_learns_which_process_is_frozen_and_sees_the_others(here, monkeypatch):
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", here.folder)
-    said = []
-    forget = on_notice(lambda process, text: said.append(text))
+    output = []
+    forget = on_notice(lambda process, text: output.append(text))
     session = open_session(DOMAIN)
     here.until(lambda: len(session.linked()) == 2)
     graph = WholeGraph(session, lambda owner: None)
     forget()
     session.close()
     assert sorted(each.name for each in graph.tables.nodes()) == ["here", "peer"]
-    (text,) = said
+    (text,) = output
     assert f"process {here.frozen} is stopped" in text

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from bot_console.tui.console.model import LogFilter, Severity
-from rigs import PATIENCE, ROBOT, Rig, until
+from rigs import ROBOT, TIMEOUT_S, Rig, until
 
 LEVEL = "/level/data"
 SEVERITIES = (Severity.INFO, Severity.WARN, Severity.ERROR, Severity.FATAL)
@@ -18,17 +18,17 @@ def seqs(rig: Rig, which: LogFilter | None = None, after: int = 0, limit: int | 
     return list(rig.console.matching_logs(which or LogFilter(words="node:robot"), after, limit))
 
 
-def say_all(rig: Rig) -> list[int]:
+def publish_all(rig: Rig) -> list[int]:
     """Let the robot log one line of each severity; their numbers."""
     for severity in SEVERITIES:
-        rig.say(severity, f"it is {severity.name}")
+        rig.show_text(severity, f"it is {severity.name}")
     until(lambda: len(seqs(rig)) == len(SEVERITIES), "four records")
     return seqs(rig)
 
 
 def test_what_has_not_changed_is_the_same_object(rig: Rig) -> None:
     before = until(rig.console.snapshot, "a snapshot")
-    say_all(rig)
+    publish_all(rig)
     after = rig.console.snapshot()
     assert after.logs is not before.logs and after.seq > before.seq
     assert after.parameters is before.parameters and after.journal is before.journal
@@ -45,7 +45,7 @@ def test_the_graph_has_nodes_topics_and_services_with_types(rig: Rig) -> None:
 
 
 def test_logs_have_number_severity_node_and_text(rig: Rig) -> None:
-    numbers = say_all(rig)
+    numbers = publish_all(rig)
     records = [rig.console.log(each) for each in numbers]
     assert numbers == sorted(set(numbers))
     assert [each and (each.severity, each.node, each.text) for each in records] == [
@@ -69,13 +69,13 @@ def test_logs_have_number_severity_node_and_text(rig: Rig) -> None:
     ],
 )
 def test_logs_are_filtered(rig: Rig, which: LogFilter, left: tuple[Severity, ...]) -> None:
-    say_all(rig)
+    publish_all(rig)
     found = [rig.console.log(each) for each in seqs(rig, which)]
     assert [each and each.severity for each in found] == list(left)
 
 
 def test_logs_are_read_from_a_number_on_and_the_newest_when_limited(rig: Rig) -> None:
-    numbers = say_all(rig)
+    numbers = publish_all(rig)
     assert seqs(rig, after=numbers[2]) == numbers[2:]
     assert seqs(rig, limit=1) == numbers[-1:]
 
@@ -86,10 +86,10 @@ def test_a_pattern_that_does_not_compile_is_a_readable_error(rig: Rig) -> None:
 
 
 def test_cleared_logs_are_gone_and_numbers_go_on(rig: Rig) -> None:
-    numbers = say_all(rig)
+    numbers = publish_all(rig)
     rig.console.clear_logs()
     assert seqs(rig) == [] and rig.console.log(numbers[0]) is None
-    rig.say(Severity.INFO, "later")
+    rig.show_text(Severity.INFO, "later")
     assert until(lambda: seqs(rig), "the next record")[0] > numbers[-1]
 
 
@@ -127,19 +127,19 @@ def _new(rig: Rig, path: str, cursor: int) -> Any:
 def test_a_parameter_is_a_series_too(rig: Rig) -> None:
     path = f"{ROBOT}:speed"
     assert rig.console.watch(path).ok
-    rig.console.set_parameters(ROBOT, {"speed": 0.5}).result(PATIENCE)
+    rig.console.set_parameters(ROBOT, {"speed": 0.5}).result(TIMEOUT_S)
     until(lambda: list(rig.console.samples(path).values) == [1.0, 0.5], "the new value")
 
 
 @pytest.mark.parametrize("path", ["/nowhere/data", f"{ROBOT}:nothing", "/nobody:speed"])
-def test_what_cannot_be_plotted_says_why(rig: Rig, path: str) -> None:
+def test_what_cannot_be_plotted_reports_why(rig: Rig, path: str) -> None:
     answer = rig.console.watch(path)
     assert not answer.ok and answer.text
     assert len(rig.console.samples(path).values) == 0
 
 
 def test_the_time_axis_is_that_of_the_stamps(rig: Rig) -> None:
-    say_all(rig)
+    publish_all(rig)
     record = rig.console.log(seqs(rig)[0])
     assert record is not None
     assert rig.console.plot_time(record.stamp + 10**9) - rig.console.plot_time(record.stamp) == pytest.approx(1.0)
@@ -178,26 +178,26 @@ def test_a_velocity_that_is_no_number_is_never_sent(rig: Rig, value: float) -> N
     assert list(rig.received) == []
 
 
-def test_a_service_is_called_or_it_is_said_why_not(rig: Rig) -> None:
-    assert rig.console.call("/greet", "std_srvs/srv/Trigger", {}).result(PATIENCE).ok
+def test_a_service_is_called_or_it_is_reported_why_not(rig: Rig) -> None:
+    assert rig.console.call("/greet", "std_srvs/srv/Trigger", {}).result(TIMEOUT_S).ok
     for service, type_name in (("/nowhere", "std_srvs/srv/Trigger"), ("/greet", "nobody_srvs/srv/Nothing")):
-        answer = rig.console.call(service, type_name, {}).result(PATIENCE)
+        answer = rig.console.call(service, type_name, {}).result(TIMEOUT_S)
         assert not answer.ok and answer.text
 
 
 def test_a_logger_level_is_set_where_the_node_offers_it(rig: Rig) -> None:
-    assert rig.console.set_logger_level(ROBOT, Severity.WARN).result(PATIENCE).ok
-    answer = rig.console.set_logger_level("/nobody", Severity.WARN).result(PATIENCE)
+    assert rig.console.set_logger_level(ROBOT, Severity.WARN).result(TIMEOUT_S).ok
+    answer = rig.console.set_logger_level("/nobody", Severity.WARN).result(TIMEOUT_S)
     assert not answer.ok and "/nobody" in answer.text
 
 
-def test_the_levels_of_a_nodes_loggers_are_told(rig: Rig) -> None:
-    rig.console.set_logger_level(ROBOT, Severity.ERROR, "robot.arm").result(PATIENCE)
-    rig.console.set_logger_level(ROBOT, Severity.WARN).result(PATIENCE)
-    levels = {each.logger: each.severity for each in rig.console.logger_levels(ROBOT).result(PATIENCE)}
+def test_the_levels_of_a_nodes_loggers_are_reported(rig: Rig) -> None:
+    rig.console.set_logger_level(ROBOT, Severity.ERROR, "robot.arm").result(TIMEOUT_S)
+    rig.console.set_logger_level(ROBOT, Severity.WARN).result(TIMEOUT_S)
+    levels = {each.logger: each.severity for each in rig.console.logger_levels(ROBOT).result(TIMEOUT_S)}
     assert levels["robot"] is Severity.WARN
     with pytest.raises(ValueError, match="/nobody"):
-        rig.console.logger_levels("/nobody").result(PATIENCE)
+        rig.console.logger_levels("/nobody").result(TIMEOUT_S)
 
 
 def test_the_last_word_of_a_console_is_zero_velocity(rig: Rig) -> None:
@@ -212,12 +212,12 @@ def test_the_last_word_of_a_console_is_zero_velocity(rig: Rig) -> None:
 
 
 def test_a_closed_console_refuses_and_shows_what_it_knew(rig: Rig) -> None:
-    numbers = say_all(rig)
+    numbers = publish_all(rig)
     console = rig.console
     console.close()
     assert [console.log(each) is not None for each in numbers] == [True] * 4
     assert ROBOT in console.snapshot().parameters
-    (outcome,) = console.set_parameters(ROBOT, {"speed": 0.5}).result(PATIENCE)
+    (outcome,) = console.set_parameters(ROBOT, {"speed": 0.5}).result(TIMEOUT_S)
     assert (outcome.accepted, outcome.refused_by) == (False, "console") and "closed" in outcome.reason
     asked = (
         console.undo(),
@@ -225,11 +225,11 @@ def test_a_closed_console_refuses_and_shows_what_it_knew(rig: Rig) -> None:
         console.call("/greet", "std_srvs/srv/Trigger", {}),
         console.set_logger_level(ROBOT, Severity.WARN),
     )
-    answers = [each.result(PATIENCE) for each in asked] + [console.watch(LEVEL)]
+    answers = [each.result(TIMEOUT_S) for each in asked] + [console.watch(LEVEL)]
     assert [each.ok for each in answers] == [False] * 5
     assert all("closed" in each.text for each in answers)
     with pytest.raises(ValueError, match="closed"):
-        console.apply_profile("slow").result(PATIENCE)
+        console.apply_profile("slow").result(TIMEOUT_S)
     answer = console.save_parameters("/nowhere/x.yaml")
     assert not answer.ok and "closed" in answer.text
     console.unwatch(LEVEL)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
-from launcher_bench import PATIENCE
+from launcher_bench import TIMEOUT_S
 from rigs import domains
 from scenes.launcher_rigs import DECLARED, AttachedRig, FakeRig, HostedRig, LauncherRig, MachineRig, RosRig
 
@@ -36,7 +36,7 @@ def rig(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.Monk
 
 def launch(rig: LauncherRig) -> Answer:
     """Launch the file; the answer."""
-    answer = rig.launcher.launch(rig.path, {"robot": "bob"}).result(PATIENCE)
+    answer = rig.launcher.launch(rig.path, {"robot": "bob"}).result(TIMEOUT_S)
     rig.settle()
     return answer
 
@@ -48,7 +48,7 @@ def process(rig: LauncherRig) -> ProcessInfo:
 
 def do(rig: LauncherRig, verb: str, key: str) -> Answer:
     """Ask for a verb; the answer."""
-    return getattr(rig.launcher, verb)(key).result(PATIENCE)
+    return getattr(rig.launcher, verb)(key).result(TIMEOUT_S)
 
 
 def test_files_and_their_arguments(rig: LauncherRig) -> None:
@@ -106,7 +106,7 @@ def test_an_unknown_process_is_named(rig: LauncherRig, verb: str) -> None:
     assert not answer.ok and "nobody" in answer.text
 
 
-def test_a_file_with_a_fault_is_told_with_file_and_line_and_nothing_else_stops(rig: LauncherRig) -> None:
+def test_a_file_with_a_fault_is_reported_with_file_and_line_and_nothing_else_stops(rig: LauncherRig) -> None:
     launch(rig)
     rig.break_file()
     with pytest.raises(ValueError, match=r"system\.launch\.py, line 3: syntax error"):

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from bot_console.tui.console.model import ChangeSource, Kind, ParameterInfo, Range, SetOutcome
-from rigs import ARM, DESCRIPTION, PATIENCE, ROBOT, TOO_FAST, Rig, until
+from rigs import ARM, DESCRIPTION, ROBOT, TIMEOUT_S, TOO_FAST, Rig, until
 
 
 def parameter(rig: Rig, name: str) -> ParameterInfo:
@@ -19,7 +19,7 @@ def parameter(rig: Rig, name: str) -> ParameterInfo:
 
 def setting(rig: Rig, values: dict[str, Any], node: str = ROBOT, *, atomically: bool = False) -> list[SetOutcome]:
     """Set, and wait for the outcome."""
-    return list(rig.console.set_parameters(node, values, atomically=atomically).result(PATIENCE))
+    return list(rig.console.set_parameters(node, values, atomically=atomically).result(TIMEOUT_S))
 
 
 def shown(rig: Rig, name: str, value: Any) -> None:
@@ -63,7 +63,9 @@ def test_a_value_is_taken_shown_and_written_down(rig: Rig, name: str, value: Any
         ("/nobody", "speed", 1.0, "node"),
     ],
 )
-def test_a_refusal_says_who_and_why_and_changes_nothing(rig: Rig, node: str, name: str, value: Any, who: str) -> None:
+def test_a_refusal_reports_who_and_why_and_changes_nothing(
+    rig: Rig, node: str, name: str, value: Any, who: str
+) -> None:
     before = rig.console.snapshot().parameters[ROBOT]
     (outcome,) = setting(rig, {name: value}, node)
     assert (outcome.node, outcome.name, outcome.value, outcome.accepted) == (node, name, value, False)
@@ -75,7 +77,7 @@ def test_a_refusal_says_who_and_why_and_changes_nothing(rig: Rig, node: str, nam
     assert not rig.console.snapshot().journal.can_undo
 
 
-def test_the_reason_of_the_nodes_own_rule_is_told_in_its_words(rig: Rig) -> None:
+def test_the_reason_of_the_nodes_own_rule_is_reported_in_its_words(rig: Rig) -> None:
     rig.forbid_speed()
     (outcome,) = setting(rig, {"speed": 1.5})
     assert (outcome.accepted, outcome.reason, outcome.refused_by) == (False, TOO_FAST, "callback")
@@ -102,13 +104,13 @@ def both(rig: Rig) -> tuple[object, object]:
 
 def test_values_of_two_nodes_are_taken_together_and_taken_back_by_one_undo(rig: Rig) -> None:
     outcomes = rig.console.set_all({ROBOT: {"speed": 0.5, "count": 4}, ARM: {"reach": 0.2}}, by="a set").result(
-        PATIENCE
+        TIMEOUT_S
     )
     assert len(outcomes) == 3 and all(each.accepted for each in outcomes)
     until(lambda: both(rig) == (0.5, 0.2), "the values of both nodes")
     until(lambda: len(rig.console.changes()) == 3, "the journal")
     assert {each.by for each in rig.console.changes()} == {"a set"}
-    assert rig.console.undo().result(PATIENCE).ok
+    assert rig.console.undo().result(TIMEOUT_S).ok
     until(lambda: both(rig) == (1.0, 1.0), "the values of both nodes")
     assert not rig.console.snapshot().journal.can_undo
 
@@ -120,7 +122,7 @@ def test_what_one_node_refuses_no_node_takes(rig: Rig, rule: str) -> None:
         rig.forbid_speed()
     outcomes = rig.console.set_all(
         {ARM: {"reach": 0.2}, ROBOT: {"count": 4, "speed": 0.5 if rule == "callback" else 9.0}}
-    ).result(PATIENCE)
+    ).result(TIMEOUT_S)
     assert not any(each.accepted for each in outcomes)
     (arm,) = (each for each in outcomes if each.node == ARM)
     assert arm.refused_by == "console" and f"{ROBOT} refused" in arm.reason
@@ -134,7 +136,7 @@ def test_what_one_node_refuses_no_node_takes(rig: Rig, rule: str) -> None:
 
 def test_a_profile_that_the_second_node_refuses_leaves_the_first_as_it_was(rig: Rig) -> None:
     rig.forbid_speed()
-    outcomes = rig.console.apply_profile("careful").result(PATIENCE)
+    outcomes = rig.console.apply_profile("careful").result(TIMEOUT_S)
     assert {each.node for each in outcomes} == {ARM, ROBOT} and not any(each.accepted for each in outcomes)
     until(lambda: both(rig) == (1.0, 1.0), "the values before")
     assert rig.console.snapshot().active_profile == ""
@@ -145,7 +147,7 @@ def test_undo_and_redo(rig: Rig) -> None:
     setting(rig, {"speed": 1.5})
     shown(rig, "speed", 1.5)
     for ask, value, source in (("undo", 1.0, ChangeSource.UNDO), ("redo", 1.5, ChangeSource.REDO)):
-        answer = getattr(rig.console, ask)().result(PATIENCE)
+        answer = getattr(rig.console, ask)().result(TIMEOUT_S)
         assert answer.ok and "speed" in answer.text
         shown(rig, "speed", value)
         until(lambda source=source: rig.console.changes()[-1].source is source, "the journal")
@@ -155,15 +157,15 @@ def test_undo_and_redo(rig: Rig) -> None:
 
 def test_a_new_change_ends_what_could_be_redone(rig: Rig) -> None:
     setting(rig, {"speed": 1.5})
-    assert rig.console.undo().result(PATIENCE).ok
+    assert rig.console.undo().result(TIMEOUT_S).ok
     setting(rig, {"count": 9})
     assert not rig.console.snapshot().journal.can_redo
-    assert not rig.console.redo().result(PATIENCE).ok
+    assert not rig.console.redo().result(TIMEOUT_S).ok
 
 
 @pytest.mark.parametrize("ask", ["undo", "redo"])
-def test_nothing_to_undo_is_said(rig: Rig, ask: str) -> None:
-    answer = getattr(rig.console, ask)().result(PATIENCE)
+def test_nothing_to_undo_is_reported(rig: Rig, ask: str) -> None:
+    answer = getattr(rig.console, ask)().result(TIMEOUT_S)
     assert not answer.ok and f"nothing to {ask}" in answer.text
 
 
@@ -175,7 +177,7 @@ def test_a_change_made_elsewhere_is_seen_and_not_ours_to_undo(rig: Rig) -> None:
     assert not rig.console.snapshot().journal.can_undo
 
 
-def test_a_value_tells_who_has_set_it(rig: Rig) -> None:
+def test_a_value_reports_who_has_set_it(rig: Rig) -> None:
     assert parameter(rig, "speed").origin == "start value"
     setting(rig, {"speed": 0.5})
     shown(rig, "speed", 0.5)
@@ -194,7 +196,7 @@ def test_the_journal_is_read_from_a_number_on(rig: Rig) -> None:
     assert (rig.console.snapshot().journal.first, rig.console.snapshot().journal.end) == (0, 3)
 
 
-def test_a_profile_says_what_it_would_change(rig: Rig) -> None:
+def test_a_profile_reports_what_it_would_change(rig: Rig) -> None:
     profiles = {each.name: each for each in rig.console.snapshot().profiles}
     assert list(profiles) == ["broken", "careful", "elsewhere", "slow", "wild"]
     assert "two underscores" in profiles["broken"].problem
@@ -207,18 +209,18 @@ def test_a_profile_says_what_it_would_change(rig: Rig) -> None:
     }
     assert not rig.console.profile_differences("nobody")
     with pytest.raises(ValueError, match="none of its nodes is running"):
-        rig.console.apply_profile("elsewhere").result(PATIENCE)
+        rig.console.apply_profile("elsewhere").result(TIMEOUT_S)
     assert rig.console.snapshot().active_profile == "", "what nobody took is not in force"
 
 
 def test_a_profile_is_applied_and_can_be_undone(rig: Rig) -> None:
-    outcomes = rig.console.apply_profile("slow").result(PATIENCE)
+    outcomes = rig.console.apply_profile("slow").result(TIMEOUT_S)
     assert {each.name: each.accepted for each in outcomes} == {"speed": True, "count": True}
     shown(rig, "speed", 0.2)
     until(lambda: rig.console.snapshot().active_profile == "slow", "the active profile")
     assert not rig.console.profile_differences("slow")
     assert {each.source for each in rig.console.changes()} == {ChangeSource.PROFILE}
-    assert rig.console.undo().result(PATIENCE).ok
+    assert rig.console.undo().result(TIMEOUT_S).ok
     shown(rig, "speed", 1.0)
     shown(rig, "count", 3)
 
@@ -234,27 +236,27 @@ def test_one_undo_takes_a_profile_back_on_all_nodes_and_its_name_with_it(rig: Ri
         trees = rig.console.snapshot().parameters
         return tuple(getattr(trees[node].get(name), "value", None) for node, name in ((ROBOT, "speed"), (ARM, "reach")))
 
-    rig.console.apply_profile("slow").result(PATIENCE)
+    rig.console.apply_profile("slow").result(TIMEOUT_S)
     named("slow", 0)
     setting(rig, {"count": 7})
     named("slow", 1)
-    rig.console.apply_profile("careful").result(PATIENCE)
+    rig.console.apply_profile("careful").result(TIMEOUT_S)
     named("careful", 0)
     assert values() == (0.5, 0.3)
-    answer = rig.console.undo().result(PATIENCE)
+    answer = rig.console.undo().result(TIMEOUT_S)
     assert answer.ok
     until(lambda: values() == (0.2, 1.0), "the values of both nodes")
     named("slow", 1)
-    assert rig.console.redo().result(PATIENCE).ok
+    assert rig.console.redo().result(TIMEOUT_S).ok
     until(lambda: values() == (0.5, 0.3), "the values of both nodes")
     named("careful", 0)
 
 
-def test_an_undo_that_one_node_refuses_says_so_and_keeps_the_name_that_is_nearer_to_the_truth(rig: Rig) -> None:
-    rig.console.apply_profile("careful").result(PATIENCE)
+def test_an_undo_that_one_node_refuses_reports_it_and_keeps_the_name_that_is_nearer_to_the_truth(rig: Rig) -> None:
+    rig.console.apply_profile("careful").result(TIMEOUT_S)
     shown(rig, "speed", 0.5)
     rig.forbid_speed()
-    answer = rig.console.undo().result(PATIENCE)
+    answer = rig.console.undo().result(TIMEOUT_S)
     assert not answer.ok and TOO_FAST in answer.text
     until(lambda: rig.console.snapshot().profile_changes == 1, "the arm's value")
     snapshot = rig.console.snapshot()
@@ -270,9 +272,9 @@ def test_what_was_set_here_is_unsaved_until_it_is_in_a_file_or_undone(rig: Rig, 
     assert unsaved() == ()
     setting(rig, {"speed": 1.5, "count": 9})
     assert unsaved() == ((ROBOT, "count"), (ROBOT, "speed"))
-    assert rig.console.undo().result(PATIENCE).ok
+    assert rig.console.undo().result(TIMEOUT_S).ok
     assert unsaved() == ()
-    rig.console.apply_profile("careful").result(PATIENCE)
+    rig.console.apply_profile("careful").result(TIMEOUT_S)
     rig.set_elsewhere("mode", "brave")
     shown(rig, "mode", "brave")
     assert unsaved() == ()
@@ -281,24 +283,24 @@ def test_what_was_set_here_is_unsaved_until_it_is_in_a_file_or_undone(rig: Rig, 
     assert unsaved() == ((ROBOT, "count"),)
     assert rig.console.save_parameters(str(tmp_path / "all.yaml")).ok
     assert unsaved() == ()
-    assert rig.console.undo().result(PATIENCE).ok
+    assert rig.console.undo().result(TIMEOUT_S).ok
     assert unsaved() == ()
 
 
 def test_a_profile_that_is_refused_changes_nothing_and_is_not_the_active_one(rig: Rig) -> None:
-    outcomes = rig.console.apply_profile("wild").result(PATIENCE)
+    outcomes = rig.console.apply_profile("wild").result(TIMEOUT_S)
     assert not any(each.accepted for each in outcomes)
     assert parameter(rig, "count").value == 3
     assert rig.console.snapshot().active_profile == ""
 
 
 @pytest.mark.parametrize(("name", "why"), [("nobody", "no profile nobody"), ("broken", "two underscores")])
-def test_a_profile_that_cannot_be_used_says_why(rig: Rig, name: str, why: str) -> None:
+def test_a_profile_that_cannot_be_used_reports_why(rig: Rig, name: str, why: str) -> None:
     with pytest.raises(ValueError, match=why):
-        rig.console.apply_profile(name).result(PATIENCE)
+        rig.console.apply_profile(name).result(TIMEOUT_S)
 
 
-def test_they_are_saved_or_it_is_said_why_not(rig: Rig, tmp_path: Path) -> None:
+def test_they_are_saved_or_it_is_reported_why_not(rig: Rig, tmp_path: Path) -> None:
     answer = rig.console.save_parameters(str(tmp_path / "saved.yaml"), [ROBOT])
     assert answer.ok and "saved" in answer.text
     assert "speed: 1.0" in (tmp_path / "saved.yaml").read_text()
@@ -315,7 +317,7 @@ def test_any_file_is_opened_as_a_profile_and_seen_before_it_is_applied(rig: Rig,
     found = {(each.node, each.name): each for each in rig.console.profile_differences("any")}
     assert set(found) == {(ROBOT, "speed"), (ROBOT, "nobody")}, "a wildcard asks nobody for what it has not"
     assert found[ROBOT, "nobody"].unknown and not found[ROBOT, "speed"].refusal
-    outcomes = rig.console.apply_profile("any").result(PATIENCE)
+    outcomes = rig.console.apply_profile("any").result(TIMEOUT_S)
     assert [(each.name, each.accepted) for each in outcomes] == [("speed", True)]
     answer = rig.console.open_profile(str(tmp_path / "nowhere.yaml"))
     assert not answer.ok and "no file" in answer.text
@@ -340,7 +342,7 @@ def test_what_runs_is_saved_as_a_profile_and_can_be_gone_back_to(rig: Rig) -> No
 
 def test_a_profile_whose_file_is_deleted_is_the_active_one_no_more(rig: Rig) -> None:
     assert rig.console.save_profile("passing").ok
-    assert all(each.accepted for each in rig.console.apply_profile("passing").result(PATIENCE))
+    assert all(each.accepted for each in rig.console.apply_profile("passing").result(TIMEOUT_S))
     assert rig.console.snapshot().active_profile == "passing"
     assert rig.console.delete_profile("passing").ok
     snapshot = rig.console.snapshot()

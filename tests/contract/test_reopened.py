@@ -62,12 +62,12 @@ def while_reopened(here: Here, call: Callable[[], None], times: int = TIMES) -> 
 
 def test_no_call_of_a_node_raises(here: Here) -> None:
     node = here.node
-    said = [node.create_publisher(String, "/said", qos) for qos in (10, LATCHED, ALL)]
+    output = [node.create_publisher(String, "/said", qos) for qos in (10, LATCHED, ALL)]
     pull = node.create_client(Trigger, "/pull")
     here.until(pull.service_is_ready)
 
     def all_calls() -> None:
-        for publisher in said:
+        for publisher in output:
             publisher.publish(String(data="x"))
             publisher.get_subscription_count()
         pull.call_async(Trigger.Request())
@@ -109,16 +109,18 @@ def test_no_call_of_a_node_raises(here: Here) -> None:
 def test_what_is_asked_or_must_not_be_dropped_meanwhile_arrives(here: Here) -> None:
     heard: list[str] = []
     here.node.create_subscription(String, "/echo", lambda message: heard.append(message.data), 1000)
-    say = here.node.create_publisher(String, "/say", ALL)
+    show_text = here.node.create_publisher(String, "/say", ALL)
     pull = here.node.create_client(Trigger, "/pull")
-    here.until(lambda: pull.service_is_ready() and say.get_subscription_count() and here.node.count_publishers("/echo"))
+    here.until(
+        lambda: pull.service_is_ready() and show_text.get_subscription_count() and here.node.count_publishers("/echo")
+    )
     asked: list[Any] = []
     session, join = session_of(here), session_of(here)._join
 
     def joining(folder: str) -> None:
         """Between the closing of the old session and the opening of the new one."""
         asked.append(pull.call_async(Trigger.Request()))
-        say.publish(String(data="meanwhile"))
+        show_text.publish(String(data="meanwhile"))
         join(folder)
 
     session._join = joining
@@ -131,7 +133,7 @@ def test_nothing_raises_while_it_cannot_be_opened(here: Here) -> None:
     session, join = session_of(here), session_of(here)._join
     pull = here.node.create_client(Trigger, "/pull")
     here.until(pull.service_is_ready)
-    say = here.node.create_publisher(String, "/say", LATCHED)
+    show_text = here.node.create_publisher(String, "/say", LATCHED)
 
     def refused(folder: str) -> None:
         raise SessionError("no")
@@ -141,7 +143,7 @@ def test_nothing_raises_while_it_cannot_be_opened(here: Here) -> None:
         session.rejoin(lambda folder: True)
     made = here.node.create_publisher(String, "/made", LATCHED)
     taken_back = here.node.create_subscription(String, "/echo", lambda _: None, 10)
-    for publisher in (say, made):
+    for publisher in (show_text, made):
         publisher.publish(String(data="x"))
     assert here.node.destroy_subscription(taken_back)
     asked = pull.call_async(Trigger.Request())

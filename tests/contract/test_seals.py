@@ -15,7 +15,7 @@ from rclpy.serialization import serialize_message
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
-PATIENCE = 20.0
+TIMEOUT_S = 20.0
 GID = bytes(range(16))
 EVERYTHING = QoSProfile(history=HistoryPolicy.KEEP_ALL, depth=0)
 PULL = data_key(DOMAIN, "/pull", "std_srvs/srv/Trigger", type_hash.text(Trigger))
@@ -55,11 +55,11 @@ def test_messages_are_sealed(here, stranger, profile):
     publisher = here.node.create_publisher(String, "/say", profile)
     here.until(lambda: publisher.get_subscription_count() == 1)
 
-    def said():
+    def message():
         publisher.publish(String(data="sealed"))
         return heard
 
-    here.until(said)
+    here.until(message)
     here.node.destroy_publisher(publisher)
     assert all(is_sealed(*sample) for sample in heard)
 
@@ -81,9 +81,9 @@ def test_requests_and_responses_are_sealed(here, stranger):
 
     here.until(was_asked)
     payload = serialize_message(Trigger.Request())
-    querier = stranger.declare_querier(PULL, PATIENCE)
+    querier = stranger.declare_querier(PULL, TIMEOUT_S)
     querier.get(payload, pack(1, 5, GID), lambda *reply: replies.append(reply), done.set)
-    assert done.wait(PATIENCE)
+    assert done.wait(TIMEOUT_S)
     assert len(replies) == 1 and all(is_sealed(*each) for each in (*asked, *replies))
 
 
@@ -91,7 +91,7 @@ def test_a_command_that_was_cut_moves_nothing_and_one_without_a_seal_is_taken(he
     heard = []
     here.node.create_subscription(Twist, "/cmd_vel", lambda command: heard.append(command.linear.x), 10)
     key = data_key(DOMAIN, "/cmd_vel", "geometry_msgs/msg/Twist", type_hash.text(Twist))
-    publisher = stranger.declare_publisher(key, patient=True)
+    publisher = stranger.declare_publisher(key, blocking=True)
     slow, fast = (serialize_message(Twist(linear=Vector3(x=speed))) for speed in (0.1, 9.0))
 
     def came():

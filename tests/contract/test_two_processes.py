@@ -19,17 +19,17 @@ def here(tmp_path_factory):
         yield system
 
 
-def test_what_is_said_is_heard_once_and_in_order(here):
+def test_what_is_published_is_received_once_and_in_order(here):
     heard = []
     here.node.create_subscription(String, "/echo", lambda m: heard.append(m.data), 1000)
     publisher = here.node.create_publisher(String, "/say", 1000)
     here.until(lambda: publisher.get_subscription_count() == 1)
     here.until(lambda: here.node.count_publishers("/echo") == 1)
-    said = [str(each) for each in range(200)]
-    for each in said:
+    output = [str(each) for each in range(200)]
+    for each in output:
         publisher.publish(String(data=each))
     here.until(lambda: len(heard) >= 200)
-    assert heard == said
+    assert heard == output
 
 
 def test_a_latched_message_waits_for_those_who_come_later(here):
@@ -40,14 +40,14 @@ def test_a_latched_message_waits_for_those_who_come_later(here):
     assert heard == ["kept"]
 
 
-def test_a_profile_that_does_not_fit_is_told_and_nothing_is_received(here):
-    told, heard, fitting = [], [], []
-    events = SubscriptionEventCallbacks(incompatible_qos=told.append)
+def test_a_profile_that_does_not_fit_is_reported_and_nothing_is_received(here):
+    reported, heard, fitting = [], [], []
+    events = SubscriptionEventCallbacks(incompatible_qos=reported.append)
     here.node.create_subscription(String, "/poor", heard.append, 10, event_callbacks=events)
     here.node.create_subscription(String, "/poor", fitting.append, qos_profile_sensor_data)
-    here.until(lambda: told and len(fitting) > 3)
+    here.until(lambda: reported and len(fitting) > 3)
     assert heard == []
-    assert told[0].total_count == 1
+    assert reported[0].total_count == 1
 
 
 def test_a_service_answers_and_its_log_line_arrives(here):
@@ -91,7 +91,7 @@ def test_an_action_gives_feedback_and_a_result(here):
     assert [list(each.feedback.sequence) for each in feedback] == [[0, 1, 1], [0, 1, 1, 2], [0, 1, 1, 2, 3]]
 
 
-def test_parameters_are_read_and_set_and_the_change_is_told(here):
+def test_parameters_are_read_and_set_and_the_change_is_reported(here):
     events = []
     here.node.create_subscription(ParameterEvent, "/parameter_events", events.append, 10)
     client = AsyncParameterClient(here.node, "/other/peer")

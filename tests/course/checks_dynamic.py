@@ -21,7 +21,7 @@ def as_printed(page: Page, seconds: float = 0.5) -> Program:
     return page.python(RUN.format(module="dynamic_robot"), seconds)
 
 
-def mended(page: Page) -> Program:
+def repaired(page: Page) -> Program:
     """The listing with `Parameter` imported from where it is meant to come from (N13)."""
     text = (COURSE / "nodes" / "dynamic_robot.py").read_text("utf-8")
     wrong = "from rcl_interfaces.msg import SetParametersResult, Parameter\n"
@@ -32,7 +32,7 @@ def mended(page: Page) -> Program:
     return page.python(setting + RUN.format(module="mended_robot"))
 
 
-def said(program: Program) -> list[str]:
+def logged(program: Program) -> list[str]:
     return [each.message for each in logs(program)]
 
 
@@ -49,14 +49,14 @@ def the_listing_runs_as_printed(page: Page, row: Row) -> None:
     cannot_be_run(page, "dynamic_robot")
     robot = as_printed(page)
     assert [page.value(NODE, name) for name in ("speed", "mode", "sensitivity")] == ["1.0", "normal", "50"]
-    assert row.quoted[-1] in said(robot)
+    assert row.quoted[-1] in logged(robot)
 
 
 @row(118)
-def it_tells_its_state(page: Page, row: Row) -> None:
+def it_reports_its_state(page: Page, row: Row) -> None:
     robot = as_printed(page, 2.5)
     text = row.command.replace("<mode>", "normal").replace("speed=<v>", "speed=1.0").replace("<v>%", "50%")
-    assert said(robot).count(text) == 2
+    assert logged(robot).count(text) == 2
 
 
 @row(119, 127)
@@ -64,7 +64,7 @@ def a_value_within_is_taken(page: Page, row: Row) -> None:
     robot = as_printed(page)
     name, value = ("speed", "4.5") if row.number == 119 else ("sensitivity", "70")
     assert page.ask(f"ros2 param set {NODE} {name} {value}").stdout == "Set parameter successful\n"
-    assert said(robot)[-1] == row.command.replace("<v>", value)
+    assert logged(robot)[-1] == row.command.replace("<v>", value)
 
 
 @row(120, 122, 128)
@@ -76,7 +76,7 @@ def a_value_outside_is_refused(page: Page, row: Row) -> None:
 
 
 @row(121)
-def a_mode_ends_the_node_as_printed_and_works_when_mended(page: Page, row: Row) -> None:
+def a_mode_ends_the_node_as_printed_and_works_when_repaired(page: Page, row: Row) -> None:
     robot = as_printed(page)
     page.ask(f"ros2 param set {NODE} mode eco", stop_after=3.0)
     assert robot.exit == 1
@@ -85,20 +85,20 @@ def a_mode_ends_the_node_as_printed_and_works_when_mended(page: Page, row: Row) 
     assert "dynamic_robot.py:" in message
     assert "rcl_interfaces.msg" in message
     assert "from rclpy.parameter import Parameter" in message
-    robot = mended(page)
+    robot = repaired(page)
     page.ask(f"ros2 param set {NODE} mode eco")
-    assert row.quoted[0].replace("<mode>", "eco") in said(robot)
+    assert row.quoted[0].replace("<mode>", "eco") in logged(robot)
 
 
 @row(123, 124, 125, 126)
 def a_mode_sets_its_preset(page: Page, row: Row) -> None:
     """The nested set is committed, and its events come, before the mode's own."""
-    robot = mended(page)
+    robot = repaired(page)
     mode, speed, sensitivity = PRESETS[row.number]
     events = page.start("ros2 topic echo /parameter_events --field changed_parameters[0].name".replace("[0].name", ""))
     assert page.ask(f"ros2 param set {NODE} mode {mode}").stdout == "Set parameter successful\n"
     assert [page.value(NODE, name) for name in ("speed", "mode", "sensitivity")] == [speed, mode, sensitivity]
-    assert said(robot)[-3:] == [
+    assert logged(robot)[-3:] == [
         f"Mode changed to: {mode}",
         f"Speed changed to: {speed} m/s",
         f"Sensitivity changed to: {sensitivity}%",
@@ -133,9 +133,9 @@ def the_client_has_its_clients(page: Page, row: Row) -> None:
 def the_client_sets_the_speed(page: Page, row: Row) -> None:
     waiting, done, failed = row.quoted[1:] if len(row.quoted) == 4 else row.quoted
     client = page.python(CLIENT.format(call="set_robot_speed(3.5)"), 2.5)
-    assert said(client) == [waiting, waiting]
+    assert logged(client) == [waiting, waiting]
     as_printed(page, 2.0)
-    assert done.replace("<v>", "3.5") in said(client)
+    assert done.replace("<v>", "3.5") in logged(client)
     refused = page.python(CLIENT.format(call="set_robot_speed(9.5)"))
     assert (
         "ERROR",
@@ -149,7 +149,7 @@ def the_client_gets_the_parameters(page: Page, row: Row) -> None:
     as_printed(page)
     client = page.python(CLIENT.format(call="get_robot_parameters()"))
     stated = [each.replace("<v>", value) for each, value in zip(row.quoted, ("1.0", "normal", "50"), strict=True)]
-    assert said(client) == [*stated, "done"]
+    assert logged(client) == [*stated, "done"]
 
 
 @row(132)

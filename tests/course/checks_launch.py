@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import yaml
-from course.page import Page, logs, says, stated
+from course.page import Page, logs, message_of, stated
 from course.rows import Row
 from course.table import row
 from systems import Program
@@ -62,7 +62,7 @@ def step_2_gives_parameters(page: Page, row: Row) -> None:
 @row(70, 71, 72)
 def step_2_says(page: Page, row: Row) -> None:
     launch = launched(page, page.row(69).command)
-    assert says(launch, stated(row.command)) == 1
+    assert message_of(launch, stated(row.command)) == 1
     assert f"[simple_robot_step2-1] [{stated(row.command).severity}] [" in launch.stdout
 
 

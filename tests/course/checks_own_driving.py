@@ -73,7 +73,7 @@ def the_robot_has_all_of_it(page: Page, row: Row) -> None:
 
 
 @row(315, own=True)
-def scans_are_judged_by_the_parameters(page: Page, row: Row) -> None:
+def scans_are_evaluated_by_the_parameters(page: Page, row: Row) -> None:
     """How near is too near, and how weak a return is no obstacle, are parameters."""
     start(page, "robot_navigator")
     assert [each.linear > 0.0 for each in answers(page, 0.8, 0.4)] == [True, False]
@@ -134,9 +134,9 @@ def each_change_is_logged_with_its_time(page: Page, row: Row) -> None:
         page.run(1.5)
     assert page.ask(f"ros2 param set {NAVIGATOR} max_speed 9.0").stderr
     lines = [(float(stamp), text) for stamp, text in STAMP.findall(started.stderr)]
-    told = [[stamp for stamp, text in lines if text.endswith(stated)] for _, stated in CHANGES.values()]
-    assert [len(each) for each in told] == [1] * len(CHANGES)
-    steps = [later - earlier for (earlier,), (later,) in pairwise(told)]
+    reported = [[stamp for stamp, text in lines if text.endswith(stated)] for _, stated in CHANGES.values()]
+    assert [len(each) for each in reported] == [1] * len(CHANGES)
+    steps = [later - earlier for (earlier,), (later,) in pairwise(reported)]
     assert all(1.5 <= each < 2.0 for each in steps), steps
     assert not any("9.0" in text for _, text in lines)
 
@@ -155,8 +155,8 @@ def each_parameter_can_be_set(page: Page, row: Row) -> None:
         wanted = {key: another(page, name, key, values[key]) for key in changeable}
         for key, value in wanted.items():
             text = yaml.safe_dump(value, default_flow_style=True).splitlines()[0]
-            said = page.ask(f'ros2 param set /{name} {key} "{text}"')
-            assert said.stdout == "Set parameter successful\n", (key, said.stderr)
+            output = page.ask(f'ros2 param set /{name} {key} "{text}"')
+            assert output.stdout == "Set parameter successful\n", (key, output.stderr)
         assert dict(flat(parameters(page, name))) == {**values, **wanted}
         page.stop(program)
         if at_start := {key: value for key, value in AT_START.items() if key in values}:

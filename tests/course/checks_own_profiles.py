@@ -109,12 +109,12 @@ def custom_file(page: Page) -> Path:
     return file
 
 
-def as_said(page: Page, sections: dict[str, dict[str, Any]]) -> None:
+def as_written(page: Page, sections: dict[str, dict[str, Any]]) -> None:
     """Every node has these values."""
-    said = {
+    message = {
         node: {name: yaml.safe_load(page.value(f"/{node}", name)) for name in each} for node, each in sections.items()
     }
-    assert said == sections
+    assert message == sections
 
 
 def system(page: Page, words: str) -> Program:
@@ -125,7 +125,7 @@ def system(page: Page, words: str) -> Program:
 def all_nodes_load_the_one_file(page: Page, row: Row) -> None:
     assert set(CUSTOM) == set(NODES)
     system(page, f"config_file:={custom_file(page)}")
-    as_said(page, CUSTOM)
+    as_written(page, CUSTOM)
 
 
 @row(334, own=True)
@@ -135,7 +135,7 @@ def each_environment_has_its_configuration(page: Page, row: Row) -> None:
         launch = launched(page, f"ros2 launch intelligent_robot environment_launch.py environment:={environment}")
         sections = {node: each["ros__parameters"] for node, each in profile(page, environment)[1].items()}
         picked = ("robot_name", "max_speed", "warning_distance", "world")
-        as_said(page, {
+        as_written(page, {
             node: {name: values[name] for name in picked if name in values}
             for node, values in sections.items() if node in ("robot_navigator", "safety_monitor", "simulator")
         })  # fmt: skip
@@ -149,7 +149,7 @@ def arguments_change_the_launch(page: Page, row: Row) -> None:
     assert all(f"    '{each}':\n" in shown for each in ("profile", "config_file", "seed", "world", "navigator"))
     launch = system(page, "profile:=outdoor seed:=23 world:=warehouse navigator:=false use_sim_time:=true")
     assert "/robot_navigator" not in nodes(page)
-    as_said(page, {
+    as_written(page, {
         "simulator": {"seed": 23, "world": "warehouse"},
         "safety_monitor": {"warning_distance": 1.2, "use_sim_time": True},
     })  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from course.page import Page, logs, says, stated
+from course.page import Page, logs, message_of, stated
 from course.rows import Row
 from course.table import row
 from systems import Program
@@ -45,8 +45,8 @@ def an_example_of_each_type_has_that_type(page: Page, row: Row) -> None:
     file.write_text(f"any:\n  ros__parameters:\n    {example}\n", "utf-8")
     page.python(ANY_NODE.format(file=str(file)))
     name, value = example.split(": ")
-    said = page.ask(f"ros2 param get /any {name}").stdout
-    word, shown = said.strip().split(" is: ") if kind != "array" else said.strip().split(" are: ")
+    message = page.ask(f"ros2 param get /any {name}").stdout
+    word, shown = message.strip().split(" is: ") if kind != "array" else message.strip().split(" are: ")
     assert word == WORDS.get(kind, "Double values")
     assert value.strip('"') in (shown, shown.lower()) or f"array('d', {value})" == shown
 
@@ -90,24 +90,24 @@ def the_command_starts_its_node_with_every_value(page: Page, row: Row) -> None:
 def the_command_starts_the_publisher(page: Page, row: Row) -> None:
     starts(page, row.number)
     assert page.ask("ros2 node list").stdout == "/data_publisher\n"
-    said = page.ask("ros2 topic echo /robot_speed --field data", stop_after=1.0).stdout.replace("---", "").split()
-    assert len(said) >= 9
-    assert all(1.0 <= float(each) <= 3.0 for each in said)
+    message = page.ask("ros2 topic echo /robot_speed --field data", stop_after=1.0).stdout.replace("---", "").split()
+    assert len(message) >= 9
+    assert all(1.0 <= float(each) <= 3.0 for each in message)
 
 
 @row(14)
 def default_start(page: Page, row: Row) -> None:
-    assert says(starts(page, STEP_1), stated(row.command)) == 1
+    assert message_of(starts(page, STEP_1), stated(row.command)) == 1
 
 
 @row(15)
 def default_moves(page: Page, row: Row) -> None:
-    assert says(starts(page, STEP_1, 5.0), stated(row.command)) == 2
+    assert message_of(starts(page, STEP_1, 5.0), stated(row.command)) == 2
 
 
 @row(17, 18)
 def custom_speed(page: Page, row: Row) -> None:
-    assert says(starts(page, 16, 3.0), stated(row.command)) == 1
+    assert message_of(starts(page, 16, 3.0), stated(row.command)) == 1
 
 
 @row(19)
@@ -139,7 +139,7 @@ def describe_answers(page: Page, row: Row) -> None:
 
 
 @row(25, 26, 27, 28)
-def describe_says(page: Page, row: Row) -> None:
+def describe_prints(page: Page, row: Row) -> None:
     starts(page, STEP_2)
     assert row.command in [line.strip() for line in page.ask(page.row(24).command).stdout.splitlines()]
 
@@ -166,7 +166,7 @@ def a_name_is_taken(page: Page, row: Row) -> None:
 
 
 @row(32)
-def safety_is_told(page: Page, row: Row) -> None:
+def safety_is_reported(page: Page, row: Row) -> None:
     robot = starts(page, STEP_3)
     for value, text in (("true", row.quoted[1]), ("false", row.quoted[2])):
         page.ask(f"ros2 param set /simple_robot enable_safety {value}")
@@ -189,11 +189,11 @@ def only_the_value_within_is_set(page: Page, row: Row) -> None:
 def set_is_logged(page: Page, row: Row) -> None:
     robot = starts(page, STEP_3)
     page.ask(page.row(row.number - 1).command)
-    assert says(robot, stated(row.command)) == 1
+    assert message_of(robot, stated(row.command)) == 1
 
 
 @row(36)
-def a_refused_value_is_told(page: Page, row: Row) -> None:
+def a_refused_value_is_reported(page: Page, row: Row) -> None:
     """The words are those of real ROS 2 (N4)."""
     starts(page, STEP_3)
     answer = page.ask(page.row(34).command)
@@ -202,6 +202,6 @@ def a_refused_value_is_told(page: Page, row: Row) -> None:
 
 
 @row(39)
-def a_taken_value_is_told(page: Page, row: Row) -> None:
+def a_taken_value_is_reported(page: Page, row: Row) -> None:
     starts(page, STEP_3)
     assert page.ask(page.row(37).command).stdout == f"{row.command}\n"

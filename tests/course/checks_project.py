@@ -25,7 +25,7 @@ def robot(page: Page, seconds: float = 0.5) -> Program:
     return page.node_file("intelligent_robot/robot_node.py", seconds=seconds)
 
 
-def said(program: Program) -> list[str]:
+def logged(program: Program) -> list[str]:
     return [each.message for each in logs(program)]
 
 
@@ -83,7 +83,7 @@ def a_parameter_has_default_and_description(page: Page, row: Row) -> None:
 
 @row(243)
 def the_robot_introduces_itself(page: Page, row: Row) -> None:
-    assert said(robot(page)) == row.quoted
+    assert logged(robot(page)) == row.quoted
 
 
 CHANGES = {
@@ -102,7 +102,7 @@ def a_good_value_is_taken(page: Page, row: Row) -> None:
     assert name is not None
     value = CHANGES[name[0]][0]
     assert page.ask(f"ros2 param set {NODE} {name[0]} {value}").stdout == "Set parameter successful\n"
-    assert said(started)[-1] == row.command.replace("<v>", value)
+    assert logged(started)[-1] == row.command.replace("<v>", value)
     assert page.value(NODE, name[0]) == value
 
 
@@ -118,7 +118,7 @@ def a_bad_value_is_refused(page: Page, row: Row) -> None:
 
 
 @row(254)
-def safety_is_told(page: Page, row: Row) -> None:
+def safety_is_reported(page: Page, row: Row) -> None:
     started = robot(page)
     for value, text in zip(("true", "false"), row.quoted, strict=True):
         page.ask(f"ros2 param set {NODE} enable_safety {value}")
@@ -155,13 +155,13 @@ def ranges_of_zero_are_ignored(page: Page, row: Row) -> None:
 
 
 @row(258)
-def its_status_is_told_each_second(page: Page, row: Row) -> None:
+def its_status_is_reported_each_second(page: Page, row: Row) -> None:
     started = robot(page, 2.5)
     safe = row.quoted[0].replace("<robot_name>", "IntelligentRobot").replace("<v>", "1.0").replace("\\\\", "")
-    assert said(started).count(safe) == 2
+    assert logged(started).count(safe) == 2
     page.ask(f"ros2 param set {NODE} enable_safety false")
     page.run(1.0)
-    assert row.quoted[1] in said(started)[-1]
+    assert row.quoted[1] in logged(started)[-1]
 
 
 @row(262, 263)
@@ -169,7 +169,7 @@ def the_command_starts_the_robot(page: Page, row: Row) -> None:
     started = starts(page, row.number)
     assert page.ask("ros2 node list").stdout == f"{NODE}\n"
     name = "Explorer" if row.number == 263 else "IntelligentRobot"
-    assert said(started)[0].endswith(f"{name} initialized!")
+    assert logged(started)[0].endswith(f"{name} initialized!")
 
 
 SECTION = re.compile(r"^(\w+):$", re.MULTILINE)

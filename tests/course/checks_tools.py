@@ -24,7 +24,7 @@ def a_wild_speed_is_an_error(page: Page, row: Row) -> None:
 
 
 @row(361, own=True)
-def the_package_that_is_not_there_is_told(page: Page, row: Row) -> None:
+def the_package_that_is_not_there_is_reported(page: Page, row: Row) -> None:
     """`ros2 run` says no more than that, `ros2 launch` more after it (N25); once it is there, the lines start it."""
     stated, commands = row.command.partition(": ")[2], (page.row(13).command, page.row(65).command)
     ran, launched = (page.ask(each) for each in commands)

@@ -43,7 +43,7 @@ LOG = re.compile(r"^(?:\[\w+-\d+\] )?\[(\w+)\] \[\d{10}\.\d{9}\] \[([^\]]+)\]: (
 STATED = re.compile(r"^\[(\w+)\] (?:\[([^\]]+)\]: )?(.*)$")
 
 
-class Said(NamedTuple):
+class PrintedText(NamedTuple):
     """A log line: severity, logger, message; the page leaves out the time, and now and then the logger (N2)."""
 
     severity: str
@@ -51,20 +51,20 @@ class Said(NamedTuple):
     message: str
 
 
-def logs(program: Program) -> list[Said]:
+def logs(program: Program) -> list[PrintedText]:
     """What a program, or the nodes of a launch, have logged, in the form that real ROS 2 gives it (N2)."""
     lines = "".join(text for _, text in program.output).splitlines()
-    return [Said(*match.groups()) for line in lines if (match := LOG.match(line))]
+    return [PrintedText(*match.groups()) for line in lines if (match := LOG.match(line))]
 
 
-def stated(text: str) -> Said:
+def stated(text: str) -> PrintedText:
     """A log line as the page prints it."""
     match = STATED.match(text)
     assert match, f"{text!r} is no log line"
-    return Said(match[1], match[2] or "", match[3])
+    return PrintedText(match[1], match[2] or "", match[3])
 
 
-def says(program: Program, line: Said) -> int:
+def message_of(program: Program, line: PrintedText) -> int:
     """How often a program has logged a line; a line without a logger fits any."""
     return sum(each == (line.severity, line.logger or each.logger, line.message) for each in logs(program))
 
@@ -153,7 +153,7 @@ def page(folder: Path, scratch: Path, *, own: bool = False) -> Iterator[Page]:
         discover.use(before)
 
 
-STAND_IN = """import rclpy
+SHIM = """import rclpy
 
 def main():
     rclpy.init()
@@ -178,7 +178,7 @@ def make_workspace(folder: Path, *, complete: bool = False) -> Path:
     shutil.copy(COURSE / "setup.py.txt", robot / "setup.py")
     for package, modules in NOT_PRINTED.items() if complete else ():
         for each in modules:
-            (folder / "src" / package / package / f"{each}.py").write_text(STAND_IN, "utf-8")
+            (folder / "src" / package / package / f"{each}.py").write_text(SHIM, "utf-8")
     return folder
 
 

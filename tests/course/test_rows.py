@@ -7,9 +7,9 @@ import os
 from pathlib import Path
 
 import pytest
+from course.evidence import SHOWN, is_there
 from course.page import make_workspace, page
 from course.rows import Row, rows
-from course.shown import SHOWN, is_there
 from course.table import CHECKS, COMPLETE, OWN, reason
 
 for _module in sorted(Path(__file__).parent.glob("checks_*.py")):

@@ -17,7 +17,7 @@ def bag(suffix: str) -> Callable[[str], None]:
     def run(text: str) -> None:
         from bot_console.tui.cli.verbs.bag import _info
         from bot_console.tui.console.bags.contents import Contents
-        from bot_console.tui.console.bags.opened import OpenedBag
+        from bot_console.tui.console.bags.opened_bag import OpenedBag
         from bot_console.tui.console.bags.reader import Bag
 
         folder = FOLDER / f"bag{suffix}"

@@ -23,7 +23,7 @@ def message_yaml(text: str) -> None:
         message = LaserScan()
         set_message_fields(message, values)
         serialize_message(message)  # nothing is shown that could not be sent
-        told(message)
+        reported(message)
 
 
 def cdr(text: str) -> None:
@@ -34,7 +34,7 @@ def cdr(text: str) -> None:
     data = text.encode("latin-1", "replace")
     for each in (DiagnosticArray, LaserScan):
         with contextlib.suppress(RuntimeError):
-            told(deserialize_message(data, each))
+            reported(deserialize_message(data, each))
 
 
 def cdr_seeds() -> Sequence[str]:
@@ -47,7 +47,7 @@ def cdr_seeds() -> Sequence[str]:
     return [serialize_message(each).decode("latin-1") for each in messages]
 
 
-def told(message: Any) -> None:
+def reported(message: Any) -> None:
     """A message as panes and verbs show it."""
     from bot_console.tui.console.topics.message_tree import tree
     from rosidl_runtime_py import message_to_csv, message_to_yaml
@@ -71,11 +71,11 @@ def pane_text(text: str) -> None:
     from bot_console.tui import format as words
     from bot_console.tui.console.model import ConsoleSnapshot
     from bot_console.tui.console.robot.robot_model import DriveInfo, RobotStop
-    from bot_console.tui.safety.stop_words import release_question
+    from bot_console.tui.safety.stop_messages import release_question
     from bot_console.tui.widgets.status_bar import status_text
     from rich.text import Text
 
-    shown = words.harmless(text)
+    shown = words.sanitize(text)
     assert not any(ord(each) < 32 or 0x7F <= ord(each) < 0xA0 for each in shown), repr(shown)
     for width in (0, 1, 7, 80):
         assert Text(words.cut(text, width)).cell_len <= width

@@ -150,7 +150,7 @@ NUMBERS = (
     "true", "null", "text", "''", "[]", "{}", "[[1.0], 2]", "!!float", "!!int", "*a",
 )  # fmt: skip
 """What stands in a number's place, in any notation of YAML, Python and XML."""
-MOST = 20_000
+MAX_BYTES = 20_000
 """Characters of an input."""
 
 
@@ -159,7 +159,7 @@ def mutated(seeds: Sequence[str], chance: random.Random) -> str:
     text = chance.choice(seeds)
     for _ in range(chance.choice((1, 1, 1, 2, 2, 3, 5, 8))):
         text = chance.choice(CHANGES)(text, seeds, chance)
-    return text[:MOST]
+    return text[:MAX_BYTES]
 
 
 def _place(text: str, chance: random.Random) -> int:

@@ -29,8 +29,8 @@ def quietly(run: Callable[[Sequence[str]], object]) -> Callable[[str], None]:
     """Run a command line; its exit is an answer."""
 
     def fed(text: str) -> None:
-        said = io.StringIO()
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), contextlib.suppress(SystemExit):
+        output = io.StringIO()
+        with contextlib.redirect_stdout(output), contextlib.redirect_stderr(output), contextlib.suppress(SystemExit):
             run(text.split(" "))
 
     return fed
@@ -73,11 +73,11 @@ def line(text: str) -> None:
 def interface_verbs(words: Sequence[str]) -> None:
     from ros2cli.command_line import main
 
-    with contextlib.redirect_stderr(io.StringIO()) as said:
+    with contextlib.redirect_stderr(io.StringIO()) as output:
         main(["interface", *words])
     # A name that a package lacks is told as ROS 2 tells it, by this line below a traceback.
-    recorded = re.fullmatch(r".*AttributeError: module '\S+' has no attribute '\w+'\n", said.getvalue(), re.DOTALL)
-    assert recorded or "Traceback" not in said.getvalue(), said.getvalue()
+    recorded = re.fullmatch(r".*AttributeError: module '\S+' has no attribute '\w+'\n", output.getvalue(), re.DOTALL)
+    assert recorded or "Traceback" not in output.getvalue(), output.getvalue()
 
 
 def filter(text: str) -> None:

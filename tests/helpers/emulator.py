@@ -35,21 +35,21 @@ class Emulator:
         elif final == "m":
             self._style = styled(self._style, numbers)
 
-    def _put(self, letter: str) -> None:
-        width = get_character_cell_size(letter)
+    def _put(self, character: str) -> None:
+        width = get_character_cell_size(character)
         row = self.cells[self._y]
         if not width:
             before = self._x - 1 - (row[self._x - 1][0] == "")
-            row[before] = (row[before][0] + letter, row[before][1])
+            row[before] = (row[before][0] + character, row[before][1])
             return
-        for at, shown in enumerate((letter, "")[:width]):
+        for at, shown in enumerate((character, "")[:width]):
             if self._x + at < len(row):
                 row[self._x + at] = (shown, ";".join(self._style))
         self._x += width
 
     def lines(self) -> list[str]:
         """The letters of each line."""
-        return ["".join(letter for letter, _ in row) for row in self.cells]
+        return ["".join(character for character, _ in row) for row in self.cells]
 
 
 def styled(before: tuple[str, ...], numbers: str) -> tuple[str, ...]:

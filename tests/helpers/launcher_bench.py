@@ -13,7 +13,7 @@ from bot_console.tui.cli.live.vitals import find_vitals
 from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo
 
-PATIENCE = 15.0
+TIMEOUT_S = 15.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 WAITS = """
@@ -95,11 +95,11 @@ class Bench:
 
     def run(self, entities: str, name: str = "system.launch.py", **arguments: str) -> Any:
         """Launch these entities; the answer."""
-        return self.launcher.launch(self.file(entities, name), arguments).result(PATIENCE)
+        return self.launcher.launch(self.file(entities, name), arguments).result(TIMEOUT_S)
 
     def do(self, verb: str, process: ProcessInfo) -> Any:
         """Ask for a verb; the answer."""
-        return getattr(self.launcher, verb)(process.key).result(PATIENCE)
+        return getattr(self.launcher, verb)(process.key).result(TIMEOUT_S)
 
     @property
     def info(self) -> LaunchInfo:
@@ -112,7 +112,7 @@ class Bench:
 
     def until(self, condition: Callable[[], Any], what: str = "it") -> Any:
         """Wait until something is so."""
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + TIMEOUT_S
         pause = threading.Event()
         while not (found := condition()):
             assert time.monotonic() < deadline, f"waited in vain for {what}: {self.info}"

@@ -27,7 +27,7 @@ class Outcome:
         return "\n".join(self.lines)
 
     @property
-    def said(self) -> list[str]:
+    def message(self) -> list[str]:
         """What the launch file itself logged."""
         prefix = "[INFO] [launch.user]: "
         return [each.removeprefix(prefix) for each in self.lines if each.startswith(prefix)]

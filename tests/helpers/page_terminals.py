@@ -13,8 +13,8 @@ from bot_console.runtime.process import RealTime
 from bot_console.runtime.process.virtual.install import reinstall_stdio, uninstall_virtual_process
 from bot_console.runtime.workspace import discover
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.appearance import Appearance
 from bot_console.tui.console.connection.ros_console import RosConsole
-from bot_console.tui.look import Look
 from bot_console.tui.pane_table import PaneEntry
 from course.page import make_workspace
 from fakes.launcher import FakeLauncher
@@ -23,7 +23,7 @@ from rest import at_rest
 from systems import Program, System
 from textual.events import Paste
 
-PATIENCE = 30.0
+TIMEOUT_S = 30.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 
@@ -32,7 +32,7 @@ class Screen(Session):
 
     async def until(self, true: Callable[[], object], what: str) -> None:
         """Let the app go on until something is so."""
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + TIMEOUT_S
         while not true():
             assert time.monotonic() < deadline, f"no {what} on\n{self.text()}"
             await self.pilot.pause(0.02)
@@ -63,7 +63,7 @@ class Terminals:
         self.programs: list[Program] = []
         self.console = RosConsole()
         self.console.start()
-        assert self.console.wait_ready(PATIENCE)
+        assert self.console.wait_ready(TIMEOUT_S)
 
     def start(self, command: str) -> Program:
         """Type a `ros2` line into a terminal of its own, where it goes on."""
@@ -83,14 +83,14 @@ class Terminals:
         self,
         play: Callable[[Screen], Awaitable[None]],
         size: tuple[int, int] = (120, 40),
-        look: Look | None = None,
+        appearance: Appearance | None = None,
         plugins: Callable[[], Sequence[PaneEntry]] = tuple,
     ) -> None:
         """Open the console beside the terminals and play a scene in it."""
 
         async def main() -> None:
             launcher = FakeLauncher()
-            app = BotConsoleApp(self.console, launcher, refresh_hz=0, look=look, plugins=plugins)
+            app = BotConsoleApp(self.console, launcher, refresh_hz=0, appearance=appearance, plugins=plugins)
             async with app.run_test(size=size, notifications=True) as pilot:
                 reinstall_stdio()
                 screen: Any = Screen(app, pilot, self.console, launcher)  # type: ignore[arg-type] # a real one

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.look import Look
+from bot_console.tui.appearance import Appearance
 from bot_console.tui.panes.alarms.pane import AlarmsPane
 from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
 from bot_console.tui.panes.images.pane import ImagesPane
@@ -44,8 +44,8 @@ class Session:
 
     async def type(self, text: str) -> None:
         """Type a text into the field that has the keyboard, faster than anything is drawn."""
-        for letter in text:
-            self.app.post_message(events.Key(_character_to_key(letter), letter))
+        for character in text:
+            self.app.post_message(events.Key(_character_to_key(character), character))
         await self.settle()
 
     async def click(self, text: str, *, times: int = 1, last: bool = False) -> None:
@@ -100,13 +100,13 @@ def run(
     size: tuple[int, int] = (80, 24),
     *,
     faults_wanted: bool = False,
-    look: Look | None = None,
+    appearance: Appearance | None = None,
 ) -> None:
     """Run the app at a size and play a scene in it; a fault in a pane fails the test unless it is wanted."""
 
     async def main() -> None:
         console, launcher = system
-        app = BotConsoleApp(console, launcher, FakeCommandLine(console.asked), refresh_hz=0, look=look)
+        app = BotConsoleApp(console, launcher, FakeCommandLine(console.asked), refresh_hz=0, appearance=appearance)
         with at_rest():
             async with app.run_test(size=size, notifications=True) as pilot:
                 session = Session(app, pilot, console, launcher)

@@ -29,11 +29,11 @@ from textual._context import active_app
 from textual.css.stylesheet import Stylesheet
 from textual.screen import Screen
 
-LOOKS = 100_000
+MAX_POLLS = 100_000
 """Turns of the event loop after which what never rests is left alone."""
 _RUNNERS = frozenset(threading.enumerate())
 """Threads of whoever runs the tests, which are there before the first test and do nothing for an app."""
-SOON = 0.02
+POLL_S = 0.02
 """What is due within these s is waited for."""
 
 
@@ -49,7 +49,7 @@ async def rest_undrawn(min_sleep: float = 0.02, max_sleep: float = 1) -> None:
 
 async def _at_rest(min_sleep: float, max_sleep: float, *, draws: bool) -> None:
     loop: Any = asyncio.get_running_loop()
-    end = loop.time() + SOON
+    end = loop.time() + POLL_S
     await _drained(loop, draws=draws)
     if not _RUNNERS.issuperset(threading.enumerate()):
         await _wait.wait_for_idle(min_sleep, max_sleep)
@@ -61,7 +61,7 @@ async def _at_rest(min_sleep: float, max_sleep: float, *, draws: bool) -> None:
 
 async def _drained(loop: Any, *, draws: bool) -> None:
     app = active_app.get(None)
-    for _ in range(LOOKS):
+    for _ in range(MAX_POLLS):
         await asyncio.sleep(0)
         if loop._ready:
             continue

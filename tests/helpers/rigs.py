@@ -24,7 +24,7 @@ from bot_console.runtime.rmw.middleware import choose_middleware
 from bot_console.runtime.rmw.zenoh.bus import ZenohBus
 from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
 from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
-from bot_console.runtime.rmw.zenoh.network.reach import Tls
+from bot_console.runtime.rmw.zenoh.network.reachability import Tls
 from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.settings import Serving
@@ -61,7 +61,7 @@ LOGGER_SERVICE: dict[str, Any] = {
     name: True for name in ("enable_logger_service",) if name in inspect.signature(rclpy.create_node).parameters
 }
 """What a node is given so that levels of its loggers can be set; Humble has no such service."""
-PATIENCE = 10.0
+TIMEOUT_S = 10.0
 """Seconds after which a test gives up; nothing is measured by it."""
 TOO_FAST = "too fast for indoors"
 DESCRIPTION = "Highest speed (m/s)"
@@ -94,7 +94,7 @@ def IN_ONE(side: str) -> None:
 
 def until(condition: Callable[[], T], what: str = "it") -> T:
     """Wait until something is so."""
-    deadline, pause = time.monotonic() + PATIENCE, threading.Event()
+    deadline, pause = time.monotonic() + TIMEOUT_S, threading.Event()
     while not (found := condition()):
         assert time.monotonic() < deadline, f"waited in vain for {what}"
         pause.wait(0.002)
@@ -118,7 +118,7 @@ class Rig(Protocol):
     received: Sequence[tuple[float, float]]
     """The velocities that have reached the robot."""
 
-    def say(self, severity: Severity, text: str) -> None:
+    def show_text(self, severity: Severity, text: str) -> None:
         """Let the robot log."""
         ...
 
@@ -187,9 +187,9 @@ class FakeRig:
         self.console = FakeConsole(ConsoleSnapshot(graph=graph, parameters=trees, profiles=profiles))
         self.console.series["/level/data"] = ([], [])
 
-    def say(self, severity: Severity, text: str) -> None:
+    def show_text(self, severity: Severity, text: str) -> None:
         """Let the robot log."""
-        self.console.say(severity, "robot", text)
+        self.console.show_text(severity, "robot", text)
 
     def forbid_speed(self) -> None:
         """Let the robot's own rule refuse every speed."""
@@ -250,7 +250,7 @@ class RosRig:
             patch.setenv("ROS_DOMAIN_ID", str(domain))
             self.console = RosConsole(profile_folders=[folder], own_profiles=folder / "own", **options)
             self.console.start()
-            assert self.console.wait_ready(PATIENCE)
+            assert self.console.wait_ready(TIMEOUT_S)
         until(lambda: {ROBOT, ARM} <= self.console.snapshot().parameters.keys(), "the robot's parameters")
         until(lambda: self.console.snapshot().drive.topic, "the robot's velocity topic")
 
@@ -279,7 +279,7 @@ class RosRig:
         with contextlib.suppress(ExternalShutdownException):
             self._executor.spin()
 
-    def say(self, severity: Severity, text: str) -> None:
+    def show_text(self, severity: Severity, text: str) -> None:
         """Let the robot log."""
         logger = self._node.get_logger()
         by_severity = {  # one call site each, as rclpy wants it
@@ -313,7 +313,7 @@ class RosRig:
         self._node.destroy_node()
         self._arm.destroy_node()
         self._context.try_shutdown()
-        self._thread.join(PATIENCE)
+        self._thread.join(TIMEOUT_S)
         set_logger_level("robot", LoggingSeverity.UNSET)  # which is one for all nodes of this process
 
 

@@ -31,11 +31,11 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.robot.robot_model import DriveInfo, GridMap, Pose, WorldInfo
-from bot_console.tui.console.sights.model import IMAGE, Diagnostics, Level, Picture
+from bot_console.tui.console.sensors.model import IMAGE, Diagnostics, Level, Picture
 from bot_console.tui.console.traffic import Measure
 from fakes.console import START, FakeConsole
 from fakes.launcher import FakeLauncher
-from fakes.sights import status
+from fakes.sensors import status
 
 ODOM_TOPIC = "/odom"
 SPEED, LIMIT, NEAREST = "/odom/twist.twist.linear.x", "/robot_navigator:max_speed", "/telemetry/nearest_obstacle/data"
@@ -256,7 +256,7 @@ def live(parts: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
         Change(1, START - 5 * 10**9, "/robot_navigator", "max_speed", 1.0, 10.0, ChangeSource.EDIT, False, "too fast"),
     ]  # fmt: skip
     console.traffic.figures.update(figures())
-    console.sights.info = diagnosed()
+    console.sensors.info = diagnosed()
     console.traffic.messages[ODOM_TOPIC] = (odometry(), ODOM)
     console.differences["competition"] = differences()
     console.differences["indoor"] = ()
@@ -268,7 +268,7 @@ def live(parts: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
         (Severity.DEBUG, "simulator", "step 1200"),
     )
     for number, (severity, node, text) in enumerate(lines):
-        console.say(severity, node, text, START + number * 250_000_000)
+        console.show_text(severity, node, text, START + number * 250_000_000)
     files = (
         "/opt/launch/robot_system.launch.py",
         "/opt/launch/single_robot.launch.py",
@@ -283,7 +283,7 @@ def with_camera(*names: str) -> tuple[FakeConsole, FakeLauncher]:
     topics = tuple(Endpoint(f"/{each}/image", (IMAGE,)) for each in names)
     console.change(graph=replace(console.current.graph, topics=(*console.current.graph.topics, *topics)))
     pixels = bytes(value for y in range(24) for x in range(32) for value in (x * 8, y * 10, 120))
-    console.sights.shown = Picture(topics[0].name, 1, 640, 480, "rgb8", 32, 24, pixels)
+    console.sensors.shown = Picture(topics[0].name, 1, 640, 480, "rgb8", 32, 24, pixels)
     return console, launcher
 
 
@@ -331,7 +331,7 @@ def hostile(text: str = BELL) -> tuple[FakeConsole, FakeLauncher]:
     )
     node = NodeInfo(f"/{text}", (Endpoint(f"/out{text}", (text,), text),), (Endpoint(f"/in{text}", (text,)),))
     process = ProcessInfo("k", text, ProcessState.CRASHED, None, (text,), (text,), problem=text)
-    console.say(Severity.FATAL, text, text)
+    console.show_text(Severity.FATAL, text, text)
     console.change(
         parameters=MappingProxyType({**console.current.parameters, evil.node: evil}),
         graph=GraphInfo((*console.current.graph.nodes, node), console.current.graph.topics),
@@ -341,6 +341,6 @@ def hostile(text: str = BELL) -> tuple[FakeConsole, FakeLauncher]:
         drive=replace(driving(), topic=text, limited_by=text),
     )
     console.differences[text] = (ProfileDifference(text, text, text, text, text),)
-    console.sights.info = Diagnostics((status(f"a/{text}", Level.ERROR, text, key=text),), (text,))
+    console.sensors.info = Diagnostics((status(f"a/{text}", Level.ERROR, text, key=text),), (text,))
     console.series[f"/{text}"] = ([1.0, 2.0], [1.0, 2.0])
     return console, FakeLauncher((LaunchArgument(text, text, text, (text,)),), (text,))

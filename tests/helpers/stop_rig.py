@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Callable
 
 from bot_console.tui.console.robot.stop_link import STATUS, StopLink
-from bot_console_robot.safety.emergency_stop import ARBITER, BASE, LATCHED, REPORT_LOOKS, EmergencyStop
+from bot_console_robot.safety.emergency_stop import ARBITER, BASE, LATCHED, REPORT_POLLS, EmergencyStop
 from diagnostic_msgs.msg import DiagnosticStatus
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
@@ -84,7 +84,7 @@ class StopRig:
     def report(self) -> None:
         """Let as much time go by for the locks as is between two of their reports."""
         for lock in self.locks.values():
-            for _ in range(REPORT_LOOKS):
+            for _ in range(REPORT_POLLS):
                 lock._watch()
         self.settle()
 

@@ -66,12 +66,12 @@ def _fault(words: list[str]) -> str:
 
 def _quietly(parse) -> str:
     """What an argparse parser complains of."""
-    said = io.StringIO()
-    with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
+    message = io.StringIO()
+    with contextlib.redirect_stderr(message), contextlib.redirect_stdout(io.StringIO()):
         try:
             return parse() or ""
         except SystemExit as stop:
-            return said.getvalue() or f"ends with {stop.code}" if stop.code else ""
+            return message.getvalue() or f"ends with {stop.code}" if stop.code else ""
 
 
 def _console(words: list[str]) -> str:

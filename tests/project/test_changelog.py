@@ -9,7 +9,7 @@ ENTRY = re.compile(r"^- .*(?:\n  .*)*", re.MULTILINE)
 WORD = re.compile(r"[\w:/~-]{4,}")
 SAME_FACT = 0.75
 """Share of the shorter entry's words from which on two entries are one fact: different facts stay below 0.65."""
-FEWEST_WORDS = 6
+MIN_WORDS = 6
 
 
 def repeated(text):
@@ -18,7 +18,7 @@ def repeated(text):
     return [
         (first, second)
         for (first, words), (second, others) in combinations(entries, 2)
-        if (fewest := min(len(words), len(others))) >= FEWEST_WORDS and len(words & others) / fewest >= SAME_FACT
+        if (fewest := min(len(words), len(others))) >= MIN_WORDS and len(words & others) / fewest >= SAME_FACT
     ]
 
 

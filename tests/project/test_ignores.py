@@ -29,12 +29,12 @@ def without_a_reason(text: str) -> Iterator[int]:
     lines = text.splitlines()
     for number, (above, line, below) in enumerate(zip(["", *lines], lines, [*lines[1:], ""], strict=False), 1):
         if match := ON_A_LINE.search(line):
-            said = match[1]
+            message = match[1]
         elif match := FOR_A_FILE.match(line):
-            said = " ".join([match[1], *(each for each in (above, below) if each.startswith("#"))])
+            message = " ".join([match[1], *(each for each in (above, below) if each.startswith("#"))])
         else:
             continue
-        if len(WORDS.findall(said)) < 2:
+        if len(WORDS.findall(message)) < 2:
             yield number
 
 

@@ -19,7 +19,7 @@ def made_up(text: str) -> Iterator[int]:
             yield node.lineno
 
 
-def test_what_is_looked_for_is_found() -> None:
+def test_what_is_searched_for_is_found() -> None:
     assert sorted(made_up("import os\nos.getpid()\nfrom os import getpid\nreal.getpid()\n")) == [2, 3]
 
 

@@ -20,7 +20,7 @@ def test_the_page_is_made_by_the_script():
     assert (ROOT / "docs" / "what-runs.md").read_text(encoding="utf-8") == tool().page(), "python tools/what_runs.py"
 
 
-def test_packages_that_are_not_here_say_what_brings_them():
+def test_packages_that_are_not_here_report_what_brings_them():
     rows = [each.strip("|").split("|") for each in tool().page().splitlines() if each.startswith("| `")]
     assert [row[0] for row in rows if row[1].strip() == "no" and not row[2].strip()] == []
 

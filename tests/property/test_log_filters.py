@@ -118,7 +118,7 @@ words_and_lines = given(records, filters, st.integers(1, 4))
 
 
 @words_and_lines
-def test_the_log_finds_what_the_words_say(lines, words, times):
+def test_the_log_finds_what_the_words_mean(lines, words, times):
     the_log_finds(lines, words, times)
 
 
@@ -171,12 +171,12 @@ def test_rules_hide_and_show(lines, words, hidden, only, minimum):
 
 
 @given(st.lists(st.sampled_from("aab"), max_size=60), st.integers(2, 40), st.integers(1, 5), st.data())
-def test_rows_of_equal_lines_are_one_however_they_come(said, capacity, slice_of, data):
+def test_rows_of_equal_lines_are_one_however_they_come(message, capacity, slice_of, data):
     """Older lines are found in slices, newer ones come between, the oldest fall out of a small store."""
     store, searched = LogStore(capacity), None
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(view, "FIRST_SLICE", slice_of)
-        for text in said:
+        for text in message:
             store.add(0, Severity.INFO, "bat", text)
             if searched is None and data.draw(st.integers(0, 9)) == 0:
                 searched = SearchedView(store, LogFilter(folded=True, words="!zoo"))
@@ -185,9 +185,9 @@ def test_rows_of_equal_lines_are_one_however_they_come(said, capacity, slice_of,
         searched = searched or SearchedView(store, LogFilter(folded=True))
         while searched.work():
             pass
-    kept = [(number, said[number]) for number in range(store.state.first, store.state.end)]
+    kept = [(number, message[number]) for number in range(store.state.first, store.state.end)]
     rows = [[number for number, _ in row] for _, row in groupby(kept, lambda each: each[1])]
-    numbers = searched.look().numbers
+    numbers = searched.poll().numbers
     assert [numbers[index] for index in range(len(numbers))] == [row[-1] for row in rows]
     assert [numbers.count(index) for index in range(len(numbers))] == [len(row) for row in rows]
     assert [numbers.place(number) for row in rows for number in row] == [

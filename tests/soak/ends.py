@@ -21,7 +21,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[1] / "acceptance" / "console"))
 from terminal import Terminal
 
-PATIENCE = 60.0
+TIMEOUT_S = 60.0
 UNCLEAN = ("killed", "crash")
 """Kinds after which files may be left: the next start removes them."""
 
@@ -95,10 +95,10 @@ def end(kind: str, folder: Path, base: Path) -> str:
         begun = b"has died" if kind in NODES else b"robot_navigator"
         terminal.read_until(lambda: begun in terminal.output, "the robot or the node's death")
         KINDS[kind](terminal)
-        code = terminal.process.wait(PATIENCE) if terminal.master < 0 else terminal.wait()
+        code = terminal.process.wait(TIMEOUT_S) if terminal.master < 0 else terminal.wait()
         if code in (-signal.SIGSEGV, -signal.SIGABRT) and kind != "crash":
             return f"ended by signal {-code}"
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + TIMEOUT_S
         while wrong := _left(terminal, kind, base):
             if time.monotonic() > deadline:
                 return wrong

@@ -20,7 +20,7 @@ from contextlib import contextmanager
 from typing import Any
 
 BUSY = "while True: pass"
-PATIENCE = 600.0
+TIMEOUT_S = 600.0
 """Seconds after which a run is given up; nothing is measured by it."""
 
 
@@ -40,7 +40,7 @@ def run(seconds: float) -> str:
     """How one run ended: the digest of its report, marked where it is not deterministic, or its last words."""
     words = ["--headless", "--fast", "--seed", "1", "--duration", str(seconds)]
     line = [sys.executable, "-m", "bot_console.tui", *words]
-    done = subprocess.run(line, capture_output=True, text=True, check=False, timeout=PATIENCE)
+    done = subprocess.run(line, capture_output=True, text=True, check=False, timeout=TIMEOUT_S)
     if done.returncode:
         return f"exit code {done.returncode}: {done.stderr[-200:]}"
     report: dict[str, Any] = json.loads(done.stdout)

@@ -24,7 +24,7 @@ from typing import Any
 from bot_console.runtime.warm_up import warm_up
 
 PROCESSES = 50
-PATIENCE = 120.0
+TIMEOUT_S = 120.0
 """Seconds until a process says what it has seen so far."""
 PERIOD = 0.25
 HOLDERS, NODES, ENTITIES = 20, 10, 25
@@ -35,19 +35,19 @@ Work = Callable[[int, Callable[[], None]], Any]
 
 def together(count: int, work: Work, steps: int) -> list[Any]:
     """The reports of processes that are forked, wait, and take each step at one moment."""
-    doors = [os.pipe() for _ in range(steps)]
+    addresses = [os.pipe() for _ in range(steps)]
     arrivals, reports, children = os.pipe(), [os.pipe() for _ in range(count)], []
     for number in range(count):
         pid = os.fork()
         if pid == 0:
-            passed = iter(doors)
+            passed = iter(addresses)
 
             def wait(passed: Any = passed) -> None:
                 os.write(arrivals[1], b".")
                 os.read(next(passed)[0], 1)
 
             try:
-                for _, end in doors:
+                for _, end in addresses:
                     os.close(end)
                 os.write(reports[number][1], json.dumps(work(number, wait)).encode())
                 signal.pause()
@@ -56,17 +56,17 @@ def together(count: int, work: Work, steps: int) -> list[Any]:
             finally:  # whatever ends it: it would go on as its parent, and fork as many again
                 os._exit(1)
         children.append(pid)
-    for _, end in doors:
+    for _, end in addresses:
         for _ in range(count):
             os.read(arrivals[0], 1)
         os.close(end)
-    told = [json.loads(os.read(report[0], 1 << 16)) for report in reports]
+    reported = [json.loads(os.read(report[0], 1 << 16)) for report in reports]
     for pid in children:
         os.kill(pid, signal.SIGKILL)
         os.waitpid(pid, 0)
-    for end in (*arrivals, *(each[0] for each in doors), *(each for pair in reports for each in pair)):
+    for end in (*arrivals, *(each[0] for each in addresses), *(each for pair in reports for each in pair)):
         os.close(end)
-    return told
+    return reported
 
 
 def joined(name: str) -> Any:
@@ -81,7 +81,7 @@ def joined(name: str) -> Any:
 
 def until(done: Callable[[], bool], each: Callable[[], object] = lambda: None) -> bool:
     """Whether something came about in time; `each` is done before each look."""
-    deadline = time.monotonic() + PATIENCE
+    deadline = time.monotonic() + TIMEOUT_S
     while not done():
         if time.monotonic() > deadline:
             return False
@@ -148,17 +148,17 @@ def own_mb() -> float:
 
 def graph() -> dict[str, Any]:
     """One system of many nodes."""
-    told = together(HOLDERS, hold, 2)
+    reported = together(HOLDERS, hold, 2)
     return {
-        "entities": [min(each["entities"] for each in told), HOLDERS * NODES * ENTITIES],
-        "complete": all(each["complete"] for each in told),
-        "took_s": round(max(each["took"] for each in told), 2),
+        "entities": [min(each["entities"] for each in reported), HOLDERS * NODES * ENTITIES],
+        "complete": all(each["complete"] for each in reported),
+        "took_s": round(max(each["took"] for each in reported), 2),
         "cpu_s": {
-            "most": round(max(each["cost"] for each in told), 2),
-            "all": round(sum(each["cost"] for each in told), 2),
+            "most": round(max(each["cost"] for each in reported), 2),
+            "all": round(sum(each["cost"] for each in reported), 2),
         },
-        "rest": round(sum(each["rest"] for each in told), 3),
-        "grown_mb": round(max(each["grown"] for each in told), 2),
+        "rest": round(sum(each["rest"] for each in reported), 3),
+        "grown_mb": round(max(each["grown"] for each in reported), 2),
     }
 
 
@@ -172,8 +172,8 @@ def main() -> None:
     for _ in range(given.meet):
         with tempfile.TemporaryDirectory(prefix="bc-", dir="/tmp") as folder:
             os.environ["BOT_CONSOLE_SOCKET_DIR"] = f"{folder}/s"
-            told = together(PROCESSES, meet, 1)
-        print(json.dumps({"pairs": [sum(told), PROCESSES * (PROCESSES - 1)]}), flush=True)
+            reported = together(PROCESSES, meet, 1)
+        print(json.dumps({"pairs": [sum(reported), PROCESSES * (PROCESSES - 1)]}), flush=True)
     if given.graph:
         with tempfile.TemporaryDirectory(prefix="bc-", dir="/tmp") as folder:
             os.environ["BOT_CONSOLE_SOCKET_DIR"] = f"{folder}/s"

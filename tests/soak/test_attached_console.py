@@ -22,7 +22,7 @@ import rclpy
 from bot_console.tui.console.model import LogFilter, Severity
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rigs import PATIENCE, ROBOT, RosRig, is_embedded_rclpy, machine_rig, until
+from rigs import ROBOT, TIMEOUT_S, RosRig, is_embedded_rclpy, machine_rig, until
 
 MINUTES = float(os.environ.get("BOT_CONSOLE_SOAK_MINUTES", "30"))
 WAYS = [
@@ -83,21 +83,21 @@ def visitor(domain: int, name: str) -> Iterator[None]:
         executor.shutdown(timeout_sec=1.0)
         node.destroy_node()
         context.try_shutdown()
-        thread.join(PATIENCE)
+        thread.join(TIMEOUT_S)
 
 
 def a_round(rig: RosRig, number: int, seen: Seen) -> None:
     """Set, be refused, publish, log, drive; now and then look at something else, stop, and have a visitor."""
     console = rig.console
     began = time.monotonic()
-    taken = console.set_parameters(ROBOT, {"speed": 0.5 + number % 10 / 10}).result(PATIENCE)
-    refused = console.set_parameters(ROBOT, {"speed": 9.0}).result(PATIENCE)
+    taken = console.set_parameters(ROBOT, {"speed": 0.5 + number % 10 / 10}).result(TIMEOUT_S)
+    refused = console.set_parameters(ROBOT, {"speed": 9.0}).result(TIMEOUT_S)
     seen.slowest = max(seen.slowest, time.monotonic() - began)
     assert [each.accepted for each in (*taken, *refused)] == [True, False]
     for each in range(10):
         rig.publish(float(each))
     if number % 2 == 0:
-        rig.say(Severity.WARN, f"line {seen.lines}")
+        rig.show_text(Severity.WARN, f"line {seen.lines}")
         seen.lines += 1
     console.drive(0.1, 0.0)
     if number % SHORT == 0:

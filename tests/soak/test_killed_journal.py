@@ -42,7 +42,7 @@ def kill_writers(file: Path, times: int) -> None:
     moments = random.Random(times)
     last = 0
     for _ in range(times):
-        told, noted = os.pipe()
+        reported, noted = os.pipe()
         child = os.fork()
         if child == 0:
             note_for_ever(file, last + 1, noted)
@@ -50,7 +50,7 @@ def kill_writers(file: Path, times: int) -> None:
         time.sleep(moments.uniform(0.0, 0.1))
         os.kill(child, signal.SIGKILL)
         os.waitpid(child, 0)
-        with os.fdopen(told, "rb") as pipe:
+        with os.fdopen(reported, "rb") as pipe:
             seen = pipe.read()
         newest = int.from_bytes(seen[-NUMBER:], "little") if seen else last
         there = numbers(file)

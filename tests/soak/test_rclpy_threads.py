@@ -23,7 +23,7 @@ from std_msgs.msg import Int64
 
 pytestmark = pytest.mark.soak
 
-PATIENCE = 60.0
+TIMEOUT_S = 60.0
 """How long (s) a thread may take to end before it counts as hung."""
 MINUTE = 60.0
 BACKLOG = 2_000
@@ -65,7 +65,7 @@ class Threads:
 
     def join(self, busy: float = 0.0) -> None:
         """Wait for all, which may work for `busy` s; fail for one that hangs, and raise what one has raised."""
-        end = time.monotonic() + busy + PATIENCE
+        end = time.monotonic() + busy + TIMEOUT_S
         for thread in self._threads:
             thread.join(max(0.0, end - time.monotonic()))
             assert not thread.is_alive(), "a thread hangs"
@@ -75,7 +75,7 @@ class Threads:
 
 def eventually(what: Callable[[], bool]) -> None:
     """Wait until something is so."""
-    end = time.monotonic() + PATIENCE
+    end = time.monotonic() + TIMEOUT_S
     while not what():
         assert time.monotonic() < end, "it did not come about"
         time.sleep(0.001)
@@ -100,7 +100,7 @@ def test_ping_pong_between_two_executors() -> None:
             executor.add_node(node)
             threads.start(executor.spin)
         ping.publish(Int64())
-        assert done.wait(PATIENCE)
+        assert done.wait(TIMEOUT_S)
         ctx.shutdown()
         threads.join()
 
@@ -173,29 +173,29 @@ def test_an_exclusive_group_is_exclusive_under_pressure() -> None:
 def test_calls_from_many_threads() -> None:
     per_thread, callers, threads, wrong = 1_000, 5, Threads(), []
     with context() as ctx:
-        node, asker = Node("server", context=ctx), Node("asker", context=ctx)
+        node, requester = Node("server", context=ctx), Node("asker", context=ctx)
 
         def add(request: Any, response: Any) -> Any:
             response.sum = request.a + request.b
             return response
 
         node.create_service(AddTwoInts, "add", add, callback_group=ReentrantCallbackGroup())
-        client = asker.create_client(AddTwoInts, "add", callback_group=ReentrantCallbackGroup())
+        client = requester.create_client(AddTwoInts, "add", callback_group=ReentrantCallbackGroup())
         executor = MultiThreadedExecutor(3, context=ctx)
         executor.add_node(node)
-        executor.add_node(asker)
+        executor.add_node(requester)
         threads.start(executor.spin)
 
         def ask(first: int) -> None:
             for number in range(per_thread):
-                answer = client.call(AddTwoInts.Request(a=first, b=number), timeout_sec=PATIENCE)
+                answer = client.call(AddTwoInts.Request(a=first, b=number), timeout_sec=TIMEOUT_S)
                 if answer is None or answer.sum != first + number:
                     wrong.append((first, number, answer))
 
-        askers = Threads()
+        requesters = Threads()
         for caller in range(callers):
-            askers.start(ask, caller * 1_000_000)
-        askers.join()
+            requesters.start(ask, caller * 1_000_000)
+        requesters.join()
         executor.shutdown()
         threads.join()
     assert (wrong, client._pending_requests) == ([], {})
@@ -296,7 +296,7 @@ def test_a_minute_of_everything() -> None:
                         sent[number] += 1
                     publisher.publish(Int64(data=number))
                 client = node.create_client(AddTwoInts, f"add{target}", callback_group=ReentrantCallbackGroup())
-                assert client.call(AddTwoInts.Request(), timeout_sec=PATIENCE) is not None
+                assert client.call(AddTwoInts.Request(), timeout_sec=TIMEOUT_S) is not None
                 with lock:
                     served[0] += 1
                 executor.remove_node(node)

@@ -13,7 +13,7 @@ def test_a_number_is_a_domain(monkeypatch: pytest.MonkeyPatch, text: str, number
 
 
 @pytest.mark.parametrize("text", ["x", "-1", "1.5", "0x1", "٣", "²", " 1", pytest.param("9" * 5000, id="long")])
-def test_anything_else_is_told_shortly(monkeypatch: pytest.MonkeyPatch, text: str) -> None:
+def test_anything_else_is_reported_shortly(monkeypatch: pytest.MonkeyPatch, text: str) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", text)
     with pytest.raises(ValueError, match=r"ROS_DOMAIN_ID is '.{1,40}', not a number"):
         domain_id()

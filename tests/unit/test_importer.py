@@ -10,7 +10,7 @@ import pytest
 from bot_console.runtime.importer import OWN_PACKAGE, OWN_PACKAGES, is_embedded, node_modules
 from bot_console.runtime.process import NodeProcess, file_program
 from bot_console.runtime.workspace import discover
-from bot_console.runtime.workspace.own import FIRST_VARIABLE, NAME, PAGE_NAME
+from bot_console.runtime.workspace.builtin_package import FIRST_VARIABLE, NAME, PAGE_NAME
 
 
 def test_embedded_names():
@@ -20,7 +20,7 @@ def test_embedded_names():
     assert not is_embedded(OWN_PACKAGE)
 
 
-def test_own_nodes_are_imported_anew_for_each_start():
+def test_own_nodes_are_imported_again_for_each_start():
     shared = importlib.import_module(OWN_PACKAGE)
     first, second = node_modules().load(OWN_PACKAGE), node_modules().load(OWN_PACKAGE)
     assert first is not second

@@ -30,7 +30,7 @@ def forgotten(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Path]
         del sys.modules[name]
 
 
-def told(texts: dict[str, str], **fields: Any) -> Any:
+def reported(texts: dict[str, str], **fields: Any) -> Any:
     """A node's answer."""
     sources = [
         SimpleNamespace(type_name=name, encoding="srv" if "/srv/" in name else "msg", raw_file_contents=text)
@@ -45,13 +45,13 @@ def hash_of(name: str, texts: dict[str, str]) -> str:
 
 def test_a_message_is_there_with_its_constants_and_more_of_its_package_later() -> None:
     spots = {"learned_a/msg/Spot": SPOT}
-    assert learn("learned_a/msg/Spot", hash_of("learned_a/msg/Spot", spots), told(spots)) == ""
+    assert learn("learned_a/msg/Spot", hash_of("learned_a/msg/Spot", spots), reported(spots)) == ""
     module = importlib.import_module("learned_a.msg")
     spot = module.Spot
     assert (spot(x=1.0).x, spot.A) == (1.0, 1)
 
     paths = {"learned_a/msg/Path": "Spot[] spots\n", **spots}
-    assert learn("learned_a/msg/Path", hash_of("learned_a/msg/Path", paths), told(paths)) == ""
+    assert learn("learned_a/msg/Path", hash_of("learned_a/msg/Path", paths), reported(paths)) == ""
     assert module.Path(spots=[spot()]).spots == [spot()] and module.Spot is spot
     paint = {"learned_a/srv/Paint": "Spot at\n---\nbool done\n", **spots}
     # What a service's event consists of is told as well.
@@ -61,21 +61,21 @@ def test_a_message_is_there_with_its_constants_and_more_of_its_package_later() -
         "builtin_interfaces/msg/Time": "int32 sec\nuint32 nanosec\n",
     }
     name = "learned_a/srv/Paint"
-    assert learn(name, hash_of(name, {**paint, **event}), told({**paint, **event})) == ""
+    assert learn(name, hash_of(name, {**paint, **event}), reported({**paint, **event})) == ""
     assert importlib.import_module("learned_a.srv").Paint.Request(at=spot(y=2.0)).at.y == 2.0
 
 
 def test_another_hash_is_refused_and_leaves_nothing(forgotten: Path) -> None:
     spots = {"learned_b/msg/Spot": SPOT}
     wanted = hash_of("learned_b/msg/Spot", {"learned_b/msg/Spot": "float64 x\n"})
-    assert learn("learned_b/msg/Spot", wanted, told(spots)) == f"tells of it what does not have the hash {wanted}"
+    assert learn("learned_b/msg/Spot", wanted, reported(spots)) == f"tells of it what does not have the hash {wanted}"
     assert importlib.util.find_spec("learned_b") is None and not forgotten.exists()
 
 
 @pytest.mark.parametrize("name", ["../msg/Spot", "learned_c/../Spot", "learned_c/msg/Spot.py", "a/b", "Os/msg/Spot"])
 def test_names_that_no_type_has_are_no_paths(name: str, forgotten: Path) -> None:
     texts = {"learned_c/msg/Spot": SPOT}
-    answer = learn("learned_c/msg/Spot", hash_of("learned_c/msg/Spot", texts), told({**texts, name: SPOT}))
+    answer = learn("learned_c/msg/Spot", hash_of("learned_c/msg/Spot", texts), reported({**texts, name: SPOT}))
     assert answer == "describes it in a way that cannot be read: a name that no type has"
     assert not forgotten.exists()
 
@@ -84,19 +84,22 @@ def test_names_that_no_type_has_are_no_paths(name: str, forgotten: Path) -> None
     ("answer", "why"),
     [
         (None, "has not described it"),
-        (told({}, successful=False, failure_reason="not in use"), "does not describe it: not in use"),
-        (told({}), "describes it in a way that cannot be read: the definition of learned_d/msg/Spot is missing"),
-        (told({"learned_d/msg/Spot": "float64\n"}), "describes it in a way that cannot be read: learned_d/msg/Spot:1"),
-        (told({"learned_d/msg/Spot": "Spot spot\n"}), "tells of it what does not have the hash"),
+        (reported({}, successful=False, failure_reason="not in use"), "does not describe it: not in use"),
+        (reported({}), "describes it in a way that cannot be read: the definition of learned_d/msg/Spot is missing"),
+        (
+            reported({"learned_d/msg/Spot": "float64\n"}),
+            "describes it in a way that cannot be read: learned_d/msg/Spot:1",
+        ),
+        (reported({"learned_d/msg/Spot": "Spot spot\n"}), "tells of it what does not have the hash"),
     ],
     ids=["nothing", "failed", "missing", "unreadable", "within itself"],
 )
-def test_what_is_of_no_use_is_said(answer: Any, why: str) -> None:
+def test_what_is_of_no_use_is_reported(answer: Any, why: str) -> None:
     assert learn("learned_d/msg/Spot", "RIHS01_" + "0" * 64, answer).startswith(why)
 
 
 def test_a_package_that_is_here_stays_as_it_is(forgotten: Path) -> None:
     texts = {"std_msgs/msg/String": "float64 data\n"}
-    problem = learn("std_msgs/msg/String", hash_of("std_msgs/msg/String", texts), told(texts))
+    problem = learn("std_msgs/msg/String", hash_of("std_msgs/msg/String", texts), reported(texts))
     assert problem == "has other definitions of the types in it than there are here"
     assert not forgotten.exists()

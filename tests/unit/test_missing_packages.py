@@ -53,7 +53,7 @@ def test_interfaces_are_known_by_what_is_imported_of_them(line: str, tmp_path: P
 @pytest.mark.parametrize(
     "exception", [failure("import sausage"), failure("from std_msgs.msg import Sausage"), ValueError("rosbag2_py")]
 )
-def test_nothing_to_say(exception: BaseException) -> None:
+def test_nothing_to_report(exception: BaseException) -> None:
     assert explain_missing_package(exception) is None
 
 

@@ -143,15 +143,17 @@ def test_a_file_is_fetched_once_and_then_only_asked_about(server: Server) -> Non
     assert path.stat().st_mode & 0o777 == 0o600
 
 
-def test_a_server_out_of_reach_is_told_and_the_last_copy_is_used(
+def test_a_server_out_of_reach_is_reported_and_the_last_copy_is_used(
     server: Server, capsys: pytest.CaptureFixture[str]
 ) -> None:
     local_copy(server.address)
     server.shutdown()
     server.server_close()
     assert local_copy(server.address).read_bytes() == FIRST
-    said = capsys.readouterr().err
-    assert said.startswith(f"[WARN] [bot-console]: {server.address} is out of reach (connection refused); its copy of ")
+    message = capsys.readouterr().err
+    assert message.startswith(
+        f"[WARN] [bot-console]: {server.address} is out of reach (connection refused); its copy of "
+    )
     with pytest.raises(RemoteError, match="and there is no copy of it here"):
         local_copy(server.address + "?other")
 
@@ -181,7 +183,7 @@ def test_a_server_that_is_gone_for_good_or_sends_no_yaml_is_an_error(server: Ser
 
 
 def test_what_is_too_large_is_refused(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(remote_parameters, "LARGEST", 1000)
+    monkeypatch.setattr(remote_parameters, "MAX_FILE_BYTES", 1000)
     server.content = b"# " + b"x" * 2000
     with pytest.raises(RemoteError, match="larger than 1 kB"):
         local_copy(server.address)
@@ -235,7 +237,7 @@ def test_addresses_that_are_not_taken(address: str, why: str) -> None:
     assert "secret" not in str(refused.value)
 
 
-def test_a_copy_that_was_changed_by_hand_is_fetched_anew(server: Server) -> None:
+def test_a_copy_that_was_changed_by_hand_is_fetched_again(server: Server) -> None:
     path = local_copy(server.address)
     path.write_bytes(b"changed: true")
     assert local_copy(server.address).read_bytes() == FIRST

@@ -81,7 +81,7 @@ def run(tmp_path: Path) -> Iterator[Runs]:
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         ((), "/talker 1.0"),
         (("--ros-args", "-p", "x:=2.5"), "/talker 2.5"),
@@ -91,9 +91,9 @@ def run(tmp_path: Path) -> Iterator[Runs]:
         (("-p", "x:=2.5"), "/talker 1.0"),
     ],
 )
-def test_a_file_takes_ros_arguments(run: Runs, words: tuple[str, ...], said: str) -> None:
+def test_a_file_takes_ros_arguments(run: Runs, words: tuple[str, ...], message: str) -> None:
     program = run.file(TALK + CALL, *words)
-    assert (program.stdout, program.stderr, program.exit) == (f"{said}\n", "", 0)
+    assert (program.stdout, program.stderr, program.exit) == (f"{message}\n", "", 0)
 
 
 def test_parameters_come_from_files(run: Runs, tmp_path: Path) -> None:
@@ -131,7 +131,7 @@ def test_its_threads_go_on_after_the_main_program(tmp_path: Path) -> None:
     assert (end.stdout, end.stderr, end.returncode) == ("main is over\nspun\n", "", 0)
 
 
-def test_what_a_last_callback_of_a_pool_raises_is_told(tmp_path: Path) -> None:
+def test_what_a_last_callback_of_a_pool_raises_is_reported(tmp_path: Path) -> None:
     end = real_end(FAILS_LATE, tmp_path)
     assert (end.stderr, end.returncode) == ("The following exception was never retrieved: too late\n", 0)
 
@@ -178,7 +178,7 @@ def test_modules_beside_the_file_are_found(run: Runs, tmp_path: Path) -> None:
         ),
     ],
 )
-def test_wrong_words_are_told(run: Runs, words: tuple[str, ...], refusal: str) -> None:
+def test_wrong_words_are_reported(run: Runs, words: tuple[str, ...], refusal: str) -> None:
     program = run(*words)
     assert program.exit == 1
     assert program.stderr.startswith(refusal)

@@ -34,7 +34,7 @@ def node() -> Iterator[Any]:
     rclpy.try_shutdown(context=context)
 
 
-def told(node: Any, type_hash: str) -> Any:
+def reported(node: Any, type_hash: str) -> Any:
     request = GetTypeDescription.Request(type_hash=type_hash, include_type_sources=True)
     return node._type_description_service._answer(request, GetTypeDescription.Response())
 
@@ -54,7 +54,7 @@ def test_the_hash_of_an_action_follows_from_those_of_its_parts(node: Any) -> Non
 
     def answer(name: str, type_hash: str) -> Any:
         asked.append(name)
-        return told(node, type_hash)
+        return reported(node, type_hash)
 
     assert outcome(inquiry(NAME, HASHES), answer) == ""
     assert asked == [*HASHES, NAME]
@@ -64,7 +64,7 @@ def test_a_part_with_another_hash_is_refused(node: Any) -> None:
     last = list(HASHES)[-1]
 
     def answer(name: str, type_hash: str) -> Any:
-        response = told(node, type_hash)
+        response = reported(node, type_hash)
         if name == last:
             response.type_description.type_description.fields[1].name = "backfeed"
         return response
@@ -72,13 +72,13 @@ def test_a_part_with_another_hash_is_refused(node: Any) -> None:
     assert outcome(inquiry(NAME, HASHES), answer) == f"tells of it what does not have the hash {HASHES[last]}"
 
 
-def test_what_is_of_no_use_is_said(node: Any) -> None:
+def test_what_is_of_no_use_is_reported(node: Any) -> None:
     assert outcome(inquiry(NAME, HASHES), lambda name, type_hash: None) == "has not described it"
-    refused = outcome(inquiry(NAME, HASHES), lambda name, type_hash: told(node, "RIHS01_" + "0" * 64))
+    refused = outcome(inquiry(NAME, HASHES), lambda name, type_hash: reported(node, "RIHS01_" + "0" * 64))
     assert refused == "does not describe it: Type not currently in use by this node"
     # True to their hashes, but of another action.
     other = {name.replace("Fibonacci", "Other"): hashed for name, hashed in HASHES.items()}
-    elsewhere = outcome(inquiry(NAME.replace("Fibonacci", "Other"), other), lambda name, each: told(node, each))
+    elsewhere = outcome(inquiry(NAME.replace("Fibonacci", "Other"), other), lambda name, each: reported(node, each))
     assert elsewhere.startswith(
         "describes it in a way that cannot be read: the definition of example_interfaces/action"
     )

@@ -46,7 +46,7 @@ class Screen(Protocol):
         """Ask a question over the panes."""
         ...
 
-    def tell(self, text: str) -> None:
+    def report(self, text: str) -> None:
         """Show a notification."""
         ...
 
@@ -62,7 +62,7 @@ class Arranging:
         """Whether there is room to arrange anything; says so where there is none."""
         if self.tree is not None:
             return True
-        self._screen.tell(f"Layout '{self.arrangement.name}' {self._needs()}; :layout NAME shows another.")
+        self._screen.report(f"Layout '{self.arrangement.name}' {self._needs()}; :layout NAME shows another.")
         return False
 
     def _needs(self) -> str:
@@ -122,7 +122,7 @@ class Arranging:
         if self.arrangement.undo():
             self._screen.lay_out()
         else:
-            self._screen.tell("Nothing was changed.")
+            self._screen.report("Nothing was changed.")
 
     def open_layout(self) -> None:
         """Ask for a layout and show it."""
@@ -138,12 +138,12 @@ class Arranging:
         self.arrangement.load(name)
         tree = self.tree
         if tree is None:
-            self._screen.tell(f"'{name}' {self._needs()}; one pane at a time is shown.")
+            self._screen.report(f"'{name}' {self._needs()}; one pane at a time is shown.")
         self._screen.lay_out()
 
     def name_question(self) -> Line:
         """Ask for a name and keep what is shown under it."""
-        return Line("save as", self.save, text=self.arrangement.name, check=wrong_name)
+        return Line("save as", self.save, text=self.arrangement.name, check=layout_name_problem)
 
     def save(self, name: str) -> None:
         """Keep what is shown under a name."""
@@ -151,9 +151,9 @@ class Arranging:
         if tree is None:
             return
         try:
-            self._screen.tell(f"Layout saved: {self.arrangement.save(name.strip(), tree)}")
+            self._screen.report(f"Layout saved: {self.arrangement.save(name.strip(), tree)}")
         except NotSaved as error:
-            self._screen.tell(f"not saved: {error}")
+            self._screen.report(f"not saved: {error}")
         self._screen.lay_out()
 
     def dragged(self, tree: Tree, first: bool) -> None:
@@ -176,9 +176,9 @@ class Arranging:
         if before is None or after == before:
             return
         if after is None:
-            self._screen.tell("The last pane stays.")
+            self._screen.report("The last pane stays.")
         elif not fits(self._places(after)):
-            self._screen.tell("There is no room for that: a pane needs 20 columns and 4 lines.")
+            self._screen.report("There is no room for that: a pane needs 20 columns and 4 lines.")
         else:
             self.arrangement.change(after)
             self._screen.lay_out()
@@ -198,7 +198,7 @@ class Arranging:
         self._screen.ask(Choice(label, then, find=find, hint="pane", empty="No pane has this name."))
 
 
-def wrong_name(text: str) -> str:
+def layout_name_problem(text: str) -> str:
     """Why a text cannot be the name of a layout; empty when it can."""
     return "" if NAME.fullmatch(text.strip()) else "letters, digits, blanks, - and _, at most 40"
 

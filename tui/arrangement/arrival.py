@@ -11,10 +11,10 @@ from bot_console.tui.arrangement.early_keys import panes_needed
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.screens.question_screens import prepare
-from bot_console.tui.terminal.composing.seen import mount_unseen
-from bot_console.tui.widgets.coming_pane import ComingPane
+from bot_console.tui.terminal.composing.visible_screen import mount_unseen
 from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.pane_area import PaneArea
+from bot_console.tui.widgets.pane_placeholder import PanePlaceholder
 from textual import events
 from textual.app import App
 from textual.widget import MountError
@@ -25,16 +25,16 @@ if TYPE_CHECKING:
     from bot_console.tui.console.protocol import Console, Launcher
     from bot_console.tui.keys.keyboard import Keyboard, Typed
     from bot_console.tui.panes.pane import Pane
-    from bot_console.tui.terminal.gate import AnswerGate
+    from bot_console.tui.terminal.frame_pacing import AnswerGate
 
 P = TypeVar("P", bound="Pane")
 
 COMING_STATUS = "coming-status"
 """The id of what stands in the place of the status bar."""
-SOON = 0.005
+KEY_POLL_S = 0.005
 """Seconds after which is looked again whether a key has been dealt with."""
-REST = 0.02
-LONGEST_REST = 3.0
+HIDDEN_PANE_PAUSE_S = 0.02
+MAX_HIDDEN_PANE_PAUSE_S = 3.0
 """Seconds for which panes that nobody sees wait at a time, and at most in all, while keys are pressed."""
 ORDERED = sorted(PANES, key=lambda entry: entry.place)
 """The panes as they stand on the screen, from the upper left."""
@@ -63,7 +63,7 @@ class ArrivingApp(App[None]):
     """Whether all that is seen stands, and only what is not seen is still to come."""
     _rests = 0
 
-    def take_up(self, system: System) -> None:
+    def attach(self, system: System) -> None:
         """Start acting on a system."""
         raise NotImplementedError
 
@@ -103,11 +103,11 @@ class ArrivingApp(App[None]):
         if not self.is_running:
             return
         if self._keyboard.is_busy:
-            self.set_timer(SOON, self.bring_next)
+            self.set_timer(KEY_POLL_S, self.bring_next)
             return
         if self._is_resting():
             self._rests += 1
-            self.set_timer(REST, self.bring_next)
+            self.set_timer(HIDDEN_PANE_PAUSE_S, self.bring_next)
             return
         try:
             await self._steps.popleft()()
@@ -126,11 +126,11 @@ class ArrivingApp(App[None]):
             self._only_unseen
             and self.gate.is_eager
             and self._keyboard.next is None
-            and self._rests * REST < LONGEST_REST
+            and self._rests * HIDDEN_PANE_PAUSE_S < MAX_HIDDEN_PANE_PAUSE_S
         )
 
     async def _bring_system(self, reach: Callable[[], System]) -> None:
-        self.take_up(reach())
+        self.attach(reach())
         screen = self.screen_stack[0]
         with self.batch_update():
             await screen.query_one(f"#{COMING_STATUS}").remove()
@@ -157,7 +157,7 @@ class ArrivingApp(App[None]):
     async def _bring_seen(self, entries: list[PaneEntry]) -> None:
         area = self.screen_stack[0].query_one(PaneArea)
         await area.mount(*map(self._made, entries))
-        coming = area.query(ComingPane)
+        coming = area.query(PanePlaceholder)
         for each in coming:  # all in one frame: else there is one without any panes in between
             each.display = False
         self.panes_changed()
@@ -179,7 +179,7 @@ class ArrivingApp(App[None]):
         pane = self._made(entry)
         pane.come_late()
         await mount_unseen(area, pane, before)
-        self.stage.look_again()
+        self.stage.poll_again()
         await self._keyboard.hold(self._may_act)
 
     def _awaited(self) -> Sequence[str]:

@@ -3,11 +3,12 @@
 A package names them as entry points of the group `bot_console.panes`, `name = module:Class`. The class is called with
 the `Console` (`tui/console/protocol.py`). What it may have besides: `TITLE`, a word for the tabs; `HELP`, what it is
 for; `show(snapshot)`, called with each new `ConsoleSnapshot` while it is seen; `tick()`, called ten times a second,
-also while it is hidden; `let_go()`, called when it ends by a fault. A subclass of `Pane` is taken as it is.
+also while it is hidden; `detach()`, called when it ends by a fault. A subclass of `Pane` is taken as it is.
 """
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -52,6 +53,9 @@ class PluginPane(Pane):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self._widget = type(self).WIDGET(self.console)
+        if hasattr(self._widget, "let_go") and not hasattr(self._widget, "detach"):
+            name = type(self._widget).__name__
+            warnings.warn(f"{name}: rename let_go to detach, its name from now on", FutureWarning, stacklevel=2)
 
     def compose(self) -> ComposeResult:
         """The widget fills the frame."""
@@ -65,9 +69,9 @@ class PluginPane(Pane):
         """Pass the timer tick on."""
         self._hand_on("tick")
 
-    def let_go(self) -> None:
+    def detach(self) -> None:
         """Tell the widget that it ends."""
-        self._hand_on("let_go")
+        self._hand_on("detach" if hasattr(self._widget, "detach") else "let_go")
 
     def focus_target(self) -> None:
         """The first part of the widget that takes keys, else the frame."""

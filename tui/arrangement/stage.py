@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from bot_console.tui.panes.pane import Pane
     from bot_console.tui.widgets.prompt.question import Question
 
-SMALLEST = (60, 20)
+MIN_SIZE = (60, 20)
 """Columns and lines below which nothing is shown but a word about it."""
 FIRST = "parameters"
 
@@ -67,11 +67,11 @@ class Stage:
         seen = (each for each in self.panes() if each.id in order and each.display)
         return sorted(seen, key=lambda each: order.index(each.id or ""))
 
-    def heed(self, snapshot: ConsoleSnapshot) -> None:
+    def observe(self, snapshot: ConsoleSnapshot) -> None:
         """Let all panes take in what even hidden ones must not miss."""
         for pane in self.panes():
             if not pane.is_ending:
-                pane.heed(snapshot)
+                pane.observe(snapshot)
 
     def current(self) -> Pane | None:
         """The focused pane, else the one chosen last."""
@@ -102,7 +102,7 @@ class Stage:
         """Ask a question over the panes."""
         self._app.push_screen(screen_for(question))
 
-    def tell(self, text: str) -> None:
+    def report(self, text: str) -> None:
         """Show a notification."""
         self._app.notify(text, markup=False)
 
@@ -123,7 +123,7 @@ class Stage:
         self._extent = size
         self.lay_out()
 
-    def look_again(self) -> None:
+    def poll_again(self) -> None:
         """Take note of a new hidden pane."""
         self._panes = []
 
@@ -134,7 +134,7 @@ class Stage:
 
     def changed(self) -> None:
         """Take note that a pane was replaced or added."""
-        self.look_again()
+        self.poll_again()
         if self._app.is_running:  # else the screen is being taken apart
             self.lay_out()
 
@@ -177,7 +177,7 @@ class Stage:
         """Show what was chosen, as far as there is room."""
         screen = self._app.screen_stack[0]
         width, height = self._extent
-        small = width < SMALLEST[0] or height < SMALLEST[1]
+        small = width < MIN_SIZE[0] or height < MIN_SIZE[1]
         screen.set_class(small, "small")
         if small:
             screen.query_one("#too-small", Static).update(too_small(width, height))
@@ -241,7 +241,7 @@ class Stage:
 
 def too_small(width: int, height: int) -> str:
     """The notice for a terminal in which nothing fits but, if need be, four short lines."""
-    need = f"{SMALLEST[0]}x{SMALLEST[1]}"
+    need = f"{MIN_SIZE[0]}x{MIN_SIZE[1]}"
     if width < 40 or height < 6:
         return f"{width}x{height} is too small\n{need} is needed\n! stops the robot\nq quits"
     return f"{width}x{height} is too small\nthe console needs {need}\n\nthe robot goes on; ! stops it, q quits"

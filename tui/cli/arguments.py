@@ -78,7 +78,7 @@ def attach_parser() -> argparse.ArgumentParser:
     parser.add_argument("--pane", default="overview", help="the pane to begin with")
     parser.add_argument("--workspace", action="append", type=Path, metavar="DIR", help="where packages are")
     parser.add_argument("--read-only", action="store_true", help="look on: nothing is set, driven, started or ended")
-    _add_look(parser)
+    _add_appearance(parser)
     return parser
 
 
@@ -89,12 +89,12 @@ def parse_attach(words: Sequence[str], parser: argparse.ArgumentParser) -> tuple
     _check_pane(parser, given.pane)
     opening = _with_perspective(opening or Opening(given.pane), given)
     options = Options(
-        opening=opening, workspace=given.workspace or [], attach=True, read_only=given.read_only, **_look(given)
+        opening=opening, workspace=given.workspace or [], attach=True, read_only=given.read_only, **_appearance(given)
     )
     return options, given
 
 
-def _add_look(parser: argparse.ArgumentParser) -> None:
+def _add_appearance(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--layout", default="", metavar="NAME", help="the layout to begin with; overview is what a new user sees")
     add("--perspective-file", default="", metavar="FILE", help="a layout file, or a perspective of rqt")
@@ -102,7 +102,7 @@ def _add_look(parser: argparse.ArgumentParser) -> None:
     add("--plain", action=argparse.BooleanOptionalAction, help="ASCII letters in place of lines and braille")
 
 
-def _look(given: argparse.Namespace) -> dict[str, Any]:
+def _appearance(given: argparse.Namespace) -> dict[str, Any]:
     return {"layout": given.layout, "theme": given.theme, "plain": given.plain}
 
 
@@ -143,7 +143,7 @@ def parse(words: Sequence[str]) -> Options:
         world=given.world or "",
         profile_folders=given.profiles or [],
         simulator=given.simulator,
-        **_look(given),
+        **_appearance(given),
     )
 
 
@@ -219,6 +219,6 @@ def option_parser() -> argparse.ArgumentParser:
     add(
         "--allow-missing", action="store_true", help="with --launch: go on without nodes whose executables are not here"
     )
-    _add_look(parser)
+    _add_appearance(parser)
     add("--version", action="version", version=f"bot-console {__version__}")
     return parser

@@ -136,8 +136,8 @@ def _type_of(command: str) -> Source:
 
 def _launch_arguments(names: Names, given: Sequence[str]) -> Iterable[str]:
     """The arguments of the launch file of a package, up to the value."""
-    told = names.asked("launch", given[0], given[1], "--show-args")
-    return [f"{line[1:-2]}:=" for line in told if line.startswith("'") and line.endswith("':")]
+    reported = names.asked("launch", given[0], given[1], "--show-args")
+    return [f"{line[1:-2]}:=" for line in reported if line.startswith("'") and line.endswith("':")]
 
 
 _NODE = _running("node", "list")

@@ -59,10 +59,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     if words == ["--version"]:
         print(f"bot-console {__version__}")
         return 0
-    from bot_console.runtime.terse import help_is_english, help_tells_faults
+    from bot_console.runtime.exit_messages import help_is_english, report_help_errors
 
     help_is_english()
-    help_tells_faults()
+    report_help_errors()
     try:
         words = _in_workspace(words)
     except ValueError as error:
@@ -94,7 +94,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     from bot_console.tui.cli.interpreter import without_collector
 
     with without_collector():
-        from bot_console.tui.cli.show import run as show
+        from bot_console.tui.cli.screen import run as show
 
         return show(options)
 
@@ -112,17 +112,17 @@ def _in_workspace(words: Words) -> Words:
 
 def program() -> NoReturn:
     """The entry point of the process."""
-    from bot_console.runtime.terse import told
+    from bot_console.runtime.exit_messages import run_and_report
 
-    end_program(told(_program))
+    end_program(run_and_report(_program))
 
 
 def _program() -> int:
     words = sys.argv[2:] if sys.argv[1:2] == ["ros2"] else sys.argv[1:]
     if words[:1] == ["launch"]:
-        from bot_console.tui.cli.system.own_processes import foresee
+        from bot_console.tui.cli.system.own_processes import prefork
 
-        foresee(words[1:], from_here=True)
+        prefork(words[1:], from_here=True)
     return main()
 
 

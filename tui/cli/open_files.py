@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-LEAST = 256
+MIN_OPEN_FILES = 256
 """A console has some 90 descriptors open, and its own ones begin at 100."""
 
 
@@ -14,10 +14,10 @@ def too_few_files() -> str:
         return ""
     import resource
 
-    now, most = resource.getrlimit(resource.RLIMIT_NOFILE)
-    if now == resource.RLIM_INFINITY or now >= LEAST:
+    now, maximum = resource.getrlimit(resource.RLIMIT_NOFILE)
+    if now == resource.RLIM_INFINITY or now >= MIN_OPEN_FILES:
         return ""
-    if most == resource.RLIM_INFINITY or most >= LEAST:
-        resource.setrlimit(resource.RLIMIT_NOFILE, (LEAST, most))
+    if maximum == resource.RLIM_INFINITY or maximum >= MIN_OPEN_FILES:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (MIN_OPEN_FILES, maximum))
         return ""
-    return f"bot-console needs {LEAST} open files, and at most {most} are allowed here: see `ulimit -Hn`"
+    return f"bot-console needs {MIN_OPEN_FILES} open files, and at most {maximum} are allowed here: see `ulimit -Hn`"

@@ -7,9 +7,9 @@ import shlex
 from collections.abc import Callable
 from pathlib import Path
 
-from bot_console.runtime.workspace.choices import executable_names, package_names
+from bot_console.runtime.workspace.builtin_package import PAGE_NAME
+from bot_console.runtime.workspace.choices import all_executable_names, package_names
 from bot_console.runtime.workspace.not_found import no_executable, no_package
-from bot_console.runtime.workspace.own import PAGE_NAME
 
 
 def program(words: list[str], hint: Callable[[str], None]) -> tuple[dict[str, str], str]:
@@ -23,7 +23,7 @@ def program(words: list[str], hint: Callable[[str], None]) -> tuple[dict[str, st
     if words[0].endswith(".py") or os.path.isfile(words[0]):
         return {"program": str(Path(words[0]).resolve()), "words": shlex.join(words[1:])}, _fault(Path(words[0]), hint)
     package, executable, *rest = [*words, ""]
-    names = executable_names(package)
+    names = all_executable_names(package)
     if package not in (*package_names(), PAGE_NAME):
         return {}, no_package(package)
     if not executable or executable.startswith("-"):

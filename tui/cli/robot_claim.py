@@ -16,7 +16,7 @@ from pathlib import Path
 from bot_console.runtime.rmw.zenoh.domain.file_lock import open_lock, try_lock
 
 NAME = "robot.lock"
-PATIENCE = 15.0
+ROBOT_START_TIMEOUT_S = 15.0
 """Seconds that a robot has to come up; whoever claimed it and has none by then has ended it."""
 POLL = 0.1
 """Seconds between two looks at the other's robot."""
@@ -55,16 +55,16 @@ class RobotClaim:
         """What a process inherits that is to hold the claim too, for as long as it runs; empty on Windows."""
         return (self._handle,) if self._handle >= 0 and sys.platform != "win32" else ()
 
-    def seen(self, look: Callable[[], list[str]], tell: Callable[[], None]) -> list[str]:
+    def seen(self, poll: Callable[[], list[str]], report: Callable[[], None]) -> list[str]:
         """The robot that `look` finds; if another program has claimed one, wait for it, or until it is given up.
 
         `tell` is called once if there is something to wait for.
         """
-        deadline, told = time.monotonic() + PATIENCE, False
-        while not (found := look()) and not self.held and time.monotonic() < deadline:
-            if not told:
-                tell()
-            told = True
+        deadline, reported = time.monotonic() + ROBOT_START_TIMEOUT_S, False
+        while not (found := poll()) and not self.held and time.monotonic() < deadline:
+            if not reported:
+                report()
+            reported = True
             time.sleep(POLL)
             self.held = self._take()
         return found

@@ -7,6 +7,7 @@ from functools import partial
 from typing import Any
 
 from bot_console.tui.arrangement.stage import Stage
+from bot_console.tui.child_command import child_command
 from bot_console.tui.commanding.completing import Completion
 from bot_console.tui.commanding.ending_streams import which_stream
 from bot_console.tui.commanding.palette import Command, all_commands, options_for
@@ -15,7 +16,6 @@ from bot_console.tui.console.command_line import CommandLine, Stream
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.opening import Opening
-from bot_console.tui.own_program import own_program
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.safety.line_risk import risk_of
 from bot_console.tui.safety.stopping import Stopping
@@ -57,12 +57,12 @@ class CommandHandler:
         """Open the command line."""
         self._app.screen_stack[0].query_one(CommandField).open()
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Show new output of the command line and of the lines below the panes; called now and then."""
         # Both lie on the screen itself: to search all below it at every beat takes a tenth of the thread that draws.
         for each in self._app.screen_stack[0].children:
             if isinstance(each, (StreamPanels, CommandField)):
-                each.look()
+                each.poll()
 
     def palette(self) -> None:
         """Open the palette: an action by its words, or a command line."""
@@ -136,7 +136,7 @@ class CommandHandler:
 
     def show_bag(self, folder: str) -> None:
         """Show a bag in a console of its own, which has the terminal until it quits."""
-        if self._run_outside([*own_program("bot_console.tui"), "bag", "open", folder]):
+        if self._run_outside([*child_command("bot_console.tui"), "bag", "open", folder]):
             self.notify(f"{folder} cannot be shown; bot-console bag info {folder} says why", severity="error")
 
     def hold_robot(self, hold: bool) -> None:

@@ -9,9 +9,9 @@ from bot_console.tui.files.folders import state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
 from bot_console.tui.files.store_file import read_store
 
-MOST = 1000
+MAX_LINES = 1000
 """Lines that are kept."""
-LARGEST = 1 << 20
+MAX_FILE_BYTES = 1 << 20
 """Bytes of a file of lines; of a larger one the end is read."""
 
 
@@ -35,14 +35,14 @@ class LineHistory:
         if self._lines is None:
             self._lines = []
             with contextlib.suppress(OSError):
-                text = read_store(self.file, LARGEST, end=True).decode("utf-8", "replace")
-                self._lines = [each for each in text.split("\n") if each.strip()][-MOST:]
+                text = read_store(self.file, MAX_FILE_BYTES, end=True).decode("utf-8", "replace")
+                self._lines = [each for each in text.split("\n") if each.strip()][-MAX_LINES:]
         return self._lines
 
     def add(self, line: str) -> None:
         """Add a line; a repeated one becomes the newest. If the file cannot be written, it is kept for this run."""
         known = self.lines()
-        self._lines = [*(each for each in known if each != line), line][-MOST:]
+        self._lines = [*(each for each in known if each != line), line][-MAX_LINES:]
         self.stay()
         with contextlib.suppress(NotSaved):
             save_file(self.file, "".join(f"{each}\n" for each in self._lines))

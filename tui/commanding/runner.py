@@ -14,7 +14,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.command_line import CommandLine, Stream
 from bot_console.tui.console.model import ChangeSource, SetOutcome
 from bot_console.tui.console.protocol import Console
-from bot_console.tui.format import harmless, value_text
+from bot_console.tui.format import sanitize, value_text
 from bot_console.tui.opening import RQT_PANES, Opening, is_rqt, rqt_opening
 from bot_console.tui.safety.line_risk import risk_of
 from bot_console.tui.screens.output import OutputScreen
@@ -91,8 +91,8 @@ class LineRunner:
         if verb in known or is_rqt(words):
             return self._host.stream_problem(words[words[0] == "ros2" :])
         like = get_close_matches(verb, known, 1, 0.6)
-        mend = f"did you mean {like[0]}?" if like else "help lists the commands, ^p finds an action by its words"
-        return f"there is no command {verb}; {mend}"
+        hint = f"did you mean {like[0]}?" if like else "help lists the commands, ^p finds an action by its words"
+        return f"there is no command {verb}; {hint}"
 
     def _wrong_verb(self, words: Sequence[str]) -> str:
         wrong = wrong_use(words)
@@ -109,7 +109,7 @@ class LineRunner:
             return wrong_bag(words)
         return wrong
 
-    def outlook(self, line: str) -> str:
+    def preview(self, line: str) -> str:
         """How a line would make the robot less safe, or else the usage of its verb."""
         words = line.split()
         as_set = ["ros2", "param", *words] if words[:1] == ["set"] else words
@@ -166,8 +166,8 @@ class LineRunner:
         words = line.split()
         starts = words[words[:1] == ["ros2"] :][:1] in (["run"], ["launch"])
         if starts and len(printed.strip().splitlines()) <= 1:  # what was started is seen elsewhere: no key closes this
-            said = printed.strip() or f"{line}: over, it said nothing"
-            self._host.notify(harmless(said), severity="error" if error else "information")
+            reported_text = printed.strip() or f"{line}: over, it said nothing"
+            self._host.notify(sanitize(reported_text), severity="error" if error else "information")
         else:
             self._host.push_screen(OutputScreen(line, printed))
 
@@ -198,9 +198,9 @@ class LineRunner:
     def _set(self, words: Sequence[str]) -> None:
         wanted = setting_of(words, self._console.snapshot())
         answer = self._console.set_parameters(wanted.node, {wanted.name: wanted.value}, ChangeSource.EDIT)
-        answer.add_done_callback(lambda done: self._host.call_later(self._tell_set, done))
+        answer.add_done_callback(lambda done: self._host.call_later(self._report_set, done))
 
-    def _tell_set(self, done: Future[tuple[SetOutcome, ...]]) -> None:
+    def _report_set(self, done: Future[tuple[SetOutcome, ...]]) -> None:
         error = done.exception()
         for each in () if error else done.result():
             if each.accepted:
@@ -208,25 +208,25 @@ class LineRunner:
             else:
                 self._host.notify(of_one(each), severity="error")
         if error:
-            self._host.notify(harmless(str(error)), severity="error")
+            self._host.notify(sanitize(str(error)), severity="error")
 
     def _record(self, words: Sequence[str]) -> None:
         recording = self._console.recording
         folder = recording.info.folder
         if [*words] == ["stop"]:
             if folder:
-                self._tell_later(recording.stop())
+                self._report_later(recording.stop())
             else:
                 self._host.notify("Nothing is recorded; record begins it.")
         elif folder:
             self._host.notify(f"{folder} is being recorded; record stop ends it.", severity="warning")
         else:
-            self._tell_later(recording.start(words[0] if words else f"rosbag2_{time.strftime(STAMP)}"))
+            self._report_later(recording.start(words[0] if words else f"rosbag2_{time.strftime(STAMP)}"))
 
-    def _tell_later(self, answer: Future[Answer]) -> None:
-        answer.add_done_callback(lambda done: self._host.call_later(self._tell, done))
+    def _report_later(self, answer: Future[Answer]) -> None:
+        answer.add_done_callback(lambda done: self._host.call_later(self._report, done))
 
-    def _tell(self, done: Future[Answer]) -> None:
+    def _report(self, done: Future[Answer]) -> None:
         error = done.exception()
         answer = Answer(False, str(error)) if error else done.result()
         self._host.notify(answer.text, severity="information" if answer.ok else "error")

@@ -17,19 +17,19 @@ class Verb:
     usage: str
     about: str
     least: int = 0
-    most: int = 99
+    maximum: int = 99
     """Words that must, and may, follow it."""
 
 
 VERBS: Mapping[str, Verb] = {
     "bag": Verb("bag open FOLDER", "look at a bag in a console of its own, until q", 2, 2),
-    "help": Verb("help [VERB]", "all commands, or one", most=1),
+    "help": Verb("help [VERB]", "all commands, or one", maximum=1),
     "layout": Verb("layout NAME", "show a layout", 1, 1),
     "plot": Verb("plot PATH ...", "curves of the plot: /topic/field or /node:parameter", 1),
-    "record": Verb("record [FOLDER] | record stop", "record all topics into a bag; end that", most=1),
-    "release": Verb("release", "let the robot move again", most=0),
+    "record": Verb("record [FOLDER] | record stop", "record all topics into a bag; end that", maximum=1),
+    "release": Verb("release", "let the robot move again", maximum=0),
     "set": Verb("set NODE PARAMETER VALUE", "set a parameter", 3),
-    "stop": Verb("stop", "ALL STOP: hold the robot", most=0),
+    "stop": Verb("stop", "ALL STOP: hold the robot", maximum=0),
 }
 
 
@@ -62,7 +62,7 @@ def _parameter(node: str, name: str, snapshot: ConsoleSnapshot) -> ParameterInfo
 def wrong_use(words: Sequence[str]) -> str:
     """What is wrong with the number of arguments of one of our verbs; empty when nothing is."""
     verb = VERBS[words[0]]
-    return "" if verb.least <= len(words) - 1 <= verb.most else f"write it as: {verb.usage}"
+    return "" if verb.least <= len(words) - 1 <= verb.maximum else f"write it as: {verb.usage}"
 
 
 def wrong_bag(words: Sequence[str]) -> str:

@@ -16,14 +16,14 @@ from rclpy.node import Node
 from rclpy.task import Future as RosFuture
 
 T = TypeVar("T")
-PATIENCE = 5.0
+ANSWER_TIMEOUT_S = 5.0
 """Seconds to wait for an answer from when it is asked for; a slow link answers late, a hung node never."""
 
-LOOKS = 5
+MIN_POLLS = 5
 """How often at least one looks meanwhile. Each look counts once, however late it comes: while this program itself got
 no processor, nobody's answer could be taken, and none is overdue."""
 
-LONGEST_LOOK = 1.0
+MAX_POLL_S = 1.0
 """Seconds between two looks at most, so that a server that goes away is noticed soon."""
 
 GONE = 2
@@ -32,7 +32,7 @@ GONE = 2
 READY = 2.0
 """Seconds that a new client has to find a server that is in the graph: on a network that takes its time."""
 
-READY_LOOK = 0.02
+READY_POLL_S = 0.02
 """Seconds between two looks whether it has."""
 
 
@@ -115,25 +115,25 @@ class Calls:
         for outcome in waiting:
             self._refuse(outcome, why)
 
-    async def ask(self, kind: Any, service: str, request: Any, patience: float = PATIENCE) -> Any:
+    async def ask(self, kind: Any, service: str, request: Any, timeout_s: float = ANSWER_TIMEOUT_S) -> Any:
         """Call a service; raises `NoAnswer` when there is no server or none answers in time."""
         client = self._client(kind, service)
         if not (client.service_is_ready() or await self._gets_ready(client, service)):
             raise NoAnswer(f"no service {service} is offered; has its node ended?")
         answer: RosFuture[Any] = client.call_async(request)
-        period, away = min(LONGEST_LOOK, patience / LOOKS), 0
-        looks = itertools.count(1)
+        period, away = min(MAX_POLL_S, timeout_s / MIN_POLLS), 0
+        polls = itertools.count(1)
 
-        def look() -> None:
+        def poll() -> None:
             nonlocal away
             away = 0 if _is_there(client) else away + 1
             if away >= GONE:
                 self._give_up(answer, client, f"{service} went away before it answered; has its node ended?")
-            elif next(looks) * period >= patience:
-                why = f"{service} did not answer within {patience:g} s; its node may be busy or hung"
+            elif next(polls) * period >= timeout_s:
+                why = f"{service} did not answer within {timeout_s:g} s; its node may be busy or hung"
                 self._give_up(answer, client, why)
 
-        timer = self._node.create_timer(period, look)
+        timer = self._node.create_timer(period, poll)
         try:
             return await answer
         finally:
@@ -144,18 +144,18 @@ class Calls:
         if not self._node.count_services(service):
             return False
         found: RosFuture[bool] = RosFuture()
-        looks = itertools.count(1)
+        polls = itertools.count(1)
 
-        def look() -> None:
+        def poll() -> None:
             try:
                 ready = client.service_is_ready()
-                over = ready or next(looks) * READY_LOOK >= READY
+                over = ready or next(polls) * READY_POLL_S >= READY
             except InvalidHandle:  # its node has left meanwhile, see `forget`
                 ready, over = False, True
             if over and not found.done():
                 found.set_result(ready)
 
-        timer = self._node.create_timer(READY_LOOK, look)
+        timer = self._node.create_timer(READY_POLL_S, poll)
         try:
             return bool(await found)
         finally:

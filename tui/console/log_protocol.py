@@ -44,7 +44,7 @@ class LogFindings:
 class LogView(Protocol):
     """The records that match a filter; the search runs in the background, newest records first."""
 
-    def look(self) -> LogFindings:
+    def poll(self) -> LogFindings:
         """What has been found so far; the same object until there is more."""
         ...
 

@@ -41,7 +41,7 @@ from bot_console.tui.console.parameters.setter import ParameterSetter
 from bot_console.tui.console.plot.watch import PlotWatch
 from bot_console.tui.console.robot.drive_node import DriveNode
 from bot_console.tui.console.robot.world_watch import WorldWatch
-from bot_console.tui.console.sights.node_sights import NodeSights
+from bot_console.tui.console.sensors.node_sensors import NodeSensors
 from bot_console.tui.console.topics.node_traffic import NodeTraffic
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from rcl_interfaces.msg import SetParametersResult
@@ -92,17 +92,17 @@ class ConsoleNode:
         self._drive_node = robot
         self.drive = robot.link
         self.provenance = provenance or Provenance()
-        told = self._parameter_changed, self.provenance, self._parameter_anew
-        self.parameters = ParameterMirror(self.node, self.calls, *told)
+        reported = self._parameter_changed, self.provenance, self._parameters_restarted
+        self.parameters = ParameterMirror(self.node, self.calls, *reported)
         self._compared: tuple[Profile | None, object, int] = (None, None, 0)
         self.setter = ParameterSetter(self.calls, self.parameters, self.journal)
         self.traffic = NodeTraffic(self.node, self.calls, lambda: self.graph.info, types)
-        self.sights = NodeSights(self.node, self.calls, lambda: self.graph)
+        self.sensors = NodeSensors(self.node, self.calls, lambda: self.graph)
         self.graph = GraphWatch(self.node, self._graph_changed, graph_events, frozen)
 
     def spin(self) -> None:
         """Serve until `close`; called in the console's own thread."""
-        self.graph.look()
+        self.graph.poll()
         with contextlib.suppress(ExternalShutdownException):
             self.executor.spin()
 
@@ -124,7 +124,7 @@ class ConsoleNode:
         self.parameters.follow(graph)
         self.world.follow(graph)
         self.traffic.follow(graph)
-        self.sights.follow(graph)
+        self.sensors.follow(graph)
 
     def _parameter_changed(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
         self.plots.parameter_is(node, name, new)
@@ -132,9 +132,9 @@ class ConsoleNode:
         self._warn_if_unsafe(node, name, old, new)
         return source
 
-    def _parameter_anew(self, node: str, name: str, old: Value, new: Value) -> None:
+    def _parameters_restarted(self, node: str, name: str, old: Value, new: Value) -> None:
         self.plots.parameter_is(node, name, new)
-        self.setter.begun_anew(node, name, old, new)
+        self.setter.restarted(node, name, old, new)
         self._warn_if_unsafe(node, name, old, new)
 
     def _warn_if_unsafe(self, node: str, name: str, old: Value, new: Value) -> None:

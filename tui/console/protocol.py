@@ -30,7 +30,7 @@ from bot_console.tui.console.model import (
 if TYPE_CHECKING:
     from bot_console.tui.console.recording import Recording
     from bot_console.tui.console.robot.robot_model import Pose
-    from bot_console.tui.console.sights.model import Sights
+    from bot_console.tui.console.sensors.model import Sensors
     from bot_console.tui.console.traffic import Traffic
 
 
@@ -113,7 +113,7 @@ class Console(ConsoleReading, Protocol):
         ...
 
     @property
-    def sights(self) -> Sights:
+    def sensors(self) -> Sensors:
         """The system's diagnostics, images and frames."""
         ...
 
@@ -150,7 +150,7 @@ class Console(ConsoleReading, Protocol):
         """Repeat the change that was undone last."""
         ...
 
-    def watch(self, path: str, asker: str = "") -> Answer:
+    def watch(self, path: str, requester: str = "") -> Answer:
         """Collect a series for as long as any asker wants it; the answer says why a path cannot be plotted.
 
         `/topic/field.sub[2]`, `/topic/array[2:8].mean()` (or min, max, sum, std, len; yaw of a quaternion), or
@@ -158,7 +158,7 @@ class Console(ConsoleReading, Protocol):
         """
         ...
 
-    def unwatch(self, path: str, asker: str = "") -> None:
+    def unwatch(self, path: str, requester: str = "") -> None:
         """Drop one asker's interest in a series; it is forgotten when nobody is left."""
         ...
 

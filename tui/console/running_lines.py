@@ -6,7 +6,7 @@ import threading
 from collections import deque
 from collections.abc import Sequence
 
-KEPT = 200
+MAX_LINES = 200
 """Lines that are kept."""
 GOING_ON = ("bw", "delay", "echo", "hz")
 ONCE = ("--once", "-h", "--help")
@@ -22,9 +22,9 @@ class RunningLine:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._lines: deque[str] = deque(maxlen=KEPT)
+        self._lines: deque[str] = deque(maxlen=MAX_LINES)
         self._rest = ""
-        self._told: tuple[str, ...] = ()
+        self._reported: tuple[str, ...] = ()
         self._new = False
         self.ended = False
 
@@ -46,5 +46,5 @@ class RunningLine:
         """The last lines; the same object until there are more."""
         with self._lock:
             if self._new:
-                self._new, self._told = False, tuple(self._lines)
-            return self._told
+                self._new, self._reported = False, tuple(self._lines)
+            return self._reported

@@ -132,7 +132,7 @@ Values = Mapping[str, str]
 class Traffic(Protocol):
     """Topics, services and actions of a ROS system, as a person uses them."""
 
-    def measure(self, topics: Collection[str], asker: str = "") -> None:
+    def measure(self, topics: Collection[str], requester: str = "") -> None:
         """Measure exactly these topics for the asker from now on, with the QoS that their publishers offer."""
         ...
 

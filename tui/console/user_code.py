@@ -12,7 +12,7 @@ ROS = "/opt/ros/"
 """Where ROS 2 is installed from packages."""
 
 
-def is_library(file: str) -> bool:
+def is_library_file(file: str) -> bool:
     """Whether a file is no code of the user's: a library's, the runtime's, or none that was read from a file."""
     return file.startswith(("<", ROS, *library_folders()))
 

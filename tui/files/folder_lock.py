@@ -14,7 +14,7 @@ POLL_S = 0.02
 
 
 @contextmanager
-def folder_lock(folder: Path, patience_s: float) -> Generator[bool]:
+def folder_lock(folder: Path, timeout_s: float) -> Generator[bool]:
     """Lock a folder for the length of a `with` block; gives whether that succeeded within so many seconds.
 
     The lock leaves no file behind and ends with the program. Where folders cannot be locked, everybody has the lock.
@@ -27,7 +27,7 @@ def folder_lock(folder: Path, patience_s: float) -> Generator[bool]:
 
     handle = os.open(folder, os.O_RDONLY)
     try:
-        deadline = time.monotonic() + patience_s
+        deadline = time.monotonic() + timeout_s
         while not (locked := _lock(fcntl, handle)) and time.monotonic() < deadline:
             time.sleep(POLL_S)
         yield locked

@@ -13,9 +13,9 @@ from bot_console.tui.files.folders import config_folder
 from bot_console.tui.files.save_file import save_file
 from bot_console.tui.files.store_file import read_store
 
-LARGEST = 1_000_000
+MAX_FILE_BYTES = 1_000_000
 """Bytes of a file that is looked at."""
-MOST_CURVES = 200
+MAX_CURVES = 200
 
 
 class NoPreset(ValueError):
@@ -46,7 +46,7 @@ def preset_names() -> Sequence[str]:
     return sorted(each.stem for each in _folder().glob("*.json"))
 
 
-def wrong_name(text: str) -> str:
+def preset_name_problem(text: str) -> str:
     """Why a text cannot be the name of a preset; empty when it can."""
     fits = re.fullmatch(r"[\w][\w .-]{0,59}", text.strip())
     return "" if fits else "letters, digits, blanks, dots and dashes make a name"
@@ -63,8 +63,8 @@ def read_preset(name: str) -> Preset:
     """The curves saved under a name; raises `NoPreset`."""
     path = _folder() / f"{name}.json"
     try:
-        data: Any = json.loads(read_store(path, LARGEST))
-        curves = tuple(_curve(each) for each in data["curves"][:MOST_CURVES])
+        data: Any = json.loads(read_store(path, MAX_FILE_BYTES))
+        curves = tuple(_curve(each) for each in data["curves"][:MAX_CURVES])
         return Preset(curves, float(data["window"]), _text(data, "limits"), _text(data, "against"))
     except OSError as error:
         raise NoPreset(f"{path}: {error.strerror or error}") from None

@@ -8,7 +8,7 @@ import stat
 from pathlib import Path
 
 
-def read_store(path: Path, most: int, *, end: bool = False) -> bytes:
+def read_store(path: Path, maximum: int, *, end: bool = False) -> bytes:
     """The content of a file of at most so many bytes; with `end`, the last ones of a larger file.
 
     Raises `OSError`; `FileNotFoundError` if there is none. A pipe in its place would never end, and is refused.
@@ -18,9 +18,9 @@ def read_store(path: Path, most: int, *, end: bool = False) -> bytes:
         status = os.fstat(handle)
         if not (stat.S_ISREG(status.st_mode) or stat.S_ISCHR(status.st_mode)):  # some lead it to /dev/null
             raise OSError(errno.EINVAL, "it is no regular file", str(path))
-        if end and status.st_size > most:
-            file.seek(-most, os.SEEK_END)
-        content = file.read(most + 1)
-    if len(content) > most:
-        raise OSError(errno.EFBIG, f"it is larger than {most:,} bytes", str(path))
+        if end and status.st_size > maximum:
+            file.seek(-maximum, os.SEEK_END)
+        content = file.read(maximum + 1)
+    if len(content) > maximum:
+        raise OSError(errno.EFBIG, f"it is larger than {maximum:,} bytes", str(path))
     return content

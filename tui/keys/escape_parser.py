@@ -42,7 +42,7 @@ class EscapeParser(XTermParser):
         """Whether the parser waits for the rest of a sequence."""
         return self._timeout_time is not None
 
-    def begin_anew(self) -> None:
+    def begin_again(self) -> None:
         """Forget a sequence that the parser does not know."""
         self._timeout_time = None
         self._tokens.clear()
@@ -59,7 +59,7 @@ class EscapeParser(XTermParser):
             yield self._tokens.popleft()
 
 
-def told_apart(event: events.Key, screen: Screen[Any]) -> list[events.Key]:
+def split_alt_key(event: events.Key, screen: Screen[Any]) -> list[events.Key]:
     """Esc and the key itself, for a letter with an Alt that may have been an Esc and that nothing is bound to.
 
     Empty for any other key: in the keyboard protocol that tells Alt apart, such a key has no letter.

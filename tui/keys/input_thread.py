@@ -24,7 +24,7 @@ from textual import events
 from textual.geometry import Size
 from textual.message import Message
 
-LOOK = 0.1
+ESCAPE_TIMEOUT_S = 0.1
 """Seconds after which is looked again whether the thread is to end, if it cannot be woken."""
 AT_ONCE = 4096
 """Bytes that a terminal holds at a time."""
@@ -86,7 +86,7 @@ class Watch(Protocol):
         """Take note of such a key, before it is passed on; `alone` says whether nothing was read before it."""
         ...
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Do what is due."""
         ...
 
@@ -103,7 +103,7 @@ class Unwatched:
     def typed(self, event: events.Key, *, alone: bool) -> None:
         """Nothing."""
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Nothing."""
 
 
@@ -143,14 +143,14 @@ def take_keys(driver: Any, ending: Ending, watch: Watch) -> None:
     source = TerminalEvents(driver._debug, watch.is_stop, lambda event, alone: watch.typed(event, alone=alone))
     while not ending.is_set():
         now = time.monotonic()
-        due = min((each for each in (source.due, watch.due) if each is not None), default=now + LOOK)
-        if ending.readable(driver.fileno, max(0.0, min(LOOK, due - now))):
+        due = min((each for each in (source.due, watch.due) if each is not None), default=now + ESCAPE_TIMEOUT_S)
+        if ending.readable(driver.fileno, max(0.0, min(ESCAPE_TIMEOUT_S, due - now))):
             typed = _read(driver.fileno)
             if typed is None:  # the terminal is gone, and would be readable for good
                 break
             _hand_on(driver, source.feed(typed, time.monotonic()))
         _hand_on(driver, source.expire(time.monotonic()))
-        watch.look()
+        watch.poll()
 
 
 def _read(descriptor: int) -> bytes | None:

@@ -43,9 +43,9 @@ NAMES = {
 }
 
 
-def key_text(key: Key, most: int = 9) -> str:
+def key_text(key: Key, maximum: int = 9) -> str:
     """The keys of an action, at most so many, as a person reads them."""
-    return " ".join(_written(each) for each in key.keys.split(",")[:most])
+    return " ".join(_written(each) for each in key.keys.split(",")[:maximum])
 
 
 def _written(key: str) -> str:

@@ -13,15 +13,15 @@ from itertools import islice
 from typing import TypeAlias
 
 from bot_console.tui.keymap import stops
-from bot_console.tui.keys.escape_parser import told_apart
+from bot_console.tui.keys.escape_parser import split_alt_key
 from textual import events
 from textual.app import App
 from textual.dom import DOMNode
 
-PATIENCE = 1.0
+KEY_TIMEOUT_S = 1.0
 """Seconds after which a key that has not ended, for instance since its widget was removed, holds up no other."""
 
-LONGEST_PASTE = 20_000
+MAX_PASTE_CHARACTERS = 20_000
 """Letters that may be pasted at once.
 
 Each change of a line is checked and completed as a whole: a million letters would keep the screen, and what is typed to
@@ -33,7 +33,7 @@ REPEATS = 8
 that is slower than that would go on with it for seconds after its release.
 """
 
-MOST_WAITING = 2_000
+MAX_WAITING_KEYS = 2_000
 """How many keys of any kind may wait; nobody types that many before seeing what the first ones do."""
 
 PASSES = 2
@@ -94,12 +94,12 @@ class Keyboard:
         if not self._under_way:
             await self._next()
         elif len(self._waiting) == 1:
-            self._be_patient()
+            self._wait_for_key()
 
     def _is_one_too_many(self, event: Typed) -> bool:
         if len(self._waiting) < REPEATS or (isinstance(event, events.Key) and stops(event.key)):
             return False
-        if len(self._waiting) >= MOST_WAITING:
+        if len(self._waiting) >= MAX_WAITING_KEYS:
             return True
         last = islice(reversed(self._waiting), REPEATS)
         return not self._typing() and all(_is_same_key(each, event) for each in last)
@@ -113,12 +113,12 @@ class Keyboard:
             await self._deliver(event)
             self._follow(number, [*target.ancestors_with_self] * PASSES)
             if self._waiting:
-                self._be_patient()
+                self._wait_for_key()
 
     def _first(self) -> Typed:
         """The next key to handle, as the focused widget takes it."""
         event = self._waiting[0]
-        if isinstance(event, events.Key) and (both := told_apart(event, self._app.screen)):
+        if isinstance(event, events.Key) and (both := split_alt_key(event, self._app.screen)):
             self._waiting.popleft()
             self._waiting.extendleft(reversed(both))
         return self._waiting[0]
@@ -128,7 +128,7 @@ class Keyboard:
         self.passes = passes
         await self._next()
 
-    async def let_go(self) -> None:
+    async def detach(self) -> None:
         """Handle all keys that were held, and hold no more."""
         await self.hold(lambda _: True)
 
@@ -136,8 +136,8 @@ class Keyboard:
         """Go on with the next key: the widget that received the last one has ended."""
         self._app.call_later(self._done, self._under_way)
 
-    def _be_patient(self) -> None:
-        self._app.set_timer(PATIENCE, partial(self._done, self._under_way))
+    def _wait_for_key(self) -> None:
+        self._app.set_timer(KEY_TIMEOUT_S, partial(self._done, self._under_way))
 
     def _follow(self, number: int, path: Sequence[DOMNode]) -> None:
         """Wait until each widget on the path has handled what it has received so far."""

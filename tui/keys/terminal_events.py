@@ -91,11 +91,11 @@ class TerminalEvents:
             if not found:
                 yield piece
                 continue
-            for is_stop, letters in groupby(piece.text, found.__contains__):
+            for is_stop, characters in groupby(piece.text, found.__contains__):
                 if is_stop:
-                    yield from (Piece(Kind.STOP, each) for each in letters)
+                    yield from (Piece(Kind.STOP, each) for each in characters)
                 else:
-                    yield Piece(Kind.TEXT, "".join(letters))
+                    yield Piece(Kind.TEXT, "".join(characters))
 
     def _is_stop(self, message: Message) -> bool:
         return isinstance(message, events.Key) and self._stops(message)
@@ -110,7 +110,7 @@ class TerminalEvents:
                 return self._keys(text)
             return [event for each in text for event in self._once(each, self._fed)]
         except Exception:  # a number that is none, or too large
-            self._parser.begin_anew()
+            self._parser.begin_again()
             return []
 
     def _once(self, text: str, parse: Callable[[str], list[Message]]) -> list[Message]:
@@ -133,7 +133,7 @@ class TerminalEvents:
         given = with_text(text)
         found = self._fed(given) if given else []
         if self._parser.is_waiting:
-            self._parser.begin_anew()
+            self._parser.begin_again()
             if not text.startswith(f"{ESC}["):
                 return self._keys(text)
         return found
@@ -184,7 +184,7 @@ def _text_of(code: str, shifted: str, modifiers: int) -> str:
     pressed = modifiers & ~LOCKS
     if pressed & ~SHIFT:
         return ""
-    letter = chr(int(shifted if pressed and shifted else code or "1"))
+    character = chr(int(shifted if pressed and shifted else code or "1"))
     # What Shift makes of a letter or digit only the terminal knows.
-    is_known = letter.isprintable() and not (pressed and not shifted and letter.isalnum())
-    return str(ord(letter)) if is_known else ""
+    is_known = character.isprintable() and not (pressed and not shifted and character.isalnum())
+    return str(ord(character)) if is_known else ""

@@ -11,7 +11,7 @@ from bot_console.tui.layout.tree import Tree
 
 CHROME = 3
 """Lines that are not the panes': tabs, status, keys."""
-MOST = 1000
+MAX_TERMINAL_CELLS = 1000
 """Columns and lines of which no terminal has more."""
 REMEMBERED = 50
 """Changes that can be taken back."""
@@ -88,8 +88,13 @@ class Arrangement:
 
     def least(self) -> tuple[int, int]:
         """The columns and lines it needs to be shown."""
-        columns = next((each for each in range(1, MOST) if self.tree(each, MOST) is not None), MOST)
-        return columns, next((each for each in range(1, MOST) if self.tree(columns, each) is not None), MOST)
+        columns = next(
+            (each for each in range(1, MAX_TERMINAL_CELLS) if self.tree(each, MAX_TERMINAL_CELLS) is not None),
+            MAX_TERMINAL_CELLS,
+        )
+        return columns, next(
+            (each for each in range(1, MAX_TERMINAL_CELLS) if self.tree(columns, each) is not None), MAX_TERMINAL_CELLS
+        )
 
     def _layout(self) -> Layout:
         """The layout as last read from its file: this is asked for with each snapshot."""

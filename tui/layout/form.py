@@ -7,7 +7,7 @@ from typing import Any, cast
 
 from bot_console.tui.layout.tree import Split, Tree, panes
 
-DEEPEST = 8
+MAX_DEPTH = 8
 
 
 class NoLayout(ValueError):
@@ -38,8 +38,8 @@ def _tree(data: object, known: Collection[str], depth: int) -> Tree:
         if data not in known:
             raise NoLayout(f"there is no pane '{data[:40]}'; panes: {', '.join(sorted(known))}")
         return data
-    if depth > DEEPEST:
-        raise NoLayout(f"splits are nested deeper than {DEEPEST}")
+    if depth > MAX_DEPTH:
+        raise NoLayout(f"splits are nested deeper than {MAX_DEPTH}")
     if not isinstance(data, Mapping):
         raise NoLayout(f"a pane's name, or a mapping with 'beside' or 'below', not {_kind(data)}")
     given = cast("Mapping[object, Any]", data)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from bot_console.tui.layout.tree import Split, Tree, Way
 
-LEAST = (20, 4)
+MIN_PANE_SIZE = (20, 4)
 """Columns and lines below which a pane shows nothing that can be used."""
 
 
@@ -77,7 +77,7 @@ def _parts(tree: Split, box: Box) -> list[Box]:
 
 def fits(places: Mapping[str, Box]) -> bool:
     """Whether every pane has enough room to be usable."""
-    return all(each.width >= LEAST[0] and each.height >= LEAST[1] for each in places.values())
+    return all(each.width >= MIN_PANE_SIZE[0] and each.height >= MIN_PANE_SIZE[1] for each in places.values())
 
 
 def neighbour(places: Mapping[str, Box], pane: str, dx: int, dy: int) -> str:

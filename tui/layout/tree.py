@@ -12,7 +12,7 @@ from typing import Literal, TypeAlias
 
 Way: TypeAlias = Literal["beside", "below"]
 
-LEAST_SHARE = 0.05
+MIN_SHARE = 0.05
 """What a part keeps of its split however much it is made smaller."""
 
 
@@ -101,7 +101,7 @@ def move_border(tree: Split, border: int, part: float) -> Split:
     """Move the border after a part of a split, by a fraction of the whole: one side gains what the other loses."""
     whole = sum(tree.shares)
     first, second = (tree.shares[at] / whole for at in (border, border + 1))
-    least = min(LEAST_SHARE, first, second)
+    least = min(MIN_SHARE, first, second)
     grown = min(max(first + part, least), first + second - least)
     shares = [round(1000 * each / whole) for each in tree.shares]
     both = round(1000 * (first + second))

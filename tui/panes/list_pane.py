@@ -33,7 +33,7 @@ class ListPane(Pane, Narrowed):
         rows = self._searched()
         return rows.cursor < rows.row_count() and rows.matches(rows.cursor, parse(words))
 
-    def tell_filter(self, shown: int, every: int, *more: str) -> None:
+    def report_filter(self, shown: int, every: int, *more: str) -> None:
         """Show the filter and the number of matches in the frame, and then what else narrows the list."""
         narrowed = (f"/{self.words}" if self.words else "", *more)
         counts = f"{shown} of {every}" if any(narrowed) else ""

@@ -12,13 +12,13 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console, Launcher
 from bot_console.tui.files.save_file import NotSaved, typed_path
-from bot_console.tui.format import counted, harmless
+from bot_console.tui.format import counted, sanitize
 from bot_console.tui.screens.question_screens import screen_for
 from bot_console.tui.state_store import MemoryStore, StateStore
 from bot_console.tui.time_cursor import TimeCursor
-from bot_console.tui.tuning.dial import Setting
-from bot_console.tui.tuning.question import Question as TuningQuestion
-from bot_console.tui.widgets.late_parts import LateParts
+from bot_console.tui.tuning.specification import TuningSpecification
+from bot_console.tui.tuning.tunable import Setting
+from bot_console.tui.widgets.lazy_parts import LazyParts
 from bot_console.tui.widgets.prompt.common import file_line
 from bot_console.tui.widgets.prompt.line import Prompt, asks
 from bot_console.tui.widgets.prompt.question import Confirmation, Line, Question
@@ -31,7 +31,7 @@ from textual.widget import Widget
 P = TypeVar("P", bound="Pane")
 
 
-class Pane(LateParts):
+class Pane(LazyParts):
     """A pane of the console.
 
     The app calls `show` with each new snapshot while the pane is visible, and once with the newest one when it becomes
@@ -91,9 +91,9 @@ class Pane(LateParts):
     class TuningWanted(Message):
         """Requests settings to be tried in simulated runs; `take` gets the one that the user chooses."""
 
-        def __init__(self, question: TuningQuestion, take: Callable[[Setting], None]) -> None:
+        def __init__(self, specification: TuningSpecification, take: Callable[[Setting], None]) -> None:
             super().__init__()
-            self.question = question
+            self.specification = specification
             self.take = take
 
     def __init__(
@@ -138,7 +138,7 @@ class Pane(LateParts):
         self._caption = text
         self._only_edge = True
         try:
-            self.border_subtitle = Text(harmless(text))
+            self.border_subtitle = Text(sanitize(text))
         finally:
             self._only_edge = False
 
@@ -154,7 +154,7 @@ class Pane(LateParts):
         """Draw what is new in the snapshot; parts are compared by identity, and identical ones are not redrawn."""
         raise NotImplementedError
 
-    def heed(self, snapshot: ConsoleSnapshot) -> None:
+    def observe(self, snapshot: ConsoleSnapshot) -> None:
         """Learn from a new snapshot what must not be missed, also while hidden; called before `show`."""
 
     def tick(self) -> None:
@@ -182,9 +182,9 @@ class Pane(LateParts):
 
         def save(path: Path) -> None:
             try:
-                self.tell(write(path))
+                self.report(write(path))
             except NotSaved as error:
-                self.tell(Answer(False, f"not saved: {error}"))
+                self.report(Answer(False, f"not saved: {error}"))
 
         def named(text: str) -> None:
             path = typed_path(text)
@@ -196,14 +196,14 @@ class Pane(LateParts):
 
         self.ask(file_line(label, name, named))
 
-    def tell(self, answer: Answer) -> None:
+    def report(self, answer: Answer) -> None:
         """Say what came of something that was asked for."""
         if answer.text:
             self.notify(answer.text, severity="information" if answer.ok else "error", markup=False)
 
-    def tell_later(self, answer: Future[Answer]) -> None:
+    def report_later(self, answer: Future[Answer]) -> None:
         """Say what came of it, as soon as that is known."""
-        answer.add_done_callback(lambda done: self.host.call_later(self.tell, answer_of(done)))
+        answer.add_done_callback(lambda done: self.host.call_later(self.report, answer_of(done)))
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """No key of the pane acts while something is typed in it."""
@@ -226,7 +226,7 @@ class Pane(LateParts):
     def expect(self, wanted: Sequence[str]) -> None:
         """Show topics or paths instead of what the pane shows by itself, each as soon as it is there."""
 
-    def let_go(self) -> None:
+    def detach(self) -> None:
         """Stop whatever must not go on without the pane; called when it ends by a fault."""
 
     def next_part(self, step: int) -> bool:

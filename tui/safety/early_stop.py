@@ -96,7 +96,7 @@ class EarlyStop:
             else:
                 self._hold(press)
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Hold the robot for keys that have waited too long."""
         now = self._clock()
         with self._lock:

@@ -10,7 +10,7 @@ from bot_console.tui.widgets.prompt.question import Confirmation
 from textual.app import App
 
 REASON = "bot-console is asked to quit"
-MOST = 8
+MAX_NAMED_VALUES = 8
 """Values that are named one by one."""
 
 
@@ -67,8 +67,8 @@ def lost(snapshot: ConsoleSnapshot) -> str:
     """The values that are in no file, one per line."""
     names = lost_names(snapshot)
     lines = [f"{counted(len(names), 'value')} set here and saved nowhere:"]
-    for node, name in names[:MOST]:
+    for node, name in names[:MAX_NAMED_VALUES]:
         tree = snapshot.parameters.get(node)
         known = tree.get(name) if tree else None
         lines.append(f"  {node} {name}" + (f" = {value_text(known.value)}" if known else ""))
-    return "\n".join(lines + (["  ..."] if len(names) > MOST else []))
+    return "\n".join(lines + (["  ..."] if len(names) > MAX_NAMED_VALUES else []))

@@ -19,7 +19,7 @@ class SafetyNews:
     def __init__(self, console: Console) -> None:
         self._console = console
         self._end: int | None = None
-        self._told: set[tuple[str, str]] = set()
+        self._reported: set[tuple[str, str]] = set()
 
     def since(self, snapshot: ConsoleSnapshot) -> Sequence[str]:
         """What to announce of the edits since the last call."""
@@ -35,11 +35,11 @@ class SafetyNews:
         if parameter is None or not change.accepted:
             return ""
         key, why = (change.node, change.name), takes_safety(parameter, change.old, change.new)
-        told = key in self._told
+        reported = key in self._reported
         if not why:
-            self._told.discard(key)
-        if not why or told or change.source not in BACK:
+            self._reported.discard(key)
+        if not why or reported or change.source not in BACK:
             return ""
-        self._told.add(key)
+        self._reported.add(key)
         values = f"{value_text(change.old)} → {value_text(change.new)}"
         return f"⚠ {change.name} {values} {why}. {BACK[change.source]} in the Parameters pane takes it back."

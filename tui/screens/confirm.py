@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.format import harmless
+from bot_console.tui.format import sanitize
 from bot_console.tui.screens.box import Boxed
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.widgets.prompt.question import Confirmation
@@ -40,8 +40,8 @@ class ConfirmScreen(QuestionScreen[None], Boxed):  # pyright: ignore[reportIncom
         with VerticalScroll(can_focus=False) as box:
             box.border_title = "Really?"
             box.border_subtitle = "y yes · n no"
-            text = Text("\n".join(harmless(line) for line in reasons.splitlines()))
-            text.append(("\n\n" if reasons else "") + harmless(self._confirmation.label), "bold")
+            text = Text("\n".join(sanitize(line) for line in reasons.splitlines()))
+            text.append(("\n\n" if reasons else "") + sanitize(self._confirmation.label), "bold")
             yield Static(text)
 
     def on_click(self, event: Click) -> None:

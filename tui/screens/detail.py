@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterable
 
 from bot_console.tui.console.model import LogRecord
-from bot_console.tui.format import harmless
+from bot_console.tui.format import sanitize
 from bot_console.tui.screens.overlay import Overlay
 from rich.console import RenderableType
 from rich.text import Text
@@ -24,9 +24,9 @@ class DetailScreen(Overlay):
         record = self._record
         seconds, rest = divmod(record.stamp, 10**9)
         stamp = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(seconds)) + f".{rest:09d}"
-        text = Text(f"{record.severity.name}  {harmless(record.node)}\n", "bold")
+        text = Text(f"{record.severity.name}  {sanitize(record.node)}\n", "bold")
         text.append(f"{stamp}  number {record.seq + 1}\n", "not bold dim")
         if record.file:
-            text.append(f"{harmless(record.file)}:{record.line} in {harmless(record.function)}\n", "not bold dim")
-        text.append("\n" + "\n".join(harmless(line) for line in record.text.splitlines()), "not bold")
+            text.append(f"{sanitize(record.file)}:{record.line} in {sanitize(record.function)}\n", "not bold dim")
+        text.append("\n" + "\n".join(sanitize(line) for line in record.text.splitlines()), "not bold")
         yield text

@@ -9,14 +9,14 @@ from typing import ClassVar, TypeAlias
 from bot_console.tui import keymap
 from bot_console.tui.console.model import Kind, Value
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.format import counted, element_text, harmless, parse_element
+from bot_console.tui.format import counted, element_text, parse_element, sanitize
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.prompt.filtered import Findable
 from bot_console.tui.widgets.prompt.line import Prompt, asks
 from bot_console.tui.widgets.prompt.question import Elements, Line
 from bot_console.tui.widgets.row_list import RowList
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.static_text import StaticText
 from rich.segment import Segment
 from rich.text import Text
 from textual.app import ComposeResult
@@ -45,7 +45,7 @@ class ElementRows(RowList):
         """Index and value."""
         digits = len(str(max(0, len(self.elements) - 1)))
         dim = self.part_style("row-list--dim")
-        return [Segment(f" {index:>{digits}}  ", dim), Segment(harmless(element_text(self.elements[index])))]
+        return [Segment(f" {index:>{digits}}  ", dim), Segment(sanitize(element_text(self.elements[index])))]
 
 
 class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
@@ -66,10 +66,10 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
     def compose(self) -> ComposeResult:
         """The list, its state, and a field for one element."""
         with Box() as box:
-            box.border_title = Text(harmless(self._asked.label))
+            box.border_title = Text(sanitize(self._asked.label))
             box.border_subtitle = HINT
             yield ElementRows(self._asked.values)
-            yield Words(id="elements-state")
+            yield StaticText(id="elements-state")
             yield Prompt(id="elements-prompt")
 
     @property
@@ -79,18 +79,18 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
     def on_mount(self) -> None:
         """Focus the list."""
         self._list.focus()
-        self._tell()
+        self._report()
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Disable the keys of the list while an element is typed."""
         return not asks(self) and super().check_action(action, parameters)
 
-    def _tell(self, what: str = "") -> None:
+    def _report(self, what: str = "") -> None:
         count = len(self._list.elements)
         state = counted(count, "element") if count else "empty: i inserts the first element"
         changed = " · changed, s sets it" if self._changed else ""
         self._leaving = False
-        self.query_one("#elements-state", Words).say(what or state + changed)
+        self.query_one("#elements-state", StaticText).show_text(what or state + changed)
 
     @property
     def _changed(self) -> bool:
@@ -101,7 +101,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
             self._change()
             then(parse_element(typed, self._asked.kind))
             self._list.rows_changed()
-            self._tell()
+            self._report()
 
         self.query_one(Prompt).ask(Line(label, answered, text=text, check=partial(_wrong, self._asked.kind)))
 
@@ -152,7 +152,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
             self._change()
             del shown.elements[shown.cursor]
             shown.rows_changed()
-            self._tell()
+            self._report()
 
     def action_move(self, step: int) -> None:
         """Move the element at the cursor, and the cursor with it."""
@@ -162,14 +162,14 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
             shown.elements.insert(at + step, shown.elements.pop(at))
             shown.rows_changed()
             shown.cursor = at + step
-            self._tell()
+            self._report()
 
     def action_undo(self) -> None:
         """Undo the last change of the list."""
         if self._before:
             self._list.elements = self._before.pop()
             self._list.rows_changed()
-            self._tell()
+            self._report()
 
     def action_take(self) -> None:
         """Answer with the array as edited."""
@@ -183,7 +183,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
         if not self._changed or self._leaving:
             self.give_up()
             return
-        self._tell("The array was changed: s sets it, esc again drops the changes.")
+        self._report("The array was changed: s sets it, esc again drops the changes.")
         self._leaving = True
 
 

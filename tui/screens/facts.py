@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from bot_console.tui.format import harmless
+from bot_console.tui.format import sanitize
 from bot_console.tui.screens.overlay import Overlay
 from rich.console import RenderableType
 from rich.text import Text
@@ -27,6 +27,6 @@ class FactsScreen(Overlay):
             if lines:
                 text.append(("\n" if text else "") + heading + "\n", "bold")
                 for line in lines:
-                    text.append(f"  {harmless(line)}\n")
+                    text.append(f"  {sanitize(line)}\n")
         text.rstrip()
         yield text

@@ -9,13 +9,13 @@ from typing import ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.traffic import Field, Goal, Payload, Reply, Slot
-from bot_console.tui.format import cut, harmless, parse_number
+from bot_console.tui.format import cut, parse_number, sanitize
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Fill, Line
 from bot_console.tui.widgets.row_list import RowList
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.static_text import StaticText
 from rich.cells import cell_len
 from rich.segment import Segment
 from rich.text import Text
@@ -56,14 +56,14 @@ class SlotRows(RowList):
         dim = self.part_style("row-list--dim")
         strong = self.part_style("row-list--strong")
         typed = slot.path in self.typed
-        name = cut(f"{'● ' if typed else '  '}{'  ' * slot.depth}{harmless(slot.name)}", names, pad=True)
-        value = cut(f"{harmless(slot.text)}{' ' + slot.unit if slot.unit and slot.text else ''}", max(0, width - names))
+        name = cut(f"{'● ' if typed else '  '}{'  ' * slot.depth}{sanitize(slot.name)}", names, pad=True)
+        value = cut(f"{sanitize(slot.text)}{' ' + slot.unit if slot.unit and slot.text else ''}", max(0, width - names))
         room = width - names - cell_len(value) - 2
         kind = " | ".join(slot.choices) if slot.choices and index == self.cursor else slot.type
         return [
             Segment(name, None if slot.editable else dim),
             Segment(value, strong if typed else None),
-            Segment(cut(f"  {harmless(kind)}", max(0, room + 2)), dim),
+            Segment(cut(f"  {sanitize(kind)}", max(0, room + 2)), dim),
         ]
 
 
@@ -84,8 +84,8 @@ class ReplyRows(RowList):
         """Name and value."""
         field = self.fields[index]
         dim = self.part_style("row-list--dim")
-        name = f" {'  ' * field.depth}{harmless(field.name)}: "
-        return [Segment(name, dim), Segment(harmless(f"{field.text} {field.unit if field.text else ''}"))]
+        name = f" {'  ' * field.depth}{sanitize(field.name)}: "
+        return [Segment(name, dim), Segment(sanitize(f"{field.text} {field.unit if field.text else ''}"))]
 
 
 class FillScreen(QuestionScreen[None]):
@@ -114,10 +114,10 @@ class FillScreen(QuestionScreen[None]):
         """The form, the reply, the state, and a field for one value."""
         what, keys = WORDS[self._asked.payload]
         with Box() as box:
-            box.border_title = Text(harmless(f"{what} {self._asked.name}  {self._asked.type}"))
+            box.border_title = Text(sanitize(f"{what} {self._asked.name}  {self._asked.type}"))
             box.border_subtitle = f"enter edits · {keys} · [ ] earlier · y copies · esc"
             yield SlotRows()
-            yield Words(id="fill-state")
+            yield StaticText(id="fill-state")
             yield ReplyRows()
             yield Prompt(id="fill-prompt")
 
@@ -133,7 +133,7 @@ class FillScreen(QuestionScreen[None]):
         first = (at for at, each in enumerate(rows.slots) if each.editable and "header" not in each.path)
         rows.cursor = next(first, 0)
         if not rows.slots:
-            self._say("There is nothing to fill in.")
+            self._show_text("There is nothing to fill in.")
 
     def _fill_in(self) -> None:
         rows = self._rows
@@ -141,9 +141,9 @@ class FillScreen(QuestionScreen[None]):
         rows.slots = self._asked.traffic.slots(self._asked.payload, self._asked.type, self._values)
         rows.rows_changed()
 
-    def _say(self, text: str, *, ok: bool | None = None) -> None:
-        state = self.query_one("#fill-state", Words)
-        state.say(text)
+    def _show_text(self, text: str, *, ok: bool | None = None) -> None:
+        state = self.query_one("#fill-state", StaticText)
+        state.show_text(text)
         state.set_class(ok is True, "good")
         state.set_class(ok is False, "wrong")
 
@@ -182,20 +182,20 @@ class FillScreen(QuestionScreen[None]):
         known = self._asked.traffic.earlier(self._asked.name)
         back = max(0, min(self._back + step, len(known)))
         if back == self._back:
-            self._say("Nothing earlier was sent from here." if step > 0 else "This is the newest.", ok=False)
+            self._show_text("Nothing earlier was sent from here." if step > 0 else "This is the newest.", ok=False)
             return
         if self._back == 0:
             self._draft = dict(self._values)
         self._back = back
         self._values = dict(known[-back]) if back else dict(self._draft)
         self._fill_in()
-        self._say(f"{back} of {len(known)} earlier ones" if back else "what was being typed")
+        self._show_text(f"{back} of {len(known)} earlier ones" if back else "what was being typed")
 
     def action_send(self) -> None:
         """Publish once, call, or send the goal."""
         asked, traffic = self._asked, self._asked.traffic
         if asked.payload is Payload.REQUEST:
-            self._say(f"{asked.name} was called ...")
+            self._show_text(f"{asked.name} was called ...")
             self._show([])
             answer = traffic.call(asked.name, asked.type, dict(self._values))
             answer.add_done_callback(partial(self.call_later, self._answered))
@@ -207,7 +207,7 @@ class FillScreen(QuestionScreen[None]):
             sent = traffic.publish(asked.name, asked.type, dict(self._values))
             self._sent += sent.ok
         again = f" ({self._sent} times)" if asked.payload is Payload.MESSAGE and self._sent > 1 and sent.ok else ""
-        self._say(sent.text + again, ok=sent.ok)
+        self._show_text(sent.text + again, ok=sent.ok)
 
     def _answered(self, done: Future[Reply]) -> None:
         if not self.is_mounted:
@@ -215,7 +215,7 @@ class FillScreen(QuestionScreen[None]):
         error = done.exception()
         reply = Reply(False, str(error)) if error else done.result()
         took = f"answered after {reply.seconds * 1e3:.1f} ms"
-        self._say(took if reply.ok else reply.text, ok=reply.ok)
+        self._show_text(took if reply.ok else reply.text, ok=reply.ok)
         self._show(reply.fields)
 
     def _show(self, fields: Sequence[Field]) -> None:
@@ -224,16 +224,16 @@ class FillScreen(QuestionScreen[None]):
         rows.styles.height = min(len(fields), max(3, self.size.height // 3))
         rows.rows_changed()
 
-    def look(self) -> bool:
+    def poll(self) -> bool:
         """Show the state of a goal; called with each snapshot."""
         goal = self._asked.traffic.goals().get(self._asked.name) if self._asked.payload is Payload.GOAL else None
         if goal is not None and self.is_mounted and goal != self._goal:
             self._goal = goal
             count = f", {goal.feedback_count} feedback" if goal.feedback_count else ""
             ok = None if goal.active else goal.status == "succeeded"
-            self._say(f"{goal.status} after {goal.seconds:.1f} s{count}  {goal.problem}", ok=ok)
+            self._show_text(f"{goal.status} after {goal.seconds:.1f} s{count}  {goal.problem}", ok=ok)
             self._show(goal.result if not goal.active and goal.result else goal.feedback)
-        return super().look()
+        return super().poll()
 
     def action_repeat(self) -> None:
         """Ask for a rate (Hz) and publish at it."""
@@ -244,17 +244,17 @@ class FillScreen(QuestionScreen[None]):
     def _repeat(self, typed: str) -> None:
         asked = self._asked
         sent = asked.traffic.publish(asked.name, asked.type, dict(self._values), parse_number(typed))
-        self._say(f"{sent.text}; x ends it" if sent.ok else sent.text, ok=sent.ok)
+        self._show_text(f"{sent.text}; x ends it" if sent.ok else sent.text, ok=sent.ok)
 
     def action_stop(self) -> None:
         """Stop publishing at a rate, or cancel the goal."""
         asked, traffic = self._asked, self._asked.traffic
         if asked.payload is Payload.GOAL:
             answer = traffic.cancel(asked.name)
-            self._say(answer.text, ok=answer.ok)
+            self._show_text(answer.text, ok=answer.ok)
         elif asked.name in traffic.repeated():
             traffic.stop(asked.name)
-            self._say("nothing is published from here any more")
+            self._show_text("nothing is published from here any more")
 
     def action_copy(self) -> None:
         """Copy the `ros2` command that sends the same."""
@@ -262,7 +262,7 @@ class FillScreen(QuestionScreen[None]):
         running = asked.traffic.repeated().get(asked.name)
         text = asked.traffic.line(asked.payload, asked.name, asked.type, self._values, running.rate if running else 0.0)
         self.host.copy_to_clipboard(text)
-        self._say(f"copied: {text}")
+        self._show_text(f"copied: {text}")
 
 
 def _wrong_rate(text: str) -> str:

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import LaunchArgument
-from bot_console.tui.format import harmless
+from bot_console.tui.format import sanitize
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.prompt.question import Form
@@ -43,14 +43,14 @@ class ArgumentsScreen(QuestionScreen[dict[str, str]]):
     def compose(self) -> ComposeResult:
         """Name, value and description of each argument."""
         with Box() as box:
-            box.border_title = Text(harmless(self._form.label))
+            box.border_title = Text(sanitize(self._form.label))
             box.border_subtitle = "↑↓ move · enter launches · esc closes"
             with VerticalScroll(can_focus=False):
                 for each in self._arguments:
                     with Vertical(classes="argument"):
-                        yield Static(harmless(each.name), classes="name", markup=False)
+                        yield Static(sanitize(each.name), classes="name", markup=False)
                         suggester = SuggestFromList(each.choices) if each.choices else None
-                        yield Input(harmless(each.default or ""), suggester=suggester, select_on_focus=True)
+                        yield Input(sanitize(each.default or ""), suggester=suggester, select_on_focus=True)
                         if each.choices:
                             yield Static(choices_line(each, each.default or ""), classes="choices", markup=False)
                         yield Static(self._about(each), classes="about", markup=False)
@@ -58,7 +58,7 @@ class ArgumentsScreen(QuestionScreen[dict[str, str]]):
 
     @staticmethod
     def _about(argument: LaunchArgument) -> str:
-        parts = [harmless(argument.description)]
+        parts = [sanitize(argument.description)]
         parts.append("required" if argument.default is None else "")
         parts.append("page up, page down choose" if argument.choices else "")
         return " · ".join(each for each in parts if each)
@@ -105,17 +105,17 @@ class ArgumentsScreen(QuestionScreen[dict[str, str]]):
             if each.choices and values[each.name] not in each.choices
         ]
         if wrong:
-            self.query_one("#wrong", Static).update(harmless("; ".join(wrong)))
+            self.query_one("#wrong", Static).update(sanitize("; ".join(wrong)))
             return
         self.answer(
             {
                 each.name: values[each.name]
                 for each in self._arguments
-                if values[each.name] != harmless(each.default or "")
+                if values[each.name] != sanitize(each.default or "")
             }
         )
 
 
 def choices_line(argument: LaunchArgument, value: str) -> str:
     """The values that an argument may have, with its current one marked."""
-    return "  ".join(f"{'●' if each == value else '○'} {harmless(each)}" for each in argument.choices)
+    return "  ".join(f"{'●' if each == value else '○'} {sanitize(each)}" for each in argument.choices)

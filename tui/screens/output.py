@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from bot_console.tui.format import harmless
+from bot_console.tui.format import sanitize
 from bot_console.tui.screens.overlay import Overlay
 from rich.console import RenderableType
 from rich.text import Text
@@ -19,4 +19,4 @@ class OutputScreen(Overlay):
 
     def content(self) -> Iterable[RenderableType]:
         """The output."""
-        yield Text("\n".join(harmless(line) for line in self._output.splitlines()) or "(no output)")
+        yield Text("\n".join(sanitize(line) for line in self._output.splitlines()) or "(no output)")

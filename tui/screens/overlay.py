@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.format import harmless
+from bot_console.tui.format import sanitize
 from bot_console.tui.screens.box import Boxed
 from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
 from rich.console import RenderableType
@@ -46,7 +46,7 @@ class Overlay(DimmedScreen, Boxed):  # pyright: ignore[reportIncompatibleMethodO
     def compose(self) -> ComposeResult:
         """The box."""
         with VerticalScroll(can_focus=False) as box:
-            box.border_title = Text(harmless(self._heading))
+            box.border_title = Text(sanitize(self._heading))
             box.border_subtitle = "esc closes"
             for each in self.content():
                 yield each if isinstance(each, Widget) else Static(each)

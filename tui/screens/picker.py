@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.format import harmless
+from bot_console.tui.format import sanitize
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.item_list import ItemList
 from bot_console.tui.widgets.prompt.question import Choice, Option
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.static_text import StaticText
 from rich.segment import Segment
 from rich.text import Text
 from textual.app import ComposeResult
@@ -30,8 +30,8 @@ class OptionRows(ItemList[Option]):
         style = self.part_style("row-list--strong" if chosen else "row-list--plain")
         dim = self.part_style("row-list--dim")
         return [
-            Segment(f"{'▸' if chosen else ' '} {harmless(option.title)}  ", style),
-            Segment(harmless(option.about), dim),
+            Segment(f"{'▸' if chosen else ' '} {sanitize(option.title)}  ", style),
+            Segment(sanitize(option.about), dim),
         ]
 
 
@@ -54,10 +54,10 @@ class PickerScreen(QuestionScreen[str]):
     def compose(self) -> ComposeResult:
         """The search field, and the matching options."""
         with Box() as box:
-            box.border_title = Text(harmless(self._choice.label))
+            box.border_title = Text(sanitize(self._choice.label))
             yield Input(placeholder=self._choice.hint)
             yield OptionRows()
-            yield Words()
+            yield StaticText()
 
     @property
     def _list(self) -> OptionRows:
@@ -78,7 +78,7 @@ class PickerScreen(QuestionScreen[str]):
         self.query_one(Box).border_subtitle = f"{len(found)} of {self._every} · enter takes it · esc closes"
         shown.cursor = 0
         shown.exchange(found, stay=False)
-        self.query_one(Words).say("" if found else self._choice.empty)
+        self.query_one(StaticText).show_text("" if found else self._choice.empty)
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
         """Take the option at the cursor."""

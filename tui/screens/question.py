@@ -6,14 +6,14 @@ from typing import ClassVar, TypeVar
 
 from bot_console.tui import keymap
 from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
-from bot_console.tui.widgets.prompt.question import Asker, Question
+from bot_console.tui.widgets.prompt.question import Question, Requester
 from textual.app import App
 from textual.binding import BindingType
 
 A = TypeVar("A")
 
 
-class QuestionScreen(Asker[A], DimmedScreen):
+class QuestionScreen(Requester[A], DimmedScreen):
     """Shows a question until it is answered; closes by itself when its subject has gone."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("question")]
@@ -32,7 +32,7 @@ class QuestionScreen(Asker[A], DimmedScreen):
         """Leave the screen."""
         self.dismiss()
 
-    def tell(self, why: str) -> None:
+    def report(self, why: str) -> None:
         """Notify the user on the screen below why it closes."""
         self.notify(why, severity="warning", markup=False)
 

@@ -22,7 +22,7 @@ HEAD = """\
 # A layout of bot-console. `beside` and `below` hold panes or further splits; `share` says how they share the room.
 # Panes: {panes}.
 """
-LARGEST = 1_000_000
+MAX_FILE_BYTES = 1_000_000
 """Bytes of a layout file, or of a perspective of rqt."""
 
 
@@ -78,7 +78,7 @@ class FileLayouts:
         Raises `NoLayout` and `OSError`.
         """
         with path.open("rb") as file:
-            text = file.read(LARGEST + 1)[:LARGEST].decode("utf-8", "replace")
+            text = file.read(MAX_FILE_BYTES + 1)[:MAX_FILE_BYTES].decode("utf-8", "replace")
         if path.suffix in (".yaml", ".yml"):
             return self._read(path), []
         return perspective_tree(text, RQT_PANES)
@@ -96,7 +96,7 @@ def _last() -> Path:
 
 
 def _data(path: Path) -> Mapping[str, Any]:
-    content = read_store(path, LARGEST)
+    content = read_store(path, MAX_FILE_BYTES)
     try:
         data = read(content)
     except NotPlainData as error:

@@ -16,7 +16,7 @@ from bot_console.tui.keys.remapping import wrong_keys
 from bot_console.tui.settings.names import GLYPHS, THEME_NAMES
 from bot_console.tui.settings.plain_file import NotPlainData, read
 
-LARGEST = 100_000
+MAX_FILE_BYTES = 100_000
 """Bytes of a settings file; what is larger is none."""
 
 KEEP_MINUTES = 2.0
@@ -93,7 +93,7 @@ def read_settings(path: Path | None = None) -> Settings:
     """Read the settings file. What cannot be used is left at its default and named in `problems`; never raises."""
     path = path or settings_file()
     try:
-        content = read_store(path, LARGEST)
+        content = read_store(path, MAX_FILE_BYTES)
     except FileNotFoundError:
         return Settings()
     except OSError as error:
@@ -127,8 +127,8 @@ def _settings(data: object, path: str) -> Settings:
     glyphs = one("glyphs", "auto", lambda name: _one_of(name, GLYPHS))
     layout = one("layout", "last", lambda _: "")
     keep = [
-        _number(given.pop(name, default), most, default, f"{path}: {name}", wrong)
-        for name, default, most in (("keep_minutes", KEEP_MINUTES, 60.0), ("keep_megabytes", KEEP_MEGABYTES, 4096.0))
+        _number(given.pop(name, default), maximum, default, f"{path}: {name}", wrong)
+        for name, default, maximum in (("keep_minutes", KEEP_MINUTES, 60.0), ("keep_megabytes", KEEP_MEGABYTES, 4096.0))
     ]
     means, wrong_means = configured_means(given.pop("stop_means", None))
     wrong += [f"{path}: stop_means: {each}" for each in wrong_means]
@@ -149,10 +149,10 @@ def _names(value: object, name: str, wrong: list[str]) -> tuple[str, ...]:
     return TOOL_NAMES
 
 
-def _number(value: object, most: float, default: float, name: str, wrong: list[str]) -> float:
-    if isinstance(value, (int, float)) and not isinstance(value, bool) and 0 <= value <= most:
+def _number(value: object, maximum: float, default: float, name: str, wrong: list[str]) -> float:
+    if isinstance(value, (int, float)) and not isinstance(value, bool) and 0 <= value <= maximum:
         return float(value)
-    wrong.append(f"{name}: a number from 0 to {most:g}")
+    wrong.append(f"{name}: a number from 0 to {maximum:g}")
     return default
 
 

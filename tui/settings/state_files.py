@@ -10,7 +10,7 @@ from bot_console.tui.files.save_file import NotSaved, save_file
 from bot_console.tui.files.store_file import read_store
 from bot_console.tui.settings.plain_file import NotPlainData, read, written
 
-LARGEST = 1_000_000
+MAX_FILE_BYTES = 1_000_000
 """Bytes of a file that is read; what is larger was not written here."""
 HEADS = {"alarms": "# Alarms of bot-console: conditions over topics and parameters, each with a name.\n"}
 """What a person may write too, with its first lines; it stands in the folder of the settings."""
@@ -30,7 +30,7 @@ class StateFiles:
     def get(self, name: str) -> object:
         """The contents of the file; None if there is none, or if it cannot be read."""
         try:
-            return read(read_store(self._path(name), LARGEST))
+            return read(read_store(self._path(name), MAX_FILE_BYTES))
         except (OSError, NotPlainData):
             return None
 

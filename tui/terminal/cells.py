@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from functools import lru_cache
 from typing import NamedTuple
 
-from bot_console.tui.terminal.plain import plain_text
+from bot_console.tui.terminal.ascii import plain_text
 from rich.cells import get_character_cell_size
 from rich.color import ColorSystem
 from rich.segment import Segment
@@ -26,7 +26,7 @@ UNSHOWN = "?"
 class Cells(NamedTuple):
     """Letters and SGR codes, one of each per cell; `uneven` if not all letters are one cell wide."""
 
-    letters: list[str]
+    characters: list[str]
     styles: list[str]
     uneven: bool = False
 
@@ -37,36 +37,36 @@ def cells_of(segments: Iterable[Segment], colours: ColorSystem, plain: bool = Fa
     Characters that act on a terminal are left out. `plain` is for terminals that show only ASCII: drawing characters
     are replaced by similar letters.
     """
-    letters: list[str] = []
+    characters: list[str] = []
     styles: list[str] = []
     uneven = False
     for given, style, control in segments:
         if control:
             continue
-        before = len(letters)
+        before = len(characters)
         text = plain_text(given) if plain else given
         if NARROW.fullmatch(text):
-            letters += text
+            characters += text
         else:
             uneven = True
-            _spread(text, letters)
-        styles += [codes_of(style, colours) if style else ""] * (len(letters) - before)
-    return Cells(letters, styles, uneven)
+            _spread(text, characters)
+        styles += [codes_of(style, colours) if style else ""] * (len(characters) - before)
+    return Cells(characters, styles, uneven)
 
 
-def _spread(text: str, letters: list[str]) -> None:
-    for letter in text:
-        width = get_character_cell_size(letter)
-        if unicodedata.category(letter) in ACTING:
+def _spread(text: str, characters: list[str]) -> None:
+    for character in text:
+        width = get_character_cell_size(character)
+        if unicodedata.category(character) in ACTING:
             # What acts on a terminal never reaches it, whoever has drawn it; where it has a width it leaves a mark.
-            letters += [UNSHOWN] * max(0, width)
+            characters += [UNSHOWN] * max(0, width)
             continue
         if width:
-            letters.append(letter)
-            letters += [""] * (width - 1)
-        elif letters:
+            characters.append(character)
+            characters += [""] * (width - 1)
+        elif characters:
             # A zero-width letter joins the one before it, which is two cells back if that is wide.
-            letters[-1 if letters[-1] or len(letters) == 1 else -2] += letter
+            characters[-1 if characters[-1] or len(characters) == 1 else -2] += character
 
 
 @lru_cache(maxsize=4096)

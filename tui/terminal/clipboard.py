@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 
-LARGEST = 32_768
+MAX_BYTES = 32_768
 """Bytes of text: terminals drop larger ones whole, some from 74,994 letters of base64 on; a slow line is held up."""
 
 
@@ -15,4 +15,4 @@ def osc52(text: str) -> str:
 
 def within(text: str) -> str:
     """Truncate a text to what is sent to a clipboard, without splitting the last letter."""
-    return text.encode("utf-8", "replace")[:LARGEST].decode("utf-8", "ignore")
+    return text.encode("utf-8", "replace")[:MAX_BYTES].decode("utf-8", "ignore")

@@ -13,12 +13,12 @@ from typing import Any, cast
 
 from bot_console.tui.terminal.restorer import LAST_WORDS
 
-GRACE = 1.0
+FLUSH_TIMEOUT_S = 1.0
 """Seconds that a terminal has to take what is still to be written."""
 
 
 @contextlib.contextmanager
-def let_go(driver: Any) -> Generator[None]:
+def closing_terminal(driver: Any) -> Generator[None]:
     """Wrap the closing of a driver; if its writer is still blocked after `GRACE` (s), its output is discarded.
 
     Textual waits for the writer without limit, so quitting would hang on a stalled terminal.
@@ -39,7 +39,7 @@ def let_go(driver: Any) -> Generator[None]:
 
 
 def _watch(writer: threading.Thread, done: threading.Event) -> None:
-    if done.wait(GRACE) or not writer.is_alive() or writer.ident is None:
+    if done.wait(FLUSH_TIMEOUT_S) or not writer.is_alive() or writer.ident is None:
         return
     descriptor: int = cast(Any, writer)._file.fileno()  # of Textual's WriterThread
     # Kept for the last words, and to be restored: the descriptor itself is redirected to the null device.

@@ -23,26 +23,26 @@ class ShownScreen:
     def __init__(self, plain: bool = False) -> None:
         """`plain`: as `cells_of` has it."""
         self._plain = plain
-        self._letters: list[list[str]] = []
+        self._characters: list[list[str]] = []
         self._styles: list[list[str]] = []
         self._strips: list[dict[int, list[Segment]]] = []
 
     def forget(self, width: int, height: int) -> None:
         """Forget what the terminal shows, because it was resized or others have written to it."""
-        self._letters = [[UNKNOWN] * width for _ in range(height)]
+        self._characters = [[UNKNOWN] * width for _ in range(height)]
         self._styles = [[""] * width for _ in range(height)]
         self._strips = [{} for _ in range(height)]
 
     @property
     def size(self) -> tuple[int, int]:
         """The size in columns and lines."""
-        return len(self._letters[0]) if self._letters else 0, len(self._letters)
+        return len(self._characters[0]) if self._characters else 0, len(self._characters)
 
     def update(self, lines: Iterable[tuple[int, Mapping[int, Strip | None]]], colours: ColorSystem) -> str:
         """Apply new strips by line and column; returns the text that shows them, empty if they are shown already."""
         writer = Writer()
         for y, pieces in lines:
-            if 0 <= y < len(self._letters):
+            if 0 <= y < len(self._characters):
                 for x, cells in self._changed(y, pieces, colours):
                     self._write(writer, y, x, cells)
         return writer.text()
@@ -62,24 +62,24 @@ class ShownScreen:
                 yield x, cells_of(segments, colours, self._plain)
 
     def _write(self, writer: Writer, y: int, x: int, new: Cells) -> None:
-        letters, styles = self._letters[y], self._styles[y]
-        end = min(len(letters), x + len(new.letters))
+        characters, styles = self._characters[y], self._styles[y]
+        end = min(len(characters), x + len(new.characters))
         differing = [
-            at for at in range(x, end) if new.letters[at - x] != letters[at] or (new.styles[at - x] != styles[at])
+            at for at in range(x, end) if new.characters[at - x] != characters[at] or (new.styles[at - x] != styles[at])
         ]
         if not differing:
             return
-        uneven = new.uneven or "" in letters[x:end]
-        letters[x:end], styles[x:end] = new.letters[: end - x], new.styles[: end - x]
+        uneven = new.uneven or "" in characters[x:end]
+        characters[x:end], styles[x:end] = new.characters[: end - x], new.styles[: end - x]
         if uneven:
             # Terminals disagree on the width of such letters, so everything after the first change is rewritten.
             begin = differing[0]
             # The second half of a wide letter cannot be written without the first.
-            while begin > x and not letters[begin]:
+            while begin > x and not characters[begin]:
                 begin -= 1
             differing = list(range(begin, end))
         for at in differing:
-            writer.cell(y, at, letters, styles)
+            writer.cell(y, at, characters, styles)
 
 
 class Writer:
@@ -91,30 +91,30 @@ class Writer:
         self._y = -1
         self._x = -1
 
-    def cell(self, y: int, x: int, letters: list[str], styles: list[str]) -> None:
+    def cell(self, y: int, x: int, characters: list[str], styles: list[str]) -> None:
         """Write one cell of a line; cells come in order."""
-        self._move(y, x, letters, styles)
+        self._move(y, x, characters, styles)
         style = styles[x]
         if style != self._style:
             self._parts.append(change(self._style, style))
             self._style = style
-        self._parts.append(letters[x])
+        self._parts.append(characters[x])
         self._x = x + 1
 
-    def _move(self, y: int, x: int, letters: list[str], styles: list[str]) -> None:
+    def _move(self, y: int, x: int, characters: list[str], styles: list[str]) -> None:
         if y != self._y:
             self._parts.append(f"\x1b[{y + 1};{x + 1}H" if x else f"\x1b[{y + 1}H")
         elif x > self._x:
-            self._parts.append(self._across(letters[self._x : x], styles[self._x : x]))
+            self._parts.append(self._across(characters[self._x : x], styles[self._x : x]))
         self._y = y
 
-    def _across(self, letters: list[str], styles: list[str]) -> str:
+    def _across(self, characters: list[str], styles: list[str]) -> str:
         """Skip unchanged cells by rewriting them or by a cursor move, whichever is shorter."""
-        text = "".join(letters)
-        known = UNKNOWN not in letters and "" not in letters
+        text = "".join(characters)
+        known = UNKNOWN not in characters and "" not in characters
         if known and len(text.encode()) <= JUMP and all(each == self._style for each in styles):
             return text
-        return f"\x1b[{len(letters)}C"
+        return f"\x1b[{len(characters)}C"
 
     def text(self) -> str:
         """The collected text, with the style reset at its end."""

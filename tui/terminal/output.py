@@ -15,13 +15,13 @@ from typing import Any, cast
 from bot_console.tui.keys.input_queue import InputQueue
 from bot_console.tui.keys.input_thread import Unwatched, Watch, reads_input
 from bot_console.tui.terminal.clipboard import osc52, within
-from bot_console.tui.terminal.closing import let_go
+from bot_console.tui.terminal.closing import closing_terminal
 from bot_console.tui.terminal.composing.cache_limits import limit_cut_cache, limit_query_cache
 from bot_console.tui.terminal.composing.compositor import PartwiseCompositor
 from bot_console.tui.terminal.difference import ShownScreen
-from bot_console.tui.terminal.gate import AnswerGate
+from bot_console.tui.terminal.frame_pacing import AnswerGate
 from bot_console.tui.terminal.installed_version import installed_version
-from bot_console.tui.terminal.leaving import leaves_an_empty_screen, takes_up_again
+from bot_console.tui.terminal.suspension import leaves_an_empty_screen, takes_up_again
 from bot_console.tui.terminal.terminal_file import TerminalFile
 from rich.color import ColorSystem
 from textual import events
@@ -115,7 +115,7 @@ class SparingApp(App[None]):
         self.gate.merged()
         if not self._held:
             self._held = True
-            self._look_again()
+            self._poll_again()
         return False
 
     @property
@@ -167,7 +167,7 @@ class SparingApp(App[None]):
         busy = writer is not None and writer._queue.qsize() > 0
         return max(BUSY if busy else 0.0, self.gate.wait())
 
-    def _look_again(self) -> None:
+    def _poll_again(self) -> None:
         # Never 0: a batch that is held open would make the event loop spin. A timer of Textual's is a task: one
         # for each frame that comes too early costs a fifth of a millisecond before it does anything.
         wait = max(0.005, min(self._waiting(), 0.5) if not self._batch_count else BUSY)
@@ -178,7 +178,7 @@ class SparingApp(App[None]):
         if not self._held or not self.screen_stack:
             return
         if self._batch_count or self._waiting() > 0:
-            self._look_again()
+            self._poll_again()
             return
         self._held = False
         screen: Any = self.screen
@@ -218,7 +218,7 @@ class SparingApp(App[None]):
         self.gate.drawn()
 
     async def _shutdown(self) -> None:
-        with let_go(self._driver):
+        with closing_terminal(self._driver):
             await super()._shutdown()
 
 

@@ -47,17 +47,17 @@ def main(terminal: int) -> None:
     """Wait for the end of the console, and restore the terminal unless it ended well."""
     for number in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGTSTP):
         signal.signal(number, signal.SIG_IGN)
-    told: list[Settings] = []
+    reported: list[Settings] = []
     for line in sys.stdin:
         if line.strip() == WELL:
             return
-        told.append(json.loads(line))
-    if len(told) < 2:  # it had not started
+        reported.append(json.loads(line))
+    if len(reported) < 2:  # it had not started
         return
     with contextlib.suppress(OSError, termios.error):
         # Whoever waited for the console, usually a shell, may have set the terminal for itself by now.
-        if settings_of(terminal) == told[1]:
-            set_again(terminal, told[0])
+        if settings_of(terminal) == reported[1]:
+            set_again(terminal, reported[0])
         os.set_blocking(terminal, False)
         try:
             os.write(terminal, LAST_WORDS.encode())

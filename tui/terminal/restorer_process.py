@@ -38,16 +38,16 @@ def restored_terminal(terminal: int) -> Generator[Restorer]:
     assert process.stdin is not None
     pipe = process.stdin.fileno()
 
-    def tell(line: str) -> None:
+    def report(line: str) -> None:
         with contextlib.suppress(OSError):
             os.write(pipe, f"{line}\n".encode())
 
     def has_begun() -> None:
         with contextlib.suppress(termios.error):
-            tell(json.dumps(restorer.settings_of(terminal)))
+            report(json.dumps(restorer.settings_of(terminal)))
 
     def has_ended() -> None:
-        tell(restorer.WELL)
+        report(restorer.WELL)
 
     has_begun()
     try:

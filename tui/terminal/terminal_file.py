@@ -7,7 +7,7 @@ import os
 import select
 from typing import TextIO
 
-LOOK = 1.0
+RETRY_S = 1.0
 """Seconds after which a terminal that takes nothing is tried again, though nothing was heard of it."""
 
 
@@ -41,7 +41,7 @@ class TerminalFile:
     def _wait(self) -> None:
         room = select.poll()
         room.register(self._file.fileno(), select.POLLOUT)
-        room.poll(LOOK * 1000)
+        room.poll(RETRY_S * 1000)
 
     def flush(self) -> None:
         """Do nothing: writes are unbuffered."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bot_console.tui.console.model import SetOutcome
-from bot_console.tui.format import harmless, value_text
+from bot_console.tui.format import sanitize, value_text
 
 BY = {"descriptor": "by its descriptor", "callback": "by the node", "console": "here"}
 """Who refused, in the words of the detail."""
@@ -13,13 +13,13 @@ BY = {"descriptor": "by its descriptor", "callback": "by the node", "console": "
 
 def beside_row(refused: SetOutcome) -> str:
     """The requested value, and why it was refused."""
-    return f"✗ {harmless(value_text(refused.value))}: {harmless(refused.reason)}"
+    return f"✗ {sanitize(value_text(refused.value))}: {sanitize(refused.reason)}"
 
 
 def in_detail(refused: SetOutcome) -> str:
     """The same, with who refused it."""
     by = BY.get(refused.refused_by, "")
-    return f"✗ {harmless(value_text(refused.value))} refused{f' {by}' if by else ''}: {harmless(refused.reason)}"
+    return f"✗ {sanitize(value_text(refused.value))} refused{f' {by}' if by else ''}: {sanitize(refused.reason)}"
 
 
 def of_one(refused: SetOutcome) -> str:

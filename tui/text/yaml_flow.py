@@ -25,10 +25,10 @@ def quoted(text: str) -> str:
     return '"' + "".join(each if each.isprintable() and each not in _NAMED else _escaped(each) for each in text) + '"'
 
 
-def _escaped(letter: str) -> str:
-    code = ord(letter)
-    if letter in _NAMED:
-        return _NAMED[letter]
+def _escaped(character: str) -> str:
+    code = ord(character)
+    if character in _NAMED:
+        return _NAMED[character]
     return f"\\x{code:02x}" if code < 0x100 else f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
 
 

@@ -8,18 +8,18 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, cast
 
-from bot_console.tui.tuning.question import Question, Trial
+from bot_console.tui.tuning.specification import Trial, TuningSpecification
 
 
-class Journal:
+class TuningJournal:
     """The reports of runs by trial. A line that a crash has cut short is left out; that run is made again.
 
     Methods raise `OSError` where the file cannot be read or written.
     """
 
-    def __init__(self, folder: Path, question: Question, *, resume: bool) -> None:
+    def __init__(self, folder: Path, specification: TuningSpecification, *, resume: bool) -> None:
         """Begin anew, or with what the last tuning of the very same question has left."""
-        self.path = folder / f"{question.digest}.jsonl"
+        self.path = folder / f"{specification.digest}.jsonl"
         self._reports: dict[str, Mapping[str, Any]] = {}
         folder.mkdir(parents=True, exist_ok=True)
         whole = self._read() if resume else 0

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Protocol
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.tuning.dial import Setting
-from bot_console.tui.tuning.question import Question
-from bot_console.tui.tuning.study import Progress
+from bot_console.tui.tuning.job import Progress
+from bot_console.tui.tuning.specification import TuningSpecification
+from bot_console.tui.tuning.tunable import Setting
 
 
 class Tuning(Protocol):
@@ -30,10 +30,10 @@ class Tuning(Protocol):
 class Tuner(Protocol):
     """Makes runs of the simulated robot."""
 
-    def problem(self, question: Question) -> str:
+    def problem(self, specification: TuningSpecification) -> str:
         """Why a question cannot be answered; empty when it can."""
         ...
 
-    def begin(self, question: Question) -> Tuning:
+    def begin(self, specification: TuningSpecification) -> Tuning:
         """Start, or resume from what is known about the very same question."""
         ...

@@ -11,5 +11,5 @@ class Box(Vertical):
     DEFAULT_CSS = """
     Box { background: $panel; border: round $primary; padding: 0 1; }
     Box RowList { background: $panel; }
-    Box Words { background: $panel; padding: 0; }
+    Box StaticText { background: $panel; padding: 0; }
     """

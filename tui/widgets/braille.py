@@ -53,10 +53,10 @@ class BrailleCanvas:
 
     def rows(self) -> list[str]:
         """The picture as lines of text; empty cells are blanks, which cost one byte and not three."""
-        return letters(self.codes())
+        return characters(self.codes())
 
 
-def letters(codes: npt.NDArray[np.uint8]) -> list[str]:
+def characters(codes: npt.NDArray[np.uint8]) -> list[str]:
     """Codes of cells as lines of text, see `BrailleCanvas.rows`."""
     points = np.where(codes == 0, 0x20, 0x2800 + codes.astype(np.uint32)).astype("<u4")
     return [row.tobytes().decode("utf-32-le") for row in points]
@@ -79,7 +79,7 @@ def layered(
     alone = owner.max(axis=1)
     mixed = ((owner >= 0) & (owner != alone[:, None])).any(axis=1)
     rows: list[list[Piece]] = []
-    for row, text in enumerate(letters(codes)):
+    for row, text in enumerate(characters(codes)):
         if mixed[row]:
             rows.append(_pieces(text, owner[row].tolist(), styles))
         else:

@@ -6,7 +6,7 @@ from typing import ClassVar, Protocol
 
 from bot_console.tui.commanding.completing import Completion, extended, split
 from bot_console.tui.commanding.history import LineHistory
-from bot_console.tui.format import harmless
+from bot_console.tui.format import sanitize
 from bot_console.tui.keymap import bindings
 from rich.cells import cell_len
 from rich.text import Text
@@ -28,7 +28,7 @@ class Lines(Protocol):
         """What is wrong with a line; empty when nothing is."""
         ...
 
-    def outlook(self, line: str) -> str:
+    def preview(self, line: str) -> str:
         """What a line would cause, or its usage."""
         ...
 
@@ -99,7 +99,7 @@ class CommandField(Vertical):
             self.screen.set_focus(self._before)
         self._before = None
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Show candidates that have arrived meanwhile; called now and then."""
         if self.is_open and self._tried < 0:
             self._show()
@@ -143,8 +143,8 @@ class CommandField(Vertical):
             self.close()
 
     def _complain(self, wrong: str) -> None:
-        said = wrong or self._lines.outlook(self._field.value)
-        self._wrong.update(harmless(said))
+        message = wrong or self._lines.preview(self._field.value)
+        self._wrong.update(sanitize(message))
         # What the line leaves, and a third at least: what is wrong is read whole, in two or three lines.
         width = self.size.width
         self._wrong.styles.max_width = max(width - cell_len(self._field.value) - AROUND, width // 3, 10)
@@ -157,15 +157,15 @@ class CommandField(Vertical):
             text.append("looking ..." if waits else HINT)
         first = 0 if self._tried < 0 else max(0, self._tried - 2)
         for index, each in enumerate(found[first:], first):
-            name = harmless(each)
+            name = sanitize(each)
             if text.cell_len + cell_len(name) > max(20, self.size.width - 12):
                 text.append(f"  +{len(found) - index}")
                 break
             text.append(name, "reverse" if index == self._tried else "")
             text.append("  ")
         shown = self._candidates
-        if getattr(shown, "said", None) != (text.plain, text.spans):
-            shown.said = (text.plain, text.spans)  # type: ignore[attr-defined] -- what is drawn already
+        if getattr(shown, "message", None) != (text.plain, text.spans):
+            shown.message = (text.plain, text.spans)  # type: ignore[attr-defined] -- what is drawn already
             shown.update(text, layout=False)
 
     def action_complete(self, step: int) -> None:

@@ -258,11 +258,11 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         key = (id(self.drawing), size, self.selected)
         if self._map is None or self._map[0] != key:
             self._map = key, map_lines(self.places, extent, size, self.selected)
-        letters = self._map[1][line]
+        characters = self._map[1][line]
         columns, lines = seen(extent, size, window)
         inside = line in lines
         first, last = (columns.start, columns.stop) if inside else (0, 0)
-        parts = ((letters[:first], "map"), (letters[first:last], "seen"), (letters[last:], "map"))
+        parts = ((characters[:first], "map"), (characters[first:last], "seen"), (characters[last:], "map"))
         styles = {name: self.get_component_rich_style(f"diagram--{name}") for name in ("map", "seen")}
         return Strip.join(
             [

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bot_console.tui.layout.placing import Border, Box, borders, boxes
 from bot_console.tui.layout.tree import Split, Tree, change_at, move_border
-from bot_console.tui.widgets.coming_pane import ComingPane
+from bot_console.tui.widgets.pane_placeholder import PanePlaceholder
 from textual.containers import Container
 from textual.events import MouseDown, MouseMove, MouseUp
 from textual.geometry import NULL_OFFSET, NULL_SPACING, Region, Size
@@ -24,7 +24,7 @@ class TreeLayout(Layout):
     def arrange(self, parent: Widget, children: list[Widget], size: Size, greedy: bool = True) -> ArrangeResult:
         """The placements of the children that are in the tree."""
         places = boxes(self.tree, Box(0, 0, size.width, size.height))
-        named = [(child.stands_for if isinstance(child, ComingPane) else child.id, child) for child in children]
+        named = [(child.stands_for if isinstance(child, PanePlaceholder) else child.id, child) for child in children]
         return [
             WidgetPlacement(Region(*places[name]), NULL_OFFSET, NULL_SPACING, child)
             for name, child in named

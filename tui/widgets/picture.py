@@ -112,5 +112,5 @@ def _cells(line: Line, width: int) -> list[Piece] | None:
     """Letter and style of each cell; None if any letter is not exactly one cell wide."""
     if any(cell_len(text) != len(text) for text, _ in line):
         return None
-    cells = [(letter, style) for text, style in line for letter in text][:width]
+    cells = [(character, style) for text, style in line for character in text][:width]
     return cells + [(" ", "")] * (width - len(cells))

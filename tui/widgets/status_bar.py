@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 from bot_console.tui.console.model import ConsoleSnapshot, LinkInfo, ProcessState, Severity
 from bot_console.tui.console.robot.robot_model import DriveInfo
-from bot_console.tui.format import counted, figure, harmless, profile_text
-from bot_console.tui.safety.stop_words import stop_text
-from bot_console.tui.widgets.live_words import LiveWords
+from bot_console.tui.format import counted, figure, profile_label, sanitize
+from bot_console.tui.safety.stop_messages import stop_text
+from bot_console.tui.widgets.live_figures import LiveFigures
 
 
-class StatusBar(LiveWords):
+class StatusBar(LiveFigures):
     """The command chain, the all-stop, the profile, processes that have ended, errors."""
 
     DEFAULT_CSS = """
@@ -27,7 +27,7 @@ class StatusBar(LiveWords):
     def show(self, snapshot: ConsoleSnapshot, held_back: int = 0) -> None:
         """Show the state of a snapshot."""
         self._acknowledged = min(self._acknowledged, errors_of(snapshot))  # a cleared log starts counting again
-        self.say_live(status_text(snapshot, held_back, self._acknowledged, self.alarms))
+        self.show_live(status_text(snapshot, held_back, self._acknowledged, self.alarms))
         self.set_class(snapshot.drive.stopped or bool(snapshot.link.silent_s), "stopped")
 
     def acknowledge(self, snapshot: ConsoleSnapshot) -> None:
@@ -46,27 +46,27 @@ def status_text(
     """The text of the line, without `acknowledged` errors; `alarms` are the names of the active ones."""
     stop = [stop_text(snapshot.drive)] if snapshot.drive.stopped else []
     if snapshot.problem:
-        return "  ".join([*stop, harmless(snapshot.problem)])
+        return "  ".join([*stop, sanitize(snapshot.problem)])
     parts = [link_text(snapshot.link), *stop] if snapshot.link.silent_s else stop
     if snapshot.drive.means_news and not snapshot.drive.stopped:
-        parts.append(f"✗ NOT RELEASED: {harmless(snapshot.drive.means_news)}")
+        parts.append(f"✗ NOT RELEASED: {sanitize(snapshot.drive.means_news)}")
     if alarms:
-        parts.append(f"⚠ {harmless(', '.join(alarms))}")
+        parts.append(f"⚠ {sanitize(', '.join(alarms))}")
     dead = [each.label for each in snapshot.launch.processes if each.state is ProcessState.CRASHED]
     if dead:
-        parts.append(f"✗ ended: {harmless(', '.join(dead))}")
+        parts.append(f"✗ ended: {sanitize(', '.join(dead))}")
     if snapshot.launch.problem:
-        parts.append(reason_first(harmless(snapshot.launch.problem)))
+        parts.append(reason_first(sanitize(snapshot.launch.problem)))
     errors = errors_of(snapshot) - acknowledged
     if errors:
         parts.append(counted(errors, "new error" if acknowledged else "error"))
     if snapshot.recording.folder:
-        parts.append(f"● REC {harmless(snapshot.recording.folder.rpartition('/')[2])}")
+        parts.append(f"● REC {sanitize(snapshot.recording.folder.rpartition('/')[2])}")
     if snapshot.recording.problem:
-        parts.append(f"✗ {harmless(snapshot.recording.problem)}")
+        parts.append(f"✗ {sanitize(snapshot.recording.problem)}")
     parts.append("" if snapshot.capabilities.live else drive_text(snapshot.drive))
     if snapshot.active_profile:
-        parts.append(profile_text(snapshot))
+        parts.append(profile_label(snapshot))
     if snapshot.link.to and not snapshot.link.silent_s:
         parts.append(link_text(snapshot.link))
     if held_back:
@@ -77,9 +77,9 @@ def status_text(
 def link_text(link: LinkInfo) -> str:
     """The state of the link to a robot: silent, or its delay and the number of lost messages."""
     if link.silent_s:
-        return f"✗ NO ANSWER from {harmless(link.to)} for {link.silent_s} s: all that is shown is that old"
+        return f"✗ NO ANSWER from {sanitize(link.to)} for {link.silent_s} s: all that is shown is that old"
     delay = "" if link.delay_ms is None else f" {link.delay_ms} ms"
-    return f"{harmless(link.to)}{delay}" + (f", {counted(link.lost, 'message')} lost" if link.lost else "")
+    return f"{sanitize(link.to)}{delay}" + (f", {counted(link.lost, 'message')} lost" if link.lost else "")
 
 
 def reason_first(problem: str) -> str:
@@ -96,10 +96,10 @@ def drive_text(drive: DriveInfo) -> str:
     if drive.asked is not None:
         parts.append(f"asked {figure(drive.asked[0], '+')}")
     if drive.final is not None:
-        why = f" ({harmless(drive.limited_by)})" if drive.limited_by else ""
+        why = f" ({sanitize(drive.limited_by)})" if drive.limited_by else ""
         parts.append(f"command {figure(drive.final[0], '+')} m/s {figure(drive.final[1], '+')} rad/s{why}")
     elif drive.limited_by:
-        parts.append(harmless(drive.limited_by))
+        parts.append(sanitize(drive.limited_by))
     if drive.actual is not None:
         parts.append(f"actual {figure(drive.actual[0], '+')} m/s")
     elif drive.silent_s:

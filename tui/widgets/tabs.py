@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from bot_console.tui.text.shown import harmless
+from bot_console.tui.text.sanitize import sanitize
 from rich.style import Style
 from rich.text import Text
 from textual.events import Click
@@ -58,11 +58,11 @@ class Tabs(Static):
 
 def tab_texts(tabs: Sequence[Tab], width: int, colour: str) -> list[Text]:
     """Keys and titles of the panes; if room is short, with short titles, and the last ones without any first."""
-    for titled, long in ((len(tabs), True), *((most, False) for most in range(len(tabs), -1, -1))):
+    for titled, long in ((len(tabs), True), *((maximum, False) for maximum in range(len(tabs), -1, -1))):
         parts: list[Text] = []
         for at, tab in enumerate(tabs):
             word = tab.title if long else (tab.short if at < titled or tab.shown else "")
-            label = harmless(f"{tab.key} {word}".strip())
+            label = sanitize(f"{tab.key} {word}".strip())
             padded = f"[{label}]" if tab.shown else (label if not long else f" {label} ")
             parts.append(Text(padded, Style(color=colour, bold=True, reverse=True) if tab.shown else ""))
         if sum(part.cell_len + 1 for part in parts) - 1 <= width:

@@ -55,7 +55,7 @@ class Client(Node):
         goal = self._client.send_goal_async(Fibonacci.Goal(order=ORDER), feedback_callback=self._on_feedback)
         goal.add_done_callback(self._on_answer)
 
-    def _tell(self, text: str, numbers: Any) -> None:
+    def _report(self, text: str, numbers: Any) -> None:
         listed = " ".join(map(str, numbers)) + " " if self._words.spaced else str(numbers)
         self.get_logger().info(text + listed)
 
@@ -67,10 +67,10 @@ class Client(Node):
             goal.get_result_async().add_done_callback(self._on_result)
 
     def _on_feedback(self, message: Any) -> None:
-        self._tell(self._words.next, message.feedback.partial_sequence)
+        self._report(self._words.next, message.feedback.partial_sequence)
 
     def _on_result(self, answer: Any) -> None:
-        self._tell(self._words.result, answer.result().result.sequence)
+        self._report(self._words.result, answer.result().result.sequence)
         self.done = True
 
 

@@ -23,7 +23,7 @@ class Server(Node):
         return response
 
 
-def _ask(name: str, a: int, b: int, told: str, args: list[str] | None) -> None:
+def _ask(name: str, a: int, b: int, reported: str, args: list[str] | None) -> None:
     """Wait for the server, call it, log `told` and the sum, and exit."""
     with initialised(args):
         node = rclpy.create_node(name)
@@ -36,7 +36,7 @@ def _ask(name: str, a: int, b: int, told: str, args: list[str] | None) -> None:
         if response is None:
             node.get_logger().error(f"service call failed: {answer.exception()}")
         else:
-            node.get_logger().info(f"Result of add_two_ints: {told}{response.sum}")
+            node.get_logger().info(f"Result of add_two_ints: {reported}{response.sum}")
 
 
 def serve(args: list[str] | None = None) -> None:

@@ -26,8 +26,8 @@ class Publisher(Node):
     """Broadcasts the transform, and keeps it available for late subscribers."""
 
     def __init__(self, frame: TransformStamped) -> None:
-        letters = "".join(secrets.choice(string.ascii_letters + string.digits) for _ in range(16))
-        super().__init__(f"{NAME}_{letters}")
+        characters = "".join(secrets.choice(string.ascii_letters + string.digits) for _ in range(16))
+        super().__init__(f"{NAME}_{characters}")
         frame.header.stamp = self.get_clock().now().to_msg()
         self._broadcaster = StaticTransformBroadcaster(self)
         self._broadcaster.sendTransform(frame)

@@ -11,7 +11,7 @@ import rclpy
 from rclpy.node import Node
 from tf2_ros import Buffer, TransformListener
 
-PERIOD = 5.0
+LISTEN_S = 5.0
 
 
 class FrameListener(Node):
@@ -21,7 +21,7 @@ class FrameListener(Node):
         super().__init__("view_frames")
         self.buffer = Buffer()
         self._listener = TransformListener(self.buffer, self)
-        self.get_logger().info(f"Listening to tf data for {PERIOD} seconds...")
+        self.get_logger().info(f"Listening to tf data for {LISTEN_S} seconds...")
 
 
 def main(args: list[str] | None = None) -> None:
@@ -29,7 +29,7 @@ def main(args: list[str] | None = None) -> None:
     rclpy.init(args=args)
     node = FrameListener()
     try:
-        end = time.monotonic() + PERIOD
+        end = time.monotonic() + LISTEN_S
         while rclpy.ok() and (left := end - time.monotonic()) > 0.0:
             rclpy.spin_once(node, timeout_sec=left)
         graph = Path(time.strftime("frames_%Y-%m-%d_%H.%M.%S.gv"))

@@ -7,7 +7,7 @@ import sys
 from types import TracebackType
 from typing import Any
 
-PATIENCE = 0.1
+KEY_TIMEOUT_S = 0.1
 """Seconds to wait for a key."""
 
 
@@ -49,7 +49,7 @@ class Keyboard:
 def _from_terminal(file: int) -> str:
     import select
 
-    if not select.select([file], [], [], PATIENCE)[0]:
+    if not select.select([file], [], [], KEY_TIMEOUT_S)[0]:
         return ""
     byte = os.read(file, 1)
     if not byte:
@@ -66,7 +66,7 @@ def _from_windows() -> str:
 
     keys: Any = __import__("msvcrt")  # its functions are unknown to a type checker on other systems
     if not keys.kbhit():
-        time.sleep(PATIENCE)
+        time.sleep(KEY_TIMEOUT_S)
         return ""
     key = keys.getwch()
     return WINDOWS_ARROWS.get(keys.getwch(), "") if key in ("\x00", "\xe0") else key

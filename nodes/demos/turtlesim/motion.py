@@ -15,7 +15,7 @@ METRE = 45.0
 """Pixels per metre: the height of a turtle."""
 SIDE = float(np.float32((PIXELS - 1) / METRE))
 """Width and height of the field in m."""
-COMMAND_LIFE = 1.0
+COMMAND_TIMEOUT_S = 1.0
 """Seconds after which a velocity command expires."""
 ROTATION_SPEED = 1.0
 """Turn rate (rad/s) towards the target of a rotation."""

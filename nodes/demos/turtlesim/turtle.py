@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from bot_console_demos.turtlesim.canvas import Canvas, Pen
-from bot_console_demos.turtlesim.motion import COMMAND_LIFE, SIDE, Motion, Rotation, single
+from bot_console_demos.turtlesim.motion import COMMAND_TIMEOUT_S, SIDE, Motion, Rotation, single
 from geometry_msgs.msg import Twist
 from rclpy.action import ActionServer, CancelResponse
 from rclpy.duration import Duration
@@ -19,7 +19,7 @@ from turtlesim.msg import Color, Pose
 from turtlesim.srv import SetPen, TeleportAbsolute, TeleportRelative
 
 QOS = QoSProfile(depth=1)
-LIFE = Duration(seconds=COMMAND_LIFE)
+LIFE = Duration(seconds=COMMAND_TIMEOUT_S)
 
 
 def _accept(_: Any) -> CancelResponse:
@@ -144,11 +144,11 @@ class Turtle:
         hit = motion.step()
         if hit:
             self._node.get_logger().warning(f"Oh no! I hit the wall! (Clamping from [x={hit[0]:f}, y={hit[1]:f}])")
-        self._tell(canvas)
+        self._report(canvas)
         if self._pen.down and before != (motion.x, motion.y):
             canvas.line(before, (motion.x, motion.y), self._pen)
 
-    def _tell(self, canvas: Canvas) -> None:
+    def _report(self, canvas: Canvas) -> None:
         motion = self._motion
         x, y = motion.position
         self._poses.publish(

@@ -21,9 +21,9 @@ from turtlesim.srv import Kill, Spawn
 
 BACKGROUND = {"background_r": ("Red", 0x45), "background_g": ("Green", 0x56), "background_b": ("Blue", 0xFF)}
 """Parameters of the background: the name of the channel, and its default."""
-PICTURE_EVERY = 12
+FRAMES_PER_PICTURE = 12
 """Minimum number of frames between two pictures: five pictures per second are enough."""
-WHERE_TO_LOOK = "To see the turtle, run in another terminal: bot-console attach --pane world"
+WINDOW_HINT = "To see the turtle, run in another terminal: bot-console attach --pane world"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -113,7 +113,7 @@ class TurtleSim(Node):
             return  # as upstream: the first frame only starts the clock
         for _, turtle in sorted(self._turtles.items()):
             turtle.update(self._canvas)
-        if self._frames % PICTURE_EVERY == 0 and self._pictures.get_subscription_count():
+        if self._frames % FRAMES_PER_PICTURE == 0 and self._pictures.get_subscription_count():
             self._show()
 
     def _show(self) -> None:
@@ -131,7 +131,7 @@ class TurtleSim(Node):
 def main(args: list[str] | None = None) -> None:
     """Run the node."""
     if sys.stdout is not None and sys.stdout.isatty():
-        print(WHERE_TO_LOOK, flush=True)
+        print(WINDOW_HINT, flush=True)
     run(TurtleSim, args)
 
 

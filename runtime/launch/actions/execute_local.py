@@ -81,7 +81,7 @@ class ExecuteLocal(Action):
         self.__lines: dict[int, OutputLines] = {}
         self.__executed = False
         self.__registered: list[Any] = []
-        self.__exits_to_tell = 0
+        self.__exits_to_report = 0
         self.__completed: asyncio.Future[None] | None = None
         self.__shutdown: asyncio.Future[None] | None = None
         self.__child: Child | None = None
@@ -223,7 +223,7 @@ class ExecuteLocal(Action):
 
     def __handlers(self) -> list[Any]:
         return [
-            self.__when(ProcessExited, self.__told),  # handlers run newest first, so this one runs last
+            self.__when(ProcessExited, self.__on_data),  # handlers run newest first, so this one runs last
             OnTargetedProcess(ShutdownProcess, self, lambda event, context: self._shutdown_process(context, True)),
             OnTargetedProcess(SignalProcess, self, self.__on_signal),
             self.__when(ProcessIO, self.__on_io),
@@ -256,13 +256,13 @@ class ExecuteLocal(Action):
         for lines in self.__lines.values():
             lines.flush()
 
-    def __told(self, event: Any, context: LaunchContext) -> None:
-        self.__exits_to_tell -= 1
+    def __on_data(self, event: Any, context: LaunchContext) -> None:
+        self.__exits_to_report -= 1
         self.__retire(context)
 
     def __retire(self, context: LaunchContext) -> None:
         """Unregister the handlers after the last exit is handled; a long launch would otherwise keep every process."""
-        if self.__exits_to_tell or self.__completed is None or not self.__completed.done():
+        if self.__exits_to_report or self.__completed is None or not self.__completed.done():
             return
         for handler in self.__registered:
             context.unregister_event_handler(handler)
@@ -336,7 +336,7 @@ class ExecuteLocal(Action):
         else:
             words = " ".join(each for each in command if each.strip())
             self.__logger.error(f"process has died [pid {child.pid}, exit code {code}, cmd '{words}'].")
-        self.__exits_to_tell += 1
+        self.__exits_to_report += 1
         context.emit_event_sync(ProcessExited(returncode=code, action=self, **(self.__details or {})))
         return code
 

@@ -6,7 +6,7 @@ a separate process for a Python program (`forked_child`).
 
 from bot_console.runtime.own_processes import CAN_FORK, begin_children_with, close_fork_server, fork_server
 from launch.child.child import Child, Output
-from launch.child.news import News, on_news, tell_news
+from launch.child.process_reports import News, on_news, report_news
 from launch.child.python_program import PythonProgram
 from launch.child.start import start_child
 
@@ -20,6 +20,6 @@ __all__ = [
     "close_fork_server",
     "fork_server",
     "on_news",
+    "report_news",
     "start_child",
-    "tell_news",
 ]

@@ -11,7 +11,7 @@ from contextlib import ExitStack
 from bot_console.runtime.own_processes import beginnings, begun, fork_server
 from bot_console.runtime.process.fork_server import Job, Report
 from launch.child.child import Output
-from launch.child.news import NewsReader
+from launch.child.process_reports import NewsReader
 from launch.child.python_program import PythonProgram
 from launch.child.streamed_child import StreamedChild, read_stream
 
@@ -47,7 +47,7 @@ class ForkedChild(StreamedChild):
         """Print news that no hook takes, so that a person may read it."""
         self.pipe_data_received(2, text.encode())
 
-    def told(self, data: bytes) -> None:
+    def reported(self, data: bytes) -> None:
         """Take in a report of the fork server."""
         self.report.feed(data)
         if self.report.pid is not None and not self.started.done():
@@ -56,7 +56,7 @@ class ForkedChild(StreamedChild):
         if self.report.exit_code is not None:
             self.has_ended(self.report.exit_code)
 
-    def told_all(self) -> None:
+    def all_reported(self) -> None:
         """Handle the end of the fork server's report, for whatever reason."""
         if not self.started.done():
             text = self.report.problem or "the fork server has ended"
@@ -131,7 +131,7 @@ async def start_forked_child(
             job, stdin=child_input, stdout=out.child_end, stderr=error.child_end, data=child_data
         )
         kept.pop_all()  # the transports own them now
-    await _feed(child, report, child.told, child.told_all)
+    await _feed(child, report, child.reported, child.all_reported)
     await _feed(child, own_data, child.news.feed, child.news_end)
     for fd, end in ((1, out.own_end), (2, error.own_end)):
         child.transports.append(await read_stream(child, fd, end))

@@ -16,7 +16,7 @@ from launch.frontend.parse_substitution import (
     replace_escaped_characters,
 )
 from launch.invalid_launch_file_error import InvalidLaunchFileError
-from launch.launch_place import tell_place
+from launch.launch_place import report_place
 
 PARSERS = ("launch_xml", "launch_yaml")
 EXTENSIONS = ("launch_ros",)
@@ -68,7 +68,7 @@ class Parser:
         try:
             text = _read(path) if isinstance(file, str) else file.read()
         except UnicodeDecodeError as error:
-            tell_place(error, path)
+            report_place(error, path)
             raise InvalidFrontendLaunchFileError("", likely_errors=[error]) from error
         for parser in cls._parsers_for(path):
             try:
@@ -76,7 +76,7 @@ class Parser:
                 found.path = path
                 return root, found
             except Exception as error:  # each library has its own errors; all are reported
-                tell_place(error, path, _line_of_parse_error(error))
+                report_place(error, path, _line_of_parse_error(error))
                 errors.append(error)
         known = extension if cls.is_extension_valid(extension) else ""
         raise InvalidFrontendLaunchFileError(known, likely_errors=errors)
@@ -96,7 +96,7 @@ class Parser:
         try:
             return self._parse_action(entity)
         except Exception as error:
-            tell_place(error, self.path, entity.line or None)
+            report_place(error, self.path, entity.line or None)
             raise
 
     def _parse_action(self, entity: Entity) -> Any:

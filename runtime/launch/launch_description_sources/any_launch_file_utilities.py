@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any
 
 from launch.invalid_launch_file_error import InvalidLaunchFileError
-from launch.launch_place import tell_place
+from launch.launch_place import report_place
 
 
 def get_launch_description_from_frontend_launch_file(launch_file_path: str, *, parser: Any = None) -> Any:
@@ -19,7 +19,7 @@ def get_launch_description_from_frontend_launch_file(launch_file_path: str, *, p
         root, used = (parser or Parser).load(launch_file_path)
         return used.parse_description(root)
     except Exception as error:
-        tell_place(error, launch_file_path, (root.line or None) if root else None)
+        report_place(error, launch_file_path, (root.line or None) if root else None)
         raise
 
 

@@ -7,7 +7,7 @@ from importlib.util import module_from_spec, spec_from_loader
 from types import ModuleType
 from typing import Any
 
-from launch.launch_place import tell_place
+from launch.launch_place import report_place
 
 FUNCTION = "generate_launch_description"
 
@@ -32,7 +32,7 @@ def get_launch_description_from_python_launch_file(python_launch_file_path: str)
     try:
         return _generate(python_launch_file_path)
     except Exception as error:
-        tell_place(error, python_launch_file_path)
+        report_place(error, python_launch_file_path)
         raise
 
 

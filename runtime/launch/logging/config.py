@@ -65,8 +65,8 @@ class LaunchConfig:
     @level.setter
     def level(self, value: int) -> None:
         self._level = value
-        for tell in self.level_hooks:
-            tell(value)
+        for report in self.level_hooks:
+            report(value)
 
     @property
     def log_dir(self) -> str:

@@ -65,12 +65,12 @@ class Command(Substitution):
             )
         except FileNotFoundError as error:
             raise SubstitutionFailure(f"file not found: {error}") from error
-        said = f"Command: {text}"
+        message = f"Command: {text}"
         if done.returncode != 0:
             captured = f"\nCaptured stderr output: {done.stderr}" if done.stderr else ""
-            raise SubstitutionFailure(f"executed command failed. {said}{captured}")
+            raise SubstitutionFailure(f"executed command failed. {message}{captured}")
         if done.stderr and on_stderr != "ignore":
-            problem = f"executed command showed stderr output. {said}\nCaptured stderr output:\n{done.stderr}"
+            problem = f"executed command showed stderr output. {message}\nCaptured stderr output:\n{done.stderr}"
             if on_stderr == "fail":
                 raise SubstitutionFailure(problem)
             launch.logging.get_logger().warning(problem)

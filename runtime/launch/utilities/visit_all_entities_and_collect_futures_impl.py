@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, Any
 
-from launch.launch_place import tell_visited
+from launch.launch_place import report_visited
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -18,7 +18,7 @@ def visit_all_entities_and_collect_futures(
     try:
         below = entity.visit(context)
     except Exception as error:
-        tell_visited(error, entity)
+        report_visited(error, entity)
         raise
     found: list[tuple[Any, asyncio.Future[Any]]] = []
     future = entity.get_asyncio_future()

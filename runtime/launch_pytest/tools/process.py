@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 _Check = Callable[[str], Any]
-_PERIOD = 0.02
+_POLL_S = 0.02
 """Seconds between two looks."""
 
 
@@ -40,7 +40,7 @@ def _wait_sync(condition: Callable[[], bool], timeout: float | None) -> bool:
     while not condition():
         if end is not None and time.monotonic() >= end:
             return False
-        time.sleep(_PERIOD)
+        time.sleep(_POLL_S)
     return True
 
 
@@ -49,7 +49,7 @@ async def _wait(condition: Callable[[], bool], timeout: float | None) -> bool:
     while not condition():
         if end is not None and time.monotonic() >= end:
             return False
-        await asyncio.sleep(_PERIOD)
+        await asyncio.sleep(_POLL_S)
     return True
 
 

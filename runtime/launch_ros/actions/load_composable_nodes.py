@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
 
-WAIT_S = 1.0
+SERVICE_POLL_S = 1.0
 
 
 @expose_action("load_composable_node")
@@ -110,14 +110,14 @@ class LoadComposableNodes(Action):
             context.asyncio_loop.call_soon_threadsafe(self._finish)
 
     def _load_one(self, request: Any, client: Any, target: str, context: LaunchContext) -> None:
-        while not client.wait_for_service(timeout_sec=0.0 if context.is_shutdown else WAIT_S):
+        while not client.wait_for_service(timeout_sec=0.0 if context.is_shutdown else SERVICE_POLL_S):
             if context.is_shutdown:
                 self.__logger.warning(f"Abandoning wait for the '{client.srv_name}' service, due to shutdown.")
                 return
         answered = threading.Event()
         future = client.call_async(request)
-        future.add_done_callback(partial(_tell, answered))
-        while not answered.wait(WAIT_S):
+        future.add_done_callback(partial(_set_answered, answered))
+        while not answered.wait(SERVICE_POLL_S):
             if context.is_shutdown:
                 self.__logger.warning(f"Abandoning wait for the '{client.srv_name}' service response, due to shutdown.")
                 future.cancel()
@@ -143,7 +143,7 @@ class LoadComposableNodes(Action):
             self.__done.set_result(None)
 
 
-def _tell(answered: threading.Event, future: Any) -> None:
+def _set_answered(answered: threading.Event, future: Any) -> None:
     answered.set()
 
 

@@ -15,7 +15,7 @@ from launch.utilities import ensure_argument_type, normalize_to_list_of_substitu
 from launch_ros.missing_executables import may_start
 from launch_ros.node_program import is_this_python, os_command, program_of
 from launch_ros.parameter_arguments import ParameterArgument, global_parameter_arguments, own_parameter_arguments
-from launch_ros.parameter_sources import tell_given
+from launch_ros.parameter_sources import report_given
 from launch_ros.parameter_warnings import warn_of_files, warn_of_values
 from launch_ros.substitutions import ExecutableInPackage
 from launch_ros.utilities import (
@@ -215,7 +215,7 @@ class Node(ExecuteProcess):
             return
         self.__expanded_parameters = [] if given is None else global_parameter_arguments(given)
         target = self.node_name if self.is_node_name_fully_specified() else None
-        tell_given(context, self._likely_name(), self.__parameters, self.origin)
+        report_given(context, self._likely_name(), self.__parameters, self.origin)
         evaluated = evaluate_parameters(context, self.__parameters)
         for entry, found in zip(self.__parameters, evaluated, strict=True):
             if isinstance(entry, dict):

@@ -13,7 +13,7 @@ from launch_ros.ros_adapters import get_ros_node
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
-WAIT_S = 1.0
+SERVICE_POLL_S = 1.0
 
 
 class LifecycleEventManager:
@@ -56,7 +56,7 @@ class LifecycleEventManager:
         from launch_ros.events.lifecycle import ChangeState
         from lifecycle_msgs.srv import ChangeState as ChangeStateService
 
-        while not self._client.wait_for_service(timeout_sec=WAIT_S):
+        while not self._client.wait_for_service(timeout_sec=SERVICE_POLL_S):
             if context.is_shutdown:
                 self._logger.warning(f"Abandoning wait for the '{self._client.srv_name}' service, due to shutdown.")
                 return
@@ -65,11 +65,11 @@ class LifecycleEventManager:
         answered = threading.Event()
         future = self._client.call_async(request)
 
-        def tell(_: Any) -> None:
+        def report(_: Any) -> None:
             answered.set()
 
-        future.add_done_callback(tell)
-        while not answered.wait(WAIT_S):
+        future.add_done_callback(report)
+        while not answered.wait(SERVICE_POLL_S):
             if context.is_shutdown:
                 self._logger.warning(
                     f"Abandoning wait for the '{self._client.srv_name}' service response, due to shutdown."

@@ -11,10 +11,10 @@ class StdoutReadyListener(OnProcessIO):
     """Runs actions whenever a process, or any for None, prints a piece with a text in it to its standard output."""
 
     def __init__(self, *, target_action: Any = None, ready_txt: str, actions: list[Any]) -> None:
-        def look(event: Any) -> Any:
+        def poll(event: Any) -> Any:
             return actions if ready_txt in event.text.decode() else None
 
-        super().__init__(target_action=target_action, on_stdout=look)
+        super().__init__(target_action=target_action, on_stdout=poll)
         self.__actions = actions
 
     def describe(self) -> tuple[str, list[Any]]:

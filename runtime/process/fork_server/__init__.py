@@ -19,8 +19,8 @@ The child
 from __future__ import annotations
 
 from .client import ForkServer
-from .fork_off import has_one_thread
 from .job import Job, function_named
+from .prefork import has_one_thread
 from .report import Report
 
 __all__ = ["ForkServer", "Job", "Report", "function_named", "has_one_thread"]

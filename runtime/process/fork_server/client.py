@@ -9,8 +9,8 @@ import sys
 import threading
 
 from . import wire
-from .fork_off import Fork
 from .job import Job
+from .prefork import Fork
 
 CODE = """\
 import sys
@@ -55,16 +55,16 @@ class ForkServer:
         """
         if not os.path.isdir(job.cwd):
             raise FileNotFoundError(2, os.strerror(2), job.cwd)
-        report, told = os.pipe()
+        report, reported = os.pipe()
         try:
             with self._lock:
-                wire.send(self._connection, job.to_bytes(), (stdin, stdout, stderr, data, told))
+                wire.send(self._connection, job.to_bytes(), (stdin, stdout, stderr, data, reported))
         except BaseException:
             os.close(report)
             raise
         finally:
             # The server has its own copy; while ours stays open, the report would never reach its end.
-            os.close(told)
+            os.close(reported)
         return report
 
     def close(self) -> None:

@@ -21,7 +21,7 @@ def adopt() -> None:
         ctypes.CDLL(None).prctl(_SUBREAPER, 1, 0, 0, 0)
 
 
-def tell_to_end(sessions: Collection[int], number: signal.Signals) -> bool:
+def request_exit(sessions: Collection[int], number: signal.Signals) -> bool:
     """Send a signal to the orphans still in these sessions; return whether there are any.
 
     A process that has started a session of its own, as a daemon does, is meant to stay.

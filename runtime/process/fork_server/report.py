@@ -29,17 +29,17 @@ class Report:
                 self.problem = value
 
 
-def tell_pid(descriptor: int, pid: int) -> None:
+def report_pid(descriptor: int, pid: int) -> None:
     """Report that the child runs."""
     _write(descriptor, f"pid {pid}\n")
 
 
-def tell_exit(descriptor: int, code: int) -> None:
+def report_exit(descriptor: int, code: int) -> None:
     """Report that the child has ended; the final line."""
     _write(descriptor, f"exit {code}\n")
 
 
-def tell_problem(descriptor: int, text: str) -> None:
+def report_problem(descriptor: int, text: str) -> None:
     """Report that the child could not be started; the final line."""
     _write(descriptor, f"problem {text}\n")
 

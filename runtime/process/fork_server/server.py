@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 from . import orphans, wire
 from .job import Job
-from .report import tell_exit, tell_pid, tell_problem
+from .report import report_exit, report_pid, report_problem
 
 ESCALATION_S = 5.0
 """Seconds between SIGINT and SIGTERM, and between SIGTERM and SIGKILL, to children whose parent is gone."""
@@ -57,7 +57,7 @@ class Server:
             signal.signal(each, self._signalled)
         orphans.adopt()
         while not self._ending:
-            birth = self._next() if self._look(wake) else None
+            birth = self._next() if self._poll(wake) else None
             if birth is not None:
                 signal.set_wakeup_fd(-1)
                 os.close(wake)
@@ -68,7 +68,7 @@ class Server:
         self._end_orphans(wake)
         return None
 
-    def _look(self, wake: int, timeout: float | None = None) -> bool:
+    def _poll(self, wake: int, timeout: float | None = None) -> bool:
         """Wait for a request or a signal, at most `timeout` seconds; return whether there is a request."""
         ready, _, _ = select.select([wake] if self._ending else [self.parent, wake], [], [], timeout)
         if wake in ready:
@@ -96,7 +96,7 @@ class Server:
         try:
             pid = os.fork()
         except OSError as error:
-            tell_problem(report, str(error.strerror))
+            report_problem(report, str(error.strerror))
             self._release((*given, report))
             return None
         if pid == 0:
@@ -109,7 +109,7 @@ class Server:
         self._release(given)
         self._children[pid] = report
         self._sessions.add(pid)
-        tell_pid(report, pid)
+        report_pid(report, pid)
         return None
 
     @staticmethod
@@ -127,7 +127,7 @@ class Server:
                 return
             report = self._children.pop(pid, None)
             if report is not None:  # else it is an orphan of a child
-                tell_exit(report, os.waitstatus_to_exitcode(status))
+                report_exit(report, os.waitstatus_to_exitcode(status))
                 os.close(report)
 
     def _end_children(self, wake: int) -> None:
@@ -137,10 +137,10 @@ class Server:
                 os.kill(pid, number)  # not reaped yet, so the pid is still the child's
             deadline = time.monotonic() + ESCALATION_S
             while self._children and (left := deadline - time.monotonic()) > 0:
-                self._look(wake, left)
+                self._poll(wake, left)
 
     def _end_orphans(self, wake: int) -> None:
         for number in (signal.SIGTERM, signal.SIGKILL):
             deadline = time.monotonic() + ORPHANS_S
-            while orphans.tell_to_end(self._sessions, number) and (left := deadline - time.monotonic()) > 0:
-                self._look(wake, min(left, ORPHANS_S / 10))
+            while orphans.request_exit(self._sessions, number) and (left := deadline - time.monotonic()) > 0:
+                self._poll(wake, min(left, ORPHANS_S / 10))

@@ -18,7 +18,7 @@ from ..crashes import explanation
 from ..current import MAIN
 from ..frames import formatted, trim
 from ..notices import notify, on_notice
-from ..watch.lock_watch import LockWatch
+from ..watch.gil_watch import GilWatch
 from ..watch.main_watch import MainWatch
 from .job import function_named
 from .server import HELD_BACK, Birth
@@ -49,9 +49,9 @@ def become(birth: Birth) -> Callable[[], object]:
     if "numpy.random" in sys.modules:  # otherwise it seeds itself on import, which takes as long as all of this
         sys.modules["numpy.random"].seed()
     sys.excepthook = _uncaught
-    on_notice(lambda process, text: data_pipe.tell("notice", text=text))
+    on_notice(lambda process, text: data_pipe.report("notice", text=text))
     MainWatch(lambda text: notify(MAIN, text)).begin()
-    LockWatch(lambda ident, text: notify(MAIN, text)).begin()
+    GilWatch(lambda ident, text: notify(MAIN, text)).begin()
     return function_named(job.program)(*job.arguments)
 
 
@@ -102,6 +102,6 @@ def _uncaught(kind: type[BaseException], exception: BaseException, trace: Traceb
     sys.stderr.write(text)
     frames = traceback.extract_tb(exception.__traceback__)
     where = [(each.filename, each.lineno, each.name) for each in frames]
-    data_pipe.tell("uncaught", text=text, frames=where)
+    data_pipe.report("uncaught", text=text, frames=where)
     if threading.current_thread() is threading.main_thread() and (cause := explanation(exception)):
         notify(MAIN, cause)

@@ -8,7 +8,7 @@ import struct
 from collections.abc import Sequence
 
 _LENGTH = struct.Struct("!I")
-MOST_DESCRIPTORS = 8
+MAX_DESCRIPTORS = 8
 
 
 def send(connection: socket.socket, data: bytes, descriptors: Sequence[int]) -> None:
@@ -20,7 +20,7 @@ def send(connection: socket.socket, data: bytes, descriptors: Sequence[int]) -> 
 
 def receive(connection: socket.socket) -> tuple[bytes, list[int]] | None:
     """Return the next frame; None at the end."""
-    head, descriptors, _, _ = socket.recv_fds(connection, _LENGTH.size, MOST_DESCRIPTORS)
+    head, descriptors, _, _ = socket.recv_fds(connection, _LENGTH.size, MAX_DESCRIPTORS)
     head += _rest(connection, _LENGTH.size - len(head)) if head else b""
     body = _rest(connection, _LENGTH.unpack(head)[0]) if len(head) == _LENGTH.size else None
     if body is None:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ..roles import NodeThread, OwnModules, Pool
 
 _pids = itertools.count((1 << 22) + 1)  # above Linux's highest pid, so that a stray kill() hits nobody
-KILL_GRACE_S = 0.5
+KILL_TIMEOUT_S = 0.5
 """How long (s) a killed process's threads may take to unwind before it counts as abandoned."""
 
 
@@ -233,7 +233,7 @@ class NodeProcess:
 
     def break_off_later(self, states: Sequence[NodeThread]) -> None:
         """Give killed threads a moment to unwind, then raise in those still busy, then report which one hangs where."""
-        real.later(KILL_GRACE_S, partial(self._break_off, states))
+        real.later(KILL_TIMEOUT_S, partial(self._break_off, states))
 
     def _break_off(self, states: Sequence[NodeThread]) -> None:
         left = [state for state in states if state.thread.is_alive()]
@@ -244,7 +244,7 @@ class NodeProcess:
         for state in left:
             state.throw(ProcessKilled)
         if left:
-            real.later(KILL_GRACE_S, partial(self._report_hanging, left))
+            real.later(KILL_TIMEOUT_S, partial(self._report_hanging, left))
 
     def _report_hanging(self, states: Sequence[NodeThread]) -> None:
         for state in states:

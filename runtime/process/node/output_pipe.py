@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 from ..virtual.child_threads import start_outside
 
-GRACE_S = 0.5
+DRAIN_TIMEOUT_S = 0.5
 """How long (s) the end of a process waits for the last output of its child processes."""
 CHUNK = 65536
 
@@ -46,7 +46,7 @@ class OutputPipe:
     def close(self) -> None:
         """Close our end. What children have written arrives; a child that goes on printing is not waited for."""
         os.close(self.write_end)
-        self._pump.join(GRACE_S)
+        self._pump.join(DRAIN_TIMEOUT_S)
 
     def _run(self) -> None:
         while not self._ended:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ..clock_source import Wakeup
     from ..roles import CurrentProcess, Handler, NodeThread
 
-BUSY_GRACE_S = 0.1
+BUSY_TIMEOUT_S = 0.1
 """How long (s) a busy thread may take to reach a wait before the exception is raised wherever it is."""
 
 SIGKILL = 9
@@ -118,7 +118,7 @@ class Signals:
         if state is local.state:
             state.deliver()
         elif not state.waiting:
-            real.later(BUSY_GRACE_S, partial(self._break_in, state, action))
+            real.later(BUSY_TIMEOUT_S, partial(self._break_in, state, action))
 
     def _call_handler(self, handler: Callable[[int, Any], Any], signum: int) -> None:
         if self._pause is not None:
@@ -129,7 +129,7 @@ class Signals:
         """Interrupt a busy thread: run the handler elsewhere and raise in the thread what the handler raises."""
         if state.takes_turns:
             if state.called and state.thread.is_alive():
-                real.later(BUSY_GRACE_S, partial(self._break_in, state, action))
+                real.later(BUSY_TIMEOUT_S, partial(self._break_in, state, action))
         elif state.take_back(action):
             # The busy thread cannot be made to call the handler, so it is called in a new thread.
             _thread.start_new_thread(self._handle_for, (state, action))

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any
 from .. import frames, real
 
 if TYPE_CHECKING:
-    from ..clock_source import ClockSource, Seat
+    from ..clock_source import ClockSource, TurnTaker
     from ..roles import CurrentProcess
 
 
-IMPORT_PATIENCE_S = 0.005
+IMPORT_POLL_S = 0.005
 """How long (s) until it is checked again whether a thread has finished importing."""
 
 
@@ -45,7 +45,7 @@ class ThreadState:
         "ident",
         "killed",
         "process",
-        "seat",
+        "task",
         "thread",
         "waits",
     )
@@ -56,7 +56,7 @@ class ThreadState:
         self.thread = thread
         self.daemon = thread.daemon
         self.finished = clock.wakeup()
-        self.seat = clock.seat(self)
+        self.task = clock.task(self)
         self.ident = 0
         self.waits = 0
         self.killed = False
@@ -77,7 +77,7 @@ class ThreadState:
     @property
     def takes_turns(self) -> bool:
         """Whether the thread takes turns in a stepped run: then it acts in its turn, however long that takes."""
-        return self.seat is not None and not self.seat.detached
+        return self.task is not None and not self.task.detached
 
     def enter(self) -> None:
         """Make the calling thread this one; in a stepped run, wait for its turn."""
@@ -85,9 +85,9 @@ class ThreadState:
         local.process = self.process
         local.state = self
         local.waits_on = self.clock
-        local.seat = self.seat
-        if self.seat is not None:
-            self.seat.take()
+        local.task = self.task
+        if self.task is not None:
+            self.task.take()
 
     def leave(self) -> None:
         """End the thread's work: pass the turn on and wake those that join it."""
@@ -95,8 +95,8 @@ class ThreadState:
             # The system discards the times of a thread that has ended.
             self.process.cpu_of_ended_threads += time.thread_time()
         self.finished.set()
-        if self.seat is not None:
-            self.seat.leave()
+        if self.task is not None:
+            self.task.leave()
 
     def post(self, action: Callable[[], Any]) -> None:
         """Make the thread call `action` in its present or next wait, which raises what the action raises."""
@@ -139,7 +139,7 @@ class ThreadState:
             elif self.ending:
                 return
             elif self.ident and frames.is_importing(self.ident):
-                real.later(IMPORT_PATIENCE_S, partial(self.throw, exception))
+                real.later(IMPORT_POLL_S, partial(self.throw, exception))
             elif self.ident and self.thread.is_alive():
                 import ctypes
 
@@ -187,7 +187,7 @@ class _ThreadLocals(threading.local):
 
     process: CurrentProcess
     state: ThreadState | None = None
-    seat: Seat | None = None
+    task: TurnTaker | None = None
     waits_on: ClockSource | None = None
     """The clock that `time.sleep`, `Condition.wait` and `Thread.join` use; None: the original calls."""
 

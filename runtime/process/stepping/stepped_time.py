@@ -16,9 +16,9 @@ from ..node.thread_state import ThreadState, local
 from ..notices import notify
 from ..virtual.install import install_virtual_process
 from ..watch.stall_watch import StallWatch
-from .baton import Baton, Seat
 from .calls import install_stepped_calls, uninstall_stepped_calls
 from .one_cpu import pin_thread
+from .scheduler import ScheduledTask, Scheduler
 from .wakeup import SteppedWakeup
 
 DEFAULT_START_NS = 1_700_000_000_000_000_000
@@ -45,70 +45,70 @@ class SteppedTime:
         self.stalls: list[str] = []
         self._system_offset = start_system_ns
         self._stall_s = stall_s
-        self._baton = Baton(0)
-        self._watch = StallWatch(self._baton, stall_s, self._report_stall)
-        self._driver = self._baton.driver_seat()
-        self._seat_before, local.seat = local.seat, self._driver
+        self._scheduler = Scheduler(0)
+        self._watch = StallWatch(self._scheduler, stall_s, self._report_stall)
+        self._driver = self._scheduler.driver_task()
+        self._previous_task, local.task = local.task, self._driver
         self._unpin = pin_thread()
         install_virtual_process()
         install_stepped_calls()
 
     def steady_ns(self) -> int:
         """Virtual time since the start of the run in ns."""
-        baton = self._baton
-        baton.reads += 1
-        if baton.reads > FREE_READS:
-            baton.now += READ_NS
-        return baton.now
+        scheduler = self._scheduler
+        scheduler.reads += 1
+        if scheduler.reads > FREE_READS:
+            scheduler.now += READ_NS
+        return scheduler.now
 
     def system_ns(self) -> int:
         """Virtual time since the epoch in ns."""
-        baton = self._baton
-        baton.reads += 1
-        if baton.reads > FREE_READS:
-            baton.now += READ_NS
-        return baton.now + self._system_offset
+        scheduler = self._scheduler
+        scheduler.reads += 1
+        if scheduler.reads > FREE_READS:
+            scheduler.now += READ_NS
+        return scheduler.now + self._system_offset
 
     def wakeup(self) -> SteppedWakeup:
         """Return a new, unset wakeup."""
-        return SteppedWakeup(self._baton)
+        return SteppedWakeup(self._scheduler)
 
     def sleep_until(self, deadline_ns: int) -> None:
         """Let other threads run until virtual steady time reaches the deadline (ns)."""
-        SteppedWakeup(self._baton).wait(deadline_ns)
+        SteppedWakeup(self._scheduler).wait(deadline_ns)
 
-    def seat(self, thread: WaitingThread | None) -> Seat:
+    def task(self, thread: WaitingThread | None) -> ScheduledTask:
         """Return a seat for a new thread, which is ready to run."""
         self._watch.start()
-        return self._baton.seat(thread)
+        return self._scheduler.task(thread)
 
     def run_until(self, steady_ns: int) -> None:
         """Run everything up to and including that steady time (ns). Raises `RuntimeError` outside the run."""
-        seat = local.seat
-        if not isinstance(seat, Seat) or seat.baton is not self._baton:
+        task = local.task
+        if not isinstance(task, ScheduledTask) or task.scheduler is not self._scheduler:
             raise RuntimeError("this thread takes no part in the stepped run")
-        self._baton.wait(seat, None, steady_ns)
+        self._scheduler.wait(task, None, steady_ns)
 
     def run_for(self, seconds: float) -> None:
         """Run everything in the next `seconds` s of virtual time."""
-        self.run_until(self._baton.now + round(seconds * 1e9))
+        self.run_until(self._scheduler.now + round(seconds * 1e9))
 
     def close(self) -> None:
         """Kill what still runs, let it unwind, and restore the driver's thread."""
-        for seat in tuple(self._baton.seats.values()):
-            if isinstance(seat.state, ThreadState):
-                seat.state.process.die(-SIGKILL)
-                seat.state.kill()
-        self.run_until(self._baton.now)
+        for task in tuple(self._scheduler.tasks.values()):
+            if isinstance(task.state, ThreadState):
+                task.state.process.die(-SIGKILL)
+                task.state.kill()
+        self.run_until(self._scheduler.now)
         self._driver.leave()
-        local.seat = self._seat_before
+        local.task = self._previous_task
         self._unpin()
         uninstall_stepped_calls()
 
-    def _report_stall(self, seat: Seat, busy: bool) -> Callable[[], None]:
+    def _report_stall(self, task: ScheduledTask, busy: bool) -> Callable[[], None]:
         self.deterministic = False
-        line = frames.thread_line(seat.ident)
-        process = seat.state.process if isinstance(seat.state, ThreadState) else MAIN
+        line = frames.thread_line(task.ident)
+        process = task.state.process if isinstance(task.state, ThreadState) else MAIN
         self.stalls.append(f"{process.name}: {line}")
         return lambda: notify(process, f"{line} {COMPUTES if busy else BLOCKS}")
 

@@ -5,26 +5,26 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..node.thread_state import local
-from .baton import Seat
+from .scheduler import ScheduledTask
 
 if TYPE_CHECKING:
-    from .baton import Baton
+    from .scheduler import Scheduler
 
 
 class SteppedWakeup:
     """Like `threading.Event`, for threads that hand the baton on while they wait."""
 
-    __slots__ = ("__weakref__", "_baton", "flag", "waiters")
+    __slots__ = ("__weakref__", "_scheduler", "flag", "waiters")
 
-    def __init__(self, baton: Baton) -> None:
-        self._baton = baton
+    def __init__(self, scheduler: Scheduler) -> None:
+        self._scheduler = scheduler
         self.flag = False
-        self.waiters: list[Seat] = []
+        self.waiters: list[ScheduledTask] = []
 
     def set(self) -> None:
         """Wake the waiters; thread-safe."""
         if not self.flag:
-            self._baton.rouse_all(self)
+            self._scheduler.wake_all_threads(self)
 
     def clear(self) -> None:
         """Undo an earlier `set`."""
@@ -36,7 +36,7 @@ class SteppedWakeup:
 
     def wait(self, deadline_ns: int | None = None) -> bool:
         """Hand the baton on until set or until virtual time reaches the deadline (ns); return whether it was set."""
-        seat = local.seat
-        if not isinstance(seat, Seat) or seat.baton is not self._baton:
-            return self._baton.wait_outside(self, deadline_ns)
-        return seat.wait(self, deadline_ns)
+        task = local.task
+        if not isinstance(task, ScheduledTask) or task.scheduler is not self._scheduler:
+            return self._scheduler.wait_outside(self, deadline_ns)
+        return task.wait(self, deadline_ns)

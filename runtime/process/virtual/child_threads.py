@@ -49,9 +49,9 @@ def start_inside(
         process.children[thread] = state
     else:
         process.main_state = state
-        if state.seat is not None:
+        if state.task is not None:
             # An import takes wall time and no virtual time: others would run ahead of the start.
-            state.seat.hold_clock()
+            state.task.hold_clock()
     if not process.is_alive:
         # Started by a process that has ended: it is to end before its first line.
         state.kill()

@@ -39,7 +39,7 @@ class Forks:
         if process.main_state is None:
             return
         del local.process
-        local.state = local.seat = local.waits_on = None
+        local.state = local.task = local.waits_on = None
         self._make_real()
         _become(process)
 

@@ -16,7 +16,7 @@ PERIOD_S = 0.5
 """Wall time (s) between two checks."""
 BUSY_SHARE = 0.5
 """Share of a processor from which a thread that never waits counts as computing."""
-TOLD_S = 1.0
+REPORT_S = 1.0
 """Processor time (s) after which such a thread is reported."""
 
 
@@ -34,7 +34,7 @@ class BusyWatch:
             first = not self._processes
             self._processes.add(process)
         if first:
-            real.later(PERIOD_S, self._look)
+            real.later(PERIOD_S, self._poll)
 
     def process_of(self, ident: int) -> Watched | None:
         """Return the process of a thread; None if no watched process has it."""
@@ -42,18 +42,18 @@ class BusyWatch:
             processes = tuple(self._processes)
         return next((each for each in processes if any(state.ident == ident for state in each.thread_states())), None)
 
-    def _look(self) -> None:
+    def _poll(self) -> None:
         with self._guard:
             self._processes = {process for process in self._processes if process.is_alive}
             processes = tuple(self._processes)
         before, self._last = self._last, {}
         for process in processes:
             for state in process.thread_states():
-                self._look_at(process, state, before.get(state))
+                self._inspect(process, state, before.get(state))
         if processes:
-            real.later(PERIOD_S, self._look)
+            real.later(PERIOD_S, self._poll)
 
-    def _look_at(self, process: Watched, state: NodeThread, before: tuple[int, float, float] | None) -> None:
+    def _inspect(self, process: Watched, state: NodeThread, before: tuple[int, float, float] | None) -> None:
         seconds = thread_seconds(state.thread.native_id or 0)
         if state.waiting or seconds is None:
             return
@@ -62,11 +62,11 @@ class BusyWatch:
         if waits == state.waits and used >= BUSY_SHARE * PERIOD_S and not frames.is_importing(state.ident):
             computed = computed_before + used
         self._last[state] = (state.waits, seconds, computed)
-        if computed_before < TOLD_S <= computed:
+        if computed_before < REPORT_S <= computed:
             line = frames.thread_line(state.ident)
             notify(
                 process,
-                f"has computed for {TOLD_S:g} s without waiting, in {line}. It slows all other nodes down "
+                f"has computed for {REPORT_S:g} s without waiting, in {line}. It slows all other nodes down "
                 "and cannot be stopped politely: let it spin, sleep or wait in its loop",
             )
 

@@ -13,15 +13,15 @@ PERIOD_S = 0.5
 """Wall time (s) between two checks."""
 WANTED_SHARE = 0.9
 """Share of wall time, spent only running or waiting for a processor, from which a thread counts as computing."""
-TOLD_S = 1.0
+REPORT_S = 1.0
 """Processor time (s) of its own after which that is reported: on a busy machine a start may take seconds."""
 
 
 class MainWatch:
     """Reports in which line the main thread computes, once each time that begins, if the system tells such times."""
 
-    def __init__(self, tell: Callable[[str], None]) -> None:
-        self._tell = tell
+    def __init__(self, report: Callable[[str], None]) -> None:
+        self._report = report
         self._computed = 0.0
         self._before = (0.0, 0.0, 0.0)
 
@@ -29,13 +29,13 @@ class MainWatch:
         """Start watching until the process ends; to be called in the main thread."""
         if self._times() is not None:
             self._before = (real.monotonic(), *(self._times() or (0.0, 0.0)))
-            real.later(PERIOD_S, self._look)
+            real.later(PERIOD_S, self._poll)
 
     @staticmethod
     def _times() -> tuple[float, float] | None:
         return ran_and_waited(f"self/task/{os.getpid()}")  # the main thread has the process's id
 
-    def _look(self) -> None:
+    def _poll(self) -> None:
         (then, ran_then, waited_then), self._before = self._before, (real.monotonic(), *(self._times() or (0.0, 0.0)))
         now, ran, waited = self._before
         main = threading.main_thread().ident or 0
@@ -44,9 +44,9 @@ class MainWatch:
             self._computed = 0.0
         else:
             before, self._computed = self._computed, self._computed + ran - ran_then
-            if before < TOLD_S <= self._computed:
-                self._tell(
-                    f"has computed for {TOLD_S:g} s without waiting, in {frames.thread_line(main)}. It hears nothing "
+            if before < REPORT_S <= self._computed:
+                self._report(
+                    f"has computed for {REPORT_S:g} s without waiting, in {frames.thread_line(main)}. It hears nothing "
                     "meanwhile: let it spin, sleep or wait in its loop"
                 )
-        real.later(PERIOD_S, self._look)
+        real.later(PERIOD_S, self._poll)

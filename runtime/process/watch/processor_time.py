@@ -22,14 +22,14 @@ def state_and_seconds(task: str) -> tuple[str, float] | None:
 
 def thread_seconds(native_id: int) -> float | None:
     """Return the processor time (s) of a running thread of the real process; None if unknown."""
-    told = state_and_seconds(f"self/task/{native_id}")
-    return None if told is None else told[1]
+    reported = state_and_seconds(f"self/task/{native_id}")
+    return None if reported is None else reported[1]
 
 
 def wanted_seconds(task: str) -> float | None:
     """Return how long (s) a thread has run or waited for a processor; None if unknown."""
-    told = ran_and_waited(task)
-    return None if told is None else sum(told)
+    reported = ran_and_waited(task)
+    return None if reported is None else sum(reported)
 
 
 def ran_and_waited(task: str) -> tuple[float, float] | None:

@@ -11,32 +11,32 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from .. import real
-from ..stepping.baton import LAST
-from .thread_work import LOOKS_PER_STALL, ThreadWork
+from ..stepping.scheduler import LAST
+from .thread_work import CHECKS_PER_STALL, ThreadWork
 
 if TYPE_CHECKING:
-    from ..stepping.baton import Baton, Seat
+    from ..stepping.scheduler import ScheduledTask, Scheduler
 
-START_PATIENCE = 30
+START_STALL_FACTOR = 30
 """How many times as long a node may hang in its start before time goes on without it."""
-Report = Callable[["Seat", bool], Callable[[], None]]
+Report = Callable[["ScheduledTask", bool], Callable[[], None]]
 
 
 class StallWatch:
     """Takes the baton from a thread that hangs, in a wait that the run does not see or in a computation."""
 
-    def __init__(self, baton: Baton, stall_s: float, report: Report) -> None:
+    def __init__(self, scheduler: Scheduler, stall_s: float, report: Report) -> None:
         """`report(seat, busy)` is called before others go on; what it returns is called once they can.
 
         `stall_s`: how long (s) a thread must be blocked, and the unit of how long it may compute.
         """
-        self._baton = baton
+        self._scheduler = scheduler
         self._stall_s = stall_s
         self._report = report
         self._running = False
         self._guard = _thread.allocate_lock()
-        self._turn: tuple[Seat | None, int] = (None, -1)
-        self._works: dict[Seat, ThreadWork] = {}
+        self._turn: tuple[ScheduledTask | None, int] = (None, -1)
+        self._works: dict[ScheduledTask, ThreadWork] = {}
 
     def start(self) -> None:
         """Start watching, until no thread but the driver is left."""
@@ -48,48 +48,49 @@ class StallWatch:
 
     def _run(self) -> None:
         while self._go_on():
-            real.sleep(self._stall_s / LOOKS_PER_STALL)
-            seat, turns = turn = self._baton.holder, self._baton.turns
+            real.sleep(self._stall_s / CHECKS_PER_STALL)
+            task, turns = turn = self._scheduler.holder, self._scheduler.turns
             if turn != self._turn:
                 self._turn = turn
                 # A new turn: what threads did in earlier ones says nothing.
                 self._works.clear()
-            if seat is not None:
-                self._look_at_holder(seat, turns)
-            elif self._baton.starting:
-                self._look_at_starting()
+            if task is not None:
+                self._inspect_holder(task, turns)
+            elif self._scheduler.starting:
+                self._inspect_starting()
 
-    def _look_at_holder(self, seat: Seat, turns: int) -> None:
-        work = self._look(seat)
+    def _inspect_holder(self, task: ScheduledTask, turns: int) -> None:
+        work = self._poll(task)
         if work is None:
             return
         busy = work.is_busy(self._stall_s)
         if not busy and not work.is_blocked():
             return
-        told = self._baton.detach(seat, turns, lambda seat: self._report(seat, busy))
-        if told is not None:
-            told()
+        reported = self._scheduler.detach(task, turns, lambda task: self._report(task, busy))
+        if reported is not None:
+            reported()
 
-    def _look_at_starting(self) -> None:
+    def _inspect_starting(self) -> None:
         """Let time go on if all nodes for whose start it stands still hang."""
-        works = [self._look(seat) for seat in tuple(self._baton.starting)]
+        works = [self._poll(task) for task in tuple(self._scheduler.starting)]
         if all(
-            work is not None and (work.is_blocked(START_PATIENCE) or work.is_busy(self._stall_s, START_PATIENCE))
+            work is not None
+            and (work.is_blocked(START_STALL_FACTOR) or work.is_busy(self._stall_s, START_STALL_FACTOR))
             for work in works
         ):
-            self._baton.stop_waiting_for_starts()
+            self._scheduler.stop_waiting_for_starts()
 
-    def _look(self, seat: Seat) -> ThreadWork | None:
+    def _poll(self, task: ScheduledTask) -> ThreadWork | None:
         """Return the thread's work since its turn began; None for the driver, and for a thread that has not begun."""
-        if seat.rank == LAST or not seat.ident:
+        if task.rank == LAST or not task.ident:
             return None
-        work = self._works.get(seat)
+        work = self._works.get(task)
         if work is None:
-            work = self._works[seat] = ThreadWork(seat.native_id, seat.ident)
-        work.look()
+            work = self._works[task] = ThreadWork(task.native_id, task.ident)
+        work.poll()
         return work
 
     def _go_on(self) -> bool:
         with self._guard:
-            self._running = any(rank != LAST for rank in tuple(self._baton.seats))
+            self._running = any(rank != LAST for rank in tuple(self._scheduler.tasks))
             return self._running

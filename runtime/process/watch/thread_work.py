@@ -12,9 +12,9 @@ from collections.abc import Iterator
 from .. import frames
 from .processor_time import state_and_seconds
 
-LOOKS_PER_STALL = 4
+CHECKS_PER_STALL = 4
 """How many checks in a row must find a thread blocked before it counts as blocked."""
-PATIENT = 30
+MAX_BLOCKED_CHECKS = 30
 """Factor on that if the thread may be waiting for a slow disk, or if the system tells too little."""
 COMPUTING = 10
 """Processor time that a thread may use between two waits, in stalls."""
@@ -36,32 +36,32 @@ class ThreadWork:
         self._computed = 0.0
         self._imported = 0.0
         self._blocked = 0
-        self._patience = 1
+        self._checks_left = 1
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Check again; to be called at even intervals."""
         importing = frames.is_importing(self._ident)
-        told = state_and_seconds(self._task)
-        state, seconds = told or (SLEEPING, time.process_time())
+        reported = state_and_seconds(self._task)
+        state, seconds = reported or (SLEEPING, time.process_time())
         used = 0.0 if self._seconds is None else seconds - self._seconds
         self._seconds = seconds
         if importing:
             self._imported += used
         else:
             self._computed += used
-        if told is None:
-            blocked, self._patience = used == 0.0, 2 * PATIENT
+        if reported is None:
+            blocked, self._checks_left = used == 0.0, 2 * MAX_BLOCKED_CHECKS
         else:
             blocked = state == SLEEPING and self._is_blocked(importing)
         self._blocked = self._blocked + 1 if blocked else 0
 
-    def is_blocked(self, patience: int = 1) -> bool:
+    def is_blocked(self, timeout_s: int = 1) -> bool:
         """Whether it has been waiting in the kernel for that many stalls."""
-        return self._blocked >= LOOKS_PER_STALL * self._patience * patience
+        return self._blocked >= CHECKS_PER_STALL * self._checks_left * timeout_s
 
-    def is_busy(self, stall_s: float, patience: int = 1) -> bool:
+    def is_busy(self, stall_s: float, timeout_s: int = 1) -> bool:
         """Whether it has computed for long, or imported for very long."""
-        limit = COMPUTING * stall_s * patience
+        limit = COMPUTING * stall_s * timeout_s
         return self._computed >= limit or self._imported >= IMPORTING / COMPUTING * limit
 
     def _is_blocked(self, importing: bool) -> bool:
@@ -73,14 +73,14 @@ class ThreadWork:
         switches, place = self._read("status").partition("\nvoluntary_ctxt_switches:")[2], self._read("wchan")
         still, self._switches = switches == self._switches, switches
         on_lock = place in ("", "0") or place.startswith("futex")
-        self._patience = PATIENT if importing and not on_lock else 1
+        self._checks_left = MAX_BLOCKED_CHECKS if importing and not on_lock else 1
         return (still or not (on_lock or importing)) and not self._family_works()
 
     def _family_works(self) -> bool:
         """Whether a child process of the thread, or a descendant, makes progress: then the thread waits for that."""
-        told = [each for each in map(state_and_seconds, _descendants(self._task)) if each]
-        before, self._family = self._family, sum(seconds for _, seconds in told)
-        return self._family != before or any(state in AT_WORK for state, _ in told)
+        reported = [each for each in map(state_and_seconds, _descendants(self._task)) if each]
+        before, self._family = self._family, sum(seconds for _, seconds in reported)
+        return self._family != before or any(state in AT_WORK for state, _ in reported)
 
     def _read(self, name: str) -> str:
         return _read(f"/proc/{self._task}/{name}")

@@ -68,14 +68,14 @@ class WorkerPool:
                 self._idle.popleft().set()
 
 
-def tell_unfetched_at_exit(owner: object, futures: deque[Any]) -> None:
+def report_unfetched_at_exit(owner: object, futures: deque[Any]) -> None:
     """At the program's end, print exceptions that were never retrieved, as happens upstream."""
-    weakref.finalize(owner, _tell_unfetched, futures)
+    weakref.finalize(owner, _report_unfetched, futures)
 
 
-def _tell_unfetched(futures: deque[Any]) -> None:
+def _report_unfetched(futures: deque[Any]) -> None:
     while futures:
-        futures.popleft().tell_unfetched()
+        futures.popleft().report_unfetched()
 
 
 def cpu_count() -> int:

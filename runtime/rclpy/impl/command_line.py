@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from bot_console.runtime.process.crashes import MEND
+from bot_console.runtime.exit_messages import is_read
+from bot_console.runtime.process.crashes import HINT
 from bot_console.runtime.rmw import arguments
 from bot_console.runtime.rmw.arguments import Arguments, ArgumentsError
-from bot_console.runtime.terse import is_read
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
 from rclpy.impl.log_file import LogFile
 from rclpy.impl.log_routing import state
@@ -30,7 +30,7 @@ def parse_global(words: Sequence[str]) -> Arguments:
         RcutilsLogger("rcl").error("Failed to parse global arguments")
         refused = RCLError(f"failed to initialize rcl: {error}")
         if is_read():
-            setattr(refused, MEND, error.mend)
+            setattr(refused, HINT, error.hint)
         raise refused from None
     _refuse_unknown(parsed)
     if parsed.log_config_file:
@@ -84,5 +84,5 @@ def _refuse_unknown(parsed: Arguments) -> None:
     if parsed.unknown_ros_args:
         refused = UnknownROSArgsError(repr(parsed.unknown_ros_args))
         if is_read():
-            setattr(refused, MEND, arguments.meant(parsed.unknown_ros_args[0]))
+            setattr(refused, HINT, arguments.meant(parsed.unknown_ros_args[0]))
         raise refused

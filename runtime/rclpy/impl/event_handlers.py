@@ -24,14 +24,14 @@ class EventHandler(Entity):
         super().__init__(callback_group)
         self.callback = callback
         self._info_type = info_type
-        self._told = False
+        self._reported = False
 
     def happened(self, kind: str, what: Any) -> None:
         """Record an event; thread-safe."""
         raise NotImplementedError
 
-    def _tell(self) -> None:
-        self._told = True
+    def _report(self) -> None:
+        self._reported = True
         self.notify()
 
     def _info(self) -> Any:
@@ -40,12 +40,12 @@ class EventHandler(Entity):
 
     def pending(self) -> bool:
         """Whether an event is to be reported."""
-        return self._told
+        return self._reported
 
     def run(self) -> Any:
         """Run the callback."""
         # Before the callback: events during it are reported by the next one.
-        self._told = False
+        self._reported = False
         result = self._callback(self._info())
         return result if self._is_async else None
 
@@ -67,7 +67,7 @@ class MatchedHandler(EventHandler):
         self._new += max(0, what)
         self._now += what
         self._change += what
-        self._tell()
+        self._report()
 
     def _info(self) -> Any:
         info = self._info_type(self._total, self._new, self._now, self._change)
@@ -87,7 +87,7 @@ class IncompatibleHandler(EventHandler):
         self._total += 1
         self._new += 1
         self._policy = QoSPolicyKind[what]
-        self._tell()
+        self._report()
 
     def _info(self) -> Any:
         info = self._info_type(self._total, self._new, rmw_qos_policy_kind_t(self._policy.value))
@@ -105,7 +105,7 @@ class LostHandler(EventHandler):
         """Record a number of lost messages."""
         self._total += what
         self._new += what
-        self._tell()
+        self._report()
 
     def _info(self) -> Any:
         info = self._info_type(self._total, self._new)
@@ -137,7 +137,7 @@ class TimedHandler(EventHandler):
     def pending(self) -> bool:
         """Whether an event is to be reported."""
         due = self._due()
-        return self._told or (due is not None and self._clock.steady_ns() >= due)
+        return self._reported or (due is not None and self._clock.steady_ns() >= due)
 
     def run(self) -> Any:
         """Count what did not happen, and run the callback."""
@@ -206,7 +206,7 @@ class LivelinessHandler(TimedHandler):
             self._arm()
         # A sign of life is news only from one that had fallen silent.
         if kind != "asserted" or silent:
-            self._tell()
+            self._report()
 
     def _due(self) -> int | None:
         return min((due for due in tuple(self._alive.values()) if due is not None), default=None)

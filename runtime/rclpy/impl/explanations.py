@@ -7,9 +7,9 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-from bot_console.runtime.terse import is_read
+from bot_console.runtime.exit_messages import is_read
 from rclpy.impl.callables import is_coroutine
-from rclpy.impl.written_values import value_text, written
+from rclpy.impl.written_values import literal_text, written
 
 WRONG_PARAMETER = (
     "Parameter is imported from rcl_interfaces.msg here, where it is the message class: it has no Parameter.Type and "
@@ -82,7 +82,7 @@ def _wrong_type(exception: Any) -> str:
         return ""
     found = _EXPECTED.search(str(exception.args[0]))
     given = exception.param
-    return written(given.name, value_text(given.value), found[1], given.type_.name) if found else ""
+    return written(given.name, literal_text(given.value), found[1], given.type_.name) if found else ""
 
 
 _KNOWN: tuple[tuple[Callable[[BaseException], bool], str], ...] = (

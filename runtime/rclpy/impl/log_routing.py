@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 UNSET = 0
 INFO = 20
 
-Say = Callable[[int, str, str, str, str, int, int], bool]
+LogLine = Callable[[int, str, str, str, str, int, int], bool]
 """Gets severity, logger, text, file, function, line and time (ns); says whether it went out."""
 
 
@@ -29,7 +29,7 @@ class LogState:
         """Levels found by looking at ancestors; emptied when a level changes."""
         self.default = INFO
         self.stdout = True
-        self.rosout: dict[str, Say] = {}
+        self.rosout: dict[str, LogLine] = {}
         self.formatter = Formatter.of_environment()
         self.log_file = log_file or LogFile()
 
@@ -64,7 +64,9 @@ class LogState:
             name = name.rpartition(".")[0]
         return self.default or INFO
 
-    def say(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> None:
+    def show_text(
+        self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int
+    ) -> None:
         """Write a message to `/rosout`, the console and the log file."""
         publish = self.rosout.get(name)
         # First to `/rosout`: the formatted line can say whether that was done.
@@ -93,7 +95,7 @@ def reset() -> None:
     _state.set(LogState(state().log_file))
 
 
-def forget_rosout(found: LogState, say: Any) -> None:
+def forget_rosout(found: LogState, show_text: Any) -> None:
     """Remove a publisher of `/rosout` from every logger that uses it."""
-    for name in [name for name, each in found.rosout.items() if each == say]:
+    for name in [name for name, each in found.rosout.items() if each == show_text]:
         del found.rosout[name]

@@ -105,7 +105,7 @@ class RcutilsLogger:
         if type(message) is not str:
             message = _text(message)
         stamp = current().clock.system_ns()
-        shared.say(severity, name, message, code.co_filename, code.co_name, line, stamp)
+        shared.show_text(severity, name, message, code.co_filename, code.co_name, line, stamp)
         return True
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 
-def value_text(value: Any) -> str:
+def literal_text(value: Any) -> str:
     """A value as written in YAML."""
     return str(value).lower() if isinstance(value, bool) else str(value)
 

@@ -36,7 +36,7 @@ from rclpy.timer import Rate, Timer
 from rclpy.type_support import check_is_valid_msg_type, check_is_valid_srv_type
 
 NANO = 1_000_000_000
-SERVICE_QUEUE_LIMIT = 1000
+MAX_SERVICE_QUEUE = 1000
 
 
 class NodeEntities:
@@ -113,7 +113,7 @@ class NodeEntities:
         callbacks = event_callbacks or PublisherEventCallbacks()
         handlers = callbacks.create_event_handlers(group, self.get_logger, topic, qos)
         endpoint = Endpoint(self._ros_id, name, type_name(msg_type), qos, new_gid(), msg_type)
-        made = self._ros_bus.create_publisher(endpoint, _teller(handlers))
+        made = self._ros_bus.create_publisher(endpoint, _event_reporter(handlers))
         made.on_publish = _listener(handlers)
         publisher = publisher_class(self, made, msg_type, topic, qos, handlers, group)
         self._ros_publishers[publisher] = None
@@ -145,7 +145,9 @@ class NodeEntities:
         subscription = Subscription(self, msg_type, topic, callback, group, qos, raw, handlers)
         endpoint = Endpoint(self._ros_id, name, type_name(msg_type), qos, new_gid(), msg_type)
         subscription._join(
-            SubscriptionEndpoint(endpoint, raw, queue_for(qos), _notifier(subscription, handlers), _teller(handlers))
+            SubscriptionEndpoint(
+                endpoint, raw, queue_for(qos), _notifier(subscription, handlers), _event_reporter(handlers)
+            )
         )
         for handler in handlers:
             self._ros_enter(handler, group)
@@ -340,21 +342,21 @@ def _check_service_qos(profile: object) -> None:
         raise AttributeError(f"'{type(profile).__name__}' object has no attribute 'get_c_qos_profile'")
 
 
-def _teller(handlers: list[Any]) -> OnEvent:
+def _event_reporter(handlers: list[Any]) -> OnEvent:
     """A function that passes an event of the bus to the handlers of its kind."""
 
-    def tell(kind: Event, what: Any) -> None:
+    def report(kind: Event, what: Any) -> None:
         for handler in handlers:
             if kind in handler.kinds:
                 handler.happened(kind, what)
 
-    return tell
+    return report
 
 
 def _listener(handlers: list[Any]) -> Callable[[], None] | None:
     """A function that passes a message event to its handlers; None without any, as messages are frequent."""
     watching = [handler for handler in handlers if "message" in handler.kinds]
-    return partial(_teller(watching), "message", None) if watching else None
+    return partial(_event_reporter(watching), "message", None) if watching else None
 
 
 def _notifier(subscription: Subscription, handlers: list[Any]) -> Callable[[], None]:

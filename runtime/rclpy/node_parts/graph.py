@@ -196,5 +196,5 @@ class NodeGraph:
 def _type_hash(endpoint: Endpoint) -> TypeHash:
     from rclpy.type_hash import type_hash_from, type_hash_of
 
-    told = endpoint.type_hash
-    return type_hash_of(endpoint.message_class) if told is None else type_hash_from(told)
+    reported = endpoint.type_hash
+    return type_hash_of(endpoint.message_class) if reported is None else type_hash_from(reported)

@@ -6,14 +6,14 @@ import sys
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from bot_console.runtime.process.facts import anybody_listens, tell_fact
+from bot_console.runtime.process.facts import anybody_listens, report_fact
 from bot_console.runtime.process.frames import line_outside
 from rclpy.parameter import Parameter
 
 IN_CODE = "parameter_overrides of its program"
 
 
-def tell_declared(
+def report_declared(
     node: str, declared: Iterable[tuple[str, Sequence[Any]]], values: Iterable[Any], sources: Mapping[str, str]
 ) -> None:
     """Report the declarations (full name, tuple) of a node with the resulting values, if anybody listens.
@@ -23,7 +23,7 @@ def tell_declared(
     if not anybody_listens():
         return
     place = line_outside(sys._getframe(1))  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
-    tell_fact(
+    report_fact(
         "declared",
         node=node,
         parameters=[

@@ -118,7 +118,7 @@ class ParameterSetting:
         self._ros_use()  # the event needs the node's name, which a destroyed node refuses, before anything is stored
         publisher = self._parameter_event_publisher
         if publisher._is_wanted():
-            publisher._publish_own(self._ros_store_and_tell(parameters, descriptors, keep_not_set))
+            publisher._publish_own(self._ros_store_and_notify(parameters, descriptors, keep_not_set))
         else:
             self._ros_store(parameters, descriptors, keep_not_set, check_carried)
             publisher._skip()
@@ -144,7 +144,7 @@ class ParameterSetting:
                     return reason
         return None
 
-    def _ros_store_and_tell(
+    def _ros_store_and_notify(
         self, parameters: Sequence[Parameter], descriptors: dict[str, ParameterDescriptor] | None, keep_not_set: bool
     ) -> ParameterEvent:
         """Store the values; returns the event with all of them."""
@@ -162,7 +162,7 @@ class ParameterSetting:
         parameters: Sequence[Parameter],
         descriptors: dict[str, ParameterDescriptor] | None,
         keep_not_set: bool,
-        told: Callable[[Parameter], Any],
+        reported: Callable[[Parameter], Any],
     ) -> ParameterEvent:
         """Store the values; returns the event made of `told(parameter)` for each."""
         stored = self._parameters
@@ -174,14 +174,14 @@ class ParameterSetting:
             if parameter._type_ is NOT_SET and not keep_not_set:
                 stored.pop(name, None)
                 self._descriptors.pop(name, None)
-                deleted.append(told(parameter))
+                deleted.append(reported(parameter))
                 continue
             if descriptors is not None:
                 self._descriptors[name] = descriptors[name]
             elif name not in self._descriptors:
                 self._descriptors[name] = ParameterDescriptor(dynamic_typing=True)
             before = stored.get(name)
-            (new if before is None or before._type_ is NOT_SET else changed).append(told(parameter))
+            (new if before is None or before._type_ is NOT_SET else changed).append(reported(parameter))
             stored[name] = parameter
         return parameter_event(self._ros_event_node_name, self._clock._now_ns(), new, changed, deleted)
 

@@ -20,7 +20,7 @@ from rclpy.exceptions import (
 from rclpy.node_parts.parameter_declarations import read_declaration
 from rclpy.node_parts.parameter_descriptors import refusal
 from rclpy.node_parts.parameter_names import listed
-from rclpy.node_parts.parameter_provenance import IN_CODE, tell_declared
+from rclpy.node_parts.parameter_provenance import IN_CODE, report_declared
 from rclpy.node_parts.parameter_setting import NOT_SET, ParameterSetting
 from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
 
@@ -106,7 +106,7 @@ class NodeParameters(ParameterSetting):
         words = zip((each.name for each in found), parameters, strict=True)
         declared = [self._parameters[each.name] for each in found]
         sources = {} if ignore_override else self._ros_override_sources
-        tell_declared(self._ros_event_node_name, words, (each.value for each in declared), sources)
+        report_declared(self._ros_event_node_name, words, (each.value for each in declared), sources)
         return declared
 
     def _ros_declare(self, parameter: Parameter, descriptors: dict[str, ParameterDescriptor]) -> None:

@@ -21,10 +21,10 @@ from bot_console.runtime.rmw.endpoints import (
 )
 from bot_console.runtime.rmw.graph_tables import GraphTables
 from bot_console.runtime.rmw.local import LocalBus
-from bot_console.runtime.rmw.zenoh.declared import Declared
-from bot_console.runtime.rmw.zenoh.inlet import Inlet
-from bot_console.runtime.rmw.zenoh.outlet import Outlet
-from bot_console.runtime.rmw.zenoh.seen import Listener, Watches
+from bot_console.runtime.rmw.zenoh.declarations import Declaration
+from bot_console.runtime.rmw.zenoh.graph_cache import Listener, Watches
+from bot_console.runtime.rmw.zenoh.remote_publisher import RemotePublisher
+from bot_console.runtime.rmw.zenoh.remote_subscription import RemoteSubscription
 from bot_console.runtime.rmw.zenoh.sender import Sender
 from bot_console.runtime.rmw.zenoh.services import Asking, RemoteClient, Served
 from bot_console.runtime.rmw.zenoh.session import Session
@@ -41,14 +41,14 @@ SERVICE_QOS = "::,10:,:,:,,"
 FLUSHED = 0.3
 """How long leaving or closing waits for the queue of messages that must not be dropped, in s."""
 
-Way = Outlet | Inlet | Served | Asking
+Way = RemotePublisher | RemoteSubscription | Served | Asking
 
 
 class Bridge(NamedTuple):
     """What the session holds for one endpoint of this process."""
 
     way: Way
-    token: Declared
+    token: Declaration
     watched: tuple[Kind, str, Listener] | None = None
 
 
@@ -56,7 +56,7 @@ class BridgedNode(NamedTuple):
     """A node of this process as other processes see it."""
 
     node: TokenNode
-    token: Declared
+    token: Declaration
     bridges: dict[Any, Bridge]
 
 
@@ -110,9 +110,9 @@ class ZenohBus:
         publisher = self._local.create_publisher(endpoint, on_event)
         if shown:
             self._own.add(endpoint.gid)
-            outlet = Outlet(self._session, self._sender, publisher, key)
-            watched: tuple[Kind, str, Listener] = ("MS", endpoint.topic, self._telling(outlet.saw))
-            self._keep(endpoint.node, publisher, Bridge(outlet, self._session.declare_token(shown), watched))
+            remote_publisher = RemotePublisher(self._session, self._sender, publisher, key)
+            watched: tuple[Kind, str, Listener] = ("MS", endpoint.topic, self._reporting(remote_publisher.saw))
+            self._keep(endpoint.node, publisher, Bridge(remote_publisher, self._session.declare_token(shown), watched))
         return publisher
 
     def create_subscription(self, subscription: SubscriptionEndpoint) -> None:
@@ -121,11 +121,13 @@ class ZenohBus:
         key, shown = self._names(endpoint.node, "MS", endpoint)
         self._local.create_subscription(subscription)
         if shown:
-            inlet = Inlet(self._session, subscription, key, self._own, self._local.tap)
-            watched: tuple[Kind, str, Listener] = ("MP", endpoint.topic, self._telling(inlet.saw))
+            remote_subscription = RemoteSubscription(self._session, subscription, key, self._own, self._local.tap)
+            watched: tuple[Kind, str, Listener] = ("MP", endpoint.topic, self._reporting(remote_subscription.saw))
             self._watches.listen(*watched)  # the publishers are known before the first message comes
-            inlet.open()
-            self._keep(endpoint.node, subscription, Bridge(inlet, self._session.declare_token(shown), watched))
+            remote_subscription.open()
+            self._keep(
+                endpoint.node, subscription, Bridge(remote_subscription, self._session.declare_token(shown), watched)
+            )
 
     def create_service(self, service: ServiceEndpoint) -> None:
         """Add a service server, which also receives requests from other processes."""
@@ -141,7 +143,7 @@ class ZenohBus:
         self._local.create_client(client)
         if shown:
             asking = Asking(self._session, client, key)
-            watched: tuple[Kind, str, Listener] = ("SS", client.name, self._telling(asking.saw))
+            watched: tuple[Kind, str, Listener] = ("SS", client.name, self._reporting(asking.saw))
             self._keep(client.node, client, Bridge(asking, self._session.declare_token(shown), watched))
 
     def _names(self, node: NodeId, kind: Kind, thing: Endpoint | ServiceEndpoint | ClientEndpoint) -> tuple[str, str]:
@@ -169,24 +171,24 @@ class ZenohBus:
                 bridged.bridges[thing] = bridge
         if bridged is None:  # the node has left in the meantime
             self._take_down(bridge)
-        elif bridge.watched and not isinstance(bridge.way, Inlet):
+        elif bridge.watched and not isinstance(bridge.way, RemoteSubscription):
             self._watches.listen(*bridge.watched)
 
-    def _telling(self, saw: Listener) -> Listener:
+    def _reporting(self, saw: Listener) -> Listener:
         """Wrap a listener so that the graph's watchers are notified of each change, too."""
 
-        def tell(token: Token, came: bool) -> None:
+        def report(token: Token, came: bool) -> None:
             saw(token, came)
             self._local.changed((token.node.name, token.node.namespace))
 
-        return tell
+        return report
 
     def _take_down(self, bridge: Bridge) -> None:
         if bridge.watched:
             self._watches.forget(*bridge.watched)
         bridge.token.undeclare()
         bridge.way.close()
-        if isinstance(bridge.way, Outlet):
+        if isinstance(bridge.way, RemotePublisher):
             self._own.discard(bridge.way.gid)
 
     def disown(self, thing: ServiceEndpoint | ClientEndpoint) -> None:
@@ -281,5 +283,5 @@ class ZenohBus:
         with self._lock:
             ways = [bridge.way for each in self._nodes.values() for bridge in each.bridges.values()]
         for way in ways:
-            if isinstance(way, Asking) or (isinstance(way, Outlet) and way.latching):
+            if isinstance(way, Asking) or (isinstance(way, RemotePublisher) and way.latching):
                 way.send_again()

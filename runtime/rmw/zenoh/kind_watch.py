@@ -9,13 +9,13 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
-from bot_console.runtime.rmw.zenoh.declared import TokenSeen
+from bot_console.runtime.rmw.zenoh.declarations import TokenCallback
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.wire.keys import mangled
 from bot_console.runtime.rmw.zenoh.wire.tokens import Kind, tokens_of_kind, topic_part
 
 
-class Row:
+class TopicTokens:
     """The token keys of one topic, and its watcher."""
 
     __slots__ = ("is_left", "keys", "lock", "seen")
@@ -23,32 +23,32 @@ class Row:
     def __init__(self) -> None:
         self.lock = threading.RLock()  # one per row, and reentrant: the garbage collector may end a node at any point
         self.keys: dict[str, None] = {}
-        self.seen: TokenSeen | None = None
+        self.seen: TokenCallback | None = None
         self.is_left = False
         """Whether another row has replaced this one, or will."""
 
 
-class Look:
+class TopicWatch:
     """A watch of one topic."""
 
-    def __init__(self, watch: KindWatch, topic: str, seen: TokenSeen) -> None:
+    def __init__(self, watch: KindWatch, topic: str, seen: TokenCallback) -> None:
         self._watch = watch
         self._topic = topic
         self._seen = seen
 
     def undeclare(self) -> None:
         """End the watch; does nothing if it already ended."""
-        self._watch.look_away(self._topic, self._seen)
+        self._watch.unwatch(self._topic, self._seen)
 
 
 class KindWatch:
     """The tokens of one kind by topic or service; the tokens of a topic are parsed by its watcher."""
 
     def __init__(self, session: Session, kind: Kind) -> None:
-        self._rows: dict[str, Row] = {}
+        self._rows: dict[str, TopicTokens] = {}
         self._watch = session.watch_tokens(tokens_of_kind(session.domain, kind), self._saw, apart=True)
 
-    def look(self, topic: str, seen: TokenSeen) -> Look:
+    def poll(self, topic: str, seen: TokenCallback) -> TopicWatch:
         """Call back for each token of a topic that exists, appears or disappears.
 
         Must not be called with a lock held that the removal of a node takes: it may wait for a watcher that is being
@@ -56,18 +56,18 @@ class KindWatch:
         """
         self._take_waiting()
 
-        def begin(row: Row) -> None:
+        def begin(row: TopicTokens) -> None:
             row.seen = seen
             for key in tuple(row.keys):
                 seen(key, True)
 
         self._change(mangled(topic), begin)
-        return Look(self, topic, seen)
+        return TopicWatch(self, topic, seen)
 
-    def look_away(self, topic: str, seen: TokenSeen) -> None:
+    def unwatch(self, topic: str, seen: TokenCallback) -> None:
         """Stop notifying `seen`, if it is still the topic's watcher."""
 
-        def end(row: Row) -> None:
+        def end(row: TopicTokens) -> None:
             if row.seen is seen:
                 row.seen = None
 
@@ -85,7 +85,7 @@ class KindWatch:
     def _saw(self, key: str, came: bool) -> None:
         part = topic_part(key)
 
-        def change(row: Row) -> None:
+        def change(row: TopicTokens) -> None:
             if came:
                 row.keys[key] = None
             else:
@@ -96,10 +96,10 @@ class KindWatch:
         if part is not None:
             self._change(part, change)
 
-    def _change(self, part: str, change: Callable[[Row], None]) -> None:
+    def _change(self, part: str, change: Callable[[TopicTokens], None]) -> None:
         """Change a topic's row, which exists only while it has tokens or a watcher."""
         while True:
-            row = self._rows.get(part) or self._rows.setdefault(part, Row())
+            row = self._rows.get(part) or self._rows.setdefault(part, TopicTokens())
             with row.lock:
                 if row.is_left:
                     continue

@@ -7,8 +7,8 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from bot_console.runtime.rmw.zenoh.declared import Declared
-from bot_console.runtime.rmw.zenoh.pace import Pace
+from bot_console.runtime.rmw.zenoh.declaration_throttle import Pace
+from bot_console.runtime.rmw.zenoh.declarations import Declaration
 
 CLOSING = 0.4
 """How long `close` waits, in s: closing takes 2.5 s if the link to a frozen process is full."""
@@ -22,7 +22,7 @@ class Lifetime:
 
     def __init__(self) -> None:
         self._lock = threading.RLock()
-        self._declared: dict[Declared, None] = {}
+        self._declared: dict[Declaration, None] = {}
         self._is_open = True  # each subclass opens at once
         self._ended = False
         self._pace = Pace()
@@ -99,7 +99,7 @@ class Lifetime:
         self._pace.shown()
         return thing
 
-    def forget(self, thing: Declared) -> None:
+    def forget(self, thing: Declaration) -> None:
         """Undeclare an entity."""
         with self._lock:
             if thing in self._declared:

@@ -12,15 +12,15 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-PERIOD = 0.4
+PING_PERIOD_S = 0.4
 """Interval between pings, in seconds."""
 SILENCE = 5.0
 """After so many seconds without an answer, the next answer is not trusted: after ten, Zenoh gives up a link and ends
 all queries as if they were answered.
 """
-PATIENCE = 10.0
+PING_TIMEOUT_S = 10.0
 """Timeout of a ping, in seconds; on a full link an answer comes late, but still counts."""
-SOON, LATER = 0.001, 0.02
+FIRST_PING_S, LATER = 0.001, 0.02
 """Polling intervals, in seconds: shortly after a ping, and later."""
 
 Answer = Callable[[], "bool | None"]
@@ -50,7 +50,7 @@ class LinkProbe:
         self._open: list[tuple[float, Answer]] = []
         """Unanswered pings and when they were sent; the oldest first."""
         now = clock()
-        self._asked = now - PERIOD
+        self._asked = now - PING_PERIOD_S
         self._came = self._believed = now
         """When the last answer came, and from which time of sending on a ping's answer is trusted."""
         self.state = LinkState(to, now)  # it has just been opened
@@ -63,24 +63,24 @@ class LinkProbe:
         self._ended.set()
 
     def _run(self) -> None:
-        pause = PERIOD
+        pause = PING_PERIOD_S
         while not self._ended.wait(pause):
-            pause = self.look()
+            pause = self.poll()
 
-    def look(self) -> float:
+    def poll(self) -> float:
         """Send a ping if one is due and collect answers; return the seconds until the next call."""
         with contextlib.suppress(RuntimeError):  # the session is being closed
             self._ask_if_due()
             self._take_answers()
         since = self._clock() - self._asked
         if not self._open:
-            return max(SOON, PERIOD - since)
-        return SOON if since < LATER else LATER
+            return max(FIRST_PING_S, PING_PERIOD_S - since)
+        return FIRST_PING_S if since < LATER else LATER
 
     def _ask_if_due(self) -> None:
-        if self._clock() - self._asked >= PERIOD:
+        if self._clock() - self._asked >= PING_PERIOD_S:
             self._asked = self._clock()
-            self._open.append((self._asked, self._ask(PATIENCE)))
+            self._open.append((self._asked, self._ask(PING_TIMEOUT_S)))
 
     def _take_answers(self) -> None:
         for asked, answer in [*self._open]:

@@ -8,7 +8,7 @@ from collections import deque
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
-from bot_console.runtime.rmw.zenoh.declared import Publisher
+from bot_console.runtime.rmw.zenoh.declarations import Publisher
 from bot_console.runtime.rmw.zenoh.settings import WAIT_BEFORE_DROP
 
 ROOM = 64_000_000
@@ -92,13 +92,13 @@ class Sender:
             self._thread = threading.Thread(target=self._run, name="zenoh-sender", daemon=True)
             self._thread.start()
 
-    def _is_emptied(self, patience: float) -> bool:
+    def _is_emptied(self, timeout_s: float) -> bool:
         """Wait until the queue is sent, at most `patience` (s); return whether it was."""
         with self._lock:
             if not self._queue:
                 return True
             self._emptied.clear()
-        return self._emptied.wait(patience)
+        return self._emptied.wait(timeout_s)
 
     def undeclare(self, publisher: Publisher) -> None:
         """Undeclare a publisher once all its messages have been sent."""
@@ -134,10 +134,10 @@ class Sender:
                 self._waits = True
             self._wake.acquire()
 
-    def end(self, patience: float) -> bool:
+    def end(self, timeout_s: float) -> bool:
         """Stop the thread once the queue is sent, waiting at most `patience` (s); return whether it was sent."""
         with self._lock:
             self._ended = True
             if self._waits:
                 self._start()
-        return self._is_emptied(patience)
+        return self._is_emptied(timeout_s)

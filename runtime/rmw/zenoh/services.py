@@ -10,7 +10,7 @@ from typing import Any
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import ClientEndpoint, NodeId, ServiceEndpoint
-from bot_console.runtime.rmw.zenoh.declared import Declared, Querier, Query
+from bot_console.runtime.rmw.zenoh.declarations import Declaration, Querier, Query
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.wire.attachment import pack, unpack
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
@@ -22,7 +22,7 @@ TIMEOUT = 600.0
 RESULT_TIMEOUT = 30 * 86400.0
 """Timeout of an action's result request, in s; it is answered when the goal has ended."""
 RESULT = "/_action/get_result"
-MOST_PENDING = 1000
+MAX_PENDING = 1000
 """How many unanswered requests a server keeps; beyond that the oldest are given up."""
 
 Caller = tuple[bytes, int]
@@ -44,7 +44,7 @@ class Served:
         self._pending: dict[Caller, Query] = {}
         self._process = current()
         self._clock = current().clock
-        self._declared: Declared = session.declare_queryable(key, self.asked)
+        self._declared: Declaration = session.declare_queryable(key, self.asked)
 
     def asked(self, query: Query) -> None:
         """Take in a request, on one of Zenoh's threads."""
@@ -63,7 +63,7 @@ class Served:
                 query.drop()
                 return
             self._pending[gid, number] = query
-            oldest = self._pending.pop(next(iter(self._pending))) if len(self._pending) > MOST_PENDING else None
+            oldest = self._pending.pop(next(iter(self._pending))) if len(self._pending) > MAX_PENDING else None
         if oldest is not None:
             oldest.drop()
         client = RemoteClient(NOWHERE, service.name, service.type_name, _nothing, service.service_class, gid=gid)
@@ -98,7 +98,7 @@ class Asking:
         self._process = current()
         self._clock = current().clock
         self._querier: Querier | None = None
-        self._unasked: deque[tuple[int, Any]] = deque(maxlen=MOST_PENDING)
+        self._unasked: deque[tuple[int, Any]] = deque(maxlen=MAX_PENDING)
         self._servers: Counter[str] = Counter()
         """The number of servers in each session that has one."""
 
@@ -113,7 +113,7 @@ class Asking:
 
         def ended() -> bool:
             return bool(sessions) and all(
-                zid not in self._servers and self._session.is_told_truly(zid, pid) for zid, pid in sessions.items()
+                zid not in self._servers and self._session.is_reported_truly(zid, pid) for zid, pid in sessions.items()
             )
 
         return ended

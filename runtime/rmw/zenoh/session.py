@@ -17,18 +17,26 @@ import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from bot_console.runtime.rmw.zenoh.apart import WAITING, take_apart
-from bot_console.runtime.rmw.zenoh.declared import Declared, Publisher, Querier, Query, Received, TokenSeen, TokenWatch
+from bot_console.runtime.rmw.zenoh.channel_worker import MAX_WAITING_SAMPLES, drain_in_worker
+from bot_console.runtime.rmw.zenoh.declarations import (
+    Declaration,
+    Publisher,
+    Querier,
+    Query,
+    Received,
+    TokenCallback,
+    TokenWatch,
+)
 from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, lives
-from bot_console.runtime.rmw.zenoh.keeping_publisher import KeepingPublisher
-from bot_console.runtime.rmw.zenoh.kept_threads import here, keep
 from bot_console.runtime.rmw.zenoh.lifetime import Lifetime
 from bot_console.runtime.rmw.zenoh.settings import leaves
+from bot_console.runtime.rmw.zenoh.thread_state_cache import cache_thread_state, here
+from bot_console.runtime.rmw.zenoh.transient_local_publisher import TransientLocalPublisher
 
 if TYPE_CHECKING:
     import zenoh
 
-ATTENDANCE = "@bot_console/"
+ROLL_CALL_KEY = "@bot_console/"
 """Prefix of the token that each session declares; the first 8 digits of its id follow."""
 
 
@@ -45,7 +53,7 @@ class Session(Lifetime):
 
     joined: tuple[Socket, ...] = ()
     """The sockets of this machine's processes that existed when the session joined, and that it connects to."""
-    patience = 0.2
+    timeout_s = 0.2
     """Timeout of the first graph query, in s; running processes answer within 5 ms."""
 
     def __init__(self, domain: int) -> None:
@@ -99,7 +107,9 @@ class Session(Lifetime):
     def leave(self) -> None:
         """Remove what would be left behind, for a process that exits at once without waiting for `close`."""
 
-    def declare_publisher(self, key: str, *, reliable: bool = True, cache: int = 0, patient: bool = False) -> Publisher:
+    def declare_publisher(
+        self, key: str, *, reliable: bool = True, cache: int = 0, blocking: bool = False
+    ) -> Publisher:
         """Declare a publisher for other sessions; late subscribers get up to `cache` of its last samples.
 
         A `patient` publisher drops nothing and waits for a full link instead, up to `WAIT_BEFORE_CUT`: use it from a
@@ -110,8 +120,8 @@ class Session(Lifetime):
         control = zenoh.CongestionControl
         quality: dict[str, Any] = {
             "reliability": zenoh.Reliability.RELIABLE if reliable else zenoh.Reliability.BEST_EFFORT,
-            "congestion_control": control.BLOCK if patient else control.DROP,
-            "priority": zenoh.Priority.DATA_LOW if patient else zenoh.Priority.DATA,
+            "congestion_control": control.BLOCK if blocking else control.DROP,
+            "priority": zenoh.Priority.DATA_LOW if blocking else zenoh.Priority.DATA,
             "allowed_destination": zenoh.Locality.REMOTE,
         }
 
@@ -120,19 +130,19 @@ class Session(Lifetime):
                 return session.declare_publisher(key, **quality)
             # The heartbeat overtakes what a patient publisher has still to send: that would be taken for lost, and the
             # last samples would be fetched from the cache before those in between have arrived.
-            return KeepingPublisher(zenoh.ext, session, key, quality, cache, misses=reliable and not patient)
+            return TransientLocalPublisher(zenoh.ext, session, key, quality, cache, misses=reliable and not blocking)
 
         return self._declare(Publisher(self, declare))
 
     def declare_subscriber(
         self, key: str, received: Received, *, reliable: bool = True, history: int | None = None
-    ) -> Declared:
+    ) -> Declaration:
         """Declare a subscriber to other sessions; it requests up to `history` of the last samples."""
         import zenoh
 
         def take(sample: zenoh.Sample) -> None:
             if not here.kept:
-                keep()
+                cache_thread_state()
             received(sample.payload.to_bytes(), _bytes(sample.attachment))
 
         ext = zenoh.ext
@@ -150,19 +160,19 @@ class Session(Lifetime):
                 subscriber_detection=True,
             )
 
-        return self._declare(Declared(self, declare))
+        return self._declare(Declaration(self, declare))
 
-    def declare_queryable(self, key: str, asked: Callable[[Query], None]) -> Declared:
+    def declare_queryable(self, key: str, asked: Callable[[Query], None]) -> Declaration:
         """Declare a queryable that answers the requests of a key."""
         import zenoh
 
         def take(query: zenoh.Query) -> None:
             if not here.kept:
-                keep()
+                cache_thread_state()
             asked(Query(query, key, _bytes(query.payload) or b"", _bytes(query.attachment), zenoh.ZError))
 
         return self._declare(
-            Declared(
+            Declaration(
                 self,
                 lambda session: session.declare_queryable(
                     key, zenoh.handlers.Callback(take, indirect=False), complete=True
@@ -182,7 +192,7 @@ class Session(Lifetime):
         ) -> None:
             def take(reply: zenoh.Reply) -> None:
                 if not here.kept:
-                    keep()
+                    cache_thread_state()
                 sample = reply.ok
                 if sample is not None:
                     replied(sample.payload.to_bytes(), _bytes(sample.attachment))
@@ -205,11 +215,11 @@ class Session(Lifetime):
             )
         )
 
-    def declare_token(self, key: str) -> Declared:
+    def declare_token(self, key: str) -> Declaration:
         """Declare a liveliness token, which exists until it is undeclared or this process ends."""
-        return self._declare(Declared(self, lambda session: session.liveliness().declare_token(key)))
+        return self._declare(Declaration(self, lambda session: session.liveliness().declare_token(key)))
 
-    def watch_tokens(self, key: str, seen: TokenSeen, *, apart: bool = False) -> TokenWatch:
+    def watch_tokens(self, key: str, seen: TokenCallback, *, apart: bool = False) -> TokenWatch:
         """Call back for each token that exists, appears or disappears; `key` may have wildcards.
 
         With `apart`, a separate thread does so, a few tokens at a time: thousands of them would keep Zenoh's threads,
@@ -221,7 +231,7 @@ class Session(Lifetime):
 
         def take(sample: zenoh.Sample) -> None:
             if not here.kept:
-                keep()
+                cache_thread_state()
             watch.saw(str(sample.key_expr), sample.kind == came)
 
         def declare(session: zenoh.Session) -> Any:
@@ -229,8 +239,8 @@ class Session(Lifetime):
             if not apart:
                 callback = zenoh.handlers.Callback(take, indirect=False)
                 return tokens.declare_subscriber(key, callback, history=True)
-            shown = tokens.declare_subscriber(key, zenoh.handlers.FifoChannel(WAITING), history=True)
-            watch.taking = take_apart(shown.handler, take, zenoh.ZError)
+            shown = tokens.declare_subscriber(key, zenoh.handlers.FifoChannel(MAX_WAITING_SAMPLES), history=True)
+            watch.taking = drain_in_worker(shown.handler, take, zenoh.ZError)
             return shown
 
         watch = TokenWatch(self, declare, seen)
@@ -241,14 +251,17 @@ class Session(Lifetime):
 
         On a busy machine it may take twice the timeout. Replies go to a channel instead of a callback: Zenoh delivers
         them while holding its session's lock, unlike with any other callback, and a callback would wait there for the
-        GIL. A thread that holds the GIL while it waits for that lock would be in deadlock with it (`KeepingPublisher`).
+        GIL. A thread that holds the GIL while it waits for that lock would be in deadlock with it
+        (`TransientLocalPublisher`).
         """
         import zenoh
 
         found: list[str] = []
         answered = False
         with contextlib.suppress(zenoh.ZError):  # no more replies, or no session is open
-            replies = self._zenoh.liveliness().get(key, zenoh.handlers.FifoChannel(WAITING), timeout=timeout)
+            replies = self._zenoh.liveliness().get(
+                key, zenoh.handlers.FifoChannel(MAX_WAITING_SAMPLES), timeout=timeout
+            )
             answered = True
             until = time.monotonic() + 2 * timeout
             pause = threading.Event()
@@ -277,14 +290,14 @@ class Session(Lifetime):
         """The process of another session; None if it is unknown or on another machine."""
         return None
 
-    def is_told_truly(self, zid: str, pid: int | None) -> bool:
+    def is_reported_truly(self, zid: str, pid: int | None) -> bool:
         """Whether what another session has withdrawn is gone, rather than the link to it lost for a moment.
 
         `pid` is what `pid_of` has returned before.
         """
         return zid in self.linked() or (pid is not None and not lives(pid))
 
-    def watch_links(self, changed: Callable[[str, bool], None]) -> Declared:
+    def watch_links(self, changed: Callable[[str, bool], None]) -> Declaration:
         """Call back with the id of each session that is or gets linked (True), or whose link is lost (False)."""
         import zenoh
 
@@ -292,7 +305,7 @@ class Session(Lifetime):
             changed(str(event.transport.zid), event.kind == zenoh.SampleKind.PUT)
 
         return self._declare(
-            Declared(
+            Declaration(
                 self,
                 lambda session: session.info.declare_transport_events_listener(
                     zenoh.handlers.Callback(take, indirect=False), history=True
@@ -302,7 +315,7 @@ class Session(Lifetime):
 
     def attendance(self, who: str = "*", timeout: float = 0.1) -> set[str]:
         """The first 8 digits of the ids of the sessions that answer within `timeout` (s)."""
-        return {each.removeprefix(ATTENDANCE) for each in self.collect_tokens(ATTENDANCE + who, timeout)[0]}
+        return {each.removeprefix(ROLL_CALL_KEY) for each in self.collect_tokens(ROLL_CALL_KEY + who, timeout)[0]}
 
     def question(self, timeout: float) -> Callable[[], bool | None]:
         """Ping the other end; returns a function: whether it answered within `timeout` (s), None while it still may.
@@ -314,7 +327,7 @@ class Session(Lifetime):
         late = time.monotonic() + timeout * 0.98
         try:
             replies = self._zenoh.liveliness().get(
-                f"{ATTENDANCE}nobody/{self.zid}", zenoh.handlers.FifoChannel(WAITING), timeout=timeout
+                f"{ROLL_CALL_KEY}nobody/{self.zid}", zenoh.handlers.FifoChannel(MAX_WAITING_SAMPLES), timeout=timeout
             )
         except zenoh.ZError:  # no session is open
             return lambda: False

@@ -10,9 +10,9 @@ from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import ClientEndpoint, Endpoint, GraphChanged, NodeId, ServiceEndpoint
 from bot_console.runtime.rmw.graph_tables import GraphTables
-from bot_console.runtime.rmw.zenoh.domain.attendance import await_answers
-from bot_console.runtime.rmw.zenoh.present import Known
-from bot_console.runtime.rmw.zenoh.seen import SeenTokens
+from bot_console.runtime.rmw.zenoh.domain.roll_call import await_answers
+from bot_console.runtime.rmw.zenoh.graph_cache import GraphCache
+from bot_console.runtime.rmw.zenoh.graph_snapshot import Known
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of
 from bot_console.runtime.rmw.zenoh.wire.tokens import Kind, Token, TokenNode, all_tokens
@@ -29,14 +29,14 @@ class WholeGraph:
         self.tables = GraphTables(threading.RLock())
         self._rows: dict[str, Row] = {}  # by token key; tokens arrive one after the other
         self._nodes: dict[str, tuple[str, NodeId]] = {}
-        self.silent = await_answers(session, session.patience)
+        self.silent = await_answers(session, session.timeout_s)
         """The sockets of the processes that did not answer in time: their entries may be missing."""
         for each in self.silent:
             if each.is_stopped():
                 notify(current(), f"process {each.pid} is stopped, so its nodes are not seen: `kill -CONT {each.pid}`")
         key = all_tokens(session.domain)
         self._process, self._has_refused = current(), False
-        self._seen = SeenTokens(session, key, known=known, refused=self._refused)
+        self._seen = GraphCache(session, key, known=known, refused=self._refused)
         self._seen.listen(self._saw)
         for pid in session.stopped_afar():
             notify(

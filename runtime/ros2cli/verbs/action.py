@@ -19,7 +19,16 @@ from rclpy.node import Node
 from rclpy.signals import uninstall_signal_handlers
 from rclpy.validate_full_topic_name import validate_full_topic_name
 from ros2cli.command import Command, Result, Verb
-from ros2cli.direct_node import GONE, LOOK, SURE, DirectNode, NoAnswer, add_strategy_arguments, node_names, spin_until
+from ros2cli.direct_node import (
+    GONE,
+    SERVER_POLL_S,
+    SURE,
+    DirectNode,
+    NoAnswer,
+    add_strategy_arguments,
+    node_names,
+    spin_until,
+)
 from ros2cli.type_discovery import typed_class
 from ros2cli.yaml_values import read_values
 from rosidl_runtime_py import message_to_yaml, set_message_fields
@@ -157,7 +166,7 @@ def _outcome(node: Node, client: ActionClient, future: Any) -> Any:
     """Wait for the server's part of the work; raises `NoAnswer` if it has left, where upstream waits forever."""
     gone = 0
     has_ended = node.context.bus.watch_servers(client._endpoints.goal)
-    while not spin_until(node, future.done, LOOK):
+    while not spin_until(node, future.done, SERVER_POLL_S):
         gone = 0 if client.server_is_ready() else gone + 1
         if gone > GONE or (gone >= SURE and has_ended()):
             name = client._action_name

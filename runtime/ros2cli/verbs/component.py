@@ -15,7 +15,7 @@ from ros2cli.direct_node import DirectNode, add_strategy_arguments, call, node_n
 
 RESOURCE = "rclcpp_components"
 """The kind of resource in which packages name their components."""
-ANSWER_LIMIT = 5.0
+ANSWER_TIMEOUT_S = 5.0
 """Seconds to wait for the service of a container."""
 SERVICES = {"load_node": "LoadNode", "unload_node": "UnloadNode", "list_nodes": "ListNodes"}
 
@@ -97,8 +97,8 @@ def _load(arguments: argparse.Namespace) -> Result:
         loaded = _asked(node, LoadNode, name, "load_node", request)
     if not loaded.success:
         return f"Failed to load component: {loaded.error_message.capitalize()}"
-    said = f"Loaded component {loaded.unique_id} into '{name}' container node as '{loaded.full_node_name}'"
-    print(loaded.unique_id if arguments.quiet else said)
+    message = f"Loaded component {loaded.unique_id} into '{name}' container node as '{loaded.full_node_name}'"
+    print(loaded.unique_id if arguments.quiet else message)
     return None
 
 
@@ -131,7 +131,7 @@ def _unload(arguments: argparse.Namespace) -> Result:
 def _asked(node: Node, kind: Any, container: str, service: str, request: Any) -> Any:
     """The response of a container's service; raises `RuntimeError` if the service is not ready in time."""
     missing = f"No '{service}' service found for '{container}' container"
-    return call(node, kind, f"{container}/_container/{service}", request, ANSWER_LIMIT, missing)
+    return call(node, kind, f"{container}/_container/{service}", request, ANSWER_TIMEOUT_S, missing)
 
 
 def _types_arguments(parser: argparse.ArgumentParser) -> None:

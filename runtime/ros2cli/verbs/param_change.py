@@ -11,8 +11,8 @@ from rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file
 from ros2cli.advice import advise, wrong_type
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, absolute, call
-from ros2cli.verbs.param_show import NOT_FOUND, found, tell_missing, warn
-from ros2cli.yaml_values import told_faults
+from ros2cli.verbs.param_show import NOT_FOUND, found, report_missing, warn
+from ros2cli.yaml_values import report_yaml_errors
 
 UNDECLARED = "Invalid access to undeclared parameter"
 """How a node begins that refuses a parameter which it has not declared; it names none."""
@@ -23,7 +23,7 @@ def set_(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
         if not found(node, arguments):
             return NOT_FOUND
-        with told_faults():
+        with report_yaml_errors():
             value = get_parameter_value(arguments.value)
         parameter = Parameter(name=arguments.parameter_name, value=value)
         request = SetParameters.Request(parameters=[parameter])
@@ -40,7 +40,7 @@ def set_(arguments: argparse.Namespace) -> Result:
         warn(f"Setting parameter failed{': ' + result.reason if result.reason else ''}")
         advise(partial(wrong_type, arguments.parameter_name, arguments.value, result.reason))
         if result.reason.startswith(UNDECLARED):
-            tell_missing(node, absolute(arguments.node_name), [arguments.parameter_name])
+            report_missing(node, absolute(arguments.node_name), [arguments.parameter_name])
     return None
 
 

@@ -46,7 +46,7 @@ def get(arguments: argparse.Namespace) -> Result:
         values = values_of(node, name, [arguments.parameter_name])
         if not values:
             warn("Parameter not set")
-            tell_missing(node, name, [arguments.parameter_name])
+            report_missing(node, name, [arguments.parameter_name])
             return 1
     value = values[0]
     if value.type == NOT_SET:
@@ -82,11 +82,11 @@ def describe(arguments: argparse.Namespace) -> Result:
         for each in described:
             _print_descriptor(each)
         if not described:
-            tell_missing(node, name, arguments.parameter_names)
+            report_missing(node, name, arguments.parameter_names)
     return None
 
 
-def tell_missing(node: Node, name: str, parameters: Sequence[str]) -> None:
+def report_missing(node: Node, name: str, parameters: Sequence[str]) -> None:
     """Hint on a terminal which parameters the node with that full name lacks; upstream prints nothing then."""
 
     def text() -> str:

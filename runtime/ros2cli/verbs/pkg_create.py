@@ -75,7 +75,7 @@ def create(arguments: argparse.Namespace) -> Result:
         print("[WARNING] node name can not be equal to the library name", file=sys.stderr)
         print(f"[WARNING] renaming node to {arguments.node_name}", file=sys.stderr)
     email = arguments.maintainer_email or _git_email() or f"{arguments.maintainer_name}@todo.todo"
-    _tell(arguments, email)
+    _report(arguments, email)
     if arguments.build_type == "ament_python":
         _write(folder, arguments, email)
     else:
@@ -94,7 +94,7 @@ def _git_email() -> str:
     return done.stdout.strip()
 
 
-def _tell(arguments: argparse.Namespace, email: str) -> None:
+def _report(arguments: argparse.Namespace, email: str) -> None:
     print("going to create a new package")
     print(f"package name: {arguments.package_name}")
     print(f"destination directory: {os.path.abspath(arguments.destination_directory)}")

@@ -174,7 +174,7 @@ def _message_class(node: Node, arguments: argparse.Namespace) -> Any:
     return message_class(node, name, types[0])
 
 
-def _tell_lost(info: Any) -> None:
+def _report_lost(info: Any) -> None:
     counts = f"\ttotal count change:{info.total_count_change}\n\ttotal count: {info.total_count}"
     print(f"A message was lost!!!\n{counts}", end="---\n")  # upstream does not end the line before the dashes either
 
@@ -187,7 +187,7 @@ def echo(arguments: argparse.Namespace) -> Result:
         if isinstance(kind, str):
             return kind
         qos = compatible(arguments, "sensor_data", node.get_publishers_info_by_topic(arguments.topic_name))
-        lost = None if arguments.no_lost_messages else SubscriptionEventCallbacks(message_lost=_tell_lost)
+        lost = None if arguments.no_lost_messages else SubscriptionEventCallbacks(message_lost=_report_lost)
         node.create_subscription(kind, arguments.topic_name, printer.show, qos, raw=arguments.raw, event_callbacks=lost)
         spin_until(node, lambda: printer.done, arguments.timeout)
     return printer.problem or None

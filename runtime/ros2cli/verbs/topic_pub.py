@@ -180,7 +180,7 @@ class _Sender:
         self._node = node
         self._publisher = publisher
         self._messages = messages
-        self._tell: int = arguments.print
+        self._report: int = arguments.print
         self._times: int = 1 if arguments.once else arguments.times
         self._count = 0
         self._following = next(messages, None)
@@ -199,7 +199,7 @@ class _Sender:
         for set_stamp in stamps:
             set_stamp(now)
         self._count += 1
-        if self._tell and self._count % self._tell == 0:
+        if self._report and self._count % self._report == 0:
             print(f"publishing #{self._count}: {message!r}\n")
         self._publisher.publish(message)
         if not self.done:

@@ -80,11 +80,11 @@ def _subscribe(node: Node, topic: str, take: Callable[[Any], None], *, raw: bool
     return ""
 
 
-def _tell_each_second(node: Node, tell: Callable[[], str]) -> Result:
+def _print_each_second(node: Node, report: Callable[[], str]) -> Result:
     """Print the text that `tell` returns, if any, once a second, forever."""
 
     def show() -> None:
-        if text := tell():
+        if text := report():
             print(text)
 
     node.create_timer(1.0, show)
@@ -163,7 +163,7 @@ def bandwidth(arguments: argparse.Namespace) -> Result:
         def take(data: bytes) -> None:
             sizes.append((clock.now().nanoseconds, len(data)))
 
-        def tell() -> str:
+        def report() -> str:
             if len(sizes) < 2:
                 return ""
             seconds = (clock.now().nanoseconds - sizes[0][0]) * 1e-9
@@ -182,7 +182,7 @@ def bandwidth(arguments: argparse.Namespace) -> Result:
         if problem:
             return problem
         print(f"Subscribed to [{arguments.topic}]")
-        return _tell_each_second(node, tell)
+        return _print_each_second(node, report)
 
 
 def _amount(count: float, total: float) -> str:
@@ -213,7 +213,7 @@ def delay(arguments: argparse.Namespace) -> Result:
                 delays.append(now - stamp.sec * SECOND_NS - stamp.nanosec)
             started[:] = fresh[:] = [None]
 
-        def tell() -> str:
+        def report() -> str:
             if not delays:
                 return ""
             if not fresh:
@@ -226,4 +226,4 @@ def delay(arguments: argparse.Namespace) -> Result:
             )
 
         problem = _subscribe(node, arguments.topic_name, take)
-        return problem or _tell_each_second(node, tell)
+        return problem or _print_each_second(node, report)

@@ -43,7 +43,7 @@ def test_shown(running: System, words: str, shown: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "reported"),
     [
         (("type", "/nothing"), ""),
         (("send_goal", "/fibonacci", "nonsense", "{}"), "The passed action type is invalid\n"),
@@ -54,9 +54,9 @@ def test_shown(running: System, words: str, shown: str) -> None:
         ),
     ],
 )
-def test_refused(running: System, words: tuple[str, ...], told: str) -> None:
+def test_refused(running: System, words: tuple[str, ...], reported: str) -> None:
     asked = running.ask("action", *words)
-    assert (asked.stdout, asked.stderr, asked.exit) == ("", told, 1)
+    assert (asked.stdout, asked.stderr, asked.exit) == ("", reported, 1)
 
 
 def test_a_name_that_is_none(running: System) -> None:

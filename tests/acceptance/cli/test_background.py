@@ -20,19 +20,19 @@ if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
+from bot_console.tui.console.launch_host.address import connect_to_host, host_addresses
 from bot_console.tui.console.launch_host.combined import CombinedLauncher, OtherHosts
-from bot_console.tui.console.launch_host.door import doors, knock
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import ProcessInfo, ProcessState
 from launcher_bench import WAITS
 
-PATIENCE = 90.0
+TIMEOUT_S = 90.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 
 def typed(*words: str) -> subprocess.CompletedProcess[str]:
     line = [sys.executable, "-m", "bot_console.tui", *words]
-    return subprocess.run(line, capture_output=True, text=True, timeout=PATIENCE, check=False)
+    return subprocess.run(line, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
 
 
 @pytest.fixture
@@ -49,8 +49,8 @@ def test_a_robot_in_the_background(state: Path) -> None:
     started = typed("up", "warehouse", "--seed", "1")
     assert started.returncode == 0, started.stderr
     assert "bot-console attach" in started.stdout
-    told = typed("status")
-    assert told.returncode == 0 and "warehouse" in told.stdout and "/simulator" in told.stdout
+    reported = typed("status")
+    assert reported.returncode == 0 and "warehouse" in reported.stdout and "/simulator" in reported.stdout
     assert typed("stop", "the arm swings").returncode == 0
     assert re.search(
         "^held by bot-console stop of .*: the arm swings; bot-console release", typed("status").stdout, re.M
@@ -81,13 +81,15 @@ def test_one_that_is_frozen_or_was_killed_is_ended_and_leaves_nothing(state: Pat
     started = typed("up")
     assert re.search("^held by .*: the arm swings; bot-console release", started.stdout, re.M), "nobody released it"
     assert typed("release").returncode == 0
-    assert [Path(each).stem for each in doors(domain_folder(0))] == re.findall(r"process (\d+)", started.stdout)
+    assert [Path(each).stem for each in host_addresses(domain_folder(0))] == re.findall(
+        r"process (\d+)", started.stdout
+    )
     pid = int(re.search(r"process (\d+)", started.stdout)[1])  # pyright: ignore[reportOptionalSubscript] -- told
     os.kill(pid, signal.SIGSTOP)
     assert typed("down").returncode == 0
     log = next(each for each in (state / "state" / "systems").glob("*.log") if str(each) in started.stdout)
     assert "process has finished cleanly" in log.read_text(encoding="utf-8")
-    assert not doors(domain_folder(0))
+    assert not host_addresses(domain_folder(0))
 
 
 LAUNCH = """
@@ -106,7 +108,7 @@ def process(launcher: CombinedLauncher) -> ProcessInfo | None:
 
 def until(condition: Callable[[], Any], what: str) -> Any:
     """Wait until something is so."""
-    deadline = time.monotonic() + PATIENCE
+    deadline = time.monotonic() + TIMEOUT_S
     while not (found := condition()):
         assert time.monotonic() < deadline, f"waited in vain for {what}"
         threading.Event().wait(0.02)
@@ -121,29 +123,29 @@ def test_its_processes_are_seen_and_steered_from_consoles_that_come_and_go(state
     folder = domain_folder(0)
     lines: list[str] = []
 
-    def enter(door: str) -> HostedLauncher | None:
-        connection = knock(door)
+    def enter(gate: str) -> HostedLauncher | None:
+        connection = connect_to_host(gate)
         return connection and HostedLauncher(
             connection, lambda *record: None, lambda severity, name, text: lines.append(text), owner=False
         )
 
     def attached() -> CombinedLauncher:
-        return CombinedLauncher(never, tuple, OtherHosts(lambda: doors(folder), enter))
+        return CombinedLauncher(never, tuple, OtherHosts(lambda: host_addresses(folder), enter))
 
     first, second = attached(), attached()
     begun = until(lambda: process(first), "the process")
     assert (begun.state, begun.group) == (ProcessState.RUNNING, ("system.launch.py",))
     until(lambda: "up" in lines, "what it has printed before")
-    answer = first.restart(begun.key).result(PATIENCE)
+    answer = first.restart(begun.key).result(TIMEOUT_S)
     assert answer.ok, answer
     again = until(lambda: (each := process(second)) and each.restarts == 1 and each, "the restart")
     assert again.pid != begun.pid
     first.close()
-    assert second.stop(again.key).result(PATIENCE).ok and typed("status").returncode == 0
+    assert second.stop(again.key).result(TIMEOUT_S).ok and typed("status").returncode == 0
     assert typed("down").returncode == 0
     until(lambda: not second.info().processes, "its end")
     assert any("has gone" in each.text for each in second.info().timeline)
-    assert not doors(folder)
+    assert not host_addresses(folder)
     second.close()
 
 
@@ -152,7 +154,7 @@ def never() -> tuple[str, HostedLauncher]:
     raise AssertionError
 
 
-def test_what_cannot_start_is_told(state: Path) -> None:
+def test_what_cannot_start_is_reported(state: Path) -> None:
     failed = typed("up", "--launch", "nowhere.launch.py")
     assert failed.returncode == 1
     assert failed.stderr == "there is no launch file nowhere.launch.py\n"

@@ -52,8 +52,8 @@ def typed(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
 def test_recorded_and_played(robot: Path) -> None:
     done = typed(robot, "record", "/odom", "/scan", "-o", "mine", "--duration", "4")
     assert done.returncode == 0 and "Subscribed to topic '/odom'" in done.stderr, done.stderr
-    told = typed(robot, "info", "mine")
-    assert told.returncode == 0 and "Topic: /odom | Type: nav_msgs/msg/Odometry" in told.stdout
+    reported = typed(robot, "info", "mine")
+    assert reported.returncode == 0 and "Topic: /odom | Type: nav_msgs/msg/Odometry" in reported.stdout
     again = typed(robot, "record", "/odom", "-o", "mine", "--duration", "1")
     assert again.returncode == 1 and "is there already" in again.stderr
     line = [*PROGRAM, "bag", "play", "mine", "-m", "/odom:=/copy", "-l"]
@@ -61,8 +61,8 @@ def test_recorded_and_played(robot: Path) -> None:
     heard = [*PROGRAM, "topic", "echo", "--once", "/copy", "nav_msgs/msg/Odometry"]
     out = subprocess.run(heard, capture_output=True, text=True, timeout=60, check=False).stdout
     played.send_signal(signal.SIGINT)
-    _, told = played.communicate(timeout=30)
-    assert "pose:" in out and played.returncode == 0, told
+    _, reported = played.communicate(timeout=30)
+    assert "pose:" in out and played.returncode == 0, reported
 
 
 def test_a_killed_recorder_leaves_a_bag(robot: Path) -> None:
@@ -73,8 +73,8 @@ def test_a_killed_recorder_leaves_a_bag(robot: Path) -> None:
         time.sleep(0.1)
     recorder.kill()
     recorder.wait()
-    told = typed(robot, "info", "killed")
-    assert told.returncode == 0 and "was given one" in told.stderr and "/scan" in told.stdout
+    reported = typed(robot, "info", "killed")
+    assert reported.returncode == 0 and "was given one" in reported.stderr and "/scan" in reported.stdout
     assert "was given one" not in typed(robot, "info", "killed").stderr
 
 
@@ -109,7 +109,7 @@ def test_a_snapshot_needs_a_recorder_in_that_mode(robot: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "code", "told"),
+    ("words", "code", "reported"),
     [
         (["record"], 2, "Name topics"),
         (["info", "none"], 1, "no such bag"),
@@ -117,6 +117,6 @@ def test_a_snapshot_needs_a_recorder_in_that_mode(robot: Path) -> None:
         (["record", "-e", "(", "-o", "x"], 1, "unterminated subpattern"),
     ],
 )
-def test_wrong_words(words: list[str], code: int, told: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_wrong_words(words: list[str], code: int, reported: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(words) == code
-    assert told in capsys.readouterr().err
+    assert reported in capsys.readouterr().err

@@ -12,7 +12,7 @@ import pytest
 from helpers.processes.two_processes import two_processes
 
 PROGRAM = "from bot_console.tui.cli.main import program; program()"
-PATIENCE = 60.0
+TIMEOUT_S = 60.0
 """Seconds after which a verb counts as hanging."""
 
 HEAVY = {
@@ -55,7 +55,7 @@ def test_a_verb_imports_nothing_heavy(tmp_path: Path, words: str, more: set[str]
             env=dict(os.environ),
             capture_output=True,
             text=True,
-            timeout=PATIENCE,
+            timeout=TIMEOUT_S,
             check=False,
         )
     imported = set(re.findall(r"^import time:.*\| +([\w.]+)$", asked.stderr, re.MULTILINE))

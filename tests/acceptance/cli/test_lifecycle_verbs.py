@@ -42,7 +42,7 @@ def test_shown(running: System, words: str, shown: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "reported"),
     [
         ("get /nobody", "Node not found\n"),
         ("list /nobody", "Node not found\n"),
@@ -53,9 +53,9 @@ def test_shown(running: System, words: str, shown: str) -> None:
         ),
     ],
 )
-def test_refused(running: System, words: str, told: str) -> None:
+def test_refused(running: System, words: str, reported: str) -> None:
     asked = running.ask("lifecycle", *words.split())
-    assert (asked.stdout, asked.stderr, asked.exit) == ("", told, 1)
+    assert (asked.stdout, asked.stderr, asked.exit) == ("", reported, 1)
 
 
 def test_all_transitions(running: System) -> None:

@@ -16,12 +16,12 @@ from processes.ports import free_port
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
-PATIENCE = 100
+TIMEOUT_S = 100
 
 
 def run(*words: str) -> subprocess.CompletedProcess[str]:
     line = [sys.executable, "-m", "bot_console.tui", *words]
-    return subprocess.run(line, capture_output=True, text=True, timeout=PATIENCE, check=False)
+    return subprocess.run(line, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
 
 
 def test_a_robot_in_the_background_is_reached_by_its_way_in_and_by_certificate_alone(
@@ -64,16 +64,16 @@ def test_a_robot_in_the_background_is_reached_by_its_way_in_and_by_certificate_a
 
 
 @pytest.mark.parametrize(
-    ("words", "code", "told"),
+    ("words", "code", "reported"),
     [
         (["--listen", "robot"], 2, "is no endpoint"),
         (["--listen", "tls/127.0.0.1:7447"], 2, "needs --tls-certificate and --tls-key"),
         (["--listen", "tcp/192.0.2.1:7447"], 1, "whoever reaches tcp/192.0.2.1:7447 can drive this robot"),
     ],
 )
-def test_what_cannot_be_is_refused_and_what_is_open_is_warned_of(words: list[str], code: int, told: str) -> None:
+def test_what_cannot_be_is_refused_and_what_is_open_is_warned_of(words: list[str], code: int, reported: str) -> None:
     done = run("router", *words)
-    assert done.returncode == code and told in done.stderr
+    assert done.returncode == code and reported in done.stderr
 
 
 def test_a_router_ends_by_a_signal() -> None:
@@ -82,6 +82,6 @@ def test_a_router_ends_by_a_signal() -> None:
         try:
             assert process.stdout is not None and "a router for nodes of rmw_zenoh" in process.stdout.readline()
             process.send_signal(signal.SIGTERM)
-            assert process.wait(PATIENCE) == 0
+            assert process.wait(TIMEOUT_S) == 0
         finally:
             process.kill()

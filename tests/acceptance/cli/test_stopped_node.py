@@ -19,7 +19,7 @@ from processes.ports import free_port
 if os.name == "nt":
     pytest.skip("needs SIGSTOP", allow_module_level=True)
 
-PATIENCE = 60
+TIMEOUT_S = 60
 
 
 @pytest.mark.parametrize(
@@ -45,7 +45,7 @@ def test_a_request_to_a_frozen_process_ends_and_names_it(tmp_path: Path, words: 
                 env=dict(os.environ, BOT_CONSOLE_CONNECT=place),
                 capture_output=True,
                 text=True,
-                timeout=PATIENCE,
+                timeout=TIMEOUT_S,
                 check=False,
             )
         finally:

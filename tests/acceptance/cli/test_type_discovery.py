@@ -18,7 +18,7 @@ from rigs import until
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
-PATIENCE = 60.0
+TIMEOUT_S = 60.0
 PAINTER = """
 import rclpy
 import bot_console.runtime.rclpy.type_description_service as service
@@ -31,10 +31,10 @@ from told_shapes.srv import Paint
 
 whole = service._source
 def shortened(name):
-    told = whole(name)
+    reported = whole(name)
     if name.startswith("false_shapes"):
-        told.raw_file_contents = told.raw_file_contents.replace("float64 y", "")
-    return told
+        reported.raw_file_contents = reported.raw_file_contents.replace("float64 y", "")
+    return reported
 service._source = shortened
 
 def paint(request, response):
@@ -89,7 +89,7 @@ def elsewhere(tmp_path: Path) -> Iterator[Path]:
 
 def typed(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
     line = [sys.executable, "-m", "bot_console.tui", *words]
-    return subprocess.run(line, cwd=folder, capture_output=True, text=True, timeout=PATIENCE, check=False)
+    return subprocess.run(line, cwd=folder, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
 
 
 def form_of(traffic: Traffic, payload: Payload, type_name: str) -> Sequence[Slot]:
@@ -100,7 +100,7 @@ def form_of(traffic: Traffic, payload: Payload, type_name: str) -> Sequence[Slot
         return ()
 
 
-def test_a_verb_reads_messages_by_what_their_node_tells_unless_it_has_another_hash(elsewhere: Path) -> None:
+def test_a_verb_reads_messages_by_what_their_node_reports_unless_it_has_another_hash(elsewhere: Path) -> None:
     while "/spots" not in typed(elsewhere, "topic", "list").stdout:
         pass
     echo = typed(elsewhere, "topic", "echo", "--once", "/spots")
@@ -138,7 +138,7 @@ def test_a_verb_sends_goals_and_requests_and_messages_of_types_that_are_elsewher
     assert "/painter tells of it what does not have the hash RIHS01_" in untrue.stderr
 
 
-def test_panes_show_plot_fill_in_and_call_what_a_node_tells_of(
+def test_panes_show_plot_fill_in_and_call_what_a_node_reports_of(
     elsewhere: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(elsewhere)
@@ -164,7 +164,7 @@ def test_panes_show_plot_fill_in_and_call_what_a_node_tells_of(
 
         form = until(lambda: form_of(traffic, Payload.REQUEST, "told_shapes/srv/Paint"), "the service")
         assert [each.path for each in form] == ["at", "at.x", "at.y", "colour"]
-        reply = traffic.call("/paint", "told_shapes/srv/Paint", {"at.x": "1.5", "at.y": "2.5"}).result(PATIENCE)
+        reply = traffic.call("/paint", "told_shapes/srv/Paint", {"at.x": "1.5", "at.y": "2.5"}).result(TIMEOUT_S)
         assert [(each.path, each.text) for each in reply.fields] == [("painted", "4")]
 
         form = until(lambda: form_of(traffic, Payload.GOAL, "told_shapes/action/Draw"), "the action")

@@ -19,7 +19,7 @@ from pathlib import Path
 from bot_console.tui.cli.foreground.hang_watch import FILE
 from bot_console.tui.files.folders import state_folder
 
-PATIENCE = 60.0
+TIMEOUT_S = 60.0
 """Seconds after which a test gives up; nothing is measured by it."""
 STACKS = 5.0
 """Seconds that a console may take to write where its threads stand."""
@@ -46,7 +46,7 @@ class Terminal:
 
     def read_until(self, condition: Callable[[], bool], what: str) -> None:
         """Take the program's output until a condition holds."""
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + TIMEOUT_S
         while not condition():
             if time.monotonic() >= deadline:
                 raise AssertionError(f"no {what}; the screen ended with {self.output[-800:]!r}\n{self.stacks()}")

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 from emulator import Emulator
-from fakes.standin_ros import make_standin
+from fakes.ros_installation import make_standin
 
 sys.path.insert(0, str(Path(__file__).parent))
-from terminal import PATIENCE, Terminal
+from terminal import TIMEOUT_S, Terminal
 
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
@@ -141,7 +141,7 @@ def test_beside_a_system_of_ours_it_is_asked_which(robot: subprocess.Popen[bytes
     line = [sys.executable, *CONSOLE, "attach"]
     seen = ""
     for _ in range(100):  # until the robot has a socket in the domain
-        done = subprocess.run(line, capture_output=True, text=True, timeout=PATIENCE, check=False)
+        done = subprocess.run(line, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
         seen = done.stderr
         if done.returncode == 2:
             break

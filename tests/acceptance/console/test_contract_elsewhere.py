@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from fakes.standin_ros import make_standin
+from fakes.ros_installation import make_standin
 
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
-from terminal import PATIENCE, Terminal
+from terminal import TIMEOUT_S, Terminal
 
 WHEELS = """
 import rclpy
@@ -145,7 +145,7 @@ def test_a_console_that_was_frozen_and_written_to_takes_keys_and_ends_in_order(c
 
 def test_a_terminal_that_vanishes_ends_the_console(console):
     console.hang_up()
-    assert console.process.wait(PATIENCE) == 129
+    assert console.process.wait(TIMEOUT_S) == 129
     assert (console.folder / "received").read_text().splitlines()[-1] == "0.0"
 
 

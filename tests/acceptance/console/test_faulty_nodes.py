@@ -22,14 +22,14 @@ import pytest
 if not Path("/proc/self/schedstat").exists():
     pytest.skip("needs /proc and fork", allow_module_level=True)
 
+from bot_console.tui.cli.live.child_host import start_host
 from bot_console.tui.cli.live.launchers import why_it_hangs
-from bot_console.tui.cli.live.own_host import start_host
 from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH, SYSTEM_LAUNCH
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import ProcessInfo, ProcessState
 from launcher_bench import WAITS
 
-PATIENCE = 90.0
+TIMEOUT_S = 90.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 HEAD = """
@@ -54,7 +54,7 @@ class System:
         for name, text in programs.items():
             file = self.folder / f"{name}.py"
             file.write_text(text)
-            assert self.launcher.launch(str(PROGRAM_LAUNCH), {"program": str(file)}).result(PATIENCE).ok
+            assert self.launcher.launch(str(PROGRAM_LAUNCH), {"program": str(file)}).result(TIMEOUT_S).ok
         for name in programs:
             self.until(lambda name=name: self.heard(name, "up"), f"{name} is up")
 
@@ -68,7 +68,7 @@ class System:
 
     def until(self, condition: Callable[[], Any], what: str) -> Any:
         """Wait until something is so."""
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + TIMEOUT_S
         while not (found := condition()):
             assert time.monotonic() < deadline, (what, self.launcher.info().processes, self.printed[-5:])
             threading.Event().wait(0.02)
@@ -77,7 +77,7 @@ class System:
     def kill(self, names: Iterable[str]) -> None:
         """Kill those of these names."""
         for name in names:
-            assert self.launcher.kill(self.named(name).key).result(PATIENCE).ok
+            assert self.launcher.kill(self.named(name).key).result(TIMEOUT_S).ok
             assert self.named(name).exit_code == -9
 
     def all_others_go_on(self) -> None:
@@ -90,7 +90,7 @@ class System:
 def typed(*words: str) -> subprocess.CompletedProcess[str]:
     """A command line of another terminal."""
     line = [sys.executable, "-m", "bot_console.tui", *words]
-    return subprocess.run(line, capture_output=True, text=True, timeout=PATIENCE, check=False)
+    return subprocess.run(line, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
 
 
 @pytest.fixture(scope="module")
@@ -106,7 +106,7 @@ def system(tmp_path_factory: pytest.TempPathFactory) -> Iterator[System]:
             host.connection, lambda *record: None, lambda severity, name, text: printed.append((name, text))
         )
         made = System(launcher, printed, folder)
-        assert launcher.launch(SYSTEM_LAUNCH, {"seed": "1"}).result(PATIENCE).ok
+        assert launcher.launch(SYSTEM_LAUNCH, {"seed": "1"}).result(TIMEOUT_S).ok
         made.start({"good": WAITS})
         yield made
         launcher.close()
@@ -154,7 +154,7 @@ def test_one_that_is_frozen_is_shown_as_such_until_it_goes_on(system: System) ->
     system.all_others_go_on()
     os.kill(process.pid, signal.SIGCONT)
     system.until(lambda: not system.named("sleeps").problem, "that it goes on")
-    assert system.launcher.kill(process.key).result(PATIENCE).ok
+    assert system.launcher.kill(process.key).result(TIMEOUT_S).ok
 
 
 BUSY = {"loops": "while True:\n    pass\n", "computes": "sum(iter(int, 1))\n"}
@@ -194,23 +194,23 @@ def test_one_whose_code_in_c_holds_the_interpreters_lock_is_named_with_its_line(
 @pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="a system that cannot tell it")
 def test_a_host_with_a_thread_that_holds_the_interpreters_lock_is_named_and_ended(tmp_path: Path) -> None:
     host = start_host(log=tmp_path / "host.log")
-    said: list[str] = []
+    message: list[str] = []
     launcher = HostedLauncher(
         host.connection,
         lambda *record: None,
-        lambda severity, name, text: said.append(text),
+        lambda severity, name, text: message.append(text),
         hangs=why_it_hangs(host.process.pid),
     )
     system = System(launcher, [], tmp_path)
     file = tmp_path / "hangs.py"
     file.write_text(HEAD + "ctypes.PyDLL(None).sleep(100000)\n")
-    assert launcher.launch(str(PROGRAM_LAUNCH), {"program": str(file), "isolation": "thread"}).result(PATIENCE).ok
+    assert launcher.launch(str(PROGRAM_LAUNCH), {"program": str(file), "isolation": "thread"}).result(TIMEOUT_S).ok
     system.until(lambda: "hangs.py:7, in <module>" in launcher.info().problem, "the line in which it hangs")
-    system.until(lambda: len([text for text in said if "hangs.py:7" in text]) == 1, "that it is in the log")
-    refused = launcher.kill(launcher.info().processes[0].key).result(PATIENCE)
+    system.until(lambda: len([text for text in message if "hangs.py:7" in text]) == 1, "that it is in the log")
+    refused = launcher.kill(launcher.info().processes[0].key).result(TIMEOUT_S)
     assert (refused.ok, "hangs.py:7" in refused.text) == (False, True)
-    launcher.close(patience=10 * PATIENCE)
-    host.end(patience=10 * PATIENCE)
+    launcher.close(timeout_s=10 * TIMEOUT_S)
+    host.end(timeout_s=10 * TIMEOUT_S)
     assert host.process.returncode == -9
 
 

@@ -17,12 +17,12 @@ import pytest
 if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
 
-from bot_console.tui.cli.live.own_host import start_host
+from bot_console.tui.cli.live.child_host import start_host
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import ProcessState
 from launcher_bench import HEAD, WAITS
 
-PATIENCE = 40.0
+TIMEOUT_S = 40.0
 CRASHES = "import ctypes\nprint('up', flush=True)\nctypes.string_at(0)\n"
 
 
@@ -48,11 +48,11 @@ class Hosted:
             nodes.append(f"Node(executable={str(path)!r}, exec_name={name!r}, name={name!r})")
         file = self.folder / "x.launch.py"
         file.write_text(HEAD.format(entities=f"[{', '.join([*nodes, *actions])}]"))
-        return self.launcher.launch(str(file), {}).result(PATIENCE)
+        return self.launcher.launch(str(file), {}).result(TIMEOUT_S)
 
     def until(self, condition: Callable[[], Any]) -> Any:
         """Wait until something is so."""
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + TIMEOUT_S
         while not (found := condition()):
             assert time.monotonic() < deadline, (self.launcher.info(), self.printed, self.log.read_text())
             threading.Event().wait(0.01)
@@ -76,7 +76,7 @@ def hosted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Hosted]:
     made = Hosted(tmp_path)
     yield made
     made.launcher.close()
-    assert made.process.wait(PATIENCE) is not None
+    assert made.process.wait(TIMEOUT_S) is not None
 
 
 def is_running(pid: int) -> bool:
@@ -96,14 +96,14 @@ def test_a_node_has_a_process_and_a_crash_takes_nothing_else_along(hosted: Hoste
     crashed = hosted.until(lambda: (each := hosted.named("crasher")).state is ProcessState.CRASHED and each)
     assert crashed.exit_code == -signal.SIGSEGV and is_running(waiter.pid)
     hosted.until(lambda: any('crasher.py", line 3' in text for _, label, text in hosted.printed if "crasher" in label))
-    answer = hosted.launcher.restart(waiter.key).result(PATIENCE)
+    answer = hosted.launcher.restart(waiter.key).result(TIMEOUT_S)
     assert answer.ok and hosted.named("waiter").pid != waiter.pid
     hosted.launcher.close()
-    assert hosted.process.wait(PATIENCE) == 0 and hosted.log.read_text() == ""
+    assert hosted.process.wait(TIMEOUT_S) == 0 and hosted.log.read_text() == ""
     assert hosted.named("waiter").state is ProcessState.EXITED
 
 
-def test_a_host_tells_how_many_starts_are_put_off(hosted: Hosted) -> None:
+def test_a_host_reports_how_many_starts_are_put_off(hosted: Hosted) -> None:
     late = "TimerAction(period={}, actions=[ExecuteProcess(cmd=['true'])])"
     assert hosted.launch(late.format("3600.0"), late.format("0.01"), waiter=WAITS).ok
     hosted.until(lambda: len(hosted.launcher.info().processes) == 2)
@@ -132,19 +132,19 @@ def test_who_uses_much_is_named_with_it_and_the_others_go_on(hosted: Hosted) -> 
     hosted.until(lambda: (hosted.named("loops").cpu or 0.0) >= 0.2)
     assert "MemoryError" in hosted.named("full").problem
     assert hosted.named("waiter").memory < 100 and is_running(waiter.pid)
-    assert hosted.launcher.kill(hosted.named("loops").key).result(PATIENCE).ok
-    assert hosted.launcher.stop(waiter.key).result(PATIENCE).ok
+    assert hosted.launcher.kill(hosted.named("loops").key).result(TIMEOUT_S).ok
+    assert hosted.launcher.stop(waiter.key).result(TIMEOUT_S).ok
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
-def test_a_killed_host_takes_its_processes_along_and_the_console_says_so(hosted: Hosted) -> None:
+def test_a_killed_host_takes_its_processes_along_and_the_console_reports_it(hosted: Hosted) -> None:
     assert hosted.launch(waiter=WAITS).ok
     pid = hosted.up("waiter").pid
     hosted.process.kill()
     hosted.until(lambda: not is_running(pid))
     hosted.until(lambda: hosted.launcher.info().problem)
     assert hosted.named("waiter").state is ProcessState.CRASHED
-    answer = hosted.launcher.start(hosted.named("waiter").key).result(PATIENCE)
+    answer = hosted.launcher.start(hosted.named("waiter").key).result(TIMEOUT_S)
     assert not answer.ok and "launch host has ended" in answer.text
 
 
@@ -170,7 +170,7 @@ def test_a_frozen_host_ends_what_it_started_and_itself(hosted: Hosted) -> None:
     hosted.up("waiter")
     hosted.process.send_signal(signal.SIGSTOP)
     hosted.launcher.close()
-    assert hosted.process.wait(PATIENCE) == 0
+    assert hosted.process.wait(TIMEOUT_S) == 0
     assert not any("has not ended" in text for *_, text in hosted.printed)
 
 
@@ -182,7 +182,7 @@ def test_what_an_owner_started_ends_with_it(tmp_path: Path) -> None:
     file.write_text(HEAD.format(entities=f"[Node(executable={str(program)!r})]"))
     owner = (
         "import time\n"
-        "from bot_console.tui.cli.live.own_host import start_host\n"
+        "from bot_console.tui.cli.live.child_host import start_host\n"
         "from bot_console.tui.console.launch_host.proxy import HostedLauncher\n"
         "host = start_host()\n"
         "launcher = HostedLauncher(host.connection, lambda *record: None, lambda *line: None)\n"
@@ -198,7 +198,7 @@ def test_what_an_owner_started_ends_with_it(tmp_path: Path) -> None:
         node = int(started.stdout.readline())
         assert ok == "True" and is_running(int(host)) and is_running(node)
         started.kill()
-    deadline = time.monotonic() + PATIENCE
+    deadline = time.monotonic() + TIMEOUT_S
     while is_running(int(host)) or is_running(node):
         assert time.monotonic() < deadline
         threading.Event().wait(0.01)

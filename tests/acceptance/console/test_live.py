@@ -12,7 +12,7 @@ from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.live.session import Session
 from bot_console.tui.console.model import LogFilter, ProcessState, Severity
 
-PATIENCE = 60.0
+TIMEOUT_S = 60.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 CRASHES = """
@@ -60,7 +60,7 @@ class Live:
 
     async def until(self, condition: Callable[[], object], what: str):
         """Let the app run until something is so."""
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + TIMEOUT_S
         while not (found := condition()):
             assert time.monotonic() < deadline, f"waited in vain for {what}"
             await self.pilot.pause(0.02)
@@ -154,7 +154,7 @@ def test_max_speed_is_refused_with_its_reason_then_taken(tmp_path):
     asyncio.run(run())
 
 
-def test_without_its_safety_node_the_robot_stops_and_the_console_says_why():
+def test_without_its_safety_node_the_robot_stops_and_the_console_reports_why():
     async def run():
         async with live(Options()) as it:
             await it.until(lambda: (it.console.snapshot().world.speed or 0.0) > 0.3, "the driving robot")

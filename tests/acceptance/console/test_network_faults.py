@@ -56,12 +56,12 @@ class FarRig(RosRig):
         while not ended.wait(PERIOD):
             self.console.drive(0.5, 0.0)
 
-    def say_long(self) -> Publisher:
+    def publish_long(self) -> Publisher:
         """A publisher of the robot whose messages may be long."""
         return self._node.create_publisher(String, "/long", QoSProfile(depth=10))
 
     def close(self) -> None:
-        self.wire.mend()
+        self.wire.hint()
         super().close()
         for each in self._robot_buses:
             each.close()
@@ -90,24 +90,26 @@ def key(far: FarRig) -> Iterator[threading.Event]:
 
 
 @pytest.mark.parametrize("seconds", [2, pytest.param(30, marks=pytest.mark.soak)])
-def test_a_cut_link_is_told_and_its_end_brings_no_motion_back(
+def test_a_cut_link_is_reported_and_its_end_brings_no_motion_back(
     far: FarRig, key: threading.Event, seconds: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("rigs.PATIENCE", seconds + 20.0)
+    monkeypatch.setattr("rigs.TIMEOUT_S", seconds + 20.0)
     assert far.console.snapshot().link.silent_s == 0
     far.wire.cut()
-    told = [0]
+    reported = [0]
 
     def silent() -> bool:
-        told.append(far.console.snapshot().link.silent_s)
-        assert told[-1] >= told[-2], "an answer over a link that is cut"  # as when Zenoh gives it up, after 10 s
-        return told[-1] >= seconds
+        reported.append(far.console.snapshot().link.silent_s)
+        assert reported[-1] >= reported[-2], (
+            "an answer over a link that is cut"
+        )  # as when Zenoh gives it up, after 10 s
+        return reported[-1] >= seconds
 
     until(silent, "the silence")
     sent_at_most = 3.5 / PERIOD  # a command is refused 1 s after the last answer, which is asked for every 1.3 s
     far.publish(1.0)  # the robot waits for nobody
     before = len(far.received)
-    far.wire.mend()
+    far.wire.hint()
     until(lambda: (0.0, 0.0) in far.received[before:], "the zero at the end of what had waited")
     late = list(far.received[before:])
     assert late.index((0.0, 0.0)) <= sent_at_most
@@ -120,18 +122,18 @@ def test_a_cut_link_is_told_and_its_end_brings_no_motion_back(
 def test_a_robot_that_was_driven_when_a_link_was_lost_for_long_gets_a_zero_when_it_is_back(
     far: FarRig, key: threading.Event, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("rigs.PATIENCE", 40.0)
+    monkeypatch.setattr("rigs.TIMEOUT_S", 40.0)
     far.wire.cut()
     until(lambda: far.console.snapshot().link.silent_s >= 15, "that Zenoh has given the link up, and what waited in it")
     key.set()  # as the pane does, which is disarmed
     before = len(far.received)
-    far.wire.mend()
+    far.wire.hint()
     until(lambda: far.console.snapshot() and len(far.received) > before, "a command")
     assert set(far.received[before:]) == {(0.0, 0.0)}
 
 
 def test_a_robot_does_not_wait_for_a_console_whose_link_is_cut(far: FarRig) -> None:
-    publisher, heard = far.say_long(), far.console.traffic
+    publisher, heard = far.publish_long(), far.console.traffic
     heard.listen("/long")
     until(lambda: publisher.get_subscription_count() > 0, "the subscription")
     far.wire.cut()
@@ -170,7 +172,7 @@ def test_with_300_ms_and_held_segments_all_works_and_nothing_is_called_silent(fa
     stopped, count = time.monotonic(), len(far.received)
     until(lambda: far.received[-1] == (0.0, 0.0) and len(far.received) > count, "the stop")
     assert time.monotonic() - stopped < 3.0  # a way there, a held segment, and what a busy machine takes
-    far.say(Severity.WARN, "still here")
+    far.show_text(Severity.WARN, "still here")
     until(lambda: far.console.snapshot().logs.counts.get(Severity.WARN, 0) >= 1, "the log")
 
 
@@ -196,7 +198,7 @@ def test_over_a_slow_link_the_robot_stands_after_the_dead_man_time_and_a_round_t
 
 def test_spoilt_frames_end_the_connection_and_a_clean_one_takes_its_place(far: FarRig) -> None:
     far.wire.spoil = lambda data: bytes(each ^ 0x5A for each in data)
-    far.say(Severity.WARN, "garbled")
+    far.show_text(Severity.WARN, "garbled")
     until(lambda: far.console.snapshot().link.silent_s >= 1, "that nothing comes through")
     assert not far.console.snapshot().problem
     far.wire.spoil = None

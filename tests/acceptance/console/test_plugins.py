@@ -12,7 +12,7 @@ from bot_console.runtime.workspace.discover import Workspace, default_folders, u
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.arrangement.plugin_pane import PluginPane
 from bot_console.tui.cli.system.plugins import find_plugins
-from bot_console.tui.panes.broken import BrokenPane
+from bot_console.tui.panes.broken_pane import BrokenPane
 from piloting import asyncio
 from samples import live
 from textual.widgets import Button, Label
@@ -114,8 +114,8 @@ def test_a_plug_in_with_a_fault_ends_alone(source: Path, fault: str) -> None:
         await pilot.pause()
         broken = app.query_one(BrokenPane)
         assert broken.display
-        said = {"no_widget": "no class of a Textual widget", "missing": "nothing_of_the_kind"}.get(fault, "no luck")
-        assert said in "\n".join(strip.text for strip in app.screen._compositor.render_strips())
+        message = {"no_widget": "no class of a Textual widget", "missing": "nothing_of_the_kind"}.get(fault, "no luck")
+        assert message in "\n".join(strip.text for strip in app.screen._compositor.render_strips())
         await pilot.press("1")
         assert app.current_pane.id == "parameters", "everything else goes on"
 

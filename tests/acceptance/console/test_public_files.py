@@ -16,7 +16,7 @@ from bot_console.tui.console.parameters.file.text import sections, value_at
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
-from rigs import PATIENCE, until
+from rigs import TIMEOUT_S, until
 
 FILES = sorted((Path(__file__).parents[2] / "unit/tui/console/parameters/public").glob("*.yaml"))
 DOMAINS = itertools.count(8300)
@@ -86,7 +86,7 @@ class Package:
         for each in self.nodes.values():
             each.destroy_node()
         self._context.try_shutdown()
-        self._thread.join(PATIENCE)
+        self._thread.join(TIMEOUT_S)
 
 
 @pytest.fixture
@@ -100,7 +100,7 @@ def domain(monkeypatch: pytest.MonkeyPatch) -> int:
 def console(domain: int, tmp_path: Path) -> Iterator[RosConsole]:
     made = RosConsole(profile_folders=[tmp_path / "none"], own_profiles=tmp_path / "own")
     made.start()
-    assert made.wait_ready(PATIENCE)
+    assert made.wait_ready(TIMEOUT_S)
     yield made
     made.close()
 
@@ -118,7 +118,7 @@ def test_it_is_seen_applied_and_saved_with_one_line_changed(
         assert console.open_profile(str(path)).ok
         seen = {(each.node, each.name): each.then for each in console.profile_differences(path.stem)}
         assert seen == wanted and len(seen) > 3
-        assert all(each.accepted for each in console.apply_profile(path.stem).result(PATIENCE))
+        assert all(each.accepted for each in console.apply_profile(path.stem).result(TIMEOUT_S))
         assert package.values() == wanted
         _saved_with_one_line_changed(path, tmp_path / path.name, console, values)
     finally:
@@ -137,7 +137,7 @@ def _saved_with_one_line_changed(path: Path, copy: Path, console: RosConsole, va
         return  # saved, it gets a section of its own: the wildcard is meant for others, too
     name, value = next((name, value) for name, value in values[node].items() if isinstance(value, (int, float)))
     copy.write_text(path.read_text())
-    assert all(each.accepted for each in console.set_parameters(node, {name: other(value)}).result(PATIENCE))
+    assert all(each.accepted for each in console.set_parameters(node, {name: other(value)}).result(TIMEOUT_S))
     until(lambda: console.snapshot().parameters[node].get(name).value == other(value), "the new value")
     assert console.save_parameters(str(copy), (node,)).ok
     before, after = path.read_text().splitlines(), copy.read_text().splitlines()

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.console.connection.ros_console import RosConsole
-from launcher_bench import PATIENCE, Bench
+from launcher_bench import TIMEOUT_S, Bench
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -21,7 +21,7 @@ def test_the_robot_is_not_driven_until_its_safety_monitor_is_back_and_released(
     bench = Bench(tmp_path)
     console = RosConsole(launch_info=bench.launcher.info)
     console.start()
-    assert console.wait_ready(PATIENCE)
+    assert console.wait_ready(TIMEOUT_S)
 
     def speed() -> float:
         """How fast it goes, in m/s, while the person goes on to ask for 0.8."""
@@ -31,16 +31,16 @@ def test_the_robot_is_not_driven_until_its_safety_monitor_is_back_and_released(
 
     try:
         path = str(ROOT / "launch" / "robot_system.launch.py")
-        assert bench.launcher.launch(path, {"profile": "outdoor"}).result(PATIENCE).ok
+        assert bench.launcher.launch(path, {"profile": "outdoor"}).result(TIMEOUT_S).ok
         bench.until(lambda: speed() > 0.1, "the robot to drive")
         key = next(each.key for each in bench.info.processes if "safety" in each.label)
-        assert bench.launcher.kill(key).result(PATIENCE).ok
+        assert bench.launcher.kill(key).result(TIMEOUT_S).ok
         bench.until(lambda: speed() == 0.0, "the robot to stop")
         bench.until(lambda: bench.process("safety").restarts == 1, "launch to start it again")
         bench.until(lambda: console.snapshot().drive.topic, "the arbiter to be back")
         watched = [speed() for _ in range(50) if threading.Event().wait(0.02) is False]
         assert max(watched) == 0.0, "it stands until a person releases it"
-        assert console.call("/safety_monitor/release", "std_srvs/srv/Trigger", {}).result(PATIENCE).ok
+        assert console.call("/safety_monitor/release", "std_srvs/srv/Trigger", {}).result(TIMEOUT_S).ok
         bench.until(lambda: speed() > 0.1, "the robot to drive again")
     finally:
         console.close()

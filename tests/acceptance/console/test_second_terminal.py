@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
-from terminal import PATIENCE, Terminal
+from terminal import TIMEOUT_S, Terminal
 
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
@@ -24,7 +24,7 @@ SOCKETS = f"/tmp/bct-{os.getpid()}"
 def typed(*words: str) -> subprocess.CompletedProcess[str]:
     """A command line of another terminal, to its end."""
     line = [sys.executable, *CONSOLE, *words]
-    return subprocess.run(line, capture_output=True, text=True, timeout=PATIENCE, check=False)
+    return subprocess.run(line, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
 
 
 def eventually(terminal: Terminal, condition, what: str) -> None:

@@ -17,7 +17,7 @@ def start(running: System, name: str, *words: str) -> Program:
     return running.python(str(PROGRAMS / f"{name}.py"), *words)
 
 
-def said(program: Program) -> list[str]:
+def message(program: Program) -> list[str]:
     """What a program logged."""
     return [text for _, text in when(program)]
 
@@ -49,8 +49,8 @@ def test_remapped_on_the_command_line() -> None:
         )
         running.run(1.5)
         nodes = running.ask("node", "list").stdout.split()
-    assert said(deaf) == []
-    assert said(listener) == ["I heard: [Hello World: 0]"]
+    assert message(deaf) == []
+    assert message(listener) == ["I heard: [Hello World: 0]"]
     assert nodes == ["/listener", "/speaker", "/there/listener"]
 
 
@@ -60,8 +60,8 @@ def test_service_and_client(way: str) -> None:
         server = start(running, "add_server")
         running.run(0.1)
         client = running.finish(start(running, "add_client", way, "2", "3"))
-    assert said(client) == ["Result of add_two_ints: for 2 + 3 = 5"]
-    assert said(server) == ["Incoming request a: 2 b: 3"]
+    assert message(client) == ["Result of add_two_ints: for 2 + 3 = 5"]
+    assert message(server) == ["Incoming request a: 2 b: 3"]
     assert client.exit == 0
 
 
@@ -102,7 +102,7 @@ def test_parameter_event_handler() -> None:
         running.ask("param", "set", "/robot", "speed", "99.0")
         running.ask("param", "set", "/node_with_parameters", "an_int_param", "43")
         running.run(0.1)
-    assert said(watcher) == [
+    assert message(watcher) == [
         "Received an update to remote parameter: 2.5",
         "Received an update to parameter: an_int_param: 43",
     ]
@@ -138,7 +138,7 @@ def test_late_joiners(offered: str, requested: str, heard: list[str]) -> None:
         running.run(1.0)
         late = start(running, "latched", "listener", *requested.split())
         running.run(1.0)
-    assert said(late) == heard
+    assert message(late) == heard
 
 
 @pytest.mark.parametrize(
@@ -153,11 +153,11 @@ def test_profiles_that_do_not_fit(offered: str, requested: str, policy: str) -> 
         talker = start(running, "latched", "talker", *offered.split())
         late = start(running, "latched", "listener", *requested.split())
         running.run(1.0)
-    assert said(talker) == [
+    assert message(talker) == [
         "New subscription discovered on topic 'map', requesting incompatible QoS. "
         f"No messages will be sent to it. Last incompatible policy: {policy}"
     ]
-    assert said(late) == [
+    assert message(late) == [
         "New publisher discovered on topic 'map', offering incompatible QoS. "
         f"No messages will be received from it. Last incompatible policy: {policy}"
     ]
@@ -171,7 +171,7 @@ def test_composed_nodes() -> None:
         program.process.interrupt()
         running.finish(program)
     assert nodes == ["/listener", "/talker"]
-    assert said(program) == [
+    assert message(program) == [
         'Publishing: "Hello World: 0"',
         "I heard: [Hello World: 0]",
         'Publishing: "Hello World: 1"',
@@ -198,13 +198,13 @@ def test_simulated_time(factor: str, spoken: int) -> None:
         start(running, "sim_clock", factor)
         talker = start(running, "talker", "--ros-args", "-p", "use_sim_time:=true")
         running.run(4.05)
-    assert len(said(talker)) == pytest.approx(spoken, abs=1)
+    assert len(message(talker)) == pytest.approx(spoken, abs=1)
 
 
 def test_two_executors_and_a_shutdown_in_a_callback() -> None:
     with system() as running:
         program = running.finish(start(running, "spins_in_threads"))
-    assert said(program) == ["got [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]"]
+    assert message(program) == ["got [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]"]
     assert (program.stdout, program.exit) == ("joined\n", 0)
 
 

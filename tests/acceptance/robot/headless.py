@@ -8,7 +8,7 @@ import subprocess
 import sys
 from typing import Any
 
-PATIENCE = 900.0
+TIMEOUT_S = 900.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 
@@ -17,7 +17,7 @@ def headless(folder: Any, *words: str, command: tuple[str, ...] = ()) -> dict[st
     line = [sys.executable, "-m", "bot_console.tui", *command, "--headless", "--fast", *words]
     environment = {**os.environ, "ROS_HOME": str(folder)}
     done = subprocess.run(
-        line, cwd=folder, env=environment, capture_output=True, text=True, timeout=PATIENCE, check=False
+        line, cwd=folder, env=environment, capture_output=True, text=True, timeout=TIMEOUT_S, check=False
     )
     assert done.returncode == 0, done.stderr[-3000:]
     report: dict[str, Any] = json.loads(done.stdout)

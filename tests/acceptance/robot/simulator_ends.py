@@ -31,7 +31,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 
-PATIENCE = 30.0
+TIMEOUT_S = 30.0
 WORLDS = ("indoor", "outdoor", "warehouse", "competition")
 KINDS = ("interrupt", "terminate", "kill", "stop", "reset", "world", "kill while it resets", "worlds come and go")
 
@@ -57,13 +57,13 @@ class Person:
 
     def wait(self) -> None:
         """Until the simulator serves."""
-        assert self._resets.wait_for_service(PATIENCE), "the simulator has not come up"
+        assert self._resets.wait_for_service(TIMEOUT_S), "the simulator has not come up"
 
     def reset(self, *, wait: bool = True) -> None:
         """Ask for a reset."""
         future = self._resets.call_async(Trigger.Request())
         if wait:
-            self._executor.spin_until_future_complete(future, PATIENCE)
+            self._executor.spin_until_future_complete(future, TIMEOUT_S)
             answer = future.result()
             assert answer and answer.success
 
@@ -71,7 +71,7 @@ class Person:
         """Another world from the next reset on."""
         value = Parameter("world", value=name).to_parameter_msg()
         future = self._setter.call_async(SetParameters.Request(parameters=[value]))
-        self._executor.spin_until_future_complete(future, PATIENCE)
+        self._executor.spin_until_future_complete(future, TIMEOUT_S)
         answer = future.result()
         assert answer and answer.results[0].successful
 
@@ -142,7 +142,7 @@ def play(kind: str, domain: int, chance: random.Random) -> None:
         threading.Event().wait(chance.uniform(0.0, 0.01))
     person.close()
     {"interrupt": process.interrupt, "terminate": process.terminate, "stop": process.stop}.get(kind, process.kill)()
-    assert process.wait(PATIENCE) is not None, process.line()
+    assert process.wait(TIMEOUT_S) is not None, process.line()
 
 
 def main(rounds: int, seed: int) -> None:

@@ -241,7 +241,7 @@ def test_stop_and_release_without_a_screen(bench: Bench) -> None:
     assert bench.drives()
 
 
-def test_a_stop_that_nobody_acknowledges_says_so() -> None:
+def test_a_stop_that_nobody_acknowledges_reports_it() -> None:
     with system() as running:
         alone = running.finish(running.start("stop", lambda: sys.exit(run("stop", [])), ["stop"]))
     assert alone.exit == 1

@@ -7,11 +7,11 @@ import sys
 from pathlib import Path
 
 import pytest
-from bot_console.runtime.workspace.own import ROOT
+from bot_console.runtime.workspace.builtin_package import ROOT
 from bot_console.tui.cli.main import main
 
 sys.path.insert(0, str(Path(__file__).parent))
-from headless import PATIENCE, headless
+from headless import TIMEOUT_S, headless
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +35,7 @@ def test_the_whole_report_is_repeatable(runs):
     assert first == second
 
 
-def test_the_report_tells_what_was_asked(runs):
+def test_the_report_reports_what_was_asked(runs):
     report = runs[0]
     assert (report["world"], report["seed"], report["duration"]) == ("indoor", 5, 12.0)
     assert report["distance"] > 2.0
@@ -66,12 +66,12 @@ def test_a_run_that_is_ended_early_still_reports(tmp_path, fast, name):
     words = [sys.executable, "-m", "bot_console.tui", "--headless", *fast, "--duration", "1e6"]
     with subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
         try:
-            said = ""
-            while "Office" not in said:
-                said = run.stderr.readline()
-                assert said, "the simulator has not come up"
+            message = ""
+            while "Office" not in message:
+                message = run.stderr.readline()
+                assert message, "the simulator has not come up"
             run.send_signal(signal.Signals[name])
-            out, err = run.communicate(timeout=PATIENCE)
+            out, err = run.communicate(timeout=TIMEOUT_S)
         finally:
             run.kill()
     assert run.returncode == 0, err
@@ -162,8 +162,8 @@ def test_wrong_words_get_one_clear_line(tmp_path, monkeypatch, capfd, words, cod
     with pytest.raises(SystemExit) as end:
         sys.exit(main(words))
     assert end.value.code == code
-    told = capfd.readouterr().err
-    assert text in told and "Traceback" not in told
+    reported = capfd.readouterr().err
+    assert text in reported and "Traceback" not in reported
 
 
 def test_a_world_that_is_not_there_ends_the_run(tmp_path):
@@ -174,7 +174,7 @@ def test_a_world_that_is_not_there_ends_the_run(tmp_path):
     assert "Traceback" not in done.stderr
 
 
-LOOKED_AT = """
+WATCHED = """
 import atexit, gc, json, sys
 from bot_console.tui.cli.main import program
 atexit.register(lambda: print(json.dumps(
@@ -186,8 +186,8 @@ program()
 
 def test_garbage_is_collected_once_the_nodes_are_up_and_nothing_of_plots_is_imported(tmp_path):
     words = ("--headless", "--fast", "--duration", "1")
-    run = [sys.executable, "-c", LOOKED_AT, *words]
-    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=PATIENCE, check=True)
+    run = [sys.executable, "-c", WATCHED, *words]
+    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=TIMEOUT_S, check=True)
     collects, frozen, plots = json.loads(done.stdout.splitlines()[-1])
     assert collects and frozen > 10_000
     assert plots == []
@@ -211,7 +211,7 @@ def test_what_a_node_draws_is_the_same_again(tmp_path):
     def drawn(seed: str) -> list[str]:
         words = ("run", "--headless", "--fast", "--no-simulator", "--duration", "1", "--seed", seed, "draws.py")
         run = [sys.executable, "-m", "bot_console.tui", *words]
-        done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=PATIENCE, check=False)
+        done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
         return [line for line in done.stderr.splitlines() if "DRAWN" in line]
 
     first = drawn("3")

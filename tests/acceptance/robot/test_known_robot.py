@@ -89,13 +89,13 @@ def test_the_correction_puts_drifted_odometry_right(running: System) -> None:
         "{linear: {x: 0.4}, angular: {z: 0.5}}",
     )
     running.run(3.0)
-    told = once(running, "/odom")
+    reported = once(running, "/odom")
     x, y = place(running)
     found = re.findall(r"Translation: \[([-\d.]+), ([-\d.]+), ", echo.stdout)[-1]
     assert tuple(map(float, found)) == pytest.approx((x, y), abs=0.002)
     turn = float(re.findall(r"RPY \(radian\) \[[-\d.]+, [-\d.]+, ([-\d.]+)\]", echo.stdout)[-1])
     assert turn == pytest.approx(heading(running), abs=0.002)
-    assert f"{x:.3f}" not in told
+    assert f"{x:.3f}" not in reported
 
 
 def test_wheels_inertia_and_battery(running: System) -> None:

@@ -7,14 +7,14 @@ from pathlib import Path
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
-from headless import PATIENCE, headless
+from headless import TIMEOUT_S, headless
 
 COURSE = os.environ.get("BOT_CONSOLE_COURSE", "")
 NODE = Path(COURSE) / "nodes" / "intelligent_robot" / "robot_node.py"
 
 pytestmark = [
     pytest.mark.skipif(not COURSE, reason="BOT_CONSOLE_COURSE names no folder"),
-    pytest.mark.timeout(2 * PATIENCE),
+    pytest.mark.timeout(2 * TIMEOUT_S),
 ]
 
 

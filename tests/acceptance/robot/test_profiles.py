@@ -8,11 +8,11 @@ from statistics import mean
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
-from headless import PATIENCE, headless
+from headless import TIMEOUT_S, headless
 
 PROFILES = ("indoor", "outdoor", "warehouse", "competition")
 SEEDS = ("1", "2", "3")
-pytestmark = [pytest.mark.soak, pytest.mark.timeout(len(PROFILES) * len(SEEDS) * PATIENCE)]
+pytestmark = [pytest.mark.soak, pytest.mark.timeout(len(PROFILES) * len(SEEDS) * TIMEOUT_S)]
 GUIDE = Path(__file__).resolve().parents[3] / "docs" / "environments.md"
 
 

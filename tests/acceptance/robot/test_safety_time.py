@@ -36,10 +36,10 @@ def speeds(text: str) -> list[tuple[float, float]]:
     return [(float(at), float(speed)) for at, speed in map(str.split, text.splitlines())]
 
 
-def kill(running: System, launch_says: str, name: str) -> None:
+def kill(running: System, launch_output: str, name: str) -> None:
     """SIGKILL for a process that the launch has started."""
-    found = re.search(rf"\[{name}-\d+\]: process started with pid \[(\d+)\]", launch_says)
-    assert found, launch_says
+    found = re.search(rf"\[{name}-\d+\]: process started with pid \[(\d+)\]", launch_output)
+    assert found, launch_output
     assert running.finish(running.python("-c", f"import os, signal; os.kill({found[1]}, signal.SIGKILL)")).exit == 0
 
 
@@ -60,8 +60,8 @@ def test_it_stands_half_a_second_after_the_kill(seconds: float) -> None:
 
 def test_the_monitor_asks_for_the_simulations_time_once_a_scan_is_late() -> None:
     def listeners(running: System) -> str:
-        told = running.finish(running.ros2("topic", "info", "/clock")).stdout
-        return told.partition("Subscription count: ")[2].strip()
+        reported = running.finish(running.ros2("topic", "info", "/clock")).stdout
+        return reported.partition("Subscription count: ")[2].strip()
 
     with system() as running:
         running.ros2("launch", str(ROOT / "launch" / "robot_system.launch.py"))

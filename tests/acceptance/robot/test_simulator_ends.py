@@ -14,11 +14,11 @@ PROGRAM = Path(__file__).with_name("simulator_ends.py")
 KINDS = 8
 
 
-def ends(rounds: int, seed: int, patience: float) -> None:
+def ends(rounds: int, seed: int, timeout_s: float) -> None:
     """Run the program; a segmentation fault is an exit code of -11."""
     line = [sys.executable, "-X", "faulthandler", str(PROGRAM), str(rounds), str(seed)]
     environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
-    done = subprocess.run(line, env=environment, capture_output=True, text=True, timeout=patience, check=False)
+    done = subprocess.run(line, env=environment, capture_output=True, text=True, timeout=timeout_s, check=False)
     assert done.returncode == 0, done.stderr[-3000:]
     counts = json.loads(done.stdout)
     assert len(counts) == KINDS and sum(counts.values()) == rounds

@@ -8,7 +8,7 @@ import pytest
 from systems import Program, system
 
 
-def said(program: Program) -> list[str]:
+def message(program: Program) -> list[str]:
     return re.findall(r"\]: ((?:.|\n(?!\[))*)", program.stderr.rstrip("\n"))
 
 
@@ -21,8 +21,8 @@ def test_talker_and_listener(package: str, numbers: tuple[int, ...], quote: str)
         listener = running.executable(package, "listener")
         talker = running.executable(package, "talker")
         running.run(3.5)
-    assert said(talker) == [f"Publishing: {quote}Hello World: {each}{quote}" for each in numbers]
-    assert said(listener) == [f"I heard: [Hello World: {each}]" for each in numbers]
+    assert message(talker) == [f"Publishing: {quote}Hello World: {each}{quote}" for each in numbers]
+    assert message(listener) == [f"I heard: [Hello World: {each}]" for each in numbers]
 
 
 def test_qualities_of_service_and_bytes() -> None:
@@ -31,15 +31,15 @@ def test_qualities_of_service_and_bytes() -> None:
         heard = running.executable("demo_nodes_py", "listener_qos")
         deaf = running.executable("demo_nodes_py", "listener_qos", "--reliable")
         running.run(1.5)
-    greeting, *_, last = said(talker)
+    greeting, *_, last = message(talker)
     assert (greeting, last) == ("Best effort talker", 'Publishing: "Hello World: 0"')
-    assert said(heard) == ["Best effort listener", "I heard: [Hello World: 0]"]
-    assert "I heard: [Hello World: 0]" not in said(deaf)
+    assert message(heard) == ["Best effort listener", "I heard: [Hello World: 0]"]
+    assert "I heard: [Hello World: 0]" not in message(deaf)
     with system() as running:
         listener = running.executable("demo_nodes_py", "listener_serialized")
         running.executable("demo_nodes_py", "talker")
         running.run(1.5)
-    assert said(listener) == [r'''I heard: "b'\x00\x01\x00\x00\x0f\x00\x00\x00Hello World: 0\x00'"''']
+    assert message(listener) == [r'''I heard: "b'\x00\x01\x00\x00\x0f\x00\x00\x00Hello World: 0\x00'"''']
 
 
 @pytest.mark.parametrize(
@@ -48,7 +48,7 @@ def test_qualities_of_service_and_bytes() -> None:
 def test_a_talker_ends_after_so_many_messages(words: tuple[str, ...], count: int) -> None:
     with system() as running:
         talker = running.finish(running.executable("demo_nodes_py", "talker_qos", *words))
-    assert (talker.exit, len(said(talker))) == (0, count + 1)
+    assert (talker.exit, len(message(talker))) == (0, count + 1)
 
 
 def test_a_listener_ends_after_so_many_messages() -> None:
@@ -57,7 +57,7 @@ def test_a_listener_ends_after_so_many_messages() -> None:
         running.executable("demo_nodes_py", "talker")
         running.finish(listener)
         unknown = running.finish(running.executable("demo_nodes_py", "listener_qos", "--nope"))
-    assert said(listener)[1:] == ["I heard: [Hello World: 0]", "I heard: [Hello World: 1]"]
+    assert message(listener)[1:] == ["I heard: [Hello World: 0]", "I heard: [Hello World: 1]"]
     assert (unknown.exit, "unrecognized arguments: --nope" in unknown.stderr) == (2, True)
 
 
@@ -68,8 +68,8 @@ def test_a_client_waits_for_its_server(package: str) -> None:
         running.run(1.5)
         server = running.executable(package, "add_two_ints_server")
         running.finish(client)
-    assert said(client) == ["service not available, waiting again...", "Result of add_two_ints: 5"]
-    assert said(server) == ["Incoming request\na: 2 b: 3"]
+    assert message(client) == ["service not available, waiting again...", "Result of add_two_ints: 5"]
+    assert message(server) == ["Incoming request\na: 2 b: 3"]
 
 
 def test_parameters() -> None:
@@ -99,9 +99,9 @@ def test_fibonacci(package: str, last: str) -> None:
         running.run(0.2)
         client = running.executable(package, "fibonacci_action_client")
         running.finish(client)
-    assert said(client)[-1].replace("array('i', ", "").replace("])", "]") == last.rstrip("\n")
-    assert len(said(client)) >= 11
-    assert "Executing goal" in said(server)[0] + said(server)[1]
+    assert message(client)[-1].replace("array('i', ", "").replace("])", "]") == last.rstrip("\n")
+    assert len(message(client)) >= 11
+    assert "Executing goal" in message(server)[0] + message(server)[1]
 
 
 def test_minimal_examples() -> None:
@@ -111,18 +111,18 @@ def test_minimal_examples() -> None:
         running.executable("examples_rclpy_minimal_service", "service")
         asked = running.finish(running.executable("examples_rclpy_minimal_client", "client"))
         running.run(1.2)
-    assert said(heard)[:2] == ['I heard: "Hello World: 0"', 'I heard: "Hello World: 1"']
-    assert said(asked) == ["Result of add_two_ints: for 41 + 1 = 42"]
+    assert message(heard)[:2] == ['I heard: "Hello World: 0"', 'I heard: "Hello World: 1"']
+    assert message(asked) == ["Result of add_two_ints: for 41 + 1 = 42"]
 
 
 def test_static_transforms_and_echo() -> None:
     with system() as running:
         new = ("--x", "1", "--yaw", "1.5707963", "--frame-id", "world", "--child-frame-id", "tower")
-        told = running.executable("tf2_ros", "static_transform_publisher", *new)
+        reported = running.executable("tf2_ros", "static_transform_publisher", *new)
         old = running.executable("tf2_ros", "static_transform_publisher", "0", "0", "2", "0", "0", "0", "tower", "top")
         echo = running.executable("tf2_ros", "tf2_echo", "world", "top")
         running.run(2.5)
-    assert "from 'world' to 'tower'" in told.stderr
+    assert "from 'world' to 'tower'" in reported.stderr
     assert "Old-style arguments are deprecated" in old.stderr
     assert "- Translation: [1.000, 0.000, 2.000]\n" in echo.stdout
     assert "- Rotation: in RPY (degree) [0.000, -0.000, 90.000]" in echo.stdout.replace(

@@ -42,9 +42,9 @@ def test_images_are_compressed_while_somebody_listens(running: System, codec: No
     running.ros2("topic", "pub", "-r", "5", "/camera", IMAGE, PIXEL)
     running.run(1.0)
     assert "Subscription count: 0" in running.ask("topic", "info", "/camera").stdout
-    told = running.ask("topic", "echo", "--once", "/camera/compressed").stdout
-    assert "frame_id: eye" in told and "format: rgb8; jpeg compressed bgr8" in told
-    assert told.endswith("data:\n- 3\n- 2\n- 1\n---\n")
+    reported = running.ask("topic", "echo", "--once", "/camera/compressed").stdout
+    assert "frame_id: eye" in reported and "format: rgb8; jpeg compressed bgr8" in reported
+    assert reported.endswith("data:\n- 3\n- 2\n- 1\n---\n")
     running.run(1.0)
     assert "Subscription count: 0" in running.ask("topic", "info", "/camera").stdout
 
@@ -53,11 +53,11 @@ def test_and_back_in_their_own_encoding(running: System, codec: None) -> None:
     republish(running, "compressed", "raw")
     fields = "{format: 'rgb8; jpeg compressed bgr8', data: [3, 2, 1]}"
     running.ros2("topic", "pub", "-r", "5", "/in/compressed", "sensor_msgs/msg/CompressedImage", fields)
-    told = running.ask("topic", "echo", "--once", "/out").stdout
-    assert "encoding: rgb8" in told and told.endswith("data:\n- 1\n- 2\n- 3\n---\n")
+    reported = running.ask("topic", "echo", "--once", "/out").stdout
+    assert "encoding: rgb8" in reported and reported.endswith("data:\n- 1\n- 2\n- 3\n---\n")
 
 
-def test_without_open_cv_it_says_what_brings_it(running: System, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_open_cv_it_reports_what_brings_it(running: System, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("bot_console_demos.image_transport.republish.available", lambda: ["raw"])
     refused = running.finish(running.executable("image_transport", "republish", "compressed", "raw"))
     assert refused.exit == 1

@@ -60,7 +60,7 @@ class TestWhileTheyRun(unittest.TestCase):
         with WaitForTopics([(topic, String)], timeout=30.0) as waiting:
             self.assertEqual(waiting.topics_received(), {topic})
 
-    def test_the_listener_says_what_it_heard(self, proc_output, listener):
+    def test_the_listener_reports_what_it_heard(self, proc_output, listener):
         proc_output.assertWaitFor("I heard: [Hello World", process=listener, timeout=30, stream="stderr")
 
 

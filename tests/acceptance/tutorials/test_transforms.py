@@ -65,7 +65,7 @@ def test_it_waits_for_a_transform_that_comes_within_the_time_out(running: System
     assert re.match(r"True\nafter 2\.[01]\n", running.finish(asked).stdout)
 
 
-def test_what_does_not_come_is_told_with_its_reason(running: System) -> None:
+def test_what_does_not_come_is_reported_with_its_reason(running: System) -> None:
     running.executable("tf2_ros", "buffer_server")
     running.run(0.5)
     ask = "buffer.lookup_transform('map', 'base', Time(), Duration(seconds=1))"

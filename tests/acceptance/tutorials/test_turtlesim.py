@@ -26,7 +26,7 @@ def sim(running: System) -> Program:
     return program
 
 
-def said(program: Program) -> list[str]:
+def message(program: Program) -> list[str]:
     return re.findall(r"\[turtlesim\]: (.*)", program.stderr)
 
 
@@ -39,8 +39,8 @@ def call(running: System, service: str, kind: str, fields: str = "{}") -> str:
     return running.ask("service", "call", service, kind, fields).stdout
 
 
-def test_it_starts_as_upstream_says_it(running: System, sim: Program) -> None:
-    assert said(sim) == [
+def test_it_starts_as_upstream_reports_it(running: System, sim: Program) -> None:
+    assert message(sim) == [
         "Starting turtlesim with node name /turtlesim",
         "Spawning turtle [turtle1] at x=[5.544445], y=[5.544445], theta=[0.000000]",
     ]
@@ -75,7 +75,7 @@ def test_walls(running: System, sim: Program) -> None:
     running.ask("topic", "pub", "--once", "/turtle1/cmd_vel", TWIST, "{linear: {x: 10.0}}")
     running.run(0.5)
     assert pose(running)["x"] == pytest.approx(11.088889, abs=1e-6)
-    assert said(sim)[2] == "Oh no! I hit the wall! (Clamping from [x=11.160000, y=8.088889])"
+    assert message(sim)[2] == "Oh no! I hit the wall! (Clamping from [x=11.160000, y=8.088889])"
 
 
 def test_spawn_kill_and_reset(running: System, sim: Program) -> None:
@@ -89,7 +89,7 @@ def test_spawn_kill_and_reset(running: System, sim: Program) -> None:
     assert "/leo/pose" not in running.ask("topic", "list").stdout
     call(running, "/reset", "std_srvs/srv/Empty")
     assert "/turtle2/pose" not in running.ask("topic", "list").stdout
-    assert said(sim)[2:] == [
+    assert message(sim)[2:] == [
         "Spawning turtle [leo] at x=[2.000000], y=[2.000000], theta=[0.200000]",
         "A turtle named [leo] already exists",
         "Spawning turtle [turtle2] at x=[1.000000], y=[1.000000], theta=[0.000000]",
@@ -115,7 +115,7 @@ def test_pen_and_clear(running: System, sim: Program) -> None:
     pen("{'off': 1}")
     jump("{linear: 1.0}")
     assert color().startswith("r: 255 g: 255 b: 255")
-    assert said(sim)[-1] == "Clearing turtlesim."
+    assert message(sim)[-1] == "Clearing turtlesim."
 
 
 def test_rotations_as_goals(running: System, sim: Program) -> None:
@@ -135,7 +135,7 @@ def test_rotations_as_goals(running: System, sim: Program) -> None:
     running.finish(second)
     assert "ABORTED" in second.stdout
     assert "SUCCEEDED" in third.stdout
-    assert said(sim)[2:] == [
+    assert message(sim)[2:] == [
         "Rotation goal completed successfully",
         "Velocity command received during rotation goal. Aborting goal",
         "Rotation goal received before a previous goal finished. Aborting previous goal",
@@ -161,7 +161,7 @@ def test_a_square(running: System, sim: Program) -> None:
     for goal, corner in zip(goals, corners, strict=False):
         assert tuple(map(float, goal)) == pytest.approx(corner, abs=0.11)
     assert len(goals) > len(corners)
-    assert said(sim)[2] == "Resetting turtlesim."
+    assert message(sim)[2] == "Resetting turtlesim."
 
 
 def test_mimic(running: System, sim: Program) -> None:

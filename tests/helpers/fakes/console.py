@@ -38,18 +38,18 @@ from bot_console.tui.console.values import refusal
 
 from fakes.profiles import CLOSED, FakeProfiles
 from fakes.recording import FakeRecording
+from fakes.sensors import FakeSensors
 from fakes.series import START, FakeSeries
-from fakes.sights import FakeSights
 from fakes.traffic import FakeTraffic
 
 
 class FakeView(SearchedView):
     """A view that has searched everything whenever somebody looks."""
 
-    def look(self) -> Any:
+    def poll(self) -> Any:
         while self.work():
             pass
-        return super().look()
+        return super().poll()
 
 
 EARLY = "early "
@@ -64,7 +64,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
         self.current = snapshot or ConsoleSnapshot()
         self.asked: list[tuple[Any, ...]] = []
         self.traffic = FakeTraffic(self.asked)
-        self.sights = FakeSights()
+        self.sensors = FakeSensors()
         self.sent: list[tuple[float, float]] = []
         """Velocities that have reached the robot."""
         self.refusals: dict[tuple[str, str], str] = {}
@@ -89,7 +89,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
         """Replace parts of the snapshot."""
         self.current = replace(self.current, seq=self.current.seq + 1, **parts)
 
-    def say(self, severity: Severity, node: str, text: str, stamp: int = START) -> None:
+    def show_text(self, severity: Severity, node: str, text: str, stamp: int = START) -> None:
         """Log a line."""
         self.logs.add(stamp, severity, node, text, ("node.py", "callback", 7))
         self.change(logs=self.logs.state)
@@ -132,7 +132,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
         outcomes, moves = self._moved(node, values, source, atomically=atomically)
         if moves:
             self._steps.did(Step(moves), source)
-            self.tell_journal()
+            self.set_journal()
         return done(outcomes)
 
     def _moved(
@@ -147,7 +147,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
         self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool = False, by: str = ""
     ) -> tuple[SetOutcome, ...]:
         """What the node makes of values, whoever has asked for them."""
-        outcomes = [self._judged(node, name, value) for name, value in values.items()]
+        outcomes = [self._result_of(node, name, value) for name, value in values.items()]
         bad = next((each for each in outcomes if not each.accepted), None)
         if atomically and bad:
             outcomes = [
@@ -172,7 +172,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
             )
             for name, value in taken.items():
                 self._plot(f"{node}:{name}", value)
-        self.tell_journal()
+        self.set_journal()
         return tuple(outcomes)
 
     def set_all(
@@ -182,7 +182,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
         outcomes, moves = self._all_or_nothing(values, source, by)
         if moves:
             self._steps.did(Step(moves), source)
-        self.tell_journal()
+        self.set_journal()
         return done(outcomes)
 
     def _all_or_nothing(
@@ -191,21 +191,21 @@ class FakeConsole(FakeProfiles, FakeSeries):
         wanted = [(node, name, value) for node, found in values.items() for name, value in found.items()]
         if self.closed:
             return tuple(SetOutcome(*each, False, CLOSED, "console") for each in wanted), ()
-        judged = [self._judged(*each) for each in wanted]
-        bad = next((each for each in judged if not each.accepted), None)
+        result = [self._result_of(*each) for each in wanted]
+        bad = next((each for each in result if not each.accepted), None)
         if bad is None:
             made = [self._moved(node, found, source, atomically=True, by=by) for node, found in values.items()]
             return tuple(one for outcomes, _ in made for one in outcomes), tuple(
                 one for _, some in made for one in some
             )
         self.take(bad.node, values[bad.node], source, atomically=True, by=by)
-        told = f"not set, since {bad.node} refused {bad.name}: {bad.reason}"
+        reported = f"not set, since {bad.node} refused {bad.name}: {bad.reason}"
         return tuple(
-            replace(each, accepted=False, reason=told, refused_by="console") if each.accepted else each
-            for each in judged
+            replace(each, accepted=False, reason=reported, refused_by="console") if each.accepted else each
+            for each in result
         ), ()
 
-    def _judged(self, node: str, name: str, value: Value) -> SetOutcome:
+    def _result_of(self, node: str, name: str, value: Value) -> SetOutcome:
         tree = self.current.parameters.get(node)
         by, why = refusal(tree.get(name), value) if tree else ("node", f"no service {node}/set_parameters is offered")
         own = self.refusals.get((node, name), "")
@@ -218,14 +218,14 @@ class FakeConsole(FakeProfiles, FakeSeries):
 
     def all_saved(self) -> None:
         self._steps.saved(())
-        self.tell_journal()
+        self.set_journal()
 
     @property
     def _end(self) -> int:
         """The number of the next change; those of earlier runs are numbered below 0."""
         return sum(each.seq >= 0 for each in self.journal)
 
-    def tell_journal(self) -> None:
+    def set_journal(self) -> None:
         state = self._steps.state
         active = next((each for each in self.current.profiles if each.name == self.current.active_profile), None)
         self.change(
@@ -259,7 +259,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
             self.change(active_profile=step.profiles[0 if undone else 1])
         if gone := tuple(each for each in step.moves if each not in left):
             self._steps.did(Step(gone, None if left else step.profiles), source)
-        self.tell_journal()
+        self.set_journal()
         names = ", ".join(name for move in step.moves for name in move.after)
         return done(Answer(not left, "; ".join(each.reason for each in refused) or f"{source.value}: {names}"))
 
@@ -360,7 +360,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
             self.change(active_profile=name)
         if moves:
             self._steps.did(Step(moves, (before, self.current.active_profile)), ChangeSource.PROFILE)
-        self.tell_journal()
+        self.set_journal()
         return done(outcomes)
 
     def save_parameters(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
@@ -368,7 +368,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
         if self.closed:
             return Answer(False, CLOSED)
         self._steps.saved(nodes)
-        self.tell_journal()
+        self.set_journal()
         place = self.folder / path if self.folder else Path(path)
         if not place.is_absolute():
             return Answer(True, f"saved to {path}")

@@ -93,6 +93,6 @@ class FakeLauncher:
         self.closed = True
         for process in self._processes.values():
             if process.alive:
-                process.told_to_end()
+                process.exit_requested()
                 process.exited(0, respawns=False)
         self._show()

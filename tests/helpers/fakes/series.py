@@ -37,7 +37,7 @@ class FakeSeries:
             times.append(self.now)
             values.append(float(value))
 
-    def watch(self, path: str, asker: str = "") -> Answer:
+    def watch(self, path: str, requester: str = "") -> Answer:
         self.asked.append(("watch", path))
         if self.closed:
             return Answer(False, CLOSED)
@@ -45,14 +45,14 @@ class FakeSeries:
         number = isinstance(self._value(node, name), (bool, int, float))
         why = self.unplottable.get(path, "" if path in self.series or number else f"there is no topic {path}")
         if not why:
-            self._watched.setdefault(path, set()).add(asker)
+            self._watched.setdefault(path, set()).add(requester)
             if path not in self.series:
                 self._plot(path, self._value(node, name))
         return Answer(not why, why or path)
 
-    def unwatch(self, path: str, asker: str = "") -> None:
+    def unwatch(self, path: str, requester: str = "") -> None:
         self.asked.append(("unwatch", path))
-        self._watched[path] = self._watched.get(path, set()) - {asker}
+        self._watched[path] = self._watched.get(path, set()) - {requester}
 
     def samples(self, path: str, after: int = 0) -> Samples:
         if not self._watched.get(path):

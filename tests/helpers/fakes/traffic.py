@@ -22,7 +22,7 @@ class FakeTraffic:
         self.messages: dict[str, tuple[Any, str]] = {}
         """Message and type that a topic brings."""
         self.response: Reply = Reply(True, "", 0.0042)
-        self.askers: dict[str, tuple[str, ...]] = {}
+        self.requesters: dict[str, tuple[str, ...]] = {}
         self.listening = ""
         self.running: dict[str, Repeated] = {}
         self.sent_goals: dict[str, Goal] = {}
@@ -30,13 +30,13 @@ class FakeTraffic:
         self.problem = ""
         self._heard = LiveMessage()
 
-    def measure(self, topics: Collection[str], asker: str = "") -> None:
-        self.askers[asker] = tuple(topics)
+    def measure(self, topics: Collection[str], requester: str = "") -> None:
+        self.requesters[requester] = tuple(topics)
 
     @property
     def measuring(self) -> tuple[str, ...]:
         """What is measured, whoever asked."""
-        return tuple(topic for topics in self.askers.values() for topic in topics)
+        return tuple(topic for topics in self.requesters.values() for topic in topics)
 
     def measured(self) -> Mapping[str, Measure]:
         return {topic: self.figures.get(topic, Measure()) for topic in self.measuring}

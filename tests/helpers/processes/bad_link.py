@@ -38,7 +38,7 @@ class BadLink:
         """Nothing passes, in neither direction, and nobody is told: as with a cable that was pulled."""
         self._passing.clear()
 
-    def mend(self) -> None:
+    def hint(self) -> None:
         """All passes again, what has waited first."""
         self._passing.set()
 
@@ -51,7 +51,7 @@ class BadLink:
     def close(self) -> None:
         """Pass on nothing any more."""
         self._server.close()
-        self.mend()
+        self.hint()
         self.break_connections()
 
     def _accept(self) -> None:

@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable, Iterator
 from functools import partial
 
-from processes.live_robot import DRIVER, PATIENCE, RESTING, LiveRobot
+from processes.live_robot import DRIVER, RESTING, TIMEOUT_S, LiveRobot
 from processes.losses import BRAKING, CONSOLE, WATCHED, Terminal, console, is_alive
 
 RECORDED = ("/emergency_stop/request", "/emergency_stop/arbiter", "/emergency_stop/base")
@@ -58,7 +58,7 @@ def both_ended(robot: LiveRobot, person: Terminal | None) -> None:
     for each in (robot.monitor, robot.base):
         each.send_signal(signal.SIGINT)
     for each in (robot.monitor, robot.base):
-        each.wait(PATIENCE)
+        each.wait(TIMEOUT_S)
     robot.start_base()
     robot.start_monitor()
 
@@ -141,7 +141,7 @@ def recording(robot: LiveRobot) -> Iterator[None]:
     yield
     _wait(None, 1.0)
     recorder.send_signal(signal.SIGINT)
-    recorder.wait(PATIENCE)
+    recorder.wait(TIMEOUT_S)
 
 
 def _wait(person: Terminal | None, seconds: float) -> None:

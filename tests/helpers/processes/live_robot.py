@@ -13,7 +13,7 @@ from pathlib import Path
 
 MOVING, RESTING = 0.1, 0.02
 """Speeds (m/s, or rad/s) of a robot that drives, and that odometry may show at rest."""
-PATIENCE = 90.0
+TIMEOUT_S = 90.0
 """Seconds after which a rig gives up; nothing is measured by it."""
 
 WITNESS = """
@@ -132,7 +132,7 @@ class LiveRobot:
 
     def typed(self, *words: str) -> int:
         """A command line, to its end."""
-        return self.console(*words).wait(PATIENCE)
+        return self.console(*words).wait(TIMEOUT_S)
 
     def speeds(self, since: float, until: float = float("inf")) -> list[tuple[float, float]]:
         """What the witness has seen between two moments of `time.monotonic`."""
@@ -140,7 +140,7 @@ class LiveRobot:
 
     def until(self, true: Callable[[], bool], what: str) -> None:
         """Wait for something."""
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + TIMEOUT_S
         while not true():
             assert time.monotonic() < deadline, f"no {what}: {(self.folder / 'robot.log').read_text()[-3000:]}"
             time.sleep(0.02)

@@ -14,7 +14,7 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from processes.live_robot import BLIND, DRIVER, MOVING, PATIENCE, LiveRobot
+from processes.live_robot import BLIND, DRIVER, MOVING, TIMEOUT_S, LiveRobot
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "acceptance" / "console"))
 from terminal import Terminal
@@ -86,7 +86,7 @@ def steer(robot: LiveRobot, terminal: Terminal) -> None:
     )
     began = time.monotonic()
     while not any(speed > MOVING for _, speed in robot.speeds(began)):
-        assert time.monotonic() < began + PATIENCE, "it does not follow the keys"
+        assert time.monotonic() < began + TIMEOUT_S, "it does not follow the keys"
         terminal.type("a")
         terminal.drain(0.1)
 
@@ -132,7 +132,7 @@ def closed_terminal(robot: LiveRobot) -> float:
         lost = time.monotonic()
         terminal.hang_up()
         went_on = rests(robot, lost, SILENCE)
-        assert terminal.process.wait(PATIENCE) == 129
+        assert terminal.process.wait(TIMEOUT_S) == 129
     release_all(robot)
     return went_on
 
@@ -235,7 +235,7 @@ def hand_back(robot: LiveRobot, terminal: Terminal) -> None:
     terminal.type("!")
     began = time.monotonic()
     while not any(speed > MOVING for _, speed in robot.speeds(began)):
-        assert time.monotonic() < began + PATIENCE, f"it is not handed back: {terminal.output[-800:]!r}"
+        assert time.monotonic() < began + TIMEOUT_S, f"it is not handed back: {terminal.output[-800:]!r}"
         terminal.drain(0.1)
 
 

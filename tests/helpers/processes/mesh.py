@@ -9,7 +9,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 
-PATIENCE = 60.0
+TIMEOUT_S = 60.0
 """How long (s) anything may take on a busy machine."""
 
 
@@ -28,7 +28,7 @@ class Member:
         self.zid = self.read()
         return self
 
-    def tell(self, word: str) -> None:
+    def report(self, word: str) -> None:
         """Let it do something."""
         assert self.process.stdin
         self.process.stdin.write(word + "\n")
@@ -43,7 +43,7 @@ class Member:
 
     def ask(self, word: str) -> set[str]:
         """What it answers to a word."""
-        self.tell(word)
+        self.report(word)
         return set(self.read().split())
 
     def signal(self, number: int) -> None:
@@ -69,7 +69,7 @@ def members(count: int, *arguments: str) -> Iterator[list[Member]]:
 
 def eventually(true: Callable[[], bool]) -> bool:
     """Whether something gets true in time."""
-    deadline = time.monotonic() + PATIENCE
+    deadline = time.monotonic() + TIMEOUT_S
     while not true():
         if time.monotonic() > deadline:
             return False

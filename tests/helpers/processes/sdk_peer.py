@@ -20,16 +20,18 @@ def add(request: SimpleNamespace) -> object:
     return server.response_msg_class(sum=request.a + request.b)
 
 
-said: queue.Queue[str] = queue.Queue()
+received_texts: queue.Queue[str] = queue.Queue()
 chatter = ROS2Publisher("/chatter", TEXT[0], msg_definition=TEXT[1], node_name="sdk")
 heard = ROS2Publisher("/heard", TEXT[0], msg_definition=TEXT[1], node_name="sdk")
-ROS2Subscriber("/said", TEXT[0], lambda message: said.put(message.data), msg_definition=TEXT[1], node_name="sdk")
+ROS2Subscriber(
+    "/said", TEXT[0], lambda message: received_texts.put(message.data), msg_definition=TEXT[1], node_name="sdk"
+)
 server = ROS2ServiceServer("/add", ADD, add, node_name="sdk", **PARTS)
 asking = ROS2ServiceClient("/add_here", ADD, node_name="sdk", **PARTS)
 
 for number in itertools.count():
     chatter.publish(data=f"hello {number}")
-    if not said.empty():
+    if not received_texts.empty():
         answer = asking.call(a=20, b=22)
-        heard.publish(data=f"{said.get()} {getattr(answer, 'sum', None)}")
+        heard.publish(data=f"{received_texts.get()} {getattr(answer, 'sum', None)}")
     time.sleep(0.05)

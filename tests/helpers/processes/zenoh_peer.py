@@ -38,7 +38,7 @@ class Peer(Node):
         self.scans = 0
         everything = QoSProfile(history=HistoryPolicy.KEEP_ALL, depth=0)
         self.create_subscription(LaserScan, "/scan", self.count_scan, everything)
-        self.create_service(Trigger, "/scans", self.tell_scans)
+        self.create_service(Trigger, "/scans", self.report_scans)
         self.server = ActionServer(self, Fibonacci, "/fibonacci", self.count)
 
     def pull(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
@@ -57,7 +57,7 @@ class Peer(Node):
         """Count."""
         self.scans += 1
 
-    def tell_scans(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+    def report_scans(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         """Say how many there were."""
         response.message = str(self.scans)
         return response

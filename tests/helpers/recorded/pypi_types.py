@@ -8,9 +8,9 @@ import sys
 import types
 
 import test_msgs.action
-from bot_console.tui.cli.attach.console_needs import lend_missing
+from bot_console.tui.cli.attach.console_needs import provide_missing
 
-lend_missing()
+provide_missing()
 example_interfaces = types.ModuleType("example_interfaces")
 action = types.ModuleType("example_interfaces.action")
 vars(action)["Fibonacci"] = test_msgs.action.Fibonacci

@@ -30,8 +30,8 @@ class Reader:
                 assert run.x >= end, f"two things in one cell: row {y}, {run}"
                 end = run.x + cell_len(run.text)
                 assert end <= drawing.width, f"outside of the picture: row {y}, {run}"
-                for at, letter in enumerate(run.text):
-                    self.cells[run.x + at, y] = letter
+                for at, character in enumerate(run.text):
+                    self.cells[run.x + at, y] = character
                     if run.item:
                         self.owners[run.x + at, y] = run.item
         for item, place in places.items():
@@ -57,17 +57,17 @@ class Reader:
             if (cell, step) in seen or cell not in self.cells:
                 continue
             seen.add((cell, step))
-            letter, owner = self.cells[cell], self.owners.get(cell)
+            character, owner = self.cells[cell], self.owners.get(cell)
             if owner is not None:
                 if self.places[owner].boxed:
                     yield owner, False
                 continue
-            if letter in HEADS:
-                if HEADS[letter] == step:
+            if character in HEADS:
+                if HEADS[character] == step:
                     beyond = (cell[0] + step[0], cell[1] + step[1])
                     yield self.owners[beyond], True
                 continue
             back = (-step[0], -step[1])
-            assert back in STROKES[letter], f"a line breaks off at {cell}: {letter}"
-            onward = (step,) if letter == "┼" else tuple(each for each in STROKES[letter] if each != back)
+            assert back in STROKES[character], f"a line breaks off at {cell}: {character}"
+            onward = (step,) if character == "┼" else tuple(each for each in STROKES[character] if each != back)
             todo += [((cell[0] + each[0], cell[1] + each[1]), each) for each in onward]

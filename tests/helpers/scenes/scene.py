@@ -12,7 +12,7 @@ from typing import Any
 
 from bot_console.tui.console.model import Endpoint, LaunchInfo, LogFilter, ParameterInfo, Severity
 from bot_console.tui.console.protocol import Console, Launcher
-from rigs import ARM, PATIENCE, ROBOT, Rig, until
+from rigs import ARM, ROBOT, TIMEOUT_S, Rig, until
 
 LEVEL = "/level"
 EVERY_NODES_OWN = re.compile(
@@ -63,21 +63,21 @@ def _parameter(each: ParameterInfo) -> dict[str, Any]:
 def sets(rig: Rig) -> Any:
     """Setting: each outcome with who refused it and why; the node's own rule; several at once; undo and redo."""
     console, before = rig.console, len(rig.console.changes())
-    told = [_outcome(each) for node, name, value in SETS for each in _set(console, node, {name: value})]
-    told += [_outcome(each) for each in _set(console, ROBOT, {"speed": 9.0, "count": 5}, atomically=True)]
+    reported = [_outcome(each) for node, name, value in SETS for each in _set(console, node, {name: value})]
+    reported += [_outcome(each) for each in _set(console, ROBOT, {"speed": 9.0, "count": 5}, atomically=True)]
     rig.forbid_speed()
-    told += [_outcome(each) for each in _set(console, ROBOT, {"speed": 1.0})]
-    changes = until(lambda: new if len(new := console.changes()[before:]) == len(told) else None, "the journal")
+    reported += [_outcome(each) for each in _set(console, ROBOT, {"speed": 1.0})]
+    changes = until(lambda: new if len(new := console.changes()[before:]) == len(reported) else None, "the journal")
     journal = [[each.name, _plain(each.old), _plain(each.new), each.source.value, each.accepted] for each in changes]
-    taken_back = console.undo().result(PATIENCE).ok
+    taken_back = console.undo().result(TIMEOUT_S).ok
     until(lambda: _value(console, ARM, "reach") == 1.0, "the value before")
-    made_again = console.redo().result(PATIENCE).ok
+    made_again = console.redo().result(TIMEOUT_S).ok
     until(lambda: _value(console, ARM, "reach") == 0.25, "the value again")
-    return {"outcomes": told, "journal": journal, "undo": taken_back, "redo": made_again}
+    return {"outcomes": reported, "journal": journal, "undo": taken_back, "redo": made_again}
 
 
 def _set(console: Console, node: str, values: Mapping[str, Any], *, atomically: bool = False) -> Sequence[Any]:
-    return console.set_parameters(node, values, atomically=atomically).result(PATIENCE)
+    return console.set_parameters(node, values, atomically=atomically).result(TIMEOUT_S)
 
 
 def _outcome(each: Any) -> list[Any]:
@@ -92,7 +92,7 @@ def profiles(rig: Rig) -> Any:
     """The Profiles pane: what each would change, and what became of one."""
     console = rig.console
     would = {name: [_difference(each) for each in console.profile_differences(name)] for name in WOULD_CHANGE}
-    applied = [_outcome(each) for each in console.apply_profile("wild").result(PATIENCE)]
+    applied = [_outcome(each) for each in console.apply_profile("wild").result(TIMEOUT_S)]
     return {"would change": would, "wild": applied}
 
 
@@ -121,7 +121,7 @@ def _ends(ends: Sequence[Endpoint]) -> list[list[Any]]:
 def logs(rig: Rig) -> Any:
     """The Logs pane: one line of each severity."""
     for severity in (Severity.INFO, Severity.WARN, Severity.ERROR, Severity.FATAL):
-        rig.say(severity, f"it is {severity.name}")
+        rig.show_text(severity, f"it is {severity.name}")
     which = LogFilter(words="node:robot")
 
     def all_four() -> Sequence[int]:
@@ -140,7 +140,9 @@ def topics(rig: Rig) -> Any:
     until(rig.heard_by_somebody, "the subscription")
     rig.publish(1.25)
     heard = until(lambda: message if (message := traffic.heard()).fields else None, "the message")
-    replies = [traffic.call(service, "std_srvs/srv/Trigger", {}).result(PATIENCE) for service in ("/greet", "/nowhere")]
+    replies = [
+        traffic.call(service, "std_srvs/srv/Trigger", {}).result(TIMEOUT_S) for service in ("/greet", "/nowhere")
+    ]
     traffic.listen("")
     return {
         "heard": [heard.topic, heard.type, [[each.path, each.type, each.text] for each in heard.fields]],
@@ -187,9 +189,9 @@ def steering(rig: Rig) -> Any:
 
 def loggers(rig: Rig) -> Any:
     """Levels of loggers, set and told."""
-    answers = [rig.console.set_logger_level(node, Severity.WARN).result(PATIENCE).ok for node in (ROBOT, "/nobody")]
-    told = {each.logger: each.severity.name for each in rig.console.logger_levels(ROBOT).result(PATIENCE)}
-    return {"set": answers, "robot": told.get("robot")}
+    answers = [rig.console.set_logger_level(node, Severity.WARN).result(TIMEOUT_S).ok for node in (ROBOT, "/nobody")]
+    reported = {each.logger: each.severity.name for each in rig.console.logger_levels(ROBOT).result(TIMEOUT_S)}
+    return {"set": answers, "robot": reported.get("robot")}
 
 
 PANES: Mapping[str, Pane] = {
@@ -206,20 +208,24 @@ def play(rig: Rig) -> dict[str, Any]:
 
 def play_launch(launcher: Launcher, info: Callable[[], LaunchInfo], settle: Callable[[], None], path: str) -> Any:
     """The Launch pane: one process, launched, restarted, stopped, started and killed, and what makes no sense."""
-    began = launcher.launch(path, {"robot": "bob"}).result(PATIENCE)
+    began = launcher.launch(path, {"robot": "bob"}).result(TIMEOUT_S)
     seen: list[Any] = ["launch", began.ok]
     for verb in ("", "restart", "start", "stop", "stop", "start", "kill", "kill"):
         settle()
         if verb:
-            answer = getattr(launcher, verb)(info().processes[-1].key).result(PATIENCE)
+            answer = getattr(launcher, verb)(info().processes[-1].key).result(TIMEOUT_S)
             seen += [verb, answer.ok, _without_ids(answer.text)]
             settle()
         process = info().processes[-1]
         label, pid = _without_ids(process.label), process.pid is not None
         seen.append([label, process.state.value, process.restarts, process.exit_code, pid, list(process.group)])
-    nobody = launcher.stop("nobody").result(PATIENCE)
-    told = [_without_ids(each.text) for each in info().timeline]
-    return {"steps": seen, "nobody": nobody.ok, "timeline": [each for each in told if not each.endswith("has ended")]}
+    nobody = launcher.stop("nobody").result(TIMEOUT_S)
+    reported = [_without_ids(each.text) for each in info().timeline]
+    return {
+        "steps": seen,
+        "nobody": nobody.ok,
+        "timeline": [each for each in reported if not each.endswith("has ended")],
+    }
 
 
 def _without_ids(text: str) -> str:

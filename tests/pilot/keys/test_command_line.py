@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.keys.keyboard import LONGEST_PASTE
+from bot_console.tui.keys.keyboard import MAX_PASTE_CHARACTERS
 from bot_console.tui.panes.plot.pane import PlotPane
 from bot_console.tui.screens.output import OutputScreen
 from bot_console.tui.screens.picker import PickerScreen
@@ -37,14 +37,14 @@ def test_a_value_is_set_or_refused_with_its_reason() -> None:
 def test_what_is_wrong_is_read_whole_in_80_columns() -> None:
     async def play(session: Session) -> None:
         await line(session, "lint running")
-        said = " ".join(" ".join(each[16:] for each in session.lines()[-5:]).split())
-        assert "there is no command lint; help lists the commands, ^p finds an action by its words" in said
+        reported_text = " ".join(" ".join(each[16:] for each in session.lines()[-5:]).split())
+        assert "there is no command lint; help lists the commands, ^p finds an action by its words" in reported_text
         assert field(session) == "lint running" and ":lint running" in session.text()
 
     run(live(), play, (80, 24))
 
 
-def test_what_is_wrong_is_said_and_the_line_stays() -> None:
+def test_what_is_wrong_is_reported_and_the_line_stays() -> None:
     async def play(session: Session) -> None:
         await line(session, "topc list")
         assert "did you mean topic?" in session.text() and field(session) == "topc list"
@@ -57,15 +57,15 @@ def test_what_is_wrong_is_said_and_the_line_stays() -> None:
 def test_what_is_pasted_is_taken_or_all_of_it_refused() -> None:
     async def play(session: Session) -> None:
         await session.press("colon")
-        for letters in (LONGEST_PASTE, LONGEST_PASTE + 1):
-            session.app.post_message(Paste("x" * letters))
+        for characters in (MAX_PASTE_CHARACTERS, MAX_PASTE_CHARACTERS + 1):
+            session.app.post_message(Paste("x" * characters))
         await session.press("space", "y")
-        assert field(session) == "x" * LONGEST_PASTE + " y"
-        assert "20,001 letters were pasted, and none of them taken: 20,000 at most" in told(session)
+        assert field(session) == "x" * MAX_PASTE_CHARACTERS + " y"
+        assert "20,001 letters were pasted, and none of them taken: 20,000 at most" in reported(session)
         await session.press("escape", "exclamation_mark")
         assert session.console.asked[-1] == ("all_stop", True)
 
-    def told(session: Session) -> str:
+    def reported(session: Session) -> str:
         return " ".join(each.message for each in session.app._notifications)
 
     run(live(), play, (120, 40))

@@ -90,7 +90,7 @@ def test_bytes_and_an_empty_array() -> None:
 
 
 @pytest.mark.parametrize("undone", [True, False])
-def test_changes_are_dropped_only_when_that_is_said_twice(undone: bool) -> None:
+def test_changes_are_dropped_only_when_that_is_confirmed_twice(undone: bool) -> None:
     async def play(session: Session) -> None:
         await session.press("d", *(["u"] if undone else []), "escape")
         assert isinstance(session.app.screen, ElementsScreen) is not undone

@@ -10,12 +10,12 @@ from textual import events
 ALT_Q = "alt+q"
 
 
-async def comes(session: Session, key: str, letter: str | None) -> None:
-    session.app.post_message(events.Key(key, letter))
+async def comes(session: Session, key: str, character: str | None) -> None:
+    session.app.post_message(events.Key(key, character))
     await session.settle()
 
 
-def test_esc_closes_what_lies_over_the_panes_and_the_letter_acts_behind_it() -> None:
+def test_esc_closes_what_lies_over_the_panes_and_the_character_acts_behind_it() -> None:
     async def play(session: Session) -> None:
         await session.press("question_mark")
         assert isinstance(session.app.screen, HelpScreen)
@@ -33,7 +33,7 @@ def test_esc_and_q_end_the_console() -> None:
     run(live(), play)
 
 
-def test_alt_that_the_terminal_tells_apart_is_no_esc() -> None:
+def test_alt_that_the_terminal_distinguishes_is_no_esc() -> None:
     async def play(session: Session) -> None:
         await comes(session, ALT_Q, None)
         assert not session.app._exit

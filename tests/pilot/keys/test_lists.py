@@ -25,7 +25,7 @@ def crowded(elements: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
     """A system in which every list is longer than the screen, with three rows that match."""
     console, launcher = with_array(Kind.STRING_ARRAY, elements)
     for at in range(LINES):
-        console.say(Severity.INFO, "/talker", f"{name(at)} {at}")
+        console.show_text(Severity.INFO, "/talker", f"{name(at)} {at}")
     tree = console.current.parameters["/robot_navigator"]
     first = tree.parameters[-1]
     many = tuple(replace(first, name=f"{name(at)}_{at:02}", description="") for at in range(LINES))
@@ -93,7 +93,7 @@ def matches(rows: RowList) -> Sequence[str]:
 
 
 @pytest.mark.parametrize("digit", LISTS.values(), ids=list(LISTS))
-def test_a_filter_says_how_many_of_how_many_and_the_matches_are_gone_through_with_and_without_it(digit: str) -> None:
+def test_a_filter_reports_how_many_of_how_many_and_the_matches_are_gone_through_with_and_without_it(digit: str) -> None:
     async def play(session: Session) -> None:
         await session.press(digit)
         rows = focused(session)
@@ -121,7 +121,7 @@ def test_a_filter_says_how_many_of_how_many_and_the_matches_are_gone_through_wit
 
 
 @pytest.mark.parametrize("digit", ["3", *LISTS.values()], ids=["graph", *LISTS])
-def test_where_nothing_was_looked_for_or_nothing_matches_that_is_said(digit: str) -> None:
+def test_where_nothing_was_searched_for_or_nothing_matches_that_is_reported(digit: str) -> None:
     async def play(session: Session) -> None:
         await session.press(digit, "n")
         assert "Nothing was looked for yet" in session.text()

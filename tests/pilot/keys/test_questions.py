@@ -33,10 +33,10 @@ def prompt(session: Session) -> Prompt:
 
 async def at_once(session: Session, text: str) -> None:
     """Type without waiting for anything in between, as a fast hand or a busy machine does."""
-    for letter in text:
-        special = {"\r": "enter", "\x1b": "escape", "\x10": "ctrl+p"}.get(letter)
-        key = special or _character_to_key(letter)
-        session.app.post_message(events.Key(key, None if special else letter))
+    for character in text:
+        special = {"\r": "enter", "\x1b": "escape", "\x10": "ctrl+p"}.get(character)
+        key = special or _character_to_key(character)
+        session.app.post_message(events.Key(key, None if special else character))
     for _ in range(3):
         await session.settle()
 
@@ -140,7 +140,7 @@ def test_the_question_whether_to_kill_closes_when_the_process_has_ended() -> Non
     run(live(), play, (120, 30))
 
 
-def test_letters_typed_after_the_filter_key_belong_to_the_filter() -> None:
+def test_characters_typed_after_the_filter_key_belong_to_the_filter() -> None:
     async def play(session: Session) -> None:
         await session.press("2")
         await at_once(session, "/quit 1 z! done\r")
@@ -150,7 +150,7 @@ def test_letters_typed_after_the_filter_key_belong_to_the_filter() -> None:
     run(live(), play)
 
 
-def test_letters_typed_after_the_edit_key_are_the_value_and_what_follows_enter_is_a_command() -> None:
+def test_characters_typed_after_the_edit_key_are_the_value_and_what_follows_enter_is_a_command() -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
         await session.press("escape")
@@ -161,7 +161,7 @@ def test_letters_typed_after_the_edit_key_are_the_value_and_what_follows_enter_i
     run(live(), play)
 
 
-def test_letters_typed_after_the_palette_key_belong_to_the_palette() -> None:
+def test_characters_typed_after_the_palette_key_belong_to_the_palette() -> None:
     async def play(session: Session) -> None:
         await at_once(session, "\x10node graph")
         assert isinstance(session.app.screen, PickerScreen) and "node graph" in session.text()

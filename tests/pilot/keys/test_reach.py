@@ -92,7 +92,7 @@ def test_a_terminal_that_is_too_small_gets_a_polite_word_and_recovers() -> None:
     run(live(), play)
 
 
-def test_even_a_tiny_terminal_tells_how_to_stop_the_robot_and_how_to_quit() -> None:
+def test_even_a_tiny_terminal_reports_how_to_stop_the_robot_and_how_to_quit() -> None:
     async def play(session: Session) -> None:
         await session.pilot.resize_terminal(20, 5)
         await session.settle()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bot_console.tui.keys import keyboard
-from bot_console.tui.keys.keyboard import MOST_WAITING, REPEATS
+from bot_console.tui.keys.keyboard import MAX_WAITING_KEYS, REPEATS
 from bot_console.tui.widgets.command_line import CommandField
 from piloting import Session, run
 from pytest import MonkeyPatch
@@ -39,11 +39,11 @@ def test_stops_are_never_dropped() -> None:
     run(live(), play)
 
 
-def test_letters_of_a_text_are_not_dropped() -> None:
+def test_characters_of_a_text_are_not_dropped() -> None:
     async def play(session: Session) -> None:
         await session.press("colon")
         assert len(await behind(session, *"a" * 3 * REPEATS)) == 3 * REPEATS
-        await session.app._keyboard.let_go()
+        await session.app._keyboard.detach()
         await session.settle()
         assert session.pane(CommandField).query_one(Input).value == "a" * 3 * REPEATS
 
@@ -51,8 +51,8 @@ def test_letters_of_a_text_are_not_dropped() -> None:
 
 
 def test_what_waits_is_bounded_but_for_stops(monkeypatch: MonkeyPatch) -> None:
-    assert MOST_WAITING > 100 * REPEATS
-    monkeypatch.setattr(keyboard, "MOST_WAITING", 2 * REPEATS)
+    assert MAX_WAITING_KEYS > 100 * REPEATS
+    monkeypatch.setattr(keyboard, "MAX_WAITING_KEYS", 2 * REPEATS)
 
     async def play(session: Session) -> None:
         waiting = await behind(session, *"xy" * 3 * REPEATS, STOP)

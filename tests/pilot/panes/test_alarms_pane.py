@@ -23,7 +23,7 @@ async def later(session: Session, *values: float) -> None:
     await session.settle()
 
 
-def told(session: Session) -> int:
+def reported(session: Session) -> int:
     return sum(each.title == "Alarm" for each in session.app._notifications)
 
 
@@ -33,26 +33,26 @@ async def add(session: Session, text: str) -> None:
     await session.press("enter")
 
 
-def test_it_is_told_once_for_each_crossing_also_while_the_pane_is_hidden() -> None:
+def test_it_is_reported_once_for_each_crossing_also_while_the_pane_is_hidden() -> None:
     async def play(session: Session) -> None:
         await session.press("B")
         await add(session, f"too fast: {SPEED} > 2")
         await later(session, 1.0)
-        assert told(session) == 0 and "○ quiet" in session.text()
+        assert reported(session) == 0 and "○ quiet" in session.text()
         await session.press("1")
         await later(session, 2.5, 2.6)
-        assert told(session) == 1 and "too fast: 2.5" in session.text()
+        assert reported(session) == 1 and "too fast: 2.5" in session.text()
         await later(session, 2.7)
-        assert told(session) == 1, "it goes on holding"
+        assert reported(session) == 1, "it goes on holding"
         assert "⚠ too fast" in session.lines()[-2], "the status bar names it in every pane"
         await session.press("B")
         assert "✗ holds" in session.text() and "1 time" in session.text() and "1 of 1 hold" in session.text()
         await later(session, 1.0, 3.0, 1.0)
-        assert told(session) == 1, "the notice of the first time still stands"
+        assert reported(session) == 1, "the notice of the first time still stands"
         session.pane(AlarmsPane).clock.now += 8.0
         await later(session, 1.0, 4.0, 1.0)
         assert "(2 times)" in session.text(), "together with the time before"
-        assert told(session) == 2 and "○ quiet" in session.text() and "3 times" in session.text()
+        assert reported(session) == 2 and "○ quiet" in session.text() and "3 times" in session.text()
         assert "⚠" not in session.lines()[-2]
 
     run(live(), play, (120, 30))
@@ -88,7 +88,7 @@ def test_alarms_are_kept_edited_and_taken_away() -> None:
     run(live(), play)
 
 
-def test_what_is_wrong_is_said_before_it_is_taken_and_what_is_missing_is_waited_for() -> None:
+def test_what_is_wrong_is_reported_before_it_is_taken_and_what_is_missing_is_waited_for() -> None:
     async def play(session: Session) -> None:
         await session.press("B")
         await add(session, "fast: 1 < 2")
@@ -100,7 +100,7 @@ def test_what_is_wrong_is_said_before_it_is_taken_and_what_is_missing_is_waited_
         session.console.series["/battery/percentage"] = ([1.0], [0.1])
         await later(session)
         await later(session)
-        assert "✗ holds" in session.text() and told(session) == 1
+        assert "✗ holds" in session.text() and reported(session) == 1
 
     run(live(), play, (120, 30))
 
@@ -120,7 +120,7 @@ def test_the_mouse_chooses_and_edits() -> None:
     run(live(), play, (120, 30))
 
 
-def test_nothing_there_tells_what_to_do() -> None:
+def test_nothing_there_reports_what_to_do() -> None:
     async def play(session: Session) -> None:
         await session.press("B", "d", "b", "p")
         assert "a adds an alarm" in session.text()

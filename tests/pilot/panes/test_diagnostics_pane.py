@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bot_console.tui.console.sights.model import Diagnostics, Level
+from bot_console.tui.console.sensors.model import Diagnostics, Level
 from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
 from bot_console.tui.panes.diagnostics.table import StatusRows
-from fakes.sights import status
+from fakes.sensors import status
 from piloting import Session, run
 from samples import empty, live
 
@@ -32,14 +32,14 @@ def test_the_tree_shows_levels_by_word_and_the_worst_upwards() -> None:
     run(live(), play, (100, 30))
 
 
-def test_that_nothing_reports_is_said_in_whole() -> None:
+def test_that_nothing_reports_is_reported_in_whole() -> None:
     async def play(session: Session) -> None:
-        session.console.sights.info = Diagnostics()
+        session.console.sensors.info = Diagnostics()
         await session.press("M")
         session.pane(DiagnosticsPane).tick()
         await session.settle()
-        said = " ".join(" ".join(each.rpartition("│ ")[2].strip(" │") for each in session.lines()).split())
-        assert "No node publishes diagnostics (diagnostic_msgs/msg/DiagnosticArray) yet." in said
+        message = " ".join(" ".join(each.rpartition("│ ")[2].strip(" │") for each in session.lines()).split())
+        assert "No node publishes diagnostics (diagnostic_msgs/msg/DiagnosticArray) yet." in message
 
     run(live(), play, (120, 40))
 
@@ -49,7 +49,7 @@ def test_what_comes_is_shown_when_time_goes_on_and_what_is_silent_turns_stale() 
         await session.press("M", "w")
         assert "safety_monitor: velocity" not in titles(session) and "2 of 5" not in session.text()
         pane = session.pane(DiagnosticsPane)
-        session.console.sights.info = Diagnostics((status("arm", Level.ERROR, "broken", heard=100.0),))
+        session.console.sensors.info = Diagnostics((status("arm", Level.ERROR, "broken", heard=100.0),))
         pane.clock.now += 0.4
         pane.tick()
         assert "arm" not in titles(session), "not before its time"
@@ -61,8 +61,8 @@ def test_what_comes_is_shown_when_time_goes_on_and_what_is_silent_turns_stale() 
         pane.tick()
         await session.settle()
         assert "◌ STALE" in session.text() and "it was ERROR" in session.text()
-        fresh = replace(session.console.sights.info.statuses[0], heard=pane.clock.now, level=Level.OK)
-        session.console.sights.info = Diagnostics((fresh,))
+        fresh = replace(session.console.sensors.info.statuses[0], heard=pane.clock.now, level=Level.OK)
+        session.console.sensors.info = Diagnostics((fresh,))
         pane.clock.now += 0.5
         pane.tick()
         await session.settle()
@@ -102,7 +102,7 @@ def test_the_mouse_chooses_opens_and_closes() -> None:
     run(live(), play, (100, 30))
 
 
-def test_nothing_to_see_says_why() -> None:
+def test_nothing_to_see_reports_why() -> None:
     async def play(session: Session) -> None:
         await session.press("M", "enter", "left", "C", "w")
         assert "No node publishes diagnostics" in session.text()

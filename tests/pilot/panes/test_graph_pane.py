@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
-from bot_console.tui.console.sights.frame_model import Frame, Frames
+from bot_console.tui.console.sensors.frame_model import Frame, Frames
 from bot_console.tui.panes.graph.pane import GraphPane
 from bot_console.tui.widgets.diagram_view import DiagramView
 from piloting import Clock, Session, run
@@ -34,7 +34,7 @@ def colours(view: DiagramView, item: str) -> set[object]:
     return {each.style.color for each in line if each.style and item.rpartition("/")[2] in each.text}
 
 
-def test_arrow_keys_follow_the_arrows_and_enter_tells_all() -> None:
+def test_arrow_keys_follow_the_arrows_and_enter_reports_all() -> None:
     async def play(session: Session) -> None:
         await draw_topics(session)
         await session.press("o")
@@ -120,10 +120,10 @@ def test_a_new_node_appears_and_the_selection_stays() -> None:
         await session.settle()
         assert view.places["/late"] == place and colours(view, "/late") != alive, "a silent node is grey"
         session.pane(GraphPane).tick()
-        assert session.console.sights.nodes_looked_at
+        assert session.console.sensors.watched_nodes
         await session.press("1")
         session.pane(GraphPane).tick()
-        assert not session.console.sights.nodes_looked_at, "nobody is asked for a pane that nobody sees"
+        assert not session.console.sensors.watched_nodes, "nobody is asked for a pane that nobody sees"
         await session.press("3")
         session.console.change(graph=GraphInfo())
         await session.settle()
@@ -183,7 +183,7 @@ def test_a_bad_pattern_is_explained_while_it_is_typed() -> None:
     run(live(), play)
 
 
-def test_an_empty_system_says_so() -> None:
+def test_an_empty_system_reports_it() -> None:
     async def play(session: Session) -> None:
         await session.press("3", "enter", "right")
         assert "No nodes yet" in session.text()
@@ -226,7 +226,7 @@ def fleet(count: int) -> GraphInfo:
     return GraphInfo(tuple(nodes))
 
 
-def test_qos_that_does_not_match_is_drawn_as_a_fault_and_said_in_words() -> None:
+def test_qos_that_does_not_match_is_drawn_as_a_fault_and_reported_in_words() -> None:
     async def play(session: Session) -> None:
         session.console.change(graph=fleet(1))
         await session.press("3")
@@ -407,7 +407,7 @@ def test_frames_of_tf2_in_the_place_of_the_picture() -> None:
     system = live()
     console = system[0]
     heard = 1000.0
-    console.sights.tree = Frames(
+    console.sensors.tree = Frames(
         (
             Frame("base", "odom", place=(1.0, 2.0, 0.0), rate=20.0, heard=heard, others=("map",)),
             Frame("laser", "base", fixed=True, heard=heard),
@@ -439,9 +439,9 @@ def test_frames_of_tf2_in_the_place_of_the_picture() -> None:
         assert "base has more than one parent: map and odom" in session.text()
         await session.press("escape", "slash", *"laser", "enter")
         assert "laser in base" in session.text() and "frames of tf2 · /laser" in session.text()
-        assert console.sights.looked_at
+        assert console.sensors.watched
         await session.press("escape", "t")
-        assert not console.sights.looked_at and picture(session).display
+        assert not console.sensors.watched and picture(session).display
 
     run(system, play, (120, 40))
 

@@ -71,7 +71,7 @@ def test_going_back_to_a_row_asks_and_sets_everything_together() -> None:
     run(live(), play, (100, 30))
 
 
-def test_what_a_node_refuses_on_the_way_back_leaves_all_as_it_is_and_says_why() -> None:
+def test_what_a_node_refuses_on_the_way_back_leaves_all_as_it_is_and_reports_why() -> None:
     async def play(session: Session) -> None:
         session.console.set_parameters(NAVIGATOR, {"turn_rate": 2.0})
         session.console.set_parameters("/simulator", {"lidar.beams": 90})
@@ -114,10 +114,10 @@ def test_a_filter_and_only_refusals() -> None:
 def test_log_and_plot_look_at_the_moment_of_the_row() -> None:
     async def play(session: Session) -> None:
         for second in range(-20, 20):
-            session.console.say(Severity.INFO, "clock", f"second {second}", START + second * 10**9)
+            session.console.show_text(Severity.INFO, "clock", f"second {second}", START + second * 10**9)
         session.console.clear_logs()
         for second in range(-20, 20):
-            session.console.say(Severity.INFO, "clock", f"second {second}", START + second * 10**9)
+            session.console.show_text(Severity.INFO, "clock", f"second {second}", START + second * 10**9)
         await session.press("2", "4", "H", "down")
         at = session.app.time_cursor.stamp
         assert at == START - 12 * 10**9
@@ -150,7 +150,7 @@ def test_what_is_shown_is_exported(tmp_path: Path) -> None:
     run(live(), play)
 
 
-def test_an_empty_history_says_so() -> None:
+def test_an_empty_history_reports_it() -> None:
     async def play(session: Session) -> None:
         await session.press("H", "u", "b", "p", "y", "x", "escape")
         assert "No parameter was changed yet." in session.text()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.sights.model import Picture
+from bot_console.tui.console.sensors.model import Picture
 from bot_console.tui.panes.images.pane import ImagesPane, ImageView
 from piloting import Session, run
 from samples import empty, with_camera
@@ -10,7 +10,7 @@ from samples import empty, with_camera
 
 def system():
     console, launcher = with_camera("front", "rear")
-    console.sights.shown = picture(200)
+    console.sensors.shown = picture(200)
     return console, launcher
 
 
@@ -32,19 +32,19 @@ async def later(session: Session, seconds: float) -> None:
 def test_the_first_topic_is_shown_in_half_blocks_and_n_takes_the_next() -> None:
     async def play(session: Session) -> None:
         await session.press("I")
-        sights = session.console.sights
+        sensors = session.console.sensors
         width, height = session.pane(ImageView).size
-        assert sights.looking == ("/front/image", width, 2 * height)
+        assert sensors.watching == ("/front/image", width, 2 * height)
         assert "/front/image  640x480 mono8" in session.text() and "on #cccccc" in drawn(session)
         await session.press("n")
-        assert sights.looking[0] == "/rear/image" and "no image yet" in session.text()
+        assert sensors.watching[0] == "/rear/image" and "no image yet" in session.text()
         await session.press("t")
         await session.type("front")
         await session.press("enter")
-        assert sights.looking[0] == "/front/image" and "640x480" in session.text()
+        assert sensors.watching[0] == "/front/image" and "640x480" in session.text()
         await session.press("1")
         session.pane(ImagesPane).tick()
-        assert sights.looking[0] == "", "hidden: nothing is received"
+        assert sensors.watching[0] == "", "hidden: nothing is received"
 
     run(system(), play)
 
@@ -52,13 +52,13 @@ def test_the_first_topic_is_shown_in_half_blocks_and_n_takes_the_next() -> None:
 def test_pictures_come_no_faster_than_the_pace_and_stand_still_when_frozen() -> None:
     async def play(session: Session) -> None:
         await session.press("I")
-        session.console.sights.shown = picture(40, 2)
+        session.console.sensors.shown = picture(40, 2)
         await later(session, 0.3)
         assert "on #cccccc" in drawn(session), "not before its time"
         await later(session, 0.3)
         assert "on #222222" in drawn(session)
         await session.press("space")
-        session.console.sights.shown = picture(200, 5)
+        session.console.sensors.shown = picture(200, 5)
         await later(session, 10.0)
         assert "on #222222" in drawn(session) and "frozen, +3 new; space goes on" in session.text()
         await session.press("space")
@@ -73,7 +73,7 @@ def test_a_slow_link_freezes_the_picture_and_space_takes_one(monkeypatch) -> Non
     async def play(session: Session) -> None:
         await session.press("I")
         monkeypatch.setattr(type(session.app.gate), "held_back", 20)
-        session.console.sights.shown = picture(40, 3)
+        session.console.sensors.shown = picture(40, 3)
         await later(session, 10.0)
         assert "on #cccccc" in drawn(session) and "slow link: frozen, +2 new" in session.text()
         await session.press("space")
@@ -82,27 +82,27 @@ def test_a_slow_link_freezes_the_picture_and_space_takes_one(monkeypatch) -> Non
     run(system(), play)
 
 
-def test_letters_where_they_are_wanted_and_on_plain_terminals() -> None:
+def test_characters_where_they_are_wanted_and_on_plain_terminals() -> None:
     async def play(session: Session) -> None:
         await session.press("I", "g")
         assert "################" in session.text() and "#cccccc" not in drawn(session)
         await session.press("g")
         assert "#cccccc" in drawn(session)
         session.app.action_glyphs()
-        session.console.sights.shown = picture(200, 2)
+        session.console.sensors.shown = picture(200, 2)
         await later(session, 1.0)
         assert "################" in session.text()
 
     run(system(), play)
 
 
-def test_what_cannot_be_shown_says_why() -> None:
+def test_what_cannot_be_shown_reports_why() -> None:
     async def nothing(session: Session) -> None:
         await session.press("I", "n", "space", "g", "y", "t")
         assert "No topic of sensor_msgs/msg/Image" in session.text()
 
     async def wrong(session: Session) -> None:
-        session.console.sights.shown = Picture("/front/image", count=1, problem="the encoding 'yuv' cannot be shown")
+        session.console.sensors.shown = Picture("/front/image", count=1, problem="the encoding 'yuv' cannot be shown")
         await session.press("I")
         assert "/front/image  the encoding 'yuv' cannot be shown" in session.text()
 
@@ -110,7 +110,7 @@ def test_what_cannot_be_shown_says_why() -> None:
     run(system(), wrong)
 
 
-def test_where_no_image_comes_the_pane_says_what_to_do_until_one_does() -> None:
+def test_where_no_image_comes_the_pane_reports_what_to_do_until_one_does() -> None:
     async def play(session: Session) -> None:
         await session.press("I")
         assert "8 then o opens a launch file" in session.text()

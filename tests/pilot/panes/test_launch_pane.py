@@ -63,7 +63,7 @@ def test_on_a_group_the_keys_mean_all_of_it() -> None:
     run(live(), play)
 
 
-def test_on_a_group_a_process_that_is_stopping_is_started_and_nothing_to_do_is_said() -> None:
+def test_on_a_group_a_process_that_is_stopping_is_started_and_nothing_to_do_is_reported() -> None:
     def with_states(state: ProcessState) -> LaunchInfo:
         return replace(launched(), processes=tuple(replace(each, state=state) for each in launched().processes))
 
@@ -173,7 +173,7 @@ def test_a_launch_file_that_cannot_be_read_is_shown_and_nothing_else_stops() -> 
     run(live(), play, (100, 30))
 
 
-def test_a_launch_that_failed_is_told_in_the_pane() -> None:
+def test_a_launch_that_failed_is_reported_in_the_pane() -> None:
     async def play(session: Session) -> None:
         await session.press("8")
         assert "broken.launch.py, line 12: invalid syntax" in session.text()
@@ -181,7 +181,7 @@ def test_a_launch_that_failed_is_told_in_the_pane() -> None:
     run(faulty(), play, (100, 30))
 
 
-def test_a_failure_is_told_once_and_whole_until_the_cursor_moves() -> None:
+def test_a_failure_is_reported_once_and_whole_until_the_cursor_moves() -> None:
     async def play(session: Session) -> None:
         problem = "/a/long/path/to/some/workspace/src/robot/launch/robot.launch.py, line 31: " + "word " * 12 + "end"
         session.launcher.declared = ()
@@ -208,7 +208,7 @@ def test_choices_stand_as_a_list_with_a_mark_at_the_value() -> None:
     run(live(), play)
 
 
-def test_an_empty_pane_says_what_to_do_and_a_process_that_comes_appears() -> None:
+def test_an_empty_pane_reports_what_to_do_and_a_process_that_comes_appears() -> None:
     async def play(session: Session) -> None:
         await session.press("8", "x", "s", "enter", "left", "right")
         assert "o opens a launch file" in session.text()
@@ -224,7 +224,7 @@ def test_an_empty_pane_says_what_to_do_and_a_process_that_comes_appears() -> Non
     run(empty(), play)
 
 
-def test_states_are_told_by_word_and_by_sign() -> None:
+def test_states_are_reported_by_word_and_by_sign() -> None:
     async def play(session: Session) -> None:
         info = launched()
         first = info.processes[0]

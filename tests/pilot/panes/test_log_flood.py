@@ -43,7 +43,7 @@ async def drawn(session: Session, until: str) -> list[tuple[int, int]]:
     """Beat until a line is seen; the counts that stood on the screen meanwhile."""
     counts: list[tuple[int, int]] = []
     while until not in session.text():
-        session.app._beat()
+        session.app._heartbeat()
         await session.pilot.pause()
         found = re.search(r"(\d+) of (\d+)", session.text())
         assert found, session.text()

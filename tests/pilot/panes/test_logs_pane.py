@@ -25,12 +25,12 @@ def test_the_newest_line_is_followed_until_somebody_scrolls_up() -> None:
     async def play(session: Session) -> None:
         await session.press("2")
         for number in range(60):
-            session.console.say(Severity.INFO, "talker", f"line {number}")
+            session.console.show_text(Severity.INFO, "talker", f"line {number}")
         await session.settle()
         assert "line 59" in session.text()
         await session.press("up", "up")
         assert "paused, f follows" in session.text()
-        session.console.say(Severity.INFO, "talker", "line 60")
+        session.console.show_text(Severity.INFO, "talker", "line 60")
         await session.settle()
         assert "line 60" not in session.text()
         await session.press("f")
@@ -134,8 +134,8 @@ def test_a_search_hides_nothing_and_goes_around() -> None:
     async def play(session: Session) -> None:
         pane = session.pane(LogsPane)
         for number in range(3):
-            session.console.say(Severity.INFO, "talker", f"zebra {number}")
-            session.console.say(Severity.INFO, "talker", "horse")
+            session.console.show_text(Severity.INFO, "talker", f"zebra {number}")
+            session.console.show_text(Severity.INFO, "talker", "horse")
         await session.press("2", "s")
         await session.type("zebra")
         await session.press("enter")
@@ -167,10 +167,10 @@ def test_repeats_are_one_line_with_their_number() -> None:
         await session.press("2")
         before = len(seqs(session))
         for _ in range(134):
-            session.console.say(Severity.WARN, "talker", "again")
+            session.console.show_text(Severity.WARN, "talker", "again")
         await session.press("r")
         assert "x134 again" in session.text() and len(seqs(session)) == before + 1
-        session.console.say(Severity.WARN, "talker", "again")
+        session.console.show_text(Severity.WARN, "talker", "again")
         await session.settle()
         assert "x135 again" in session.text() and len(seqs(session)) == before + 1
         await session.press("r")
@@ -236,7 +236,7 @@ def test_levels_of_loggers_are_set_where_a_node_offers_it() -> None:
     run(live(), play)
 
 
-def test_a_node_that_left_before_its_lines_were_looked_at_is_spelled_as_it_was() -> None:
+def test_a_node_that_left_before_its_lines_were_inspected_is_spelled_as_it_was() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         graph = session.console.current.graph
@@ -244,7 +244,7 @@ def test_a_node_that_left_before_its_lines_were_looked_at_is_spelled_as_it_was()
         await session.settle()
         session.console.change(graph=graph)
         await session.settle()
-        session.console.say(Severity.INFO, "arm.left.zoo", "gone")
+        session.console.show_text(Severity.INFO, "arm.left.zoo", "gone")
         await session.press("2")
         assert any("/arm/left/zoo" in each and "gone" in each for each in session.lines())
 

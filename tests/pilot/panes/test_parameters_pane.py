@@ -7,7 +7,7 @@ from dataclasses import replace
 from types import MappingProxyType
 
 import pytest
-from bot_console.tui.console.model import BEGUN_ANEW, Change, ChangeSource, JournalState, SetOutcome
+from bot_console.tui.console.model import RESTARTED, Change, ChangeSource, JournalState, SetOutcome
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from piloting import Clock, Session, run
@@ -42,7 +42,7 @@ def test_a_number_is_edited_and_moved_by_steps() -> None:
     run(live(), play)
 
 
-def test_a_value_that_is_not_answered_says_that_it_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_value_that_is_not_answered_reports_that_it_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
     async def play(session: Session) -> None:
         pane = session.pane(ParametersPane)
         pane.clock = Clock()
@@ -98,7 +98,7 @@ def test_what_is_wrong_with_a_value_is_read_whole_beside_what_was_typed() -> Non
     run(live(), play)
 
 
-def test_a_refusal_snaps_back_and_says_who_refused_and_why() -> None:
+def test_a_refusal_snaps_back_and_reports_who_refused_and_why() -> None:
     async def play(session: Session) -> None:
         session.console.refusals["/robot_navigator", "max_speed"] = "too fast for indoors"
         await session.press("1")
@@ -250,16 +250,16 @@ def test_what_a_node_began_again_with_is_its_start_and_not_a_change_since() -> N
         await session.press("1")
         console = session.console
         first = Change(console.current.journal.end, 0, "/robot_navigator", "turn_rate", 0.5, 1.0, ChangeSource.OTHER)
-        for by, told in (("", True), (BEGUN_ANEW, False)):
+        for by, reported in (("", True), (RESTARTED, False)):
             console.journal.append(replace(first, seq=console.current.journal.end, by=by))
-            console.tell_journal()
+            console.set_journal()
             await session.settle()
-            assert (("/robot_navigator", "turn_rate") in rows(session).moved) is told
+            assert (("/robot_navigator", "turn_rate") in rows(session).moved) is reported
 
     run(live(), play)
 
 
-def test_a_node_that_does_not_answer_says_so() -> None:
+def test_a_node_that_does_not_answer_reports_it() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         assert "does not answer on its parameter services" in session.text()
@@ -275,7 +275,7 @@ def test_an_empty_system_waits() -> None:
     run(empty(), play)
 
 
-def test_that_a_value_is_saved_is_told_at_once() -> None:
+def test_that_a_value_is_saved_is_reported_at_once() -> None:
     key = ("/robot_navigator", "max_speed")
 
     async def play(session: Session) -> None:

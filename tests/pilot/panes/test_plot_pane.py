@@ -114,7 +114,7 @@ def test_values_that_are_no_numbers_leave_a_gap_and_are_counted() -> None:
     run(system, play, (120, 40))
 
 
-def test_a_curve_without_any_number_says_so() -> None:
+def test_a_curve_without_any_number_reports_it() -> None:
     async def play(session: Session) -> None:
         await session.press("4")
         assert "no numbers in this window" in session.text()
@@ -152,10 +152,10 @@ def test_samples_and_picture_are_saved(tmp_path: Path) -> None:
     words = [each.text for each in ElementTree.parse(tmp_path / "p.svg").iter("{http://www.w3.org/2000/svg}text")]
     assert SPEED in words and LIMIT in words
     assert "<" in (tmp_path / "p.html").read_text()
-    assert any(0x2800 < ord(letter) < 0x2900 for letter in (tmp_path / "p.txt").read_text())
+    assert any(0x2800 < ord(character) < 0x2900 for character in (tmp_path / "p.txt").read_text())
 
 
-def test_an_empty_plot_says_what_to_do() -> None:
+def test_an_empty_plot_reports_what_to_do() -> None:
     async def play(session: Session) -> None:
         await session.press("4", "x", "X", "space", "plus", "left", "right", "f", "K", "up", "down")
         assert "Press a" in session.text()
@@ -177,7 +177,7 @@ def test_an_expression_is_completed_added_and_refused_in_words() -> None:
     run(live(), play, (120, 40))
 
 
-def test_the_cursor_tells_values_and_moves_for_everybody() -> None:
+def test_the_cursor_reports_values_and_moves_for_everybody() -> None:
     async def play(session: Session) -> None:
         await session.press("4", "c")
         before = session.app.time_cursor.stamp

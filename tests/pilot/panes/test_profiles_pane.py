@@ -17,7 +17,7 @@ from bot_console.tui.screens.confirm import ConfirmScreen
 from piloting import Session, run
 from samples import differences, empty, live
 
-HARMLESS = replace(differences()[0], unsafe="")
+SANITIZED = replace(differences()[0], unsafe="")
 
 
 def applied(session: Session) -> list[tuple[str, bool]]:
@@ -50,8 +50,8 @@ def test_what_a_profile_is_for_is_read_whole_in_80_columns_and_after_a_change_of
         for width in (80, 62):
             await session.pilot.resize_terminal(width, 24)
             await session.settle()
-            said = " ".join(" ".join(each.strip("│ ") for each in session.lines()).split())
-            assert title in said
+            message = " ".join(" ".join(each.strip("│ ") for each in session.lines()).split())
+            assert title in message
 
     run(system, play)
 
@@ -74,7 +74,7 @@ def test_a_refusal_or_safety_is_asked_about_and_no_means_no() -> None:
 
 def test_a_harmless_profile_is_applied_at_once_with_or_without_its_world() -> None:
     system = live()
-    system[0].differences["competition"] = (HARMLESS,)
+    system[0].differences["competition"] = (SANITIZED,)
 
     async def play(session: Session) -> None:
         await session.press("7", "down", "a")
@@ -87,7 +87,7 @@ def test_a_harmless_profile_is_applied_at_once_with_or_without_its_world() -> No
     run(system, play, (120, 40))
 
 
-def test_a_profile_that_cannot_be_read_says_how_to_mend_it() -> None:
+def test_a_profile_that_cannot_be_read_reports_how_to_fix_it() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "down", "down", "a", "w")
         assert "two underscores" in session.text()
@@ -100,7 +100,7 @@ def test_an_error_while_applying_is_shown_where_it_was_made() -> None:
     async def play(session: Session) -> None:
         failed: Future[tuple[object, ...]] = Future()
         failed.set_exception(RuntimeError("the node /robot_navigator does not answer"))
-        session.console.differences["competition"] = (HARMLESS,)
+        session.console.differences["competition"] = (SANITIZED,)
         session.console.apply_profile = lambda name, reset_world=False: failed  # type: ignore[assignment]
         await session.press("7", "down", "a")
         assert "was not applied: the node /robot_navigator does not answer" in session.text()
@@ -111,7 +111,7 @@ def test_an_error_while_applying_is_shown_where_it_was_made() -> None:
 def test_the_list_stays_while_its_values_change() -> None:
     async def play(session: Session) -> None:
         slow: Future[tuple[object, ...]] = Future()
-        session.console.differences["competition"] = (HARMLESS,)
+        session.console.differences["competition"] = (SANITIZED,)
         session.console.apply_profile = lambda name, reset_world=False: slow  # type: ignore[assignment]
         await session.press("7", "down", "a")
         session.console.differences["competition"] = ()
@@ -139,8 +139,11 @@ def test_a_changed_parameter_changes_the_differences() -> None:
 
 def test_a_node_that_can_be_asked_without_setting_is_asked_before_anything_is_applied() -> None:
     console, *rest = live()
-    console.differences["competition"] = (HARMLESS, replace(HARMLESS, node="/safety_monitor", name="warning_distance"))
-    check = Endpoint(f"{HARMLESS.node}/check_parameters", ("rcl_interfaces/srv/SetParametersAtomically",))
+    console.differences["competition"] = (
+        SANITIZED,
+        replace(SANITIZED, node="/safety_monitor", name="warning_distance"),
+    )
+    check = Endpoint(f"{SANITIZED.node}/check_parameters", ("rcl_interfaces/srv/SetParametersAtomically",))
     console.change(graph=replace(console.current.graph, services=(*console.current.graph.services, check)))
     questions: list[tuple[str, Mapping[str, object]]] = []
     answers: list[Future[Answer]] = []
@@ -154,9 +157,9 @@ def test_a_node_that_can_be_asked_without_setting_is_asked_before_anything_is_ap
 
     async def play(session: Session) -> None:
         await session.press("7", "down")
-        value = {"type": 3, "double_value": HARMLESS.then}
-        assert questions == [(check.name, {"parameters": [{"name": HARMLESS.name, "value": value}]})]
-        assert f"{HARMLESS.node}  asking ..." in session.text()
+        value = {"type": 3, "double_value": SANITIZED.then}
+        assert questions == [(check.name, {"parameters": [{"name": SANITIZED.name, "value": value}]})]
+        assert f"{SANITIZED.node}  asking ..." in session.text()
         assert "/safety_monitor  cannot be asked without setting" in session.text()
         answers[0].set_result(Answer(False, "not in this hall"))
         await session.settle()
@@ -178,23 +181,23 @@ def test_a_node_that_can_be_asked_without_setting_is_asked_before_anything_is_ap
     run((console, *rest), play, (120, 40))
 
 
-def test_a_console_that_only_looks_on_asks_no_node_and_blames_none() -> None:
+def test_a_console_that_is_read_only_asks_no_node_and_blames_none() -> None:
     console, *rest = live()
-    console.differences["competition"] = (HARMLESS,)
-    check = Endpoint(f"{HARMLESS.node}/check_parameters", ("rcl_interfaces/srv/SetParametersAtomically",))
+    console.differences["competition"] = (SANITIZED,)
+    check = Endpoint(f"{SANITIZED.node}/check_parameters", ("rcl_interfaces/srv/SetParametersAtomically",))
     services = (*console.current.graph.services, check)
     console.change(graph=replace(console.current.graph, services=services), capabilities=Capabilities(change="no"))
 
     async def play(session: Session) -> None:
         await session.press("7", "down")
         text = session.text()
-        assert HARMLESS.name in text and "asking ..." not in text and "against it" not in text
+        assert SANITIZED.name in text and "asking ..." not in text and "against it" not in text
         assert not [each for each in console.asked if each[0] == "call"]
 
     run((console, *rest), play, (120, 40))
 
 
-def test_without_profiles_it_says_so() -> None:
+def test_without_profiles_it_reports_it() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "a", "w", "down", "r", "u")
         assert "No profiles" in session.text()
@@ -235,7 +238,7 @@ def test_the_cursor_stands_on_the_active_profile_and_goes_along_with_it() -> Non
     run(system, play, (120, 40))
 
 
-def test_the_status_line_says_how_far_the_robot_is_from_its_profile() -> None:
+def test_the_status_line_reports_how_far_the_robot_is_from_its_profile() -> None:
     async def play(session: Session) -> None:
         assert "indoor" in session.lines()[-2] and "changed" not in session.lines()[-2]
         session.console.change(profile_changes=2)
@@ -333,11 +336,11 @@ def test_presets_that_a_node_keeps_are_applied_saved_and_deleted() -> None:
     offered += [(verb, "diagnostic_msgs/srv/AddDiagnostics") for verb in ("apply", "save", "delete")]
     graph = replace(console.current.graph, services=tuple(Endpoint(f"/presets/{a}", (b,)) for a, b in offered))
     console.change(graph=graph)
-    said: list[tuple[str, str]] = []
+    message: list[tuple[str, str]] = []
 
     def call(service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
         verb, name = service.rpartition("/")[2], str(fields.get("load_namespace", ""))
-        said.append((verb, name))
+        message.append((verb, name))
         if verb == "save":
             kept[name] = ""
         elif verb == "delete":
@@ -351,14 +354,14 @@ def test_presets_that_a_node_keeps_are_applied_saved_and_deleted() -> None:
         await session.press("7", "p")
         assert "apply careful" in session.text() and "slow and gentle" in session.text()
         await session.press("enter")
-        assert "/presets sets the values itself" in session.text() and said == [("list", "")]
+        assert "/presets sets the values itself" in session.text() and message == [("list", "")]
         await session.press("y")
-        assert said[1:] == [("apply", "careful")] and "apply careful: all is well" in session.text()
+        assert message[1:] == [("apply", "careful")] and "apply careful: all is well" in session.text()
         await session.press("p", *"save", "enter", *"brisk", "enter")
-        assert said[3:] == [("save", "brisk")]
+        assert message[3:] == [("save", "brisk")]
         await session.press(
             "p", *"delete", "space", *"car", "enter", "n", "p", *"delete", "space", *"car", "enter", "y"
         )
-        assert said[-1] == ("delete", "careful") and kept == {"brisk": ""}
+        assert message[-1] == ("delete", "careful") and kept == {"brisk": ""}
 
     run((console, *rest), play, (120, 40))

@@ -189,7 +189,7 @@ def test_a_robot_without_a_lock_that_stands_after_the_dead_man_time_is_steered_o
     run(live(), play)
 
 
-def test_a_console_that_only_looks_on_does_not_arm_and_stops_nothing_by_leaving() -> None:
+def test_a_console_that_is_read_only_does_not_arm_and_stops_nothing_by_leaving() -> None:
     async def play(session: Session) -> None:
         session.console.change(drive=replace(driving(), refused="this console only looks on"))
         await session.settle()
@@ -221,7 +221,7 @@ def test_space_stops_armed_or_not() -> None:
     run(live(), play)
 
 
-def test_who_only_looks_on_is_told_of_no_key_that_is_refused() -> None:
+def test_who_is_read_only_is_shown_no_key_that_is_refused() -> None:
     async def play(session: Session) -> None:
         await session.press("6")
         drive = replace(driving(), refused="this console only looks on")
@@ -272,7 +272,7 @@ def test_the_limits_are_the_robots_own_parameters() -> None:
     run(live(), play)
 
 
-def test_without_a_robot_it_cannot_be_armed_and_says_why() -> None:
+def test_without_a_robot_it_cannot_be_armed_and_reports_why() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter")
         assert "nothing to steer" in " ".join(session.text().split())

@@ -51,7 +51,7 @@ async def at(session: Session, name: str) -> None:
     await session.settle()
 
 
-def test_figures_stand_beside_each_topic_and_faults_are_said() -> None:
+def test_figures_stand_beside_each_topic_and_faults_are_reported() -> None:
     async def play(session: Session) -> None:
         await opened(session)
         line = next(each for each in session.lines() if "/odom" in each)
@@ -219,11 +219,11 @@ def test_a_goal_is_sent_watched_and_cancelled() -> None:
         goals = session.console.traffic.sent_goals
         progress = (Field("sequence", "sequence", 0, "sequence<int32>", "[0, 1]"),)
         goals["/count"] = replace(goals["/count"], feedback=progress, feedback_count=2)
-        session.app.screen.look()
+        session.app.screen.poll()
         await session.settle()
         assert "executing" in session.text() and "2 feedback" in session.text() and "[0, 1]" in session.text()
         await session.press("x")
-        session.app.screen.look()
+        session.app.screen.poll()
         await session.settle()
         assert "canceled" in session.text()
 
@@ -242,7 +242,7 @@ def test_built_in_services_are_left_out_until_they_are_asked_for() -> None:
     run(live(), play, SIZE)
 
 
-def test_an_empty_system_says_so() -> None:
+def test_an_empty_system_reports_it() -> None:
     async def play(session: Session) -> None:
         await opened(session, "enter", "P", "p", "x", "y", "space")
         assert "No topics yet" in session.text()

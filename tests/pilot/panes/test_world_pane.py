@@ -44,7 +44,7 @@ def test_the_scale_has_its_length_in_a_narrow_pane_too() -> None:
     run(live(), play, (60, 20))
 
 
-def test_what_is_missing_is_said() -> None:
+def test_what_is_missing_is_reported() -> None:
     async def play(session: Session) -> None:
         await session.press("5", "plus", "f")
         assert "No map and no pose yet" in session.text()
@@ -52,7 +52,7 @@ def test_what_is_missing_is_said() -> None:
     run(empty(), play)
 
 
-def test_a_system_without_a_world_says_why() -> None:
+def test_a_system_without_a_world_reports_why() -> None:
     async def play(session: Session) -> None:
         session.console.change(problem="")
         await session.press("5")
@@ -116,7 +116,7 @@ def test_turtles_alone_need_no_key() -> None:
     run(empty(), play)
 
 
-def test_the_robot_stands_where_it_was_at_the_moment_that_is_looked_at() -> None:
+def test_the_robot_stands_where_it_was_at_the_moment_that_is_inspected() -> None:
     system = live()
     system[0].past[START] = Pose(2.0, 1.0, 0.0)
 

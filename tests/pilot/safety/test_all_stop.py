@@ -16,7 +16,7 @@ def held_by(session: Session) -> list[str]:
     return [each.key for each in session.console.current.drive.stops]
 
 
-def test_a_holder_that_has_ended_is_said_to_be_gone_also_in_80_columns() -> None:
+def test_a_holder_that_has_ended_is_reported_as_gone_also_in_80_columns() -> None:
     async def play(session: Session) -> None:
         session.console.hold([RobotStop("b", "bot-console of ben@lab (pid 12)", "ALL STOP", gone=True)])
         await session.settle()

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
+from bot_console.tui.appearance import Appearance
 from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.remapping import remap
-from bot_console.tui.look import Look
 from piloting import Session, run
 from samples import live
 from textual import events
@@ -29,7 +29,7 @@ async def behind(session: Session, *keys: str) -> None:
 
 
 async def their_turn(session: Session) -> None:
-    await session.app._keyboard.let_go()
+    await session.app._keyboard.detach()
     await session.settle()
 
 
@@ -65,7 +65,7 @@ def test_stop_is_released_in_its_turn_if_it_was_shown() -> None:
     run(live(), play)
 
 
-def test_stop_behind_a_key_that_opens_a_field_is_withdrawn_and_becomes_a_letter() -> None:
+def test_stop_behind_a_key_that_opens_a_field_is_withdrawn_and_becomes_a_character() -> None:
     async def play(session: Session) -> None:
         await session.press("2")
         await behind(session, "slash", STOP)
@@ -76,7 +76,7 @@ def test_stop_behind_a_key_that_opens_a_field_is_withdrawn_and_becomes_a_letter(
     run(live(), play)
 
 
-def test_letter_leaves_the_stop_of_another_press_alone() -> None:
+def test_character_leaves_the_stop_of_another_press_alone() -> None:
     async def play(session: Session) -> None:
         await session.press("2")
         await behind(session, STOP, "slash", STOP)
@@ -110,4 +110,4 @@ def test_own_key_of_a_person_holds_at_once_too(monkeypatch: pytest.MonkeyPatch) 
         await their_turn(session)
         assert held(session)
 
-    run(live(), play, look=Look(keys=remap({"app.stop": "f9"})))
+    run(live(), play, appearance=Appearance(keys=remap({"app.stop": "f9"})))

@@ -12,7 +12,7 @@ import pytest
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.files import crash
 from bot_console.tui.pane_table import PANES
-from bot_console.tui.panes.broken import BrokenPane
+from bot_console.tui.panes.broken_pane import BrokenPane
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.steering.pane import SteeringPane
@@ -120,13 +120,13 @@ def test_a_fault_in_what_lies_over_the_panes_closes_that(monkeypatch: pytest.Mon
     run(live(), play, (120, 40), faults_wanted=True)
 
 
-def test_a_fault_elsewhere_stops_the_robot_and_says_one_line(monkeypatch: pytest.MonkeyPatch, state: Path) -> None:
+def test_a_fault_elsewhere_stops_the_robot_and_reports_one_line(monkeypatch: pytest.MonkeyPatch, state: Path) -> None:
     console, launcher = live()
-    said = io.StringIO()
+    message = io.StringIO()
 
     async def main() -> int | None:
         app = BotConsoleApp(console, launcher, refresh_hz=0)
-        app.error_console = Console(file=said, width=1000)
+        app.error_console = Console(file=message, width=1000)
         monkeypatch.setattr(StatusBar, "show", boom)
         try:
             async with app.run_test() as pilot:
@@ -139,7 +139,7 @@ def test_a_fault_elsewhere_stops_the_robot_and_says_one_line(monkeypatch: pytest
 
     asyncio.run(main())
     assert ("all_stop", True) in console.asked
-    assert len(said.getvalue().splitlines()) == 1 and "the robot was stopped: KeyError" in said.getvalue()
+    assert len(message.getvalue().splitlines()) == 1 and "the robot was stopped: KeyError" in message.getvalue()
     assert "Traceback" in next(state.iterdir()).read_text()
 
 

@@ -87,7 +87,7 @@ def test_heading_of_a_detail_screen_writes_no_control_character() -> None:
             session.app.push_screen(screen)
             await session.settle()
             for strip in session.app.screen._compositor.render_strips():
-                written = "".join(cells_of(strip, ColorSystem.TRUECOLOR).letters)
+                written = "".join(cells_of(strip, ColorSystem.TRUECOLOR).characters)
                 assert harmful(written) == [], written
             await session.press("escape")
 

@@ -34,7 +34,7 @@ def test_nothing_to_lose_and_nothing_is_asked() -> None:
     run(live(), play)
 
 
-def test_what_would_be_lost_is_named_and_the_robot_stands_until_no_is_said() -> None:
+def test_what_would_be_lost_is_named_and_the_robot_stands_until_no_is_answered() -> None:
     async def play(session: Session) -> None:
         await edited(session)
         await session.press("q")
@@ -147,13 +147,15 @@ def test_a_stop_by_somebody_else_is_not_released_by_no() -> None:
     run(live(), play)
 
 
-def test_an_edit_that_takes_from_safety_is_told_once_with_the_way_back() -> None:
+def test_an_edit_that_takes_from_safety_is_reported_once_with_the_way_back() -> None:
     async def play(session: Session) -> None:
         for value in (0.4, 0.3):
             session.console.set_parameters(NODE, {"safety_distance": value})
             await session.settle()
-        told = [each.message for each in session.app._notifications]
-        assert told == ["⚠ safety_distance 0.8 → 0.4 lowers a safety margin. u in the Parameters pane takes it back."]
+        reported = [each.message for each in session.app._notifications]
+        assert reported == [
+            "⚠ safety_distance 0.8 → 0.4 lowers a safety margin. u in the Parameters pane takes it back."
+        ]
         session.console.set_parameters(NODE, {"safety_distance": 0.6})
         session.console.set_parameters(NODE, {"turn_rate": 0.5})
         await session.settle()

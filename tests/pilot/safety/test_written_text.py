@@ -14,7 +14,7 @@ from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Line, 
 from piloting import Session, run
 from samples import hostile, live
 
-LETTERS = [
+CHARACTERS = [
     "[",
     "]",
     "/",
@@ -36,7 +36,7 @@ LETTERS = [
     "#",
 ]
 DRAWN = ["[/[@click=app.quit]x[/]"]
-MORE = ["a\\", "[/", "\\[", *("".join(random.Random(seed).choices(LETTERS, k=8)) for seed in range(4))]
+MORE = ["a\\", "[/", "\\[", *("".join(random.Random(seed).choices(CHARACTERS, k=8)) for seed in range(4))]
 KEYS = {
     "graph": ["down", "enter"],
     "launch": ["down", "enter", "escape", "K"],
@@ -78,7 +78,7 @@ def test_any_text_is_drawn_in_every_pane_and_over_it(text: str) -> None:
     run(hostile(text), play, (120, 40))
 
 
-def test_it_is_shown_letter_by_letter() -> None:
+def test_it_is_shown_character_by_character() -> None:
     async def play(session: Session) -> None:
         for text in ("[red]evil[/red]", "[/", "\\[x]"):
             session.app.clear_notifications()

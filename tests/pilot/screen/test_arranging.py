@@ -72,7 +72,7 @@ def test_the_keys_are_explained_while_panes_are_arranged_and_fit_a_new_size() ->
     run(live(), play, (100, 30))
 
 
-def test_the_keyboard_goes_where_the_arrows_say_and_panes_change_places() -> None:
+def test_the_keyboard_goes_where_the_arrows_report_and_panes_change_places() -> None:
     async def play(session: Session) -> None:
         await session.press("V", "right")
         assert session.app.current_pane.id == "world"
@@ -121,7 +121,7 @@ def test_a_layout_is_saved_under_a_name_and_opened_again() -> None:
     run(live(), play, SIZE)
 
 
-def test_a_layout_without_room_shows_one_pane_and_says_so() -> None:
+def test_a_layout_without_room_shows_one_pane_and_reports_it() -> None:
     async def play(session: Session) -> None:
         await session.press("V")
         assert len(session.app.screen_stack) == 1 and "needs 100x30" in session.text()

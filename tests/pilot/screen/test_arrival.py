@@ -14,13 +14,13 @@ from bot_console.tui.layout.named import BUILT_IN, OVERVIEW
 from bot_console.tui.layout.tree import panes
 from bot_console.tui.opening import Opening
 from bot_console.tui.pane_table import PaneEntry
-from bot_console.tui.panes.broken import BrokenPane
+from bot_console.tui.panes.broken_pane import BrokenPane
 from bot_console.tui.panes.plot.pane import PlotPane
 from bot_console.tui.screens.picker import PickerScreen
-from bot_console.tui.terminal.composing.seen import mount_unseen
-from bot_console.tui.terminal.gate import AnswerGate
-from bot_console.tui.widgets.coming_pane import ComingPane
+from bot_console.tui.terminal.composing.visible_screen import mount_unseen
+from bot_console.tui.terminal.frame_pacing import AnswerGate
 from bot_console.tui.widgets.command_line import CommandField
+from bot_console.tui.widgets.pane_placeholder import PanePlaceholder
 from bot_console.tui.widgets.row_list import RowList
 from fakes.command_line import FakeCommandLine
 from piloting import Session, run
@@ -46,9 +46,9 @@ def arrive(typed: str, play: Callable[[Session], Awaitable[None]], panes: int = 
         console, launcher = live()
 
         def reach() -> System:
-            assert app.query(ComingPane) and not app.query("Pane")
-            for letter in typed:
-                app.post_message(events.Key(NAMES.get(letter, letter), letter))
+            assert app.query(PanePlaceholder) and not app.query("Pane")
+            for character in typed:
+                app.post_message(events.Key(NAMES.get(character, character), character))
             return System(console, launcher, FakeCommandLine(console.asked))
 
         app = BotConsoleApp(reach=reach, refresh_hz=0)
@@ -85,15 +85,15 @@ def test_the_keys_of_the_first_frame_are_those_of_the_pane_that_is_coming() -> N
 def test_in_the_end_all_looks_as_if_it_had_been_there_at_once() -> None:
     seen: list[str] = []
 
-    async def look(session: Session) -> None:
+    async def poll(session: Session) -> None:
         assert [each.id for each in session.app.panes()] == [each.id for each in ORDERED]
-        assert not session.app.query(ComingPane) and not session.app.query("#coming-status")
+        assert not session.app.query(PanePlaceholder) and not session.app.query("#coming-status")
         seen.append(session.text())
         await session.press("tab", "7")
         seen.append(session.text())
 
-    arrive("", look)
-    run(live(), look, SIZE)
+    arrive("", poll)
+    run(live(), poll, SIZE)
     assert seen[:2] == seen[2:]
 
 
@@ -173,8 +173,8 @@ def test_a_key_waits_for_no_pane_but_those_that_it_is_for(
     monkeypatch.setattr(owner, name, noted)
 
     async def play(session: Session) -> None:
-        least, most = (len(ORDERED),) * 2 if hidden is None else (SEEN_FIRST, SEEN_FIRST + hidden)
-        assert len(there) == 1 and least <= there[0] <= most  # a pane is given the keyboard a moment after it stands
+        least, maximum = (len(ORDERED),) * 2 if hidden is None else (SEEN_FIRST, SEEN_FIRST + hidden)
+        assert len(there) == 1 and least <= there[0] <= maximum  # a pane is given the keyboard a moment after it stands
         assert [each.id for each in session.app.panes()] == [each.id for each in ORDERED]
         if key in ("6", "I"):
             assert session.app.current_pane is not None and session.app.current_pane.display
@@ -210,7 +210,7 @@ def test_panes_that_nobody_sees_come_when_no_key_is_pressed(monkeypatch: pytest.
 
 
 def test_they_come_though_keys_are_pressed_all_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(arrival, "LONGEST_REST", 0.1)
+    monkeypatch.setattr(arrival, "MAX_HIDDEN_PANE_PAUSE_S", 0.1)
     eager(monkeypatch, lambda: True)
 
     async def play(session: Session) -> None:
@@ -220,7 +220,7 @@ def test_they_come_though_keys_are_pressed_all_the_time(monkeypatch: pytest.Monk
 
 
 def test_a_pane_that_a_key_is_for_comes_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(arrival, "LONGEST_REST", float("inf"))
+    monkeypatch.setattr(arrival, "MAX_HIDDEN_PANE_PAUSE_S", float("inf"))
     came = eager(monkeypatch, lambda: True)
 
     async def play(session: Session) -> None:

@@ -15,8 +15,8 @@ def test_few_answers_are_kept_however_often_panes_are_changed(monkeypatch: pytes
 
     async def play(session: Session) -> None:
         await session.press(*"12345678123")
-        most = {type(each).__name__: len(each._query_one_cache) for each in session.app.screen.walk_children()}
-        most["the screen"] = len(session.app.screen._query_one_cache)
-        assert max(most.values()) == FEW, most
+        maximum = {type(each).__name__: len(each._query_one_cache) for each in session.app.screen.walk_children()}
+        maximum["the screen"] = len(session.app.screen._query_one_cache)
+        assert max(maximum.values()) == FEW, maximum
 
     run(live(), play)

@@ -31,7 +31,7 @@ def test_a_line_of_rqt_plot_replaces_the_curves_and_waits_for_what_is_not_there(
 
 
 @pytest.mark.parametrize(
-    ("wanted", "said"),
+    ("wanted", "message"),
     [
         (
             ("/robot/speed", "/robot/distance"),
@@ -40,7 +40,7 @@ def test_a_line_of_rqt_plot_replaces_the_curves_and_waits_for_what_is_not_there(
         ((), "No curves. Press a and name one: /topic/field, or /node:parameter."),
     ],
 )
-def test_an_empty_plot_says_what_it_waits_for_or_what_to_press(wanted: tuple[str, ...], said: str) -> None:
+def test_an_empty_plot_reports_what_it_waits_for_or_what_to_press(wanted: tuple[str, ...], message: str) -> None:
     async def play(session: Session) -> None:
         session.app.open(Opening("plot", wanted))
         await session.settle()
@@ -49,7 +49,7 @@ def test_an_empty_plot_says_what_it_waits_for_or_what_to_press(wanted: tuple[str
             await session.press("x")
         area = plot.region
         lines = [each[area.x + 1 : area.right - 1] for each in session.lines()[area.y + 1 : area.bottom - 1]]
-        assert said in " ".join(" ".join(lines).split())
+        assert message in " ".join(" ".join(lines).split())
 
     run(empty(), play, (60, 20))
 
@@ -110,7 +110,7 @@ def test_a_node_is_gone_to() -> None:
     run(live(), play)
 
 
-def test_what_is_not_taken_over_is_told() -> None:
+def test_what_is_not_taken_over_is_reported() -> None:
     async def play(session: Session) -> None:
         await session.press(":")
         await session.type("rqt --perspective-file mine.ini wrong")

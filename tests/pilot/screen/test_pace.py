@@ -8,8 +8,8 @@ from unittest.mock import patch
 
 from bot_console.tui.console.robot.robot_model import DriveInfo, Pose, WorldInfo
 from bot_console.tui.panes.plot.pane import PlotPane
-from bot_console.tui.panes.world.view import WorldDrawing, following, told_of
-from bot_console.tui.widgets.live_words import LiveWords
+from bot_console.tui.panes.world.view import WorldDrawing, following, visible_content
+from bot_console.tui.widgets.live_figures import LiveFigures
 from bot_console.tui.widgets.status_bar import StatusBar
 from piloting import Session, run
 from samples import SPEED, live
@@ -25,30 +25,30 @@ def drive(session: Session, speed: float, **facts: object) -> None:
     session.console.change(drive=replace(DRIVING, actual=(speed, 0.0), **facts))
 
 
-async def beat(session: Session, times: int = 1) -> None:
+async def heartbeat(session: Session, times: int = 1) -> None:
     for _ in range(times):
-        session.app._beat()
+        session.app._heartbeat()
     await session.pilot.pause()
 
 
 def test_figures_of_the_status_line_stand_a_second_words_come_at_once() -> None:
     async def play(session: Session) -> None:
         drive(session, 0.1)
-        await beat(session, StatusBar.EVERY)
+        await heartbeat(session, StatusBar.EVERY)
         assert "actual +0.1" in status(session)
         drive(session, 0.2)
-        await beat(session)
+        await heartbeat(session)
         assert "actual +0.2" in status(session), "what has stood long enough gives way at once"
         drive(session, 0.3)
-        await beat(session, 4)
+        await heartbeat(session, 4)
         drive(session, 0.4)
-        await beat(session, 4)
+        await heartbeat(session, 4)
         assert "actual +0.2" in status(session)
         drive(session, 0.4, stopped=True, stop_confirmed=True, lockable=True, stopped_here=True)
-        await beat(session)
+        await heartbeat(session)
         assert "STOP" in status(session) and "actual +0.4" in status(session)
         drive(session, 0.7, stopped=True, stop_confirmed=True, lockable=True, stopped_here=True)
-        await beat(session, StatusBar.EVERY)
+        await heartbeat(session, StatusBar.EVERY)
         assert "actual +0.7" in status(session), "the newest is told, though nothing new comes after it"
 
     run(live(), play, (160, 40))
@@ -57,20 +57,20 @@ def test_figures_of_the_status_line_stand_a_second_words_come_at_once() -> None:
 def test_facts_of_the_world_stand_as_long_but_for_what_a_person_asks() -> None:
     async def play(session: Session) -> None:
         await session.press("5")
-        await beat(session, LiveWords.EVERY)
+        await heartbeat(session, LiveFigures.EVERY)
 
         def at(x: float) -> None:
             session.console.change(world=replace(session.console.current.world, pose=Pose(x, 3.0, 0.0)))
 
         at(1.5)
-        await beat(session)
+        await heartbeat(session)
         at(2.5)
-        await beat(session)
+        await heartbeat(session)
         assert "x    1.5" in session.text()
         await session.press("+")
         assert "x    2.5" in session.text(), "a key shows what is so now"
         at(3.5)
-        await beat(session, LiveWords.EVERY)
+        await heartbeat(session, LiveFigures.EVERY)
         assert "x    3.5" in session.text()
 
     run(live(), play, (120, 40))
@@ -80,24 +80,24 @@ def test_samples_within_one_dot_are_drawn_together_and_the_last_ones_always() ->
     async def play(session: Session) -> None:
         await session.press("4")
         times, values = session.console.series[SPEED]
-        await beat(session, 2)
+        await heartbeat(session, 2)
         last = times[-1]
         with patch.object(PlotPane, "draw", autospec=True, side_effect=PlotPane.draw) as drawn:
             for count in range(1, 11):
                 times.append(last + count * 0.01)
                 values.append(1.0 + count)
-                await beat(session)
+                await heartbeat(session)
             assert 1 <= drawn.call_count <= 3, "a dot is some 0.13 s wide"
-            await beat(session, 2)
+            await heartbeat(session, 2)
             assert "11" in session.text(), "no sample comes after it"
             before = drawn.call_count
-            await beat(session, 3)
+            await heartbeat(session, 3)
             assert drawn.call_count == before
 
     run(live(), play, (120, 40))
 
 
-def test_a_map_is_worked_out_anew_when_it_would_look_other() -> None:
+def test_a_map_is_worked_out_again_when_it_would_look_other() -> None:
     async def play(session: Session) -> None:
         await session.press("5")
 
@@ -105,19 +105,19 @@ def test_a_map_is_worked_out_anew_when_it_would_look_other() -> None:
             session.console.change(world=replace(session.console.current.world, pose=Pose(x, 3.0, 0.0), hits=()))
 
         at(3.0)
-        await beat(session)
+        await heartbeat(session)
         with patch.object(WorldDrawing, "rows", autospec=True, side_effect=WorldDrawing.rows) as worked:
             at(3.0001)
-            await beat(session)
+            await heartbeat(session)
             assert not worked.called
             at(5.0)
-            await beat(session)
+            await heartbeat(session)
             assert worked.called
 
     run(live(), play, (120, 40))
 
 
-def test_worlds_of_which_a_drawing_tells_the_same_look_the_same() -> None:
+def test_worlds_of_which_a_drawing_reports_the_same_look_the_same() -> None:
     chance = random.Random(7)
     world = live()[0].current.world
     same = 0
@@ -126,8 +126,8 @@ def test_worlds_of_which_a_drawing_tells_the_same_look_the_same() -> None:
         other = replace(world, pose=pose, speed=chance.random())
         if chance.random() < 0.2:
             other = replace(other, trail=(*world.trail, (5.0, 5.0)))
-        told, lines = zip(*(_drawn(each) for each in (world, other)), strict=True)
-        if told[0] == told[1]:
+        reported, lines = zip(*(_drawn(each) for each in (world, other)), strict=True)
+        if reported[0] == reported[1]:
             same += 1
             assert lines[0] == lines[1]
         world = other
@@ -136,4 +136,4 @@ def test_worlds_of_which_a_drawing_tells_the_same_look_the_same() -> None:
 
 def _drawn(world: WorldInfo) -> tuple[object, object]:
     window = following(world, 40, 12, 1.0)
-    return told_of(world, window, 40, 12), WorldDrawing().rows(world, window, 40, 12)
+    return visible_content(world, window, 40, 12), WorldDrawing().rows(world, window, 40, 12)

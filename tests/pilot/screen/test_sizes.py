@@ -64,7 +64,7 @@ def test_below_the_minimum_only_a_word_about_it_is_seen_and_nothing_overflows() 
     run(live(), play)
 
 
-def test_a_resize_lays_everything_out_anew() -> None:
+def test_a_resize_lays_everything_out_again() -> None:
     async def play(session: Session) -> None:
         for size in ((250, 80), (60, 20), (170, 45), (80, 24), (120, 40)):
             await session.pilot.resize_terminal(*size)
@@ -74,7 +74,7 @@ def test_a_resize_lays_everything_out_anew() -> None:
     run(live(), play)
 
 
-def test_a_layout_that_has_no_room_is_told_and_the_pane_stays() -> None:
+def test_a_layout_that_has_no_room_is_reported_and_the_pane_stays() -> None:
     async def play(session: Session) -> None:
         words = "Layout 'overview' needs 100x30, this terminal has 80x24"
         await session.press("2")

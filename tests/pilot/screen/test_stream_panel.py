@@ -16,11 +16,11 @@ class Printing:
     """A stream that a test fills."""
 
     def __init__(self) -> None:
-        self.told: Sequence[str] = ()
+        self.reported: Sequence[str] = ()
         self.ended = self.stopped = False
 
     def lines(self) -> Sequence[str]:
-        return self.told
+        return self.reported
 
     def stop(self) -> None:
         self.stopped = True
@@ -57,8 +57,8 @@ def test_it_shows_the_last_lines_and_leaves_the_keyboard_where_it_was(
         focused = session.app.focused
         assert "runs" not in session.text()
         panel = await begin(session)
-        streams[0].told = [f"[red]average rate: {number}[/red]" for number in range(50)]
-        panel.look()
+        streams[0].reported = [f"[red]average rate: {number}[/red]" for number in range(50)]
+        panel.poll()
         await session.settle()
         assert "ros2 topic hz /odom · runs · ^o closes" in session.text()
         assert "[red]average rate: 49[/red]" in session.text() and "rate: 43" not in session.text()
@@ -82,8 +82,8 @@ def test_three_go_on_at_once_and_each_ends_alone(streams: list[Printing], size: 
         for topic in ("/odom", "/scan", "/cmd_vel"):
             await begin(session, f"ros2 topic hz {topic}")
         for number, each in enumerate(streams):
-            each.told = [f"rate of number {number}"]
-        panels.look()
+            each.reported = [f"rate of number {number}"]
+        panels.poll()
         await session.settle()
         for number in range(3):
             assert f"rate of number {number}" in session.text()
@@ -131,7 +131,7 @@ def test_one_too_many_is_refused_before_it_begins_and_one_that_has_ended_makes_w
         assert len(streams) == has and f"no room: {has} run below the panes already; ^o ends one" in session.text()
         await session.press("escape")
         streams[1].ended = True
-        panels.look()
+        panels.poll()
         await begin(session, "topic hz /new")
         assert len(streams) == has + 1 and len(panels.panels) == has
         assert panels.panels[-1].line == "topic hz /new" and streams[1].stopped and not streams[0].stopped
@@ -139,13 +139,13 @@ def test_one_too_many_is_refused_before_it_begins_and_one_that_has_ended_makes_w
     run(live(), play, (80, 24))
 
 
-def test_a_smaller_terminal_shows_the_newest_and_tells_of_the_others(streams: list[Printing]) -> None:
+def test_a_smaller_terminal_shows_the_newest_and_reports_the_others(streams: list[Printing]) -> None:
     async def play(session: Session) -> None:
         panels = session.pane(StreamPanels)
         while len(streams) < 4:
             await begin(session)
         await session.pilot.resize_terminal(60, 20)
-        panels.look()
+        panels.poll()
         await session.settle()
         assert "2 more not seen" in session.text() and "3 topic hz" in session.text()
         assert "1 topic hz" not in session.text() and not any(each.stopped for each in streams)
@@ -153,12 +153,12 @@ def test_a_smaller_terminal_shows_the_newest_and_tells_of_the_others(streams: li
     run(live(), play, (80, 24))
 
 
-def test_the_end_is_told_and_a_click_on_the_title_closes(streams: list[Printing]) -> None:
+def test_the_end_is_reported_and_a_click_on_the_title_closes(streams: list[Printing]) -> None:
     async def play(session: Session) -> None:
         await begin(session)
         panels = await begin(session)
         streams[1].ended = True
-        panels.look()
+        panels.poll()
         await session.settle()
         assert "runs · ^o" in session.text() and "has ended · ^o" in session.text()
         await session.pilot.click(panels.panels[0], offset=(5, 2))

@@ -46,7 +46,7 @@ def test_the_console_is_asked_once_a_beat() -> None:
     async def play(session: Session) -> None:
         await session.press("0")
         with patch.object(session.console, "snapshot", side_effect=session.console.snapshot) as asked:
-            session.app._beat()
+            session.app._heartbeat()
         assert asked.call_count == 1
 
     run(live(), play, (120, 40))

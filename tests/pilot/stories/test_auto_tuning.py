@@ -5,17 +5,17 @@ from __future__ import annotations
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.screens.tuning.progress import SettingRows, TuningScreen
-from bot_console.tui.tuning.dial import Setting
-from bot_console.tui.tuning.question import Question
+from bot_console.tui.tuning.job import Progress, SettingResult
 from bot_console.tui.tuning.score import FAILED
-from bot_console.tui.tuning.study import Judged, Progress
+from bot_console.tui.tuning.specification import TuningSpecification
+from bot_console.tui.tuning.tunable import Setting
 from piloting import Session, run
 from samples import live
 
-NOW = Judged((1.0,), 0.8, (0.8,))
-BEST = Judged((0.5,), 1.5, (1.5,))
-BUMPED = Judged((2.0,), -1.0, (-1.0,), 2)
-BROKEN = Judged((3.0,), FAILED, (), problem="seed 1: refused")
+NOW = SettingResult((1.0,), 0.8, (0.8,))
+BEST = SettingResult((0.5,), 1.5, (1.5,))
+BUMPED = SettingResult((2.0,), -1.0, (-1.0,), 2)
+BROKEN = SettingResult((3.0,), FAILED, (), problem="seed 1: refused")
 
 
 class FakeTuning:
@@ -34,13 +34,13 @@ class FakeTuning:
 
 class FakeTuner:
     def __init__(self) -> None:
-        self.asked: list[Question] = []
+        self.asked: list[TuningSpecification] = []
         self.tuning = FakeTuning()
 
-    def problem(self, question: Question) -> str:
+    def problem(self, question: TuningSpecification) -> str:
         return ""
 
-    def begin(self, question: Question) -> FakeTuning:
+    def begin(self, question: TuningSpecification) -> FakeTuning:
         self.asked.append(question)
         return self.tuning
 
@@ -62,7 +62,7 @@ async def goes_on(session: Session, tuner: FakeTuner, progress: Progress) -> Non
     tuner.tuning.progress = progress
     screen = session.app.screen
     assert isinstance(screen, TuningScreen)
-    screen.look()
+    screen.poll()
     await session.settle()
 
 
@@ -70,7 +70,7 @@ def test_the_best_is_found_seen_and_taken() -> None:
     async def play(session: Session) -> None:
         tuner = await begin(session)
         question = tuner.asked[0]
-        assert [each.name for each in question.dials] == ["max_speed"]
+        assert [each.name for each in question.tunables] == ["max_speed"]
         assert (question.score.text, question.runs, question.duration) == ("swift", 60, 60.0)
         await goes_on(session, tuner, Progress((NOW, BUMPED), 20, 70, 10.0, 20))
         assert "20 of 70 runs, about 25 s left" in session.text()
@@ -89,7 +89,7 @@ def test_the_best_is_found_seen_and_taken() -> None:
     run(live(), play, (100, 30))
 
 
-def test_a_setting_is_saved_as_a_profile_and_leaving_ends_the_runs_when_said_twice() -> None:
+def test_a_setting_is_saved_as_a_profile_and_leaving_ends_the_runs_when_confirmed_twice() -> None:
     async def play(session: Session) -> None:
         tuner = await begin(session)
         await goes_on(session, tuner, Progress((NOW, BEST), 20, 70, 10.0, 20))
@@ -109,7 +109,7 @@ def test_a_setting_is_saved_as_a_profile_and_leaving_ends_the_runs_when_said_twi
     run(live(), play)
 
 
-def test_without_a_tuner_it_is_said_why_before_anything_is_asked() -> None:
+def test_without_a_tuner_it_is_reported_why_before_anything_is_asked() -> None:
     async def play(session: Session) -> None:
         await begin(session)
         session.app.tuner = None

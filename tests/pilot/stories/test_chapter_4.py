@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.workspace import discover
+from bot_console.tui.cli.appearance import appearance_of
 from bot_console.tui.cli.arguments import parse
-from bot_console.tui.cli.look import look_of
 from bot_console.tui.cli.system.plugins import find_plugins
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.panes.graph.pane import GraphPane
@@ -254,10 +254,10 @@ def test_step_5_a_dashboard_is_built_saved_and_loaded(page: Terminals, robot: Pr
         assert places(screen) == kept
         await screen.shows("my_robot_dashboard")
 
-    page.show(build, look=look_of(parse([])))
+    page.show(build, appearance=appearance_of(parse([])))
     saved = config_folder() / "layouts" / "my_robot_dashboard.yaml"
-    page.show(load, look=look_of(parse(["--perspective-file", str(saved)])))
-    page.show(load, look=look_of(parse(["--layout", "my_robot_dashboard"])))
+    page.show(load, appearance=appearance_of(parse(["--perspective-file", str(saved)])))
+    page.show(load, appearance=appearance_of(parse(["--layout", "my_robot_dashboard"])))
 
 
 def test_the_workflow_shows_all_of_it_side_by_side(page: Terminals, robot: Program, publisher: Program) -> None:

@@ -59,7 +59,7 @@ def test_edits_are_marked_and_sent_together_and_one_undo_takes_them_back() -> No
     run(live(), play, (100, 30))
 
 
-def test_what_one_node_refuses_leaves_everything_marked_and_says_why() -> None:
+def test_what_one_node_refuses_leaves_everything_marked_and_reports_why() -> None:
     async def play(session: Session) -> None:
         session.console.refusals["/simulator", "lidar.beams"] = "not while it turns"
         await mark_two(session)
@@ -105,7 +105,7 @@ def test_two_sets_are_swapped_with_one_key() -> None:
     run(live(), play, (100, 30))
 
 
-def test_what_takes_from_safety_is_said_before_in_each_way_to_set_it() -> None:
+def test_what_takes_from_safety_is_reported_before_in_each_way_to_set_it() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         await go_to(session, "max_speed")
@@ -129,13 +129,13 @@ def test_what_takes_from_safety_is_said_before_in_each_way_to_set_it() -> None:
     run(live(), play, (100, 30))
 
 
-def test_an_expression_with_a_unit_says_what_comes_of_it() -> None:
+def test_an_expression_with_a_unit_reports_what_comes_of_it() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         await go_to(session, "safety_distance")
         await session.press("e")
-        for letter in "2*45 cm":
-            await session.pilot.press({"*": "asterisk", " ": "space"}.get(letter, letter))
+        for character in "2*45 cm":
+            await session.pilot.press({"*": "asterisk", " ": "space"}.get(character, character))
         await session.settle()
         assert "= 0.9 m" in session.text()
         await session.press("enter")
@@ -161,7 +161,7 @@ def test_the_mouse_chooses_slides_edits_and_folds() -> None:
         await click(session, "turn_rate")
         assert rows(session).current.parameter.name == "turn_rate"
         y, line = next((at, line) for at, line in enumerate(session.lines()) if "turn_rate" in line)
-        bar = next(at for at, letter in enumerate(line) if letter in "─●" and at > line.index("rad/s"))
+        bar = next(at for at, character in enumerate(line) if character in "─●" and at > line.index("rad/s"))
         await session.pilot.click(offset=(bar, y))
         await session.settle()
         assert value(session, "turn_rate") == 0.1
@@ -180,7 +180,7 @@ def test_the_mouse_chooses_slides_edits_and_folds() -> None:
     run(live(), play, (100, 30))
 
 
-def test_a_change_flashes_and_its_marks_tell_where_it_came_from() -> None:
+def test_a_change_flashes_and_its_marks_report_where_it_came_from() -> None:
     async def play(session: Session) -> None:
         clock = Clock()
         session.pane(ParametersPane).clock = clock

@@ -7,8 +7,8 @@ from pathlib import Path
 from types import MappingProxyType
 
 import pytest
+from bot_console.tui.appearance import Appearance
 from bot_console.tui.console.model import ParameterTree
-from bot_console.tui.look import Look
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.plot.pane import PlotPane
 from fakes.console import FakeConsole
@@ -170,6 +170,6 @@ def test_the_same_by_mouse_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
         await session.click("a Apply")
         assert [value(session, name) for name in names] == left
 
-    look = Look()
-    run(crowd(), tune, (120, 60), look=look)
-    run(live(), load, (120, 60), look=look)
+    appearance = Appearance()
+    run(crowd(), tune, (120, 60), appearance=appearance)
+    run(live(), load, (120, 60), appearance=appearance)

@@ -12,7 +12,7 @@ from typing import Any, cast
 import pytest
 from bot_console.tui.console.robot import stop_link
 from bot_console.tui.console.robot.stop_link import RELEASE_TIMEOUT_S, REMINDER_S, StopLink
-from bot_console_robot.safety.emergency_stop import ARBITER, BASE, REPORT_LOOKS, REQUESTS, EmergencyStop
+from bot_console_robot.safety.emergency_stop import ARBITER, BASE, REPORT_POLLS, REQUESTS, EmergencyStop
 from bot_console_robot.safety.latch import RELEASE, Request
 from bot_console_robot.safety.lock import NODE
 from bot_console_robot.safety.stop_messages import request_message
@@ -190,7 +190,7 @@ class Stops(RuleBasedStateMachine):
             self.repeat()
             self.bus.settle()
             for _, lock in self.locks.values():
-                for _ in range(REPORT_LOOKS):
+                for _ in range(REPORT_POLLS):
                     lock._watch()
             self.bus.settle()
         self.only_a_release_removes_a_stop()

@@ -10,17 +10,17 @@ from bot_console.runtime.process import NodeProcess, stepped
 from hypothesis import given
 from hypothesis import strategies as st
 
-DOORS = 3
+GATES = 3
 durations = st.integers(0, 5).map(lambda tenths: tenths / 10)
-door = st.integers(0, DOORS - 1)
+address = st.integers(0, GATES - 1)
 operation = st.one_of(
     st.tuples(st.just("sleep"), durations),
-    st.tuples(st.just("set"), door),
-    st.tuples(st.just("wait"), door, durations),
+    st.tuples(st.just("set"), address),
+    st.tuples(st.just("wait"), address, durations),
     st.tuples(st.just("put"), st.integers(0, 9)),
     st.tuples(st.just("get"), durations),
-    st.tuples(st.just("event set"), door),
-    st.tuples(st.just("event wait"), door, durations),
+    st.tuples(st.just("event set"), address),
+    st.tuples(st.just("event wait"), address, durations),
     st.tuples(st.just("spawn"), st.lists(st.tuples(st.just("sleep"), durations), max_size=3)),
 )
 programs = st.lists(st.lists(operation, max_size=8), min_size=1, max_size=5)
@@ -33,8 +33,8 @@ class Run:
         self.trace = []
         self.inside = 0
         with stepped() as self.clock:
-            self.doors = [self.clock.wakeup() for _ in range(DOORS)]
-            self.events = [threading.Event() for _ in range(DOORS)]
+            self.addresses = [self.clock.wakeup() for _ in range(GATES)]
+            self.events = [threading.Event() for _ in range(GATES)]
             self.box = queue.Queue()
             processes = [NodeProcess(f"p{number}", self.clock) for number in range(len(threads))]
             for process, operations in zip(processes, threads, strict=True):
@@ -57,11 +57,11 @@ class Run:
         time.sleep(seconds)
 
     def set(self, name, number):
-        self.doors[number].set()
+        self.addresses[number].set()
 
     def wait(self, name, number, seconds):
-        woken = self.doors[number].wait(time.monotonic_ns() + int(seconds * 1e9))
-        self.doors[number].clear()
+        woken = self.addresses[number].wait(time.monotonic_ns() + int(seconds * 1e9))
+        self.addresses[number].clear()
         return woken
 
     def put(self, name, item):

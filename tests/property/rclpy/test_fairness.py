@@ -33,7 +33,7 @@ def test_subscriptions_take_turns(counts: list[int]) -> None:
     st.lists(st.integers(min_value=10, max_value=400), min_size=1, max_size=6),
     st.integers(min_value=0, max_value=3000),
 )
-def test_timers_fire_as_often_as_their_periods_say(periods: list[int], run: int) -> None:
+def test_timers_fire_as_often_as_their_periods_report(periods: list[int], run: int) -> None:
     fired = [0] * len(periods)
 
     def tick(number: int) -> None:
@@ -66,15 +66,15 @@ def test_everything_that_is_ready_is_served_once_in_the_order_of_kinds(kinds: li
 def make_ready(node: Any, executor: Any, kind: str, number: int, got: list[tuple[str, int]]) -> None:
     """Let something of a kind be ready; it tells when it is served."""
 
-    def tell(*_: Any) -> None:
+    def report(*_: Any) -> None:
         got.append((kind, number))
 
     if kind == "timer":
-        timer = node.create_timer(0.0, lambda: (tell(), timer.cancel()))
+        timer = node.create_timer(0.0, lambda: (report(), timer.cancel()))
     elif kind == "topic":
-        node.create_subscription(Int32, f"t{number}", tell, 1)
+        node.create_subscription(Int32, f"t{number}", report, 1)
         node.create_publisher(Int32, f"t{number}", 1).publish(Int32())
     elif kind == "guard":
-        node.create_guard_condition(tell).trigger()
+        node.create_guard_condition(report).trigger()
     else:
-        executor.create_task(tell)
+        executor.create_task(report)

@@ -15,7 +15,7 @@ from bot_console.runtime.rosidl.slot_types import nested_class
 from hypothesis import strategies as st
 
 TEXT = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"), max_size=12)
-LONGEST = 5
+MAX_LENGTH = 5
 
 
 def _single(kind: Type) -> st.SearchStrategy[Any]:
@@ -34,7 +34,7 @@ def _value(kind: Type, owner: Any) -> st.SearchStrategy[Any]:
     item = _single(kind) if kind.primitive else message_of(nested_class(owner, kind.item))
     if kind.size:
         return st.lists(item, min_size=kind.size, max_size=kind.size)
-    return st.lists(item, max_size=kind.bound or LONGEST) if kind.sequence else item
+    return st.lists(item, max_size=kind.bound or MAX_LENGTH) if kind.sequence else item
 
 
 def message_of(cls: Any) -> st.SearchStrategy[Any]:

@@ -27,13 +27,13 @@ turns_about_an_axis = st.tuples(st.sampled_from((0, 1, 2, 2, 2)), numbers, numbe
 turns = st.one_of(any_turns, turns_about_an_axis).filter(lambda each: math.hypot(*each) > 0.1)
 
 
-def told_until(latest: int) -> st.SearchStrategy[list[Entry]]:
+def reported_until(latest: int) -> st.SearchStrategy[list[Entry]]:
     """Transforms of the first seconds, enough of them that most questions have an answer."""
     each = st.tuples(st.sampled_from(FRAMES[1:]), st.integers(1, latest), moves, turns)
     return st.lists(each, min_size=20, max_size=40)
 
 
-entries = st.sampled_from([3, 3, 20]).flatmap(told_until)
+entries = st.sampled_from([3, 3, 20]).flatmap(reported_until)
 quarters = st.one_of(st.integers(4, 12), st.integers(1, 80))
 
 

@@ -34,7 +34,7 @@ def cells_of(drawing: Drawing, edge: tuple[str, str]) -> dict[Cell, str]:
     for y, row in enumerate(drawing.rows):
         for run in row:
             if edge in run.edges:
-                found.update({(run.x + at, y): letter for at, letter in enumerate(run.text)})
+                found.update({(run.x + at, y): character for at, character in enumerate(run.text)})
     return found
 
 
@@ -63,7 +63,7 @@ def test_every_edge_is_an_unbroken_line_to_an_arrow(graph: Digraph, flow: Flow) 
     head = "▼" if flow is DOWN else "▶"
     for edge in graph.edges:
         cells = cells_of(drawing, edge)
-        arrows = {cell for cell, letter in cells.items() if letter == head} & around(drawing, edge[1])
+        arrows = {cell for cell, character in cells.items() if character == head} & around(drawing, edge[1])
         assert arrows, f"{edge} ends in no arrow\n{drawing.text()}"
         reached = reachable(around(drawing, edge[0]), set(cells))
         assert arrows & reached, f"{edge} is broken\n{drawing.text()}"

@@ -52,8 +52,8 @@ def test_the_terminal_shows_what_was_drawn_last(frames) -> None:
                 if strip is not None:
                     cells = cells_of(strip, COLOURS)
                     expected = [
-                        (letter, ";".join(styled((), codes)))
-                        for letter, codes in zip(cells.letters, cells.styles, strict=True)
+                        (character, ";".join(styled((), codes)))
+                        for character, codes in zip(cells.characters, cells.styles, strict=True)
                     ]
                     assert terminal.cells[y][x : x + strip.cell_length] == expected
 

@@ -93,17 +93,17 @@ class Model:
     def _split(text: str) -> list[str]:
         """What stands at a comma, or on the sides of an operator, outside of all brackets."""
         depths = [text[: at + 1].count("(") - text[: at + 1].count(")") for at in range(len(text))]
-        commas = [at for at, letter in enumerate(text) if letter == "," and depths[at] == 0]
+        commas = [at for at, character in enumerate(text) if character == "," and depths[at] == 0]
         if commas:
             return [text[: commas[0]], text[commas[0] + 2 :]]
-        blanks = [at for at, letter in enumerate(text) if letter == " " and depths[at] == 0]
+        blanks = [at for at, character in enumerate(text) if character == " " and depths[at] == 0]
         if len(blanks) == 2:
             return [text[: blanks[0]], text[blanks[0] + 1], text[blanks[1] + 1 :]]
         return [text]
 
 
 @given(expressions, series, series, series, st.floats(0, 20), st.floats(0, 20))
-def test_every_value_is_what_the_words_say(
+def test_every_value_is_what_the_words_mean(
     text: str, a: Samples, b: Samples, gain: Samples, start: float, length: float
 ) -> None:
     try:

@@ -11,7 +11,7 @@ import pytest
 from bot_console.tui.commanding.history import LineHistory
 from bot_console.tui.console.parameters.history import History
 from bot_console.tui.console.parameters.journal import Journal
-from bot_console.tui.console.parameters.shelf import Shelf
+from bot_console.tui.console.parameters.profile_store import ProfileStore
 from bot_console.tui.files.folders import OVERRIDE, config_folder, state_folder
 from bot_console.tui.files.plot_presets import NoPreset, read_preset
 from bot_console.tui.pane_table import PANES
@@ -22,7 +22,7 @@ from bot_console.tui.settings.state_files import StateFiles
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-PATIENCE = 20.0
+TIMEOUT_S = 20.0
 """Seconds after which a read that blocks fails its test."""
 
 
@@ -51,7 +51,7 @@ def read_history() -> list[str]:
 
 
 def read_profile() -> list[str]:
-    return [each.problem for each in Shelf([config_folder() / "profiles"]).profiles if each.problem]
+    return [each.problem for each in ProfileStore([config_folder() / "profiles"]).profiles if each.problem]
 
 
 def read_curves() -> list[str]:
@@ -102,7 +102,7 @@ def read_in_time(read: Callable[[], list[str]]) -> list[str]:
     found: list[list[str]] = []
     reading = threading.Thread(target=lambda: found.append(read()), daemon=True)
     reading.start()
-    reading.join(PATIENCE)
+    reading.join(TIMEOUT_S)
     assert found, "reading blocks, or has failed"
     return found[0]
 

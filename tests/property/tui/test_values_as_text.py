@@ -113,7 +113,7 @@ def test_the_copied_command_sets_the_value(parameter: ParameterInfo) -> None:
         (Kind.STRING, r'"\xzz"', "is no escape"),
     ],
 )
-def test_what_is_no_value_is_told_in_one_short_line(kind: Kind, text: str, why: str) -> None:
+def test_what_is_no_value_is_reported_in_one_short_line(kind: Kind, text: str, why: str) -> None:
     with pytest.raises(ValueError, match=why) as caught:
         parse_value(text, ParameterInfo("/n", "p", kind, None))
     assert len(str(caught.value)) < 100 and str(caught.value).isprintable()

@@ -78,6 +78,6 @@ def test_wrong_input() -> None:
 
 
 @pytest.mark.skipif(importlib.util.find_spec("cv2") is not None, reason="OpenCV is there")
-def test_compressed_images_say_what_they_need() -> None:
+def test_compressed_images_report_what_they_need() -> None:
     with pytest.raises(ImportError, match=r"pip install 'bot-console\[opencv\]'"):
         bridge.compressed_imgmsg_to_cv2(CompressedImage())

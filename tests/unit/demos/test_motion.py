@@ -49,7 +49,7 @@ def test_the_first_second_of_the_first_tutorial() -> None:
     assert motion.heading == pytest.approx(frames * turn, abs=1e-6)
 
 
-def test_a_wall_says_where_the_turtle_wanted_to_be() -> None:
+def test_a_wall_reports_where_the_turtle_wanted_to_be() -> None:
     motion = Motion(SIDE - 0.01, 3.0, 0.0)
     motion.command(2.0, 0.0, 0.0)
     assert motion.step() == pytest.approx((SIDE - 0.01 + 0.032, 3.0))

@@ -33,7 +33,7 @@ from launch import LaunchContext, LaunchDescription, LaunchDescriptionSource
 X = LaunchConfiguration("x", default="unset")
 
 
-def say(text: Any = X) -> LogInfo:
+def show_text(text: Any = X) -> LogInfo:
     return LogInfo(msg=text)
 
 
@@ -48,32 +48,36 @@ def environment(name: str) -> LogInfo:
 
 Entities = Callable[[], list[Any]]
 
-SAID: list[tuple[str, Mapping[str, str], Entities, list[str]]] = [
-    ("a default", {}, lambda: [DeclareLaunchArgument("x", default_value="1"), say()], ["1"]),
-    ("a default loses", {"x": "2"}, lambda: [DeclareLaunchArgument("x", default_value="1"), say()], ["2"]),
+OUTPUT: list[tuple[str, Mapping[str, str], Entities, list[str]]] = [
+    ("a default", {}, lambda: [DeclareLaunchArgument("x", default_value="1"), show_text()], ["1"]),
+    ("a default loses", {"x": "2"}, lambda: [DeclareLaunchArgument("x", default_value="1"), show_text()], ["2"]),
     (
         "the first default of a name counts",
         {},
-        lambda: [DeclareLaunchArgument("x", default_value="1"), DeclareLaunchArgument("x", default_value="2"), say()],
+        lambda: [
+            DeclareLaunchArgument("x", default_value="1"),
+            DeclareLaunchArgument("x", default_value="2"),
+            show_text(),
+        ],
         ["1"],
     ),
     (
         "a default in pieces",
         {"y": "b"},
-        lambda: [DeclareLaunchArgument("x", default_value=["a", LaunchConfiguration("y")]), say()],
+        lambda: [DeclareLaunchArgument("x", default_value=["a", LaunchConfiguration("y")]), show_text()],
         ["ab"],
     ),
-    ("what is not declared can be read", {"x": "2"}, lambda: [say()], ["2"]),
+    ("what is not declared can be read", {"x": "2"}, lambda: [show_text()], ["2"]),
     (
         "an include's arguments leak",
         {},
-        lambda: [include(say(), x="1"), say()],
+        lambda: [include(show_text(), x="1"), show_text()],
         ["1", "1"],
     ),
     (
         "an include's defaults leak",
         {},
-        lambda: [include(DeclareLaunchArgument("x", default_value="1")), say()],
+        lambda: [include(DeclareLaunchArgument("x", default_value="1")), show_text()],
         ["1"],
     ),
     (
@@ -81,20 +85,24 @@ SAID: list[tuple[str, Mapping[str, str], Entities, list[str]]] = [
         {},
         lambda: [
             include(DeclareLaunchArgument("x", default_value="1")),
-            include(DeclareLaunchArgument("x", default_value="2"), say()),
+            include(DeclareLaunchArgument("x", default_value="2"), show_text()),
         ],
         ["1"],
     ),
     (
         "a group is a scope",
         {},
-        lambda: [SetLaunchConfiguration("x", "1"), GroupAction([SetLaunchConfiguration("x", "2"), say()]), say()],
+        lambda: [
+            SetLaunchConfiguration("x", "1"),
+            GroupAction([SetLaunchConfiguration("x", "2"), show_text()]),
+            show_text(),
+        ],
         ["2", "1"],
     ),
     (
         "an unscoped group is none",
         {},
-        lambda: [GroupAction([SetLaunchConfiguration("x", "2")], scoped=False), say()],
+        lambda: [GroupAction([SetLaunchConfiguration("x", "2")], scoped=False), show_text()],
         ["2"],
     ),
     (
@@ -102,11 +110,11 @@ SAID: list[tuple[str, Mapping[str, str], Entities, list[str]]] = [
         {"x": "1", "y": "1"},
         lambda: [
             GroupAction(
-                [say(), say(LaunchConfiguration("y", default="none"))],
+                [show_text(), show_text(LaunchConfiguration("y", default="none"))],
                 forwarding=False,
                 launch_configurations={"x": ["kept ", LaunchConfiguration("y")]},
             ),
-            say(),
+            show_text(),
         ],
         ["kept 1", "none", "1"],
     ),
@@ -116,20 +124,25 @@ SAID: list[tuple[str, Mapping[str, str], Entities, list[str]]] = [
         lambda: [
             PushLaunchConfigurations(),
             SetLaunchConfiguration("x", "1"),
-            say(),
+            show_text(),
             PopLaunchConfigurations(),
-            say(),
+            show_text(),
         ],
         ["1", "unset"],
     ),
-    ("unset", {"x": "1"}, lambda: [UnsetLaunchConfiguration("x"), UnsetLaunchConfiguration("none"), say()], ["unset"]),
+    (
+        "unset",
+        {"x": "1"},
+        lambda: [UnsetLaunchConfiguration("x"), UnsetLaunchConfiguration("none"), show_text()],
+        ["unset"],
+    ),
     (
         "reset",
         {"x": "1", "y": "2"},
         lambda: [
             ResetLaunchConfigurations({"x": LaunchConfiguration("y")}),
-            say(),
-            say(LaunchConfiguration("y", default="-")),
+            show_text(),
+            show_text(LaunchConfiguration("y", default="-")),
         ],
         ["2", "-"],
     ),
@@ -137,9 +150,11 @@ SAID: list[tuple[str, Mapping[str, str], Entities, list[str]]] = [
         "a function in between",
         {},
         lambda: [
-            OpaqueFunction(function=lambda context, *args, **more: [say(f"{args} {more}")], args=[1], kwargs={"a": 2}),
+            OpaqueFunction(
+                function=lambda context, *args, **more: [show_text(f"{args} {more}")], args=[1], kwargs={"a": 2}
+            ),
             OpaqueFunction(function=lambda context: context.launch_configurations.update(x="3")),
-            say(),
+            show_text(),
         ],
         ["(1,) {'a': 2}", "3"],
     ),
@@ -218,10 +233,12 @@ CAUGHT: list[tuple[str, Mapping[str, str], Entities, str]] = [
 ]
 
 
-@pytest.mark.parametrize(("arguments", "entities", "said"), [row[1:] for row in SAID], ids=[row[0] for row in SAID])
-def test_said(run: Launch, arguments: Mapping[str, str], entities: Entities, said: list[str]) -> None:
+@pytest.mark.parametrize(
+    ("arguments", "entities", "message"), [row[1:] for row in OUTPUT], ids=[row[0] for row in OUTPUT]
+)
+def test_printed_text(run: Launch, arguments: Mapping[str, str], entities: Entities, message: list[str]) -> None:
     outcome = run(entities(), arguments)
-    assert (outcome.code, outcome.said) == (0, said), outcome.text
+    assert (outcome.code, outcome.message) == (0, message), outcome.text
 
 
 @pytest.mark.parametrize(("arguments", "entities", "text"), [row[1:] for row in CAUGHT], ids=[row[0] for row in CAUGHT])
@@ -267,11 +284,11 @@ def test_a_default_that_is_no_text(default: Any) -> None:
         DeclareLaunchArgument("x", default_value=default)
 
 
-def test_a_wrong_value_is_said_twice(run: Launch) -> None:
+def test_a_wrong_value_is_reported_twice(run: Launch) -> None:
     outcome = run([DeclareLaunchArgument("m", choices=["A"])], {"m": "C"})
-    said = 'Argument "m" provided value "C" is not valid. Valid options are: [\'A\']'
-    assert outcome.lines[2] == f"[ERROR] [launch.actions.declare_launch_argument]: {said}"
-    assert outcome.caught == said
+    message = 'Argument "m" provided value "C" is not valid. Valid options are: [\'A\']'
+    assert outcome.lines[2] == f"[ERROR] [launch.actions.declare_launch_argument]: {message}"
+    assert outcome.caught == message
 
 
 @pytest.mark.parametrize(
@@ -304,7 +321,7 @@ def test_the_directory_stays_that_of_the_included_file(run_file: Launch, tmp_pat
             )
         """
     )
-    assert outcome.said == [str(tmp_path), str(tmp_path / "sub")]
+    assert outcome.message == [str(tmp_path), str(tmp_path / "sub")]
 
 
 def test_a_missing_local_names_those_that_are_there() -> None:
@@ -332,11 +349,11 @@ def test_the_folder_of_a_description_without_a_file_is_its_location() -> None:
     assert context.locals.current_launch_file_directory == "<script>"
 
 
-def test_a_missing_argument_is_told_with_its_description(run: Launch) -> None:
+def test_a_missing_argument_is_reported_with_its_description(run: Launch) -> None:
     declare = DeclareLaunchArgument("must", description="needed")
     outcome = run([OpaqueFunction(function=lambda context: [declare])])
-    said = 'Required launch argument "must" (description: "needed") was not provided'
-    assert f"[ERROR] [launch.actions.declare_launch_argument]: {said}" in outcome.lines
+    message = 'Required launch argument "must" (description: "needed") was not provided'
+    assert f"[ERROR] [launch.actions.declare_launch_argument]: {message}" in outcome.lines
     assert outcome.caught == 'Required launch argument "must" was not provided.'
 
 

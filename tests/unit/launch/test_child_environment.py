@@ -16,8 +16,8 @@ import pytest
 if os.name != "posix":
     pytest.skip("needs a shell", allow_module_level=True)
 
+from bot_console.runtime.child_discovery import let_children_meet
 from bot_console.runtime.child_environment import ChildEnvironment, child_environment
-from bot_console.runtime.child_range import let_children_meet
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
 from bot_console.runtime.workspace import discover
 from bot_console.runtime.workspace.discover import Workspace, default_folders
@@ -36,7 +36,7 @@ node.create_publisher(String, "text", 1).publish(String(data="x"))
 print(Corner(x=1.0), rclpy.__name__, launch.__file__.endswith("runtime/launch/__init__.py"), sys.argv[1:])
 """
 PROBE = "import importlib.util; print('has' if importlib.util.find_spec('zenoh') else 'bare')"
-SAID = "child_shapes.msg.Corner(x=1.0) rclpy True ['a']"
+OUTPUT = "child_shapes.msg.Corner(x=1.0) rclpy True ['a']"
 
 
 @pytest.fixture
@@ -62,7 +62,7 @@ def test_a_program_by_its_interpreter(run: Launch, program: str, python: str, ki
         "shell": lambda: ExecuteProcess(cmd=[f"true && {python} {program} a"], shell=True, output="screen"),
     }[kind]()
     text = run([action]).text
-    assert SAID.removesuffix("]") in text, text
+    assert OUTPUT.removesuffix("]") in text, text
 
 
 def test_an_interpreter_that_has_nothing_installed_takes_part_in_the_domain(run: Launch, program: str) -> None:
@@ -72,7 +72,7 @@ def test_an_interpreter_that_has_nothing_installed_takes_part_in_the_domain(run:
     text = run([ExecuteProcess(cmd=[python, "-I", "-c", PROBE], output="screen")]).text
     if "bare" not in text:
         pytest.skip("the interpreter of this environment has zenoh itself")
-    assert SAID.removesuffix("]") in run([ExecuteProcess(cmd=[python, program, "a"], output="screen")]).text
+    assert OUTPUT.removesuffix("]") in run([ExecuteProcess(cmd=[python, program, "a"], output="screen")]).text
 
 
 def test_ros2_in_a_line_that_needs_a_shell(run: Launch, program: str) -> None:
@@ -80,7 +80,7 @@ def test_ros2_in_a_line_that_needs_a_shell(run: Launch, program: str) -> None:
     assert "float64 y" in run([ExecuteProcess(cmd=[line], shell=True, output="screen")]).text
 
 
-def test_neither_the_launch_nor_what_it_tells_has_it(run: Launch, program: str) -> None:
+def test_neither_the_launch_nor_its_message_has_it(run: Launch, program: str) -> None:
     before = [os.environ.get(name) for name in ("PATH", "PYTHONPATH")]
     process = ExecuteProcess(cmd=["env"], output="screen", env={"PATH": "/bin:/usr/bin", "OWN": "1"})
     text = run([process]).text

@@ -39,8 +39,8 @@ def test_truth(text: str, value: bool) -> None:
 def test_everything_else_is_an_error(text: str) -> None:
     with pytest.raises(InvalidConditionExpressionError) as caught:
         holds(IfCondition(LaunchConfiguration("x")), text)
-    said = str(caught.value)
-    assert said.startswith(
+    message = str(caught.value)
+    assert message.startswith(
         f"invalid condition expression, expected one of [true, 1, false, 0] but got '{text.strip().lower()}', expanded "
         "from '<launch.substitutions.launch_configuration.LaunchConfiguration object at 0x"
     )
@@ -65,7 +65,7 @@ def test_conditions_of_one_configuration_are_old() -> None:
 
 def test_a_false_condition_is_silent(run: Launch) -> None:
     outcome = run([LogInfo(msg="a", condition=IfCondition("0")), LogInfo(msg="b", condition=UnlessCondition("0"))])
-    assert outcome.said == ["b"]
+    assert outcome.message == ["b"]
 
 
 def test_a_bad_condition_ends_the_launch(run: Launch) -> None:

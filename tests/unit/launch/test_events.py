@@ -280,7 +280,7 @@ def test_start_and_exit_handlers(run: Launch) -> None:
             RegisterEventHandler(OnProcessExit(target_action=python(""), on_exit=LogInfo(msg="never"))),
         ]
     )
-    assert outcome.said == ["started", "predicate", "exited"]  # the newest handler is asked first
+    assert outcome.message == ["started", "predicate", "exited"]  # the newest handler is asked first
     assert seen == [(True, 0, process.process_description.final_name, True)]
 
 
@@ -318,7 +318,7 @@ def test_configurations_in_a_handler_are_those_of_the_event(run: Launch) -> None
     process = python("")
     on_exit = OnProcessExit(target_action=process, on_exit=[LogInfo(msg=LaunchConfiguration("x"))])
     group = GroupAction([SetLaunchConfiguration("x", "in"), RegisterEventHandler(on_exit), process])
-    assert run([SetLaunchConfiguration("x", "out"), group]).said == ["out"]
+    assert run([SetLaunchConfiguration("x", "out"), group]).message == ["out"]
 
 
 def test_timers(run: Launch) -> None:
@@ -329,7 +329,7 @@ def test_timers(run: Launch) -> None:
         [timer(0.05, "late"), timer(0.0, "zero"), timer(-1.0, "negative"), timer([LaunchConfiguration("t")], "text")],
         {"t": "0.02"},
     )
-    assert outcome.said == ["zero", "negative", "text", "late"]
+    assert outcome.message == ["zero", "negative", "text", "late"]
     with pytest.raises(TypeError):
         timer(1, "int")
 
@@ -345,33 +345,33 @@ class Own(Event):
 
 def test_shutdown_cancels_timers_and_lets_none_begin(run: Launch) -> None:
     timer = TimerAction(period=60.0, actions=[LogInfo(msg="never")])
-    assert run([timer, Shutdown()]).said == []
+    assert run([timer, Shutdown()]).message == []
     late = TimerAction(period=60.0, actions=[LogInfo(msg="never")])
     after = EventHandler(matcher=lambda event: isinstance(event, Own), entities=[late])
     during = OnShutdown(on_shutdown=[EmitEvent(event=Own())])
-    assert run([RegisterEventHandler(after), RegisterEventHandler(during), Shutdown()]).said == []
+    assert run([RegisterEventHandler(after), RegisterEventHandler(during), Shutdown()]).message == []
 
 
 def test_shutdown_handlers_and_reasons(run: Launch) -> None:
     reason = LogInfo(msg=LocalSubstitution("event.reason"))
-    assert run([RegisterEventHandler(OnShutdown(on_shutdown=[reason])), Shutdown(reason="done")]).said == ["done"]
-    assert run([RegisterEventHandler(OnShutdown(on_shutdown=lambda event, context: [reason]))]).said[-1] == "idle"
+    assert run([RegisterEventHandler(OnShutdown(on_shutdown=[reason])), Shutdown(reason="done")]).message == ["done"]
+    assert run([RegisterEventHandler(OnShutdown(on_shutdown=lambda event, context: [reason]))]).message[-1] == "idle"
 
 
 def test_completion_needs_a_handler_that_is_there_before(run: Launch) -> None:
     timer = TimerAction(period=0.01, actions=[])
     before = RegisterEventHandler(OnExecutionComplete(target_action=timer, on_completion=[LogInfo(msg="complete")]))
-    assert run([before, timer]).said == ["complete"]
+    assert run([before, timer]).message == ["complete"]
     late = TimerAction(period=0.01, actions=[])
     after = RegisterEventHandler(OnExecutionComplete(target_action=late, on_completion=[LogInfo(msg="never")]))
-    assert run([late, after]).said[1:] == []
+    assert run([late, after]).message[1:] == []
 
 
 def test_handlers_of_own_events(run: Launch) -> None:
     once = EventHandler(matcher=lambda event: isinstance(event, Own), entities=[LogInfo(msg="once")], handle_once=True)
     gone = EventHandler(matcher=lambda event: isinstance(event, Own), entities=[LogInfo(msg="gone")])
     entities = [RegisterEventHandler(once), RegisterEventHandler(gone), UnregisterEventHandler(gone)]
-    assert run([*entities, EmitEvent(event=Own()), EmitEvent(event=Own())]).said == ["once"]
+    assert run([*entities, EmitEvent(event=Own()), EmitEvent(event=Own())]).message == ["once"]
 
 
 def test_coroutines(run: Launch) -> None:

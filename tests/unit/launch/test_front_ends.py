@@ -125,7 +125,7 @@ YAML = """
 @pytest.mark.parametrize(("name", "text"), [("x.launch.py", PYTHON), ("x.launch.xml", XML), ("x.launch.yaml", YAML)])
 def test_the_same_launch_file_three_times(run_file: Launch, tmp_path: Any, name: str, text: str) -> None:
     outcome = run_file(text, name)
-    assert outcome.said == [
+    assert outcome.message == [
         "x 1", "always", "/n", "in", "gone", "1", "1,2", "none", "True", str(tmp_path), "round 0", "round 1", "timer",
     ], outcome.text  # fmt: skip
 
@@ -288,11 +288,11 @@ XML_ERRORS: list[tuple[str, type[Exception], str]] = [
 ]
 
 
-@pytest.mark.parametrize(("text", "kind", "said"), XML_ERRORS, ids=[row[2][:50] for row in XML_ERRORS])
-def test_errors_in_xml(text: str, kind: type[Exception], said: str) -> None:
+@pytest.mark.parametrize(("text", "kind", "message"), XML_ERRORS, ids=[row[2][:50] for row in XML_ERRORS])
+def test_errors_in_xml(text: str, kind: type[Exception], message: str) -> None:
     with pytest.raises(kind) as caught:
         xml(text)
-    assert str(caught.value) == said
+    assert str(caught.value) == message
 
 
 YAML_ERRORS: list[tuple[str, type[Exception], str]] = [
@@ -322,11 +322,11 @@ YAML_ERRORS: list[tuple[str, type[Exception], str]] = [
 ]
 
 
-@pytest.mark.parametrize(("text", "kind", "said"), YAML_ERRORS, ids=[row[2][:50] for row in YAML_ERRORS])
-def test_errors_in_yaml(text: str, kind: type[Exception], said: str) -> None:
+@pytest.mark.parametrize(("text", "kind", "message"), YAML_ERRORS, ids=[row[2][:50] for row in YAML_ERRORS])
+def test_errors_in_yaml(text: str, kind: type[Exception], message: str) -> None:
     with pytest.raises(kind) as caught:
         yaml(text)
-    assert str(caught.value) == said
+    assert str(caught.value) == message
 
 
 SUBSTITUTIONS: list[tuple[str, list[str]]] = [
@@ -360,7 +360,7 @@ def test_substitutions_in_texts(text: str, pieces: list[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("$(var  x)", "column 7"),
         ("$(var x", "ends where"),
@@ -373,8 +373,8 @@ def test_substitutions_in_texts(text: str, pieces: list[str]) -> None:
         ("$(eval f(1))", "No terminal matches '('"),
     ],
 )
-def test_malformed_substitutions(text: str, said: str) -> None:
-    with pytest.raises(ValueError, match=re.escape(said)):
+def test_malformed_substitutions(text: str, message: str) -> None:
+    with pytest.raises(ValueError, match=re.escape(message)):
         parse_substitution(text)
 
 

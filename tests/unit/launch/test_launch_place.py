@@ -22,8 +22,8 @@ def failure_of(*entities):
 
 
 def place(error):
-    told = error.launch_place
-    return told.file, told.line, told.entity
+    reported = error.launch_place
+    return reported.file, reported.line, reported.entity
 
 
 def test_what_was_visited_and_where_it_was_made():
@@ -35,7 +35,7 @@ def test_what_was_visited_and_where_it_was_made():
     )
 
 
-def test_the_innermost_is_told_not_what_it_stands_in():
+def test_the_innermost_is_reported_not_what_it_stands_in():
     inner = LogInfo(msg=LaunchConfiguration("nowhere"))
     outer = OpaqueFunction(function=lambda context: [inner])
     assert place(failure_of(outer))[2] is inner

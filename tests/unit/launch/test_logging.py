@@ -70,14 +70,14 @@ def test_log_files_are_made_by_a_factory(tmp_path: Path) -> None:
     assert line.endswith("[ERROR] [n]: x")
 
 
-def test_a_log_file_that_cannot_be_written_is_told_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_log_file_that_cannot_be_written_is_reported_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     config.log_dir = str(tmp_path)
     (tmp_path / "launch.log").mkdir()
-    told = list[str]()
-    forget = on_notice(lambda process, text: told.append(text))
+    reported = list[str]()
+    forget = on_notice(lambda process, text: reported.append(text))
     for number in range(3):
         launch.logging.get_logger("n").info(f"line {number}")
     forget()
-    assert told == [f"log files are not complete: {tmp_path} cannot be written (Is a directory)"]
-    said = capsys.readouterr()
-    assert said.out.splitlines() == [f"[INFO] [n]: line {number}" for number in range(3)] and said.err == ""
+    assert reported == [f"log files are not complete: {tmp_path} cannot be written (Is a directory)"]
+    message = capsys.readouterr()
+    assert message.out.splitlines() == [f"[INFO] [n]: line {number}" for number in range(3)] and message.err == ""

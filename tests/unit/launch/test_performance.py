@@ -40,7 +40,7 @@ def test_each_of_a_thousand_includes_is_read_once(run: Launch, tmp_path: Path) -
     chains = [chain(tmp_path, f"c{number}", 50, log) for number in range(20)]
     outcome = run([IncludeLaunchDescription(str(each)) for each in chains])
     assert outcome.code == 0
-    assert outcome.said == ["end"] * 20
+    assert outcome.message == ["end"] * 20
     assert len(log.read_text()) == 1000
 
 
@@ -87,4 +87,4 @@ def test_handlers_are_asked_newest_first_whatever_they_wait_for() -> None:
 
 def test_registering_is_an_action(run: Launch) -> None:
     handler = OnProcessExit(on_exit=[LogInfo(msg="never")])
-    assert run([RegisterEventHandler(handler)]).said == []
+    assert run([RegisterEventHandler(handler)]).message == []

@@ -198,7 +198,7 @@ def test_a_fixture_of_a_module_runs_once_and_what_comes_after_it_is_last(done: D
     assert done.cases["common"] == [(name, []) for name in order], done.printed
 
 
-def test_failures_are_told_with_their_own_assertion(done: Done) -> None:
+def test_failures_are_reported_with_their_own_assertion(done: Done) -> None:
     assert sorted(kind for _, kinds in done.cases["bad"] for kind in kinds) == ["error", *["failure"] * 3]
     for text in (
         "something else",

@@ -63,7 +63,7 @@ def test_parameter_files(tmp_path: Path, file: str, found: Found) -> None:
     assert values(request(tmp_path, file)) == found
 
 
-def test_a_file_with_nothing_for_the_node_is_told(tmp_path: Path) -> None:
+def test_a_file_with_nothing_for_the_node_is_reported(tmp_path: Path) -> None:
     with pytest.warns(UserWarning, match="parameter files will not apply"):
         request(tmp_path, "/x:\n  ros__parameters: {a: 1}\n")
 

@@ -128,8 +128,8 @@ def test_a_bad_name(run: Launch) -> None:
 
 def test_a_bad_namespace(run: Launch) -> None:
     outcome = run([PushRosNamespace("not valid")])
-    said = "The resulting namespace is invalid: [previous_namespace='None', pushed_namespace='not valid']"
-    assert outcome.caught == said
+    message = "The resulting namespace is invalid: [previous_namespace='None', pushed_namespace='not valid']"
+    assert outcome.caught == message
 
 
 def test_two_of_one_name(run: Launch) -> None:
@@ -156,7 +156,7 @@ def test_parameters_for_all_leak_out_of_a_group_when_one_was_there(run: Launch) 
 
 
 @pytest.mark.parametrize(
-    ("options", "said"),
+    ("options", "message"),
     [
         (
             {"remappings": [["a", "b"]]},
@@ -172,10 +172,10 @@ def test_parameters_for_all_leak_out_of_a_group_when_one_was_there(run: Launch) 
         ({"nonsense": 1}, "Action.__init__() got an unexpected keyword argument 'nonsense'"),
     ],
 )
-def test_wrong_options(options: Any, said: str) -> None:
+def test_wrong_options(options: Any, message: str) -> None:
     with pytest.raises(TypeError) as caught:
         node(**options)
-    assert said in str(caught.value)
+    assert message in str(caught.value)
 
 
 def test_old_names_are_gone() -> None:
@@ -192,7 +192,7 @@ def test_a_missing_file_is_only_a_warning(run: Launch) -> None:
     assert "was looked for in" not in outcome.text
 
 
-def test_where_a_relative_file_was_looked_for_is_told(run: Launch) -> None:
+def test_where_a_relative_file_was_searched_for_is_reported(run: Launch) -> None:
     outcome = launched(run, node(parameters=[Path("config/no_such.yaml")]))
     assert f"config/no_such.yaml was looked for in {Path.cwd()}, the folder that launch was started" in outcome.text
 
@@ -211,7 +211,7 @@ def test_a_missing_file_for_all_ends_the_launch(run: Launch) -> None:
 
 
 @pytest.mark.parametrize(
-    ("package", "executable", "said"),
+    ("package", "executable", "message"),
     [
         ("nopkg", "x", "\"package 'nopkg' not found, searching: ['{prefix}']\""),
         ("pkg", "x", "executable 'x' not found on the libexec directory '{prefix}/lib/pkg' "),
@@ -219,7 +219,7 @@ def test_a_missing_file_for_all_ends_the_launch(run: Launch) -> None:
     ],
 )
 def test_executables_that_are_not_there(
-    run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, package: str, executable: str, said: str
+    run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, package: str, executable: str, message: str
 ) -> None:
     index = tmp_path / "share" / "ament_index" / "resource_index" / "packages"
     index.mkdir(parents=True)
@@ -228,7 +228,7 @@ def test_executables_that_are_not_there(
     (tmp_path / "lib" / "pkg").mkdir(parents=True)
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
     outcome = run([Node(package=package, executable=executable)])
-    assert (outcome.code, outcome.caught) == (1, said.format(prefix=tmp_path))
+    assert (outcome.code, outcome.caught) == (1, message.format(prefix=tmp_path))
     assert "--allow-missing" in outcome.text
 
 

@@ -65,7 +65,7 @@ def test_what_python_is_to_do_with_a_file_is_left_to_it(run: Launch, script: Any
     assert lines_of(outcome.text)[0] == "rclpy ['--ros-args']" and "function calls" in outcome.text
 
 
-def test_stdout_and_stderr_are_told_apart(run: Launch, script: Any) -> None:
+def test_stdout_and_stderr_are_distinguished(run: Launch, script: Any) -> None:
     path = script("import sys; print('out'); print('err', file=sys.stderr)")
     assert lines_of(run([Node(executable=path)]).text) == ["err"]
 

@@ -67,8 +67,8 @@ IN_A_PROCESS = "import os, sys, threading; print(os.getpid() < 1 << 22, os.getpp
 
 
 def test_a_node_has_a_process_with_its_arguments_and_environment(run: Launch, script: Any) -> None:
-    tells = "\nprint(os.environ['BC_A'], 'asyncio' in sys.modules)"
-    path = script(IN_A_PROCESS.format(server=fork_server().pid) + tells)
+    reports = "\nprint(os.environ['BC_A'], 'asyncio' in sys.modules)"
+    path = script(IN_A_PROCESS.format(server=fork_server().pid) + reports)
     pids: list[int] = []
     started = RegisterEventHandler(OnProcessStart(on_start=lambda event, context: pids.append(event.pid)))
     node = Node(executable=path, name="a", output="screen", arguments=["x"], additional_env={"BC_A": "b"})
@@ -135,7 +135,7 @@ def test_a_traceback_comes_before_the_end(run: Launch, script: Any, news: list[N
     assert [(each.kind, each.facts["frames"][-1]) for each in news] == [("uncaught", [path, 3, "f"])]
 
 
-def test_a_crash_in_c_tells_the_line(run: Launch, script: Any, news: list[News]) -> None:
+def test_a_crash_in_c_reports_the_line(run: Launch, script: Any, news: list[News]) -> None:
     path = script("import ctypes\nctypes.string_at(0)\n")
     run([Node(executable=path)], PROCESS)
     assert [each.kind for each in news] == ["crash"]

@@ -151,8 +151,8 @@ ERRORS: list[tuple[str, Callable[[], Any], type[Exception], str]] = [
 ]
 
 
-@pytest.mark.parametrize(("make", "kind", "said"), [row[1:] for row in ERRORS], ids=[row[0] for row in ERRORS])
-def test_errors(make: Callable[[], Any], kind: type[Exception], said: str) -> None:
+@pytest.mark.parametrize(("make", "kind", "message"), [row[1:] for row in ERRORS], ids=[row[0] for row in ERRORS])
+def test_errors(make: Callable[[], Any], kind: type[Exception], message: str) -> None:
     with pytest.raises(kind) as caught:
         value_of(
             make(),
@@ -166,7 +166,7 @@ def test_errors(make: Callable[[], Any], kind: type[Exception], said: str) -> No
             word="hello",
             ints="[1, 2]",
         )
-    assert str(caught.value) == said
+    assert str(caught.value) == message
 
 
 def test_broken_yaml_names_the_parameter() -> None:

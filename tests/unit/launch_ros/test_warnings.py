@@ -83,11 +83,11 @@ VALUES: list[tuple[Any, str]] = [
 ]
 
 
-@pytest.mark.parametrize(("value", "said"), VALUES, ids=[row[1] for row in VALUES])
-def test_values_whose_type_changes(run: Launch, value: Any, said: str) -> None:
+@pytest.mark.parametrize(("value", "message"), VALUES, ids=[row[1] for row in VALUES])
+def test_values_whose_type_changes(run: Launch, value: Any, message: str) -> None:
     action = node(parameters=[{"p": value}])
     [found] = warnings(run([action], {"octal": "0123", "time": "12:30:45", "yes": "yes"}))
-    assert found == f"{action.origin}: {said}"
+    assert found == f"{action.origin}: {message}"
     assert action.origin.startswith(f"{__file__}:")
 
 
@@ -113,8 +113,8 @@ def test_strings_in_files() -> None:
 
 
 def test_parameters_for_all(run: Launch) -> None:
-    said = warnings(run([SetParameter("a", "5"), SetParameter("b", [1, 2]), SetParameter("c", 1)]))
-    assert [each.partition(": ")[2] for each in said] == [
+    message = warnings(run([SetParameter("a", "5"), SetParameter("b", [1, 2]), SetParameter("c", 1)]))
+    assert [each.partition(": ")[2] for each in message] == [
         "a: the string '5' arrives as the integer 5",
         "b: a list set for all nodes arrives as the string '(1, 2)'",
     ]

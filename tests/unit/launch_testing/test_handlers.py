@@ -134,20 +134,20 @@ def test_ends_by_process(known: SimpleNamespace) -> None:
         assertExitCodes(known.info, ["0"])  # type: ignore[list-item]
 
 
-def test_an_action_when_a_process_says_it_is_ready() -> None:
+def test_an_action_when_a_process_reports_it_is_ready() -> None:
     from launch.actions import OpaqueFunction, RegisterEventHandler
 
     done: list[str] = []
 
     def listener(text: str) -> Any:
         note = OpaqueFunction(function=lambda context: done.append(text))
-        handler = event_handlers.StdoutReadyListener(target_action=says, ready_txt=text, actions=[note])
+        handler = event_handlers.StdoutReadyListener(target_action=message_of, ready_txt=text, actions=[note])
         assert handler.describe()[1] == [note]
         return RegisterEventHandler(handler)
 
-    says = ExecuteProcess(cmd=["echo", "I am ready"])
+    message_of = ExecuteProcess(cmd=["echo", "I am ready"])
     service = LaunchService(noninteractive=True)
-    service.include_launch_description(LaunchDescription([listener("ready"), listener("steady"), says]))
+    service.include_launch_description(LaunchDescription([listener("ready"), listener("steady"), message_of]))
     assert service.run() == 0
     assert done == ["ready"]
 

@@ -51,7 +51,7 @@ class TestGreeter(unittest.TestCase):
     def tearDownClass(cls):
         cls.made.remove('fixture')
 
-    def test_it_says_hello(self, proc_output, answer):
+    def test_it_reports_hello(self, proc_output, answer):
         proc_output.assertWaitFor('hello', timeout=30, stream='stdout')
         assert answer == 42
 
@@ -74,7 +74,7 @@ def generate_test_description():
     return described()
 
 class TestGreeter(unittest.TestCase):
-    def test_it_says_good_bye(self, proc_output):
+    def test_it_reports_good_bye(self, proc_output):
         proc_output.assertWaitFor('hello', timeout=30, stream='stdout')
         proc_output.assertWaitFor('good bye', timeout=0.1, stream='stdout')
 """
@@ -85,7 +85,7 @@ def generate_test_description(word):
     return described(word)
 
 class TestGreeter(unittest.TestCase):
-    def test_it_says_its_word(self, proc_output, word):
+    def test_it_reports_its_word(self, proc_output, word):
         proc_output.assertWaitFor(word, timeout=30, stream='stdout')
 """
 
@@ -109,7 +109,7 @@ def test_tests_run_beside_and_afterwards(tmp_path: Path, text: str, count: int) 
     assert (result.failures, result.errors, result.testsRun) == ([], [], count)
 
 
-def test_a_failure_is_told(tmp_path: Path) -> None:
+def test_a_failure_is_reported(tmp_path: Path) -> None:
     result = run(write(tmp_path, BAD))
     assert len(result.failures) == 1
     assert "'good bye' was not found within 0.1 s" in result.failures[0][1]
@@ -208,8 +208,8 @@ def test_names_of_tests_have_their_parameters(tmp_path: Path) -> None:
     waits = "proc_output.assertWaitFor(word, timeout=30, stream='stdout')"
     result = run(write(tmp_path, PARAMETRIZED.replace(waits, "assert not word")))
     assert [test.id().rpartition(".")[2] for test, _ in result.failures] == [
-        "test_it_says_its_word[red]",
-        "test_it_says_its_word[blue]",
+        "test_it_reports_its_word[red]",
+        "test_it_reports_its_word[blue]",
     ]
 
 
@@ -248,7 +248,7 @@ def test_options_of_launch_test(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert main([str(path), "--package-name", "greeting", "--junit-xml", str(report)]) == 1
     suite = ElementTree.parse(report).getroot()[0]
     assert (suite.attrib["tests"], suite.attrib["failures"], suite.attrib["errors"]) == ("1", "1", "0")
-    assert suite[0].attrib["name"] == "test_it_says_good_bye" and "good bye" in suite[0][0].attrib["message"]
+    assert suite[0].attrib["name"] == "test_it_reports_good_bye" and "good bye" in suite[0][0].attrib["message"]
 
 
 @pytest.mark.parametrize(

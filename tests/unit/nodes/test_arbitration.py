@@ -78,12 +78,12 @@ def test_too_near_to_measure_is_zero_and_nan_is_nothing() -> None:
 
 
 @pytest.mark.parametrize("increment", [0.0, math.nan, math.inf, -math.inf, 1e30])
-def test_angles_that_are_none_tell_nothing(increment: float) -> None:
+def test_angles_that_are_none_report_nothing(increment: float) -> None:
     assert nearest_ahead(scan(b180=0.1, b181=0.1), FIRST, increment) is None
     assert nearest_ahead(scan(b180=0.1, b181=0.1), math.nan if math.isfinite(increment) else increment, STEP) is None
 
 
-def test_a_scan_that_measured_nothing_ahead_tells_nothing() -> None:
+def test_a_scan_that_measured_nothing_ahead_reports_nothing() -> None:
     assert nearest_ahead(np.empty(0, np.float32), FIRST, STEP) is None
     assert nearest_ahead(np.full(360, math.nan, np.float32), FIRST, STEP) is None
 

@@ -11,7 +11,7 @@ from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 
-PATIENCE = 10.0
+TIMEOUT_S = 10.0
 
 
 @pytest.fixture
@@ -33,14 +33,14 @@ def monitor(monkeypatch: pytest.MonkeyPatch) -> Iterator[SafetyMonitor]:
     ],
 )
 def test_the_rule_answers_and_nothing_is_set(monitor: SafetyMonitor, values: dict[str, object], refused: str) -> None:
-    asker = rclpy.create_node("asker")
+    requester = rclpy.create_node("asker")
     executor = SingleThreadedExecutor()
     executor.add_node(monitor)
-    executor.add_node(asker)
-    client = asker.create_client(SetParametersAtomically, "/safety_monitor/check_parameters")
+    executor.add_node(requester)
+    client = requester.create_client(SetParametersAtomically, "/safety_monitor/check_parameters")
     asked = [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
     future = client.call_async(SetParametersAtomically.Request(parameters=asked))
-    executor.spin_until_future_complete(future, PATIENCE)
+    executor.spin_until_future_complete(future, TIMEOUT_S)
     answer = future.result()
     assert answer is not None
     assert answer.result.successful is not bool(refused) and refused in answer.result.reason

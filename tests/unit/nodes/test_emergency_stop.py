@@ -34,9 +34,9 @@ class Rig:
     def stop(self, node: Node, own: str, other: str) -> EmergencyStop:
         return EmergencyStop(node, Clock(clock_type=ClockType.STEADY_TIME), own, other, lambda: None)
 
-    def settle(self, looks: int = 0) -> EmergencyStop:
+    def settle(self, polls: int = 0) -> EmergencyStop:
         """The base, after so many of its looks at who is there."""
-        for _ in range(looks):
+        for _ in range(polls):
             self.stops[0]._watch()
         for _ in range(30):
             self.executor.spin_once(timeout_sec=0)
@@ -54,11 +54,11 @@ def rig() -> Iterator[Rig]:
 
 def test_a_base_whose_monitor_has_gone_locks_after_some_looks(rig: Rig) -> None:
     assert not rig.settle().lock.held
-    assert not rig.settle(looks=2 * GONE).lock.held
+    assert not rig.settle(polls=2 * GONE).lock.held
     rig.executor.remove_node(rig.monitor)
     rig.monitor.destroy_node()
-    assert not rig.settle(looks=GONE - 1).lock.held
-    rig.settle(looks=GONE)
+    assert not rig.settle(polls=GONE - 1).lock.held
+    rig.settle(polls=GONE)
     assert rig.stops[0].lock.reason == "the safety monitor has gone"
 
 
@@ -70,6 +70,6 @@ def test_it_does_not_follow_the_graph_in_which_others_may_make_hundreds_of_nodes
 
     rig.settle()
     monkeypatch.setattr(LocalBus, "tables", never)
-    rig.settle(looks=GONE)
+    rig.settle(polls=GONE)
     rig.stops[0].stop("somebody", "a test")
-    assert rig.settle(looks=GONE).lock.held
+    assert rig.settle(polls=GONE).lock.held

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from bot_console_robot.common.diagnostics import ERROR, OK
-from bot_console_robot.common.health import PERIOD, HealthReport
+from bot_console_robot.common.health import STATUS_PERIOD_S, HealthReport
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray
 
@@ -34,23 +34,23 @@ class FakeNode:
 def test_a_status_a_second_with_values_as_text() -> None:
     node, health = FakeNode(), [(OK, "fine", {"rate": 10.0, "on": True}), (ERROR, "dead", {})]
     HealthReport(node, "motor", lambda: health.pop(0))
-    [(period, tell)] = node.timers
-    assert period == PERIOD == 1.0
-    tell()
-    tell()
+    [(period, report)] = node.timers
+    assert period == STATUS_PERIOD_S == 1.0
+    report()
+    report()
     first, second = (each.status[0] for each in node.sent)
     assert (first.name, first.level, first.message, node.sent[0].header.stamp.sec) == ("arm: motor", OK, "fine", 7)
     assert [(each.key, each.value) for each in first.values] == [("rate", "10"), ("on", "True")]
     assert (second.level, second.message) == (ERROR, "dead")
 
 
-def test_what_nobody_gets_is_not_made_but_looked_at() -> None:
-    node, looks = FakeNode(), [(OK, "fine", {"never shown": object()})] * 2
+def test_what_nobody_gets_is_not_made_but_inspected() -> None:
+    node, polls = FakeNode(), [(OK, "fine", {"never shown": object()})] * 2
     node.listeners = 0
-    HealthReport(node, "motor", looks.pop)
-    [(_, tell)] = node.timers
-    tell()
-    assert (len(looks), node.sent) == (1, [])
+    HealthReport(node, "motor", polls.pop)
+    [(_, report)] = node.timers
+    report()
+    assert (len(polls), node.sent) == (1, [])
     node.listeners = 1
-    tell()
-    assert (len(looks), len(node.sent)) == (0, 1)
+    report()
+    assert (len(polls), len(node.sent)) == (0, 1)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 def climbed(top: float, begin: float, periods: int = 60) -> HillClimber:
     climber = HillClimber(0.0, 10.0, begin, 1.0)
     for _ in range(periods):
-        climber.judged(-abs(climber.value - top))
+        climber.evaluated(-abs(climber.value - top))
     return climber
 
 
@@ -23,24 +23,24 @@ def test_it_comes_near_to_the_top_from_anywhere(top: float, begin: float) -> Non
 def test_it_keeps_to_its_range_and_leaves_out_what_was_dangerous(steps: list[tuple[float, bool]], begin: float) -> None:
     climber = HillClimber(0.0, 10.0, begin, 1.0)
     for score, dangerous in steps:
-        value = climber.danger() if dangerous else climber.judged(score)
+        value = climber.danger() if dangerous else climber.evaluated(score)
         assert value == climber.value
         assert 0.0 <= climber.low <= value <= climber.high <= 10.0
 
 
 def test_a_collision_on_the_way_up_is_a_ceiling() -> None:
     climber = HillClimber(0.0, 10.0, 5.0, 1.0)
-    assert climber.judged(1.0) == 6.0
+    assert climber.evaluated(1.0) == 6.0
     assert climber.danger() == 5.0
     assert climber.high == 5.0
     for _ in range(20):
-        assert climber.judged(climber.value) <= 5.0
+        assert climber.evaluated(climber.value) <= 5.0
 
 
 def test_a_place_that_has_become_slow_is_not_held_against_the_value() -> None:
     climber = HillClimber(0.0, 10.0, 5.0, 1.0)
-    climber.judged(3.0)
-    climber.judged(2.0)
+    climber.evaluated(3.0)
+    climber.evaluated(2.0)
     assert climber.value == 5.0
-    climber.judged(1.0)
+    climber.evaluated(1.0)
     assert climber.value != 5.0

@@ -5,8 +5,8 @@ from __future__ import annotations
 import itertools
 
 import pytest
-from bot_console_robot.safety.latch import HAND_BACK, RELEASE, SILENCE_NS, STEER, STOP, Latch, Request
-from bot_console_robot.safety.lock import CROWD, MAX_RELEASES, MAX_STOPS, NODE, Lock, Release, Stop
+from bot_console_robot.safety.latch import HAND_BACK, RELEASE, SILENCE_TIMEOUT_NS, STEER, STOP, Latch, Request
+from bot_console_robot.safety.lock import MAX_RELEASES, MAX_STOPS, NODE, OTHERS, Lock, Release, Stop
 from bot_console_robot.safety.stop_messages import State, request_message, request_of, state_message, state_of
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
@@ -105,7 +105,7 @@ def test_stops_beyond_all_measure_are_one_and_are_released_by_its_id() -> None:
         latch.request(Request(STOP, f"n{number}", key=str(number), id=str(number)), 0)
         latch.request(Request(STEER, f"n{number}", key=str(number)), 0)
     assert len(latch.lock.stops) == MAX_STOPS + 1 and len(latch.steered_by.split(", ")) == MAX_STOPS + 1
-    release(latch, *(each.id for each in latch.lock.stops if each.key != CROWD))
+    release(latch, *(each.id for each in latch.lock.stops if each.key != OTHERS))
     assert latch.lock.held
     assert release(latch, *latch.lock.ids) and not latch.lock.held
 
@@ -128,9 +128,9 @@ def test_a_console_that_holds_the_steering_and_falls_silent_locks_it() -> None:
     latch = Latch()
     steer = Request(STEER, "anna", key="a")
     assert latch.request(steer, 0) and latch.steered_by == "anna"
-    assert not latch.request(steer, SILENCE_NS)
-    assert not latch.watch(2 * SILENCE_NS)
-    assert latch.watch(2 * SILENCE_NS + 1)
+    assert not latch.request(steer, SILENCE_TIMEOUT_NS)
+    assert not latch.watch(2 * SILENCE_TIMEOUT_NS)
+    assert latch.watch(2 * SILENCE_TIMEOUT_NS + 1)
     assert latch.lock.held and latch.lock.holder == "anna" and not latch.steered_by
 
 
@@ -139,11 +139,11 @@ def test_two_locks_make_the_same_stop_of_the_same_silence_and_another_of_the_nex
     steer = Request(STEER, "anna", key="a", id="s1")
     for latch in (here, there):
         latch.request(steer, 0)
-        latch.watch(SILENCE_NS + 1)
+        latch.watch(SILENCE_TIMEOUT_NS + 1)
     assert here.lock == there.lock and here.lock.ids == {"s1"}
     release(here, "s1")
     here.request(steer, 0)
-    here.watch(SILENCE_NS + 1)
+    here.watch(SILENCE_TIMEOUT_NS + 1)
     assert here.lock.held, "a recorded claim of the steering is no way around the silence"
 
 
@@ -151,7 +151,7 @@ def test_steering_that_is_handed_back_needs_no_heartbeat() -> None:
     latch = Latch()
     latch.request(Request(STEER, "anna", key="a"), 0)
     assert latch.request(Request(HAND_BACK, "anna", key="a"), 1)
-    assert not latch.watch(10 * SILENCE_NS) and not latch.lock.held
+    assert not latch.watch(10 * SILENCE_TIMEOUT_NS) and not latch.lock.held
 
 
 @pytest.mark.parametrize("order", list(itertools.permutations(range(4))))
@@ -191,7 +191,7 @@ def test_a_lock_that_has_restarted_brings_back_no_released_stop() -> None:
     assert again.follow(here.lock) and not again.lock.held
 
 
-def test_messages_give_back_what_was_said() -> None:
+def test_messages_return_what_was_published() -> None:
     assert request_of(request_message(ANNA)) == ANNA
     asked = Request(RELEASE, "ben", "", "b", ids=("a1", "b1"), challenges=("c1", "c2"), of=("a", "b"))
     assert request_of(request_message(asked)) == asked
@@ -202,7 +202,7 @@ def test_messages_give_back_what_was_said() -> None:
     assert state_of(state_message(state, "simulator")) == state
 
 
-def test_the_report_of_an_older_lock_is_read_and_each_of_its_stops_told_apart() -> None:
+def test_the_report_of_an_older_lock_is_read_and_each_of_its_stops_distinguished() -> None:
     def report(turn: int) -> DiagnosticStatus:
         values = {"locked": "true", "turn": str(turn), "stops": f'[["a", "anna", "now", {turn}]]', "instance": "1"}
         return DiagnosticStatus(values=[KeyValue(key=key, value=value) for key, value in values.items()])

@@ -8,10 +8,10 @@ from bot_console_robot.simulation.geometry import Pose
 from bot_console_robot.simulator.messages import Odometer, heading_of, time_of
 
 
-def test_all_of_a_message_is_what_was_told_last() -> None:
+def test_all_of_a_message_is_what_was_reported_last() -> None:
     odometer = Odometer("odom", "base_footprint")
-    odometer.tell(Pose(1.0, 2.0, 3.0), (0.5, -0.25), time_of(1))
-    message = odometer.tell(Pose(-4.0, 5.0, -0.5 * math.pi), (-1.0, 0.75), time_of(7_000_000_009))
+    odometer.report(Pose(1.0, 2.0, 3.0), (0.5, -0.25), time_of(1))
+    message = odometer.report(Pose(-4.0, 5.0, -0.5 * math.pi), (-1.0, 0.75), time_of(7_000_000_009))
     assert (message.header.frame_id, message.child_frame_id) == ("odom", "base_footprint")
     assert (message.header.stamp.sec, message.header.stamp.nanosec) == (7, 9)
     place, motion = message.pose.pose, message.twist.twist

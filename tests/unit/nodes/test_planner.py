@@ -70,7 +70,7 @@ def test_every_way_reaches_its_goal_and_hits_nothing(start: tuple[float, float],
         ((4.0, 0.0), "is enclosed by walls"),
     ],
 )
-def test_where_there_is_no_way_it_is_said_why(goal: tuple[float, float], why: str) -> None:
+def test_where_there_is_no_way_it_is_reported_why(goal: tuple[float, float], why: str) -> None:
     closed = room((slice(0, 80), slice(50, 70)))
     with pytest.raises(NoWay, match=why):
         Planner(closed, CLEARANCE).way((0.0, 0.0), goal)

@@ -18,7 +18,7 @@ from rclpy.parameter_client import AsyncParameterClient
 from std_srvs.srv import Trigger
 
 DOMAINS = itertools.count(8200)
-PATIENCE = 10.0
+TIMEOUT_S = 10.0
 MODES = {"normal": (1.0, 50), "aggressive": (3.0, 30), "cautious": (0.5, 80), "eco": (0.8, 60)}
 
 
@@ -55,7 +55,7 @@ class Bench:
         if name:
             request.load_namespace = name
         future = client.call_async(request)
-        self.executor.spin_until_future_complete(future, PATIENCE)
+        self.executor.spin_until_future_complete(future, TIMEOUT_S)
         answer = future.result()
         assert answer is not None
         return answer.success, answer.message
@@ -105,12 +105,12 @@ def test_where_one_node_refuses_no_node_is_changed(bench: Bench, tmp_path: Path)
     assert list(bench.arm.get_parameter("reach").value) == [1.0, 2.0]
 
 
-def test_a_client_that_is_still_looking_for_its_services_is_given_time(
+def test_a_client_that_is_still_searching_for_its_services_is_given_time(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    looks = itertools.count()
-    monkeypatch.setattr(AsyncParameterClient, "services_are_ready", lambda client: next(looks) > 2)
-    assert bench.ask("save", "normal")[0] and next(looks) > 4
+    polls = itertools.count()
+    monkeypatch.setattr(AsyncParameterClient, "services_are_ready", lambda client: next(polls) > 2)
+    assert bench.ask("save", "normal")[0] and next(polls) > 4
 
 
 @pytest.mark.parametrize("name", ["", "../x", "a/b", ".hidden"])
@@ -122,7 +122,7 @@ def test_a_name_cannot_leave_the_folder(bench: Bench, name: str) -> None:
 
 
 @pytest.mark.parametrize("value", ["!!int", "!!timestamp x", "&a {b: *a}"])
-def test_a_file_that_yaml_cannot_make_values_of_is_told(tmp_path: Path, value: str) -> None:
+def test_a_file_that_yaml_cannot_make_values_of_is_reported(tmp_path: Path, value: str) -> None:
     (tmp_path / "odd.yaml").write_text(f"/arm: {{ros__parameters: {{reach: {value}}}}}")
     with pytest.raises(PresetError, match="cannot be read"):
         read(tmp_path, "odd")

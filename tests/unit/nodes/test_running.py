@@ -55,7 +55,7 @@ def test_an_interrupt_while_the_node_is_made_is_a_clean_end() -> None:
     assert not rclpy.ok()
 
 
-def test_an_interrupt_that_comes_while_an_error_is_looked_at_is_a_clean_end(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_interrupt_that_comes_while_an_error_is_inspected_is_a_clean_end(monkeypatch: pytest.MonkeyPatch) -> None:
     asked = rclpy.ok
 
     def ok() -> bool:
@@ -76,7 +76,7 @@ def test_the_next_run_can_be_interrupted_again() -> None:
         run(Impatient, [])
 
 
-def test_what_cannot_start_says_why(capfd: pytest.CaptureFixture[str]) -> None:
+def test_what_cannot_start_reports_why(capfd: pytest.CaptureFixture[str]) -> None:
     def make() -> Node:
         raise CannotStart("no world")
 

@@ -12,22 +12,22 @@ from bot_console_robot.simulator_node import QUIET_NS, Simulator
 SECOND = 1_000_000_000
 
 
-def test_a_lag_is_told_once_and_again_only_after_a_quiet_while(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_lag_is_reported_once_and_again_only_after_a_quiet_while(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", "7901")
     rclpy.init()
     try:
         node: Any = Simulator()
-        told: list[str] = []
+        reported: list[str] = []
         now = node._steady.now().nanoseconds
         monkeypatch.setattr(node, "_steady", SimpleNamespace(now=lambda: SimpleNamespace(nanoseconds=now)))
-        monkeypatch.setattr(node, "get_logger", lambda: SimpleNamespace(warning=told.append))
+        monkeypatch.setattr(node, "get_logger", lambda: SimpleNamespace(warning=reported.append))
         for _ in range(5):
             now += 2 * SECOND
             node._tick()
-        assert len(told) == 1 and told[0].startswith("Simulation lags: ")
-        assert told[0].endswith("too busy to simulate in real time; the robot is slow, not broken")
+        assert len(reported) == 1 and reported[0].startswith("Simulation lags: ")
+        assert reported[0].endswith("too busy to simulate in real time; the robot is slow, not broken")
         now += QUIET_NS + SECOND
         node._tick()
-        assert len(told) == 2
+        assert len(reported) == 2
     finally:
         rclpy.shutdown()

@@ -21,16 +21,18 @@ def test_the_nearest_obstacle_is_that_of_the_newest_scan_and_stays_without_one(
     monkeypatch.setenv("ROS_DOMAIN_ID", "7902")
     rclpy.init()
     try:
-        node, told = TelemetryPublisher(), list[float]()
-        node.create_subscription(Float64, "telemetry/nearest_obstacle", lambda message: told.append(message.data), 10)
+        node, reported = TelemetryPublisher(), list[float]()
+        node.create_subscription(
+            Float64, "telemetry/nearest_obstacle", lambda message: reported.append(message.data), 10
+        )
         for ranges in ((4.0, 2.0), (3.0, 0.05)):
             node._on_scan(scan(*ranges))
         node._publish()
         node._publish()
         node._on_scan(scan(float("inf"), 1.5))
         node._publish()
-        while len(told) < 3:
+        while len(reported) < 3:
             rclpy.spin_once(node)
-        assert told == pytest.approx([3.0, 3.0, 1.5])
+        assert reported == pytest.approx([3.0, 3.0, 1.5])
     finally:
         rclpy.shutdown()

@@ -18,7 +18,7 @@ def test_a_long_silence_is_no_way() -> None:
     assert trip.distance == 0.0
 
 
-def test_time_running_backwards_starts_anew() -> None:
+def test_time_running_backwards_starts_again() -> None:
     trip = Trip()
     for time, speed in ((5.0, 1.0), (5.5, 1.0), (6.0, 0.0), (0.1, 0.5)):
         trip.update(time, speed)

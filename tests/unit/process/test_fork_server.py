@@ -34,7 +34,7 @@ class Forked:
         for each in (given, out, err, data):
             os.close(each)
         self.report = Report()
-        self.out = self.err = self.told = ""
+        self.out = self.err = self.reported = ""
         self._open = {self._report_end: "", self._out: "out", self._err: "err", self._data: "told"}
 
     def until(self, condition: Callable[[], Any]) -> None:
@@ -63,7 +63,7 @@ class Forked:
     @property
     def news(self) -> list[dict[str, Any]]:
         """What it has told."""
-        return [json.loads(line) for line in self.told.splitlines()]
+        return [json.loads(line) for line in self.reported.splitlines()]
 
 
 @pytest.fixture(scope="module")
@@ -87,7 +87,7 @@ def fork(server: ForkServer, tmp_path: Path) -> Callable[..., Forked]:
     return forked
 
 
-def test_it_has_what_the_job_says_and_nothing_of_the_server(fork: Any, tmp_path: Path) -> None:
+def test_it_has_what_the_job_reports_and_nothing_of_the_server(fork: Any, tmp_path: Path) -> None:
     child = fork(
         "import os, signal, sys, threading\n"
         "print(sys.argv[1:], dict(os.environ), os.getcwd(), __name__, __file__)\n"
@@ -167,7 +167,7 @@ def test_an_exception_hook_of_the_programs_own(fork: Any) -> None:
     assert "ZeroDivisionError" in child.err
 
 
-def test_an_exception_begins_in_the_program_and_is_told(fork: Any, tmp_path: Path) -> None:
+def test_an_exception_begins_in_the_program_and_is_reported(fork: Any, tmp_path: Path) -> None:
     child = fork("def f():\n    raise ValueError('the fault')\n\nf()\n")
     assert child.end() == 1
     path = str(tmp_path / "program.py")
@@ -178,7 +178,7 @@ def test_an_exception_begins_in_the_program_and_is_told(fork: Any, tmp_path: Pat
 def test_a_crash_in_c_leaves_the_line(fork: Any, tmp_path: Path) -> None:
     child = fork("import os\n\nos.abort()\n")
     assert child.end() == -signal.SIGABRT
-    assert f'File "{tmp_path / "program.py"}", line 3 in <module>' in child.told
+    assert f'File "{tmp_path / "program.py"}", line 3 in <module>' in child.reported
 
 
 def test_an_interrupt_right_after_the_start_is_not_lost(fork: Any) -> None:

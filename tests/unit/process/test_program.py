@@ -96,21 +96,21 @@ def test_syntax_error_as_the_interpreter_prints_it(run, script):
 
 
 @pytest.mark.parametrize(
-    ("entry_point", "said"),
+    ("entry_point", "message"),
     [
         ("entered_of_test:mian", "names mian() of entered_of_test, which is not there; it has main."),
         ("entered_of_test.nope:main", "names the module entered_of_test.nope, which is not there."),
         ("wants_of_test:main", None),
     ],
 )
-def test_an_entry_point_that_leads_nowhere_is_explained(tmp_path, monkeypatch, entry_point, said):
+def test_an_entry_point_that_leads_nowhere_is_explained(tmp_path, monkeypatch, entry_point, message):
     (tmp_path / "entered_of_test.py").write_text("from textwrap import dedent\ndef main():\n    pass\n")
     (tmp_path / "wants_of_test.py").write_text("import nowhere_of_test\n")
     monkeypatch.syspath_prepend(str(tmp_path))
     with pytest.raises((AttributeError, ModuleNotFoundError)) as raised:
         entry_point_program(entry_point, FreshModules())()
-    told = explanation(raised.value)
-    assert (told is None) if said is None else (said in told)
+    reported = explanation(raised.value)
+    assert (reported is None) if message is None else (message in reported)
 
 
 def test_missing_file(run, tmp_path):

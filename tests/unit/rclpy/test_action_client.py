@@ -73,11 +73,11 @@ def test_feedback_callback_may_be_a_coroutine_function(ros: Any) -> None:
     go: Future[None] = Future()
     pair = Pair(ros, handle_accepted_callback=ready.append)
 
-    async def tell(message: Any) -> None:
+    async def report(message: Any) -> None:
         await go
         seen.append(message)
 
-    pair.send(feedback_callback=tell)
+    pair.send(feedback_callback=report)
     ready[0].publish_feedback(Fibonacci.Feedback())
     ros.settle()
     assert seen == []
@@ -135,7 +135,7 @@ def test_a_cancelled_request_is_forgotten(ros: Any, capfd: pytest.CaptureFixture
     )
 
 
-def test_two_servers_of_an_action_are_told(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
+def test_two_servers_of_an_action_are_reported(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
     pair = Pair(ros)
     ActionServer(ros.node("second"), Fibonacci, "fib", succeed)
     pair.send()

@@ -121,7 +121,7 @@ def test_an_execute_callback_that_raises(ros: Any, capfd: pytest.CaptureFixture[
     assert "ValueError: no way" in err
 
 
-def test_a_result_of_another_class_is_told_and_cannot_be_sent(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_result_of_another_class_is_reported_and_cannot_be_sent(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
     pair = Pair(ros, lambda handle: handle.succeed())
     asked = pair.send().get_result_async()
     with pytest.raises(TypeError, match="field 'result' of example_interfaces/action/Fibonacci_GetResult_Response"):
@@ -156,27 +156,27 @@ def test_status_topic_shows_late_joiners_the_last_state(ros: Any) -> None:
     assert [each.status for each in seen[-1].status_list] == [GoalStatus.STATUS_SUCCEEDED]
 
 
-def test_status_is_first_told_when_a_goal_is_executed(ros: Any) -> None:
-    told: list[list[int]] = []
+def test_status_is_first_reported_when_a_goal_is_executed(ros: Any) -> None:
+    reported: list[list[int]] = []
     pair = Pair(ros, handle_accepted_callback=lambda handle: None)
     pair.client_node.create_subscription(
         GoalStatusArray,
         "/fib/_action/status",
-        lambda message: told.append([each.status for each in message.status_list]),
+        lambda message: reported.append([each.status for each in message.status_list]),
         10,
     )
     pair.send()
     ros.settle()
-    assert told == []
+    assert reported == []
     pair.server.register_handle_accepted_callback(None)
     pair.result(pair.send())
-    ros.spin(lambda: len(told) >= 2)
+    ros.spin(lambda: len(reported) >= 2)
     accepted, executing, succeeded = (
         GoalStatus.STATUS_ACCEPTED,
         GoalStatus.STATUS_EXECUTING,
         GoalStatus.STATUS_SUCCEEDED,
     )
-    assert told == [[accepted, executing], [accepted, succeeded]]
+    assert reported == [[accepted, executing], [accepted, succeeded]]
 
 
 def test_two_servers_of_a_node_do_not_mix(ros: Any) -> None:

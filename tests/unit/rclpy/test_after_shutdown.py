@@ -49,12 +49,12 @@ def test_who_sleeps_at_a_rate_sees_the_interrupt_that_shuts_down(ros: Any, monke
             raise KeyboardInterrupt
 
     monkeypatch.setattr(rate, "_wakeup", Interrupted())
-    with pytest.raises(KeyboardInterrupt) as told:
+    with pytest.raises(KeyboardInterrupt) as reported:
         rate.sleep()
-    assert told.value.__context__ is None
+    assert reported.value.__context__ is None
 
 
-def test_who_sleeps_at_a_rate_is_told_of_a_shutdown_without_an_interrupt(ros: Any) -> None:
+def test_who_sleeps_at_a_rate_is_notified_of_a_shutdown_without_an_interrupt(ros: Any) -> None:
     rate = ros.node().create_rate(1)
     ender = threading.Timer(0, ros.context.shutdown)
     ender.start()
@@ -101,7 +101,7 @@ def test_a_loop_that_asks_who_is_there_ends_with_the_context(
 
 
 @pytest.mark.parametrize("way", ["service", "action"])
-def test_who_waits_for_an_answer_without_a_limit_is_told_of_the_shutdown(
+def test_who_waits_for_an_answer_without_a_limit_is_notified_of_the_shutdown(
     ros: Any, way: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     node = ros.node()
@@ -137,22 +137,22 @@ def test_what_a_publisher_is_asked_after_a_shutdown(ros: Any) -> None:
 
 
 def test_a_goal_that_is_executed_over_a_shutdown_ends_with_its_next_word(ros: Any) -> None:
-    told: list[str] = []
+    reported: list[str] = []
 
     def execute(handle: Any) -> Any:
         handle.publish_feedback(Fibonacci.Feedback())
         ros.context.shutdown()
-        for say in (lambda: handle.publish_feedback(Fibonacci.Feedback()), handle.succeed):
+        for show_text in (lambda: handle.publish_feedback(Fibonacci.Feedback()), handle.succeed):
             with pytest.raises(RCLError) as refused:
-                say()
-            told.append(str(refused.value))
+                show_text()
+            reported.append(str(refused.value))
         return Fibonacci.Result()
 
     pair = Pair(ros, execute)
     pair.client.send_goal_async(Fibonacci.Goal())
     with pytest.raises(ExternalShutdownException):
         ros.spin(lambda: False)
-    assert told == [
+    assert reported == [
         "Failed to publish feedback with an action server: feedback publisher is invalid",
         "Failed get goal status array: feedback publisher is invalid",
     ]

@@ -92,7 +92,7 @@ def by_inspect(callback: Callable[..., Any], count: int) -> bool:
 
 
 @pytest.mark.parametrize("name", CALLBACKS)
-def test_a_callback_is_and_takes_what_inspect_says(name: str) -> None:
+def test_a_callback_is_and_takes_what_inspect_reports(name: str) -> None:
     callback = CALLBACKS[name]
     assert [takes(callback, count) for count in range(4)] == [by_inspect(callback, count) for count in range(4)]
     assert is_coroutine_function(callback) == inspect.iscoroutinefunction(callback)

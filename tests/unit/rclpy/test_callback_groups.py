@@ -11,7 +11,7 @@ from rclpy.executors import MultiThreadedExecutor
 from rclpy.task import Future
 from std_msgs.msg import Int32
 
-PATIENCE = 20.0
+TIMEOUT_S = 20.0
 
 
 def test_membership(ros: Any) -> None:
@@ -65,7 +65,7 @@ class Overlap:
             self.peak = max(self.peak, self.active)
             if self.active == self.wanted:
                 self.together.set()
-        self._leave.wait(PATIENCE)
+        self._leave.wait(TIMEOUT_S)
         with self._lock:
             self.active -= 1
 
@@ -74,12 +74,12 @@ class Overlap:
         self.wanted = wanted
         thread = threading.Thread(target=self._executor.spin, daemon=True)
         thread.start()
-        assert self.together.wait(PATIENCE)
+        assert self.together.wait(TIMEOUT_S)
         self._leave.set()
         while self.calls < calls or self.active:
             assert thread.is_alive()
         self._executor.shutdown()
-        thread.join(PATIENCE)
+        thread.join(TIMEOUT_S)
         return self.peak
 
 
@@ -116,8 +116,8 @@ def test_a_group_may_span_nodes_and_executors(ros: Any) -> None:
     assert got == []
     go.set_result(None)
     first.executor.spin_once()
-    other.spin_once(timeout_sec=PATIENCE)
-    assert done.wait(PATIENCE)
+    other.spin_once(timeout_sec=TIMEOUT_S)
+    assert done.wait(TIMEOUT_S)
     other.shutdown()
     assert got == ["first", "second"]
 

@@ -73,26 +73,26 @@ def simulated(jumps: list[Any], threshold: JumpThreshold) -> ROSClock:
 @pytest.mark.parametrize(
     ("to", "jumps"), [(101, []), (105, ["before", 5]), (110, ["before", 10]), (99, []), (97, ["before", -3]), (100, [])]
 )
-def test_jumps_at_or_beyond_the_threshold_are_told(to: int, jumps: list[Any]) -> None:
-    told: list[Any] = []
+def test_jumps_at_or_beyond_the_threshold_are_reported(to: int, jumps: list[Any]) -> None:
+    reported: list[Any] = []
     threshold = JumpThreshold(min_forward=Duration(seconds=5), min_backward=Duration(seconds=-3))
-    simulated(told, threshold).set_ros_time_override(Time(seconds=to, clock_type=ClockType.ROS_TIME))
-    assert told == jumps
+    simulated(reported, threshold).set_ros_time_override(Time(seconds=to, clock_type=ClockType.ROS_TIME))
+    assert reported == jumps
 
 
-def test_changes_of_the_source_are_told(ros: Any) -> None:
-    node, told = ros.node(), []
+def test_changes_of_the_source_are_reported(ros: Any) -> None:
+    node, reported = ros.node(), []
     clock = node.get_clock()
     threshold = JumpThreshold(min_forward=None, min_backward=None, on_clock_change=True)
     with pytest.raises(ValueError, match="must be callable"):
         clock.create_jump_callback(threshold)
-    handle = clock.create_jump_callback(threshold, post_callback=lambda jump: told.append(jump.clock_change))
+    handle = clock.create_jump_callback(threshold, post_callback=lambda jump: reported.append(jump.clock_change))
     for value in (True, False):
         node.set_parameters([Parameter("use_sim_time", value=value)])
     handle.unregister()
     node.set_parameters([Parameter("use_sim_time", value=True)])
-    assert told == [ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED]
-    assert isinstance(told[0], ClockChange)
+    assert reported == [ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED]
+    assert isinstance(reported[0], ClockChange)
     with pytest.raises(TypeError):
         TimeJump(1, Duration())  # type: ignore[arg-type]
 

@@ -103,8 +103,8 @@ def test_a_discovery_range_that_is_none(
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", value)
     with Context():
         pass
-    said = "[rcl]: Invalid value 'off' specified for 'ROS_AUTOMATIC_DISCOVERY_RANGE', assuming localhost only"
-    assert (said in capfd.readouterr().err) == warns
+    message = "[rcl]: Invalid value 'off' specified for 'ROS_AUTOMATIC_DISCOVERY_RANGE', assuming localhost only"
+    assert (message in capfd.readouterr().err) == warns
 
 
 @pytest.mark.parametrize(
@@ -323,11 +323,11 @@ def test_a_refused_parameter_file_is_explained_in_more_words_than_those_of_rcl(t
     assert explanation(refused.value) == f"{path}:2: it is indented by a tab, and YAML takes spaces alone"
 
 
-def test_a_parameter_before_the_flag_is_told_to_who_reads_along(capfd, monkeypatch):
+def test_a_parameter_before_the_flag_is_reported_to_who_reads_along(capfd, monkeypatch):
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     context = Context()
     rclpy.init(args=["node", "-p", "speed:=2.5", "file", "--ros-args", "-p", "rate:=1.0"], context=context)
     context.shutdown()
-    told = [line for line in capfd.readouterr().err.splitlines() if "[rcl]" in line]
-    assert len(told) == 1
-    assert "'speed:=2.5' stands outside of --ros-args" in told[0] and "--ros-args -p speed:=2.5" in told[0]
+    reported = [line for line in capfd.readouterr().err.splitlines() if "[rcl]" in line]
+    assert len(reported) == 1
+    assert "'speed:=2.5' stands outside of --ros-args" in reported[0] and "--ros-args -p speed:=2.5" in reported[0]

@@ -125,7 +125,7 @@ def test_a_group_of_one_s_own_is_asked_again_at_each_wake(ros: Any) -> None:
     assert got == [0, 1, 2]
 
 
-def test_a_future_of_the_executor_tells_in_the_executor(executor: OneAtATime) -> None:
+def test_a_future_of_the_executor_reports_in_the_executor(executor: OneAtATime) -> None:
     future, got = executor.create_future(), []
     future.add_done_callback(lambda done: got.append(done.result()))
     future.set_result(3)

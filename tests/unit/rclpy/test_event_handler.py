@@ -113,7 +113,7 @@ def test_manual_liveliness_is_lost_and_found(stepped_ros: Any) -> None:
     ]
 
 
-def test_changes_add_up_until_they_are_told(ros: Any) -> None:
+def test_changes_add_up_until_they_are_reported(ros: Any) -> None:
     events = Events(ros)
     events.publisher(matched=events.hear("matched"))
     executor = events.node.executor

@@ -20,14 +20,14 @@ from std_srvs.srv import Trigger
 
 def everything(ros: Any, node: Any, got: list[str], tag: str = "") -> None:
     """Make one entity of each kind in the reverse order of service, and let all be ready."""
-    asker = ros.node(f"asker{tag}")
+    requester = ros.node(f"asker{tag}")
     node.create_service(Trigger, f"s{tag}", lambda request, response: (got.append(f"service{tag}"), response)[1])
     guard = node.create_guard_condition(lambda: got.append(f"guard{tag}"))
     node.create_subscription(Int32, f"t{tag}", lambda message: got.append(f"subscription{tag}"), 10)
     timer = node.create_timer(0.0, lambda: (got.append(f"timer{tag}"), timer.cancel()))
-    client = asker.create_client(Trigger, f"s{tag}")
+    client = requester.create_client(Trigger, f"s{tag}")
     client.call_async(Trigger.Request())
-    asker.create_publisher(Int32, f"t{tag}", 10).publish(Int32())
+    requester.create_publisher(Int32, f"t{tag}", 10).publish(Int32())
     guard.trigger()
 
 
@@ -284,10 +284,10 @@ def test_what_a_callback_of_a_pool_raises_comes_out_as_it_was_raised(ros: Any) -
     node.create_timer(0.001, fail)
     executor = MultiThreadedExecutor(2, context=ros.context)
     executor.add_node(node)
-    with pytest.raises(RuntimeError, match="broken") as told:
+    with pytest.raises(RuntimeError, match="broken") as reported:
         executor.spin()
     executor.shutdown()
-    assert told.value.__context__ is None
+    assert reported.value.__context__ is None
 
 
 @pytest.mark.filterwarnings("ignore:MultiThreadedExecutor is used")

@@ -35,7 +35,7 @@ class Scripted(LifecycleNode):
 
     def __init__(self, name: str, **options: Any) -> None:
         self.answers: dict[str, Any] = {}
-        self.told: list[tuple[str, LifecycleState]] = []
+        self.reported: list[tuple[str, LifecycleState]] = []
         super().__init__(name, **options)
 
     @property
@@ -45,7 +45,7 @@ class Scripted(LifecycleNode):
 
 def _scripted(name: str) -> Any:
     def callback(self: Scripted, state: LifecycleState) -> Any:
-        self.told.append((name, state))
+        self.reported.append((name, state))
         answer = self.answers.get(name, SUCCESS)
         if isinstance(answer, Exception):
             raise answer
@@ -68,7 +68,7 @@ def node(ros: Any) -> Scripted:
 def lead(node: Scripted, state: str) -> None:
     for step in PATHS[state]:
         assert getattr(node, f"trigger_{step}")() is SUCCESS
-    node.told.clear()
+    node.reported.clear()
     assert node.state == state
 
 
@@ -109,7 +109,7 @@ def test_transition(
     number = {label: number for number, label in STATES.items()}[state]
     assert getattr(node, f"trigger_{trigger}")() is returned
     assert node.state == after
-    assert node.told == [(f"on_{trigger}", LifecycleState(label=state, state_id=number))]
+    assert node.reported == [(f"on_{trigger}", LifecycleState(label=state, state_id=number))]
 
 
 @pytest.mark.parametrize("broken", [ERROR, ValueError("broken")])
@@ -132,7 +132,7 @@ def test_error_processing(node: Scripted, state: str, trigger: str, on_error: An
     node.answers = {f"on_{trigger}": broken, "on_error": on_error}
     assert getattr(node, f"trigger_{trigger}")() is ERROR
     assert node.state == after
-    assert [(name, before.label) for name, before in node.told] == [(f"on_{trigger}", state), ("on_error", state)]
+    assert [(name, before.label) for name, before in node.reported] == [(f"on_{trigger}", state), ("on_error", state)]
 
 
 @pytest.mark.parametrize("trigger", TRIGGERS)
@@ -147,7 +147,7 @@ def test_a_transition_from_another_state_is_refused(
         return
     with pytest.raises(RCLError) as error:
         getattr(node, f"trigger_{trigger}")()
-    assert (node.state, node.told) == (state, [])
+    assert (node.state, node.reported) == (state, [])
     if trigger == "shutdown":
         assert str(error.value) == "Shutdown transtion not possible"
         return
@@ -156,7 +156,7 @@ def test_a_transition_from_another_state_is_refused(
     assert f"[rcl_lifecycle]: No transition matching {number} found for current state {state}" in capfd.readouterr().err
 
 
-def test_an_exception_in_a_callback_is_told(node: Scripted, capfd: pytest.CaptureFixture[str]) -> None:
+def test_an_exception_in_a_callback_is_reported(node: Scripted, capfd: pytest.CaptureFixture[str]) -> None:
     node.answers = {"on_configure": ValueError("no port")}
     node.trigger_configure()
     assert f"[managed]: on_configure raised ValueError: no port, at {__file__}:" in capfd.readouterr().err

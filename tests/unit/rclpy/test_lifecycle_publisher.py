@@ -19,7 +19,7 @@ class Talk:
         self.node = LifecycleNode("talker", context=ros.context)
         self.publisher = self.node.create_lifecycle_publisher(String, "chatter", 10)
 
-    def say(self, text: str) -> None:
+    def show_text(self, text: str) -> None:
         self.publisher.publish(String(data=text))
         self.ros.settle()
 
@@ -42,7 +42,7 @@ def test_published_only_while_active(talk: Talk) -> None:
     for number, (step, activated) in enumerate(steps):
         step()
         assert talk.publisher.is_activated is activated
-        talk.say(str(number))
+        talk.show_text(str(number))
     # As upstream: only deactivating silences a publisher, a shutdown of an active node does not.
     assert talk.heard == ["2", "4", "5"]
 
@@ -87,16 +87,16 @@ def test_a_wrong_field_names_the_users_line(talk: Talk, capfd: pytest.CaptureFix
 
 
 def test_when_enabled() -> None:
-    said: list[str] = []
+    output: list[str] = []
 
     class Lamp(SimpleManagedEntity):
         @SimpleManagedEntity.when_enabled
         def shine(self, colour: str) -> None:
-            said.append(colour)
+            output.append(colour)
 
-        @SimpleManagedEntity.when_enabled(when_not_enabled=lambda: said.append("off"))
+        @SimpleManagedEntity.when_enabled(when_not_enabled=lambda: output.append("off"))
         def blink(self) -> None:
-            said.append("blink")
+            output.append("blink")
 
     lamp = Lamp()
     for enabled in (False, True):
@@ -104,5 +104,5 @@ def test_when_enabled() -> None:
             lamp.on_activate(None)  # type: ignore[arg-type]
         lamp.shine("red")
         lamp.blink()
-    assert said == ["off", "red", "blink"]
+    assert output == ["off", "red", "blink"]
     assert Lamp.shine.__name__ == "shine"

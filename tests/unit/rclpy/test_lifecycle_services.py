@@ -18,12 +18,12 @@ class Managed:
 
     def __init__(self, ros: Any) -> None:
         self.ros = ros
-        self.asker = ros.node("asker")
+        self.requester = ros.node("asker")
         self.node = LifecycleNode("managed", namespace="ns", context=ros.context)
         ros._executor.add_node(self.node)
 
     def ask(self, service: Any, name: str, **fields: Any) -> Any:
-        return self.ros.ask(self.asker, service, f"/ns/managed/{name}", **fields)
+        return self.ros.ask(self.requester, service, f"/ns/managed/{name}", **fields)
 
     def change(self, **transition: Any) -> bool:
         return self.ask(ChangeState, "change_state", transition=Transition(**transition)).success
@@ -42,7 +42,7 @@ def managed(ros: Any) -> Managed:
 def test_names_of_the_services(managed: Managed) -> None:
     mine = [service for service in managed.node.services if service.srv_name.startswith("/ns/managed/")]
     assert sorted(service.srv_name for service in mine) == [f"/ns/managed/{name}" for name in FIVE]
-    found = dict(managed.asker.get_service_names_and_types_by_node("managed", "/ns"))
+    found = dict(managed.requester.get_service_names_and_types_by_node("managed", "/ns"))
     assert set(found) >= {f"/ns/managed/{name}" for name in FIVE}
     assert found["/ns/managed/get_transition_graph"] == ["lifecycle_msgs/srv/GetAvailableTransitions"]
 
@@ -115,7 +115,7 @@ def test_states_and_graph(managed: Managed) -> None:
 
 def test_transition_events(managed: Managed) -> None:
     seen: list[tuple[str, str]] = []
-    managed.asker.create_subscription(
+    managed.requester.create_subscription(
         TransitionEvent,
         "/ns/managed/transition_event",
         lambda event: seen.append((event.start_state.label, event.goal_state.label)),
@@ -147,6 +147,6 @@ def test_without_the_communication_interface(ros: Any) -> None:
 
 def test_all_is_gone_with_the_node(managed: Managed) -> None:
     managed.node.destroy_node()
-    assert not [name for name, _ in managed.asker.get_topic_names_and_types() if "transition_event" in name]
-    left = dict(managed.asker.get_service_names_and_types())
+    assert not [name for name, _ in managed.requester.get_topic_names_and_types() if "transition_event" in name]
+    left = dict(managed.requester.get_service_names_and_types())
     assert not left.keys() & {f"/ns/managed/{name}" for name in FIVE}

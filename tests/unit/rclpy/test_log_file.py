@@ -98,7 +98,7 @@ def test_a_folder_that_cannot_be_made_is_refused(tmp_path: Path, monkeypatch: py
         Context().init([])
 
 
-def test_a_file_that_cannot_be_written_is_told_once(ros: Any, folder: Path, capfd: Any) -> None:
+def test_a_file_that_cannot_be_written_is_reported_once(ros: Any, folder: Path, capfd: Any) -> None:
     ros.init("--log-file-name", "a/b")
     (folder / "a").write_text("no folder")
     logging.get_logger("a").info("one")

@@ -83,14 +83,14 @@ def test_two_places_are_two_sites(log: Any) -> None:
 
 
 def test_one_place_may_not_change_its_mind(log: Any) -> None:
-    def say(severity: int, **options: Any) -> Any:
+    def show_text(severity: int, **options: Any) -> Any:
         return log.log("x", severity, **options)
 
-    assert say(20)
+    assert show_text(20)
     with pytest.raises(ValueError, match=r"^Logger severity cannot be changed between calls.$"):
-        say(30)
+        show_text(30)
     with pytest.raises(ValueError, match=r"^Requested logging filters cannot be changed between calls.$"):
-        say(20, once=True)
+        show_text(20, once=True)
 
     def throttled(seconds: float) -> Any:
         return log.info("x", throttle_duration_sec=seconds)
@@ -101,10 +101,10 @@ def test_one_place_may_not_change_its_mind(log: Any) -> None:
 
 
 def test_sites_belong_to_loggers(log: Any) -> None:
-    def say(logger: Any, method: str) -> Any:
+    def show_text(logger: Any, method: str) -> Any:
         return getattr(logger, method)("x")
 
-    assert say(log, "info") and say(log.get_child("other"), "error")
+    assert show_text(log, "info") and show_text(log.get_child("other"), "error")
 
 
 @pytest.mark.parametrize(
@@ -271,7 +271,7 @@ def test_names_that_are_none(log: Any) -> None:
         ("foo:=", ""),
     ],
 )
-def test_a_rule_for_a_name_that_is_none_is_told_before_the_refusal(
+def test_a_rule_for_a_name_that_is_none_is_reported_before_the_refusal(
     rule: str, warning: str, printed: Callable[[], list[str]]
 ) -> None:
     with pytest.raises(RCLError):

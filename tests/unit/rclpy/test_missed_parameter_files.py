@@ -12,7 +12,7 @@ SECTION = "{}:\n  ros__parameters:\n    speed: 2.0\n"
 
 
 @pytest.fixture
-def told():
+def reported():
     lines: list[str] = []
     forget = on_notice(lambda process, text: lines.append(text))
     yield lines
@@ -31,33 +31,33 @@ def begin(ros: Any, folder: Path, *keys: str, rules: tuple[str, ...] = ()) -> st
     ("key", "space"), [("robto_node", ""), ("/robot", ""), ("robot_node", "/left"), ("camera", ""), ("/left/*", "")]
 )
 def test_a_key_that_looks_mistyped_or_is_all_there_is_is_named_once(
-    key: str, space: str, ros: Any, told: list[str], tmp_path: Path
+    key: str, space: str, ros: Any, reported: list[str], tmp_path: Path
 ) -> None:
     file = begin(ros, tmp_path, key)
     node = ros.node("robot_node", namespace=space)
     assert node.declare_parameter("speed", 1.0).value == 1.0
     ros.node("_robot_nodes_hidden_helper")
     full = f"{space}/robot_node"
-    assert told == [f"{file} gives {full} no parameter: its key '{key}' does not mean it; did you mean '{full}'?"]
+    assert reported == [f"{file} gives {full} no parameter: its key '{key}' does not mean it; did you mean '{full}'?"]
 
 
 @pytest.mark.parametrize("keys", [("/**",), ("robot_node", "robto_node"), ("/*",), ("camera", "arm")])
 def test_a_file_that_reaches_the_node_or_is_for_many_others_is_not(
-    keys: tuple[str, ...], ros: Any, told: list[str], tmp_path: Path
+    keys: tuple[str, ...], ros: Any, reported: list[str], tmp_path: Path
 ) -> None:
     begin(ros, tmp_path, *keys)
     ros.node("robot_node")
-    assert told == []
+    assert reported == []
 
 
-def test_what_means_another_node_of_the_program_is_not(ros: Any, told: list[str], tmp_path: Path) -> None:
+def test_what_means_another_node_of_the_program_is_not(ros: Any, reported: list[str], tmp_path: Path) -> None:
     begin(ros, tmp_path, "camera_left")
     ros.node("camera_left")
     ros.node("camera_right")
-    assert told == []
+    assert reported == []
 
 
-def test_a_node_that_launch_has_named_is_left_to_launch(ros: Any, told: list[str], tmp_path: Path) -> None:
+def test_a_node_that_launch_has_named_is_left_to_launch(ros: Any, reported: list[str], tmp_path: Path) -> None:
     begin(ros, tmp_path, "robto_node", rules=("-r", "__node:=robot_node"))
     assert ros.node("minimal").get_name() == "robot_node"
-    assert told == []
+    assert reported == []

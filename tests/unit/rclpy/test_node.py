@@ -163,7 +163,7 @@ def test_what_an_unknown_node_has(system: Any, what: str) -> None:
         ask("", "/")
 
 
-def test_infos_tell_what_is_in_effect(system: Any) -> None:
+def test_infos_report_what_is_in_effect(system: Any) -> None:
     (info,) = system.get_publishers_info_by_topic("chatter")
     assert (info.node_name, info.node_namespace, info.topic_type) == ("talker", "/", "std_msgs/msg/String")
     assert (info.endpoint_type, len(info.endpoint_gid)) == (TopicEndpointTypeEnum.PUBLISHER, 16)
@@ -295,7 +295,7 @@ def test_topics_and_services_by_their_names_on_dds(ros: Any) -> None:
     node.create_client(Trigger, "asked")
     node.create_service(Trigger, "offered", lambda request, response: response)
     request, response = (f"std_srvs::srv::dds_::Trigger_{each}_" for each in ("Request", "Response"))
-    said = ("rt/ns/said", ["std_msgs::msg::dds_::String_"])
+    output = ("rt/ns/said", ["std_msgs::msg::dds_::String_"])
     heard = ("rt/ns/heard", ["std_msgs::msg::dds_::Int32_"])
     asked = [("rq/ns/askedRequest", [request]), ("rr/ns/askedReply", [response])]
     offered = [("rq/ns/offeredRequest", [request]), ("rr/ns/offeredReply", [response])]
@@ -303,9 +303,9 @@ def test_topics_and_services_by_their_names_on_dds(ros: Any) -> None:
     def ours(pairs: Any) -> list[Any]:
         return [each for each in pairs if "/ns/" in each[0] and "type_description" not in each[0]]
 
-    assert ours(node.get_topic_names_and_types(no_demangle=True)) == sorted([said, heard, *asked, *offered])
+    assert ours(node.get_topic_names_and_types(no_demangle=True)) == sorted([output, heard, *asked, *offered])
     published = node.get_publisher_names_and_types_by_node("n", "/ns", no_demangle=True)
-    assert ours(published) == sorted([said, asked[0], offered[1]])
+    assert ours(published) == sorted([output, asked[0], offered[1]])
     subscribed = node.get_subscriber_names_and_types_by_node("n", "/ns", no_demangle=True)
     assert ours(subscribed) == sorted([heard, asked[1], offered[0]])
     [info] = node.get_publishers_info_by_topic("rt/ns/said", no_mangle=True)

@@ -332,7 +332,7 @@ def test_the_stamp_is_the_time_of_the_node(ros: Any) -> None:
     assert [(each.stamp.sec, each.stamp.nanosec) for each in listener.events] == [(0, 0)]
 
 
-def test_what_an_event_cannot_carry_is_told_to_the_caller(ros: Any) -> None:
+def test_what_an_event_cannot_carry_is_reported_to_the_caller(ros: Any) -> None:
     node = node_of(ros)
     with pytest.raises(TypeError, match="integer_value"):
         node.set_parameters([given("a", 2**63)])

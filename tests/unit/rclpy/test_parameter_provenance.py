@@ -12,12 +12,12 @@ from bot_console.runtime.process.facts import anybody_listens, on_fact
 from rclpy.context import Context
 from rclpy.parameter import Parameter
 
-Told = dict[str, tuple[Any, ...]]
+Reported = dict[str, tuple[Any, ...]]
 
 
 @pytest.fixture
-def told() -> Iterator[Told]:
-    found: Told = {}
+def reported() -> Iterator[Reported]:
+    found: Reported = {}
 
     def hear(kind: str, facts: Mapping[str, Any]) -> None:
         assert kind == "declared" and facts["node"] == "/n"
@@ -28,7 +28,7 @@ def told() -> Iterator[Told]:
     forget()
 
 
-def test_default_line_and_the_override_that_counts(told: Told, tmp_path: Path) -> None:
+def test_default_line_and_the_override_that_counts(reported: Reported, tmp_path: Path) -> None:
     file = tmp_path / "p.yaml"
     file.write_text("/**:\n  ros__parameters:\n    a: 2\n    b: 2\n    c: 2\n")
     context = Context()
@@ -38,18 +38,18 @@ def test_default_line_and_the_override_that_counts(told: Told, tmp_path: Path) -
     node.declare_parameter("e", [1.0, 2.0])
     node.destroy_node()
     context.shutdown()
-    sources = {name: told[name][2] for name in "abcde"}
+    sources = {name: reported[name][2] for name in "abcde"}
     assert sources == {"a": str(file), "b": "-p", "c": "parameter_overrides of its program", "d": "", "e": ""}
-    assert told["a"][0] == 1 and told["e"][0] == [1.0, 2.0]
-    assert [told[name][3] for name in "abcd"] == [2, 3, 4, 1], "the value at the start"
-    places = {told[name][1] for name in "abcd"}
+    assert reported["a"][0] == 1 and reported["e"][0] == [1.0, 2.0]
+    assert [reported[name][3] for name in "abcd"] == [2, 3, 4, 1], "the value at the start"
+    places = {reported[name][1] for name in "abcd"}
     assert len(places) == 1
     path, _, line = places.pop().rpartition(":")
     assert path == __file__
     assert 'declare_parameters("", [("a"' in Path(path).read_text().splitlines()[int(line) - 1]
 
 
-def test_a_later_file_and_a_later_word_count(told: Told, tmp_path: Path) -> None:
+def test_a_later_file_and_a_later_word_count(reported: Reported, tmp_path: Path) -> None:
     first, second = tmp_path / "1.yaml", tmp_path / "2.yaml"
     for each in (first, second):
         each.write_text("n:\n  ros__parameters:\n    a: 2\n")
@@ -60,7 +60,7 @@ def test_a_later_file_and_a_later_word_count(told: Told, tmp_path: Path) -> None
         node.declare_parameter("a", 0)
     context.shutdown()
     # A plain -p stands under /**, which came first; a node's own key comes behind it.
-    assert told["a"][2] == str(second)
+    assert reported["a"][2] == str(second)
 
 
 def test_nothing_is_worked_out_where_nobody_listens() -> None:

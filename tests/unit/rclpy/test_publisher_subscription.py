@@ -235,7 +235,7 @@ def test_only_messages_of_the_type(ros: Any, message: Any) -> None:
         publisher.publish(message)
 
 
-def test_a_wrong_field_is_told_with_its_place(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_wrong_field_is_reported_with_its_place(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
     publisher = ros.node().create_publisher(Int32, "t", 10)
     with pytest.raises(TypeError, match="field 'data' of std_msgs/msg/Int32 must be"):
         publisher.publish(Int32(data="five", check_fields=False))
@@ -297,13 +297,13 @@ def test_counts_of_matches(ros: Any) -> None:
 def test_matched_events(ros: Any) -> None:
     node, got = ros.node(), []
 
-    def tell(side: str) -> Any:
+    def report(side: str) -> Any:
         return lambda info: got.append(
             (side, info.total_count, info.total_count_change, info.current_count, info.current_count_change)
         )
 
-    node.create_publisher(Int32, "t", 1, event_callbacks=PublisherEventCallbacks(matched=tell("publisher")))
-    events = SubscriptionEventCallbacks(matched=tell("subscription"))
+    node.create_publisher(Int32, "t", 1, event_callbacks=PublisherEventCallbacks(matched=report("publisher")))
+    events = SubscriptionEventCallbacks(matched=report("subscription"))
     subscription = node.create_subscription(Int32, "t", print, 1, event_callbacks=events)
     ros.settle()
     assert sorted(got) == [("publisher", 1, 1, 1, 1), ("subscription", 1, 1, 1, 1)]

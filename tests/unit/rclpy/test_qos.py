@@ -212,12 +212,12 @@ def test_bad_depths(ros: Any, given: Any, kind: type[Exception], words: str) -> 
         assert str(caught.value) == words
 
 
-def test_a_depth_of_zero_is_told() -> None:
+def test_a_depth_of_zero_is_reported() -> None:
     with pytest.warns(UserWarning, match="A zero depth with KEEP_LAST doesn't make sense; no data could be stored"):
         qos.QoSProfile(depth=0)
 
 
-def test_a_profile_that_came_over_the_wire_is_told_to_each_asker_in_an_object_of_its_own():
+def test_a_profile_that_came_over_the_wire_is_reported_to_each_asker_in_an_object_of_its_own():
     from bot_console.runtime.rmw.zenoh.wire.qos_text import decode_qos
     from rclpy.node_parts.qos_in_effect import in_effect
 

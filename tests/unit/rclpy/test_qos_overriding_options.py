@@ -43,7 +43,7 @@ def test_default_policies_of_a_publisher(ros: Any) -> None:
     assert described.description == "depth for publisher `/chatter` with id `None`"
 
 
-def test_entities_told_apart_and_durations(ros: Any) -> None:
+def test_entities_distinguished_and_durations(ros: Any) -> None:
     kinds = (QoSPolicyKind.LIFESPAN, QoSPolicyKind.DEADLINE, QoSPolicyKind.DURABILITY)
     ros.init("-p", "qos_overrides./t.subscription_left.deadline:=5000")
     node = ros.node()
@@ -84,7 +84,7 @@ def test_without_the_option_nothing_is_declared(ros: Any) -> None:
     assert overrides(node) == {}
 
 
-def test_a_callback_tells_why_it_refuses(ros: Any) -> None:
+def test_a_callback_reports_why_it_refuses(ros: Any) -> None:
     from rclpy.qos_overriding_options import QosCallbackResult
 
     def shallow(profile: QoSProfile) -> Any:

@@ -78,8 +78,8 @@ print(rclpy.executors.MultiThreadedExecutor.__name__, rclpy.time.Time().nanoseco
 
 
 def test_modules_are_there_once_upstream_has_loaded_them() -> None:
-    told = subprocess.run([sys.executable, "-c", SCRIPT], capture_output=True, text=True, check=True, timeout=60)
-    assert told.stdout.splitlines() == ["True False False", "MultiThreadedExecutor 0 False"]
+    reported = subprocess.run([sys.executable, "-c", SCRIPT], capture_output=True, text=True, check=True, timeout=60)
+    assert reported.stdout.splitlines() == ["True False False", "MultiThreadedExecutor 0 False"]
 
 
 def test_the_events_executor_serves(ros: object) -> None:

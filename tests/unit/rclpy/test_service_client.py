@@ -12,7 +12,7 @@ from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from std_srvs.srv import Trigger
 
-PATIENCE = 20.0
+TIMEOUT_S = 20.0
 
 
 def add(request: Any, response: Any) -> Any:
@@ -180,7 +180,7 @@ def test_call_within_a_callback_of_another_group(ros: Any) -> None:
     client = pair.node.create_client(AddTwoInts, "add", callback_group=MutuallyExclusiveCallbackGroup())
 
     def ask() -> None:
-        got.append(client.call(AddTwoInts.Request(a=1, b=1), timeout_sec=PATIENCE).sum)
+        got.append(client.call(AddTwoInts.Request(a=1, b=1), timeout_sec=TIMEOUT_S).sum)
         done.set()
 
     pair.node.create_guard_condition(ask).trigger()
@@ -189,9 +189,9 @@ def test_call_within_a_callback_of_another_group(ros: Any) -> None:
         executor.add_node(node)
     thread = threading.Thread(target=executor.spin, daemon=True)
     thread.start()
-    assert done.wait(PATIENCE)
+    assert done.wait(TIMEOUT_S)
     executor.shutdown()
-    thread.join(PATIENCE)
+    thread.join(TIMEOUT_S)
     assert got == [2]
 
 

@@ -89,7 +89,7 @@ def test_a_callback_added_after_the_cancel_is_called_at_once() -> None:
     assert got == [future]
 
 
-def test_an_exception_that_nobody_asks_for_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_exception_that_nobody_asks_for_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
     future: Any = Future()
     future.set_exception(RuntimeError("forgotten"))
     del future

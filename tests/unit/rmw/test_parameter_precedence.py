@@ -225,7 +225,7 @@ def test_files_that_are_refused(case: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("content", "mend"),
+    ("content", "hint"),
     [
         (section("\ta: 1\n"), ":3: it is indented by a tab, and YAML takes spaces alone"),
         (section("    a: @x\n"), ":3: found character"),
@@ -233,12 +233,12 @@ def test_files_that_are_refused(case: str, tmp_path: Path) -> None:
         (section("    [1]: 2\n"), ""),
     ],
 )
-def test_what_rcl_does_not_say_of_a_refused_file(content: str, mend: str, tmp_path: Path) -> None:
+def test_what_rcl_does_not_report_of_a_refused_file(content: str, hint: str, tmp_path: Path) -> None:
     path = tmp_path / "p.yaml"
     path.write_text(content)
     with pytest.raises(ParameterYamlError) as refused:
         ParameterTable().add_file(str(path))
-    assert refused.value.mend.startswith(f"{path}{mend}") if mend else refused.value.mend == ""
+    assert refused.value.hint.startswith(f"{path}{hint}") if hint else refused.value.hint == ""
 
 
 def test_a_file_that_cannot_be_read(tmp_path: Path) -> None:

@@ -26,11 +26,11 @@ def test_a_row_is_what_rclpy_infers_and_what_its_field_takes(row):
     assert (list(held) if row.is_array else held) == value
 
 
-def test_the_consoles_table_says_the_same():
+def test_the_consoles_table_reports_the_same():
     assert {each.value: each.name for each in Kind} == NAMES
-    for kind, told in TYPES.items():
+    for kind, reported in TYPES.items():
         row = BY_CODE[kind.value]
-        assert (told.python, told.element is not None, field_of(kind)) == (row.python, row.is_array, row.field)
+        assert (reported.python, reported.element is not None, field_of(kind)) == (row.python, row.is_array, row.field)
 
 
 def test_words():

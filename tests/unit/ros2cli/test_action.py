@@ -18,14 +18,14 @@ class Server:
         self._endpoints = SimpleNamespace(goal=SimpleNamespace(has_ended=False))
         self._gone_at = gone_at
         self._answers_at = answers_at
-        self.looks = 0
+        self.polls = 0
 
     def server_is_ready(self) -> bool:
-        return self.looks not in self._gone_at
+        return self.polls not in self._gone_at
 
-    def looked(self, node: Any, done: Any, seconds: float) -> bool:
-        self.looks += 1
-        return self.looks == self._answers_at
+    def polled(self, node: Any, done: Any, seconds: float) -> bool:
+        self.polls += 1
+        return self.polls == self._answers_at
 
 
 NODE: Any = SimpleNamespace(
@@ -39,13 +39,13 @@ def outcome(monkeypatch: pytest.MonkeyPatch) -> Any:
     monkeypatch.setattr(action, "GONE", 2)
 
     def waited(server: Server) -> Any:
-        monkeypatch.setattr(action, "spin_until", server.looked)
+        monkeypatch.setattr(action, "spin_until", server.polled)
         return action._outcome(NODE, server, FUTURE)  # type: ignore[arg-type]
 
     return waited
 
 
-def test_a_server_that_has_ended_is_told(outcome: Any) -> None:
+def test_a_server_that_has_ended_is_reported(outcome: Any) -> None:
     with pytest.raises(NoAnswer, match=r"^nobody answers /fibonacci: its server has ended since it was asked"):
         outcome(Server(range(3, 99), 99))
 
@@ -54,10 +54,10 @@ def test_a_server_that_is_back_is_waited_for(outcome: Any) -> None:
     assert outcome(Server(range(3, 5), 40)) == "result"
 
 
-def test_a_server_that_has_ended_for_certain_is_told_at_the_second_look(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_server_that_has_ended_for_certain_is_reported_at_the_second_look(monkeypatch: pytest.MonkeyPatch) -> None:
     server = Server(range(3, 99), 99)
     server._endpoints.goal.has_ended = True
-    monkeypatch.setattr(action, "spin_until", server.looked)
+    monkeypatch.setattr(action, "spin_until", server.polled)
     with pytest.raises(NoAnswer, match="has ended since it was asked"):
         action._outcome(NODE, server, FUTURE)  # type: ignore[arg-type]
-    assert server.looks == 4
+    assert server.polls == 4

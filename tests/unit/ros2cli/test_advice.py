@@ -12,7 +12,7 @@ NODE = "node = Node('tuned'); node.declare_parameter('gain', 1.0); node.declare_
 BASE = """from geometry_msgs.msg import Twist
 node = Node("base")
 node.create_subscription(Twist, "/cmd_vel", print, 10)"""
-SAID = [
+OUTPUT = [
     (("describe", "/tuned", "gian"), "/tuned has no parameter gian; did you mean gain?"),
     (("describe", "/tuned", "zzz"), "/tuned has no parameter zzz; ros2 param list /tuned shows those it has"),
     (("get", "tuned", "gian"), "did you mean gain?"),
@@ -28,42 +28,44 @@ SAID = [
 ]
 
 
-@pytest.mark.parametrize(("words", "told"), SAID)
-def test_a_mistake_is_told_with_its_mend_where_a_person_reads(
-    ros, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], told: str
+@pytest.mark.parametrize(("words", "reported"), OUTPUT)
+def test_a_mistake_is_reported_with_a_hint_where_a_person_reads(
+    ros, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], reported: str
 ) -> None:
     ros.node(NODE)
-    assert told not in ros.ask("param", *words).stderr
+    assert reported not in ros.ask("param", *words).stderr
     monkeypatch.setattr(advice, "is_read", lambda: True)
     asked = ros.ask("param", *words)
-    assert asked.stderr.rstrip().endswith(told)
+    assert asked.stderr.rstrip().endswith(reported)
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "reported"),
     [
         (("param", "get", "/tunde", "gain"), "no node /tunde runs; did you mean /tuned?"),
         (("param", "list", "/other"), "no node /other runs; there are: /tuned"),
         (("node", "info", "tuned"), "no node tuned runs; did you mean /tuned?"),
     ],
 )
-def test_a_mistyped_node_is_told(ros, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], told: str) -> None:
+def test_a_mistyped_node_is_reported(
+    ros, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], reported: str
+) -> None:
     ros.node(NODE)
     silent = ros.ask(*words)
-    assert told not in silent.stderr
+    assert reported not in silent.stderr
     monkeypatch.setattr(advice, "is_read", lambda: True)
     asked = ros.ask(*words)
-    assert asked.stderr == f"{told}\n{silent.stderr}"
+    assert asked.stderr == f"{reported}\n{silent.stderr}"
     assert asked.exit == silent.exit == 1
 
 
-def test_without_any_node_that_is_told() -> None:
+def test_without_any_node_that_is_reported() -> None:
     assert advice.no_node("/robot", []) == "no node runs in this ROS domain"
     assert advice.no_node("/robot", [f"/{each}" for each in range(99)]) == "no node /robot runs"
 
 
 @pytest.mark.parametrize(
-    ("topic", "kind", "told"),
+    ("topic", "kind", "reported"),
     [
         (
             "/cmd_vel",
@@ -73,13 +75,13 @@ def test_without_any_node_that_is_told() -> None:
         ("/cmd_vl", "geometry_msgs/Twist", "nobody subscribes to /cmd_vl; did you mean /cmd_vel?"),
     ],
 )
-def test_why_nobody_receives_is_told_once(
-    ros, monkeypatch: pytest.MonkeyPatch, topic: str, kind: str, told: str
+def test_why_nobody_receives_is_reported_once(
+    ros, monkeypatch: pytest.MonkeyPatch, topic: str, kind: str, reported: str
 ) -> None:
     ros.node(BASE)
     monkeypatch.setattr(advice, "is_read", lambda: True)
     asked = ros.ask("topic", "pub", "--once", "--max-wait-time-secs", "2", topic, kind)
-    assert asked.stderr.count(told) == 1 and asked.exit == 1
+    assert asked.stderr.count(reported) == 1 and asked.exit == 1
 
 
 def test_the_launch_files_of_a_package_are_named(ros, monkeypatch: pytest.MonkeyPatch) -> None:

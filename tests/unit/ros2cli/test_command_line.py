@@ -58,8 +58,8 @@ print(*{"dataclasses", "inspect", "numpy", "shutil", "traceback", "yaml"} & {*sy
     assert shown.stdout == "\n"
 
 
-@pytest.mark.parametrize(("told", "width"), [("100", 100), ("0", 80), ("wide", 80)])
-def test_help_is_as_wide_as_the_terminal(told: str, width: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", told)
+@pytest.mark.parametrize(("reported", "width"), [("100", 100), ("0", 80), ("wide", 80)])
+def test_help_is_as_wide_as_the_terminal(reported: str, width: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", reported)
     monkeypatch.setattr("sys.__stdout__", io.StringIO())  # no terminal
     assert HelpFormatter("ros2")._width == width - 2

@@ -53,8 +53,10 @@ def test_what_cannot_be_loaded(ros) -> None:
     ros.node(CONTAINER)
     failed = ros.ask("component", "load", BOX, "composition", "composition::Talker")
     assert failed.exit == 1
-    said = "Failed to load component: Failed to find class with the requested plugin name. 'composition::talker' is no"
-    assert failed.stderr.startswith(said)
+    message = (
+        "Failed to load component: Failed to find class with the requested plugin name. 'composition::talker' is no"
+    )
+    assert failed.stderr.startswith(message)
     for verb in (("list",), ("load", *BIT), ("unload", "1")):
         missing = ros.ask("component", verb[0], "/box", *verb[1:])
         assert (missing.exit, missing.stderr) == (1, "Unable to find container node '/box'\n")

@@ -14,7 +14,7 @@ class Asking:
     """A node, a client and a request that is answered at the third look, if at all."""
 
     def __init__(self, *, answers: bool) -> None:
-        self.looks = 0
+        self.polls = 0
         self.gone_at: tuple[int, ...] = ()
         self.frozen: dict[int, list[str]] = {}
         self.ended = False
@@ -27,12 +27,12 @@ class Asking:
         return {("robot", "/"): [("/robot/get", [])], ("arm", "/left"): [("/left/arm/get", [])]}[name, namespace]
 
     def service_is_ready(self) -> bool:
-        return self.looks not in self.gone_at
+        return self.polls not in self.gone_at
 
     def done(self) -> bool:
-        self.looks += 1
-        assert self.looks < 20
-        return self._answers and self.looks > 2
+        self.polls += 1
+        assert self.polls < 20
+        return self._answers and self.polls > 2
 
     def result(self) -> str:
         return "answer"
@@ -61,21 +61,21 @@ def test_a_frozen_process_is_named() -> None:
         asked(it)
 
 
-def test_a_node_that_ends_while_it_is_asked_is_told() -> None:
+def test_a_node_that_ends_while_it_is_asked_is_reported() -> None:
     it = Asking(answers=False)
     it.gone_at = (2, *range(4, 7))
     with pytest.raises(NoAnswer, match=r"^nobody answers /robot/get: its node has ended"):
         asked(it)
-    assert it.looks == 6
+    assert it.polls == 6
 
 
-def test_a_node_that_has_ended_for_certain_is_told_at_the_second_look(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_node_that_has_ended_for_certain_is_reported_at_the_second_look(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(direct_node, "GONE", 99)
     it = Asking(answers=False)
     it.gone_at, it.ended = tuple(range(1, 20)), True
     with pytest.raises(NoAnswer, match=r"^nobody answers /robot/get: its node has ended"):
         asked(it)
-    assert it.looks == 2
+    assert it.polls == 2
 
 
 def test_a_node_that_is_still_there_is_waited_for_whatever_is_known() -> None:

@@ -95,7 +95,7 @@ def test_call_refuses_what_does_not_fit(ros) -> None:
     assert ros.ask("service", "call", "/x", "std_srvs/srv/Nope").stderr == "The passed service type is invalid\n"
 
 
-def test_hidden_things_are_found_when_told_so(ros) -> None:
+def test_hidden_things_are_found_when_requested(ros) -> None:
     ros.node(SERVER)
     ros.node("node = Node('_secret')")
     assert ros.ask("node", "info", "/_secret").stderr == "Unable to find node '/_secret'\n"

@@ -64,7 +64,7 @@ def test_the_workspaces_own_definition_goes_first(ros, tmp_path: Path) -> None:
     assert (shown.stdout, shown.stderr) == ("float64 only_mine\n", "")
 
 
-def test_what_was_not_compared_says_so(ros) -> None:
+def test_what_was_not_compared_reports_it(ros) -> None:
     shown = ros.ask("interface", "show", "nav2_msgs/msg/SpeedLimit")
     assert "float64 speed_limit\n" in shown.stdout
     assert "its type hash was not compared with ROS 2" in shown.stderr

@@ -55,7 +55,7 @@ SHOWN = """Arguments (pass arguments as '<name>:=<value>'):
 
 * argument(s) which are only used if specific conditions occur
 """
-SAYS = """
+OUTPUTS = """
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, LogInfo
 from launch.substitutions import LaunchConfiguration
@@ -77,10 +77,10 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for place in (index, share / "launch" / "sub", share / "a", share / "b"):
         place.mkdir(parents=True)
     (index / "pkg").write_text("")
-    (share / "launch" / "sub" / "deep.launch.py").write_text(SAYS)
+    (share / "launch" / "sub" / "deep.launch.py").write_text(OUTPUTS)
     for place in ("a", "b"):
-        (share / place / "same.launch.py").write_text(SAYS)
-    for name, text in (("listed", LISTED), ("says", SAYS), ("empty", EMPTY)):
+        (share / place / "same.launch.py").write_text(OUTPUTS)
+    for name, text in (("listed", LISTED), ("says", OUTPUTS), ("empty", EMPTY)):
         (tmp_path / f"{name}.launch.py").write_text(text)
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
@@ -119,7 +119,7 @@ def test_no_arguments(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         (["x:=1"], ["1"]),
         (["x:=1", "x:=2"], ["2"]),
@@ -129,15 +129,15 @@ def test_no_arguments(capsys: pytest.CaptureFixture[str]) -> None:
         (["unknown:=1"], ["-"]),
     ],
 )
-def test_arguments(capsys: pytest.CaptureFixture[str], words: list[str], said: list[str]) -> None:
+def test_arguments(capsys: pytest.CaptureFixture[str], words: list[str], message: list[str]) -> None:
     code, out, err = launched(capsys, "says.launch.py", *words)
-    assert (code, user_lines(out), err) == (0, said, "")
+    assert (code, user_lines(out), err) == (0, message, "")
 
 
 @pytest.mark.parametrize("word", ["x", "x:=", ":=y"])
 def test_malformed_arguments(capsys: pytest.CaptureFixture[str], word: str) -> None:
-    said = f"malformed launch argument '{word}', expected format '<name>:=<value>'\n"
-    assert launched(capsys, "says.launch.py", word) == (1, "", said)
+    message = f"malformed launch argument '{word}', expected format '<name>:=<value>'\n"
+    assert launched(capsys, "says.launch.py", word) == (1, "", message)
 
 
 def test_of_a_package(capsys: pytest.CaptureFixture[str]) -> None:
@@ -152,8 +152,8 @@ def test_not_found(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
         (["nopkg", "x"], f"Package 'nopkg' not found: \"package 'nopkg' not found, searching: ['{folder}']\""),
         (["pkg", "zz.launch.py"], f"file 'zz.launch.py' was not found {where} which is at '{share}'"),
     ]
-    for words, said in rows:
-        assert launched(capsys, *words) == (1, "", said + "\n")
+    for words, message in rows:
+        assert launched(capsys, *words) == (1, "", message + "\n")
     code, _, err = launched(capsys, "pkg", "same.launch.py")
     assert code == 1
     assert err.startswith(f"file 'same.launch.py' was found more than once {where}: [")
@@ -181,14 +181,14 @@ def test_a_mistyped_path(capsys: pytest.CaptureFixture[str], path: str) -> None:
 
 
 def test_usage(capsys: pytest.CaptureFixture[str]) -> None:
-    for words, said in (
+    for words, message in (
         (["says.launch.py", "-s", "x:=1"], "unrecognized arguments: x:=1"),
         (["says.launch.py", "-s", "-p"], "not allowed with argument"),
         ([], "the following arguments are required"),
     ):
         code, _, err = launched(capsys, *words)
         assert code == 2
-        assert said in err
+        assert message in err
 
 
 def test_shown_arguments_that_cannot_be_written_are_no_fault_of_the_launch_file(
@@ -204,8 +204,8 @@ def test_shown_arguments_that_cannot_be_written_are_no_fault_of_the_launch_file(
 
 
 def test_a_filter_needs_a_prefix(capsys: pytest.CaptureFixture[str]) -> None:
-    said = "--launch-prefix must be specified if --launch-prefix-filter is provided\n"
-    assert launched(capsys, "says.launch.py", "--launch-prefix-filter", "x") == (1, "", said)
+    message = "--launch-prefix must be specified if --launch-prefix-filter is provided\n"
+    assert launched(capsys, "says.launch.py", "--launch-prefix-filter", "x") == (1, "", message)
 
 
 def test_print(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
@@ -247,15 +247,15 @@ BAD: list[tuple[str, int, str]] = [
 ]
 
 
-@pytest.mark.parametrize(("text", "code", "said"), BAD, ids=[row[0] for row in BAD])
+@pytest.mark.parametrize(("text", "code", "message"), BAD, ids=[row[0] for row in BAD])
 @pytest.mark.parametrize("option", [[], ["-s"], ["-p"]], ids=["run", "-s", "-p"])
 def test_bad_files(
-    capsys: pytest.CaptureFixture[str], folder: Path, text: str, code: int, said: str, option: list[str]
+    capsys: pytest.CaptureFixture[str], folder: Path, text: str, code: int, message: str, option: list[str]
 ) -> None:
     (folder / "bad.launch.py").write_text(text)
     found, out, err = launched(capsys, "bad.launch.py", *option)
     assert found == code
-    assert said in out + err
+    assert message in out + err
     assert "Traceback" not in out + err
 
 

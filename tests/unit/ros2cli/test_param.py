@@ -161,14 +161,14 @@ def test_a_node_that_comes_in_time_is_waited_for(ros, verb: list[str]) -> None:
     assert (missing.exit, missing.stderr) == (1, "Node not found\n")
 
 
-def test_hidden_nodes_are_asked_when_told_so(ros) -> None:
+def test_hidden_nodes_are_asked_when_requested(ros) -> None:
     ros.node("node = Node('_hidden')\nnode.declare_parameter('x', 1)")
     assert ros.ask("param", "get", "/_hidden", "x").stderr == "Node not found\n"
     assert ros.ask("param", "get", "/_hidden", "x", "--include-hidden-nodes").stdout == "Integer value is: 1\n"
     assert ros.ask("param", "list").stdout == ""
 
 
-def test_a_refusal_by_a_callback_is_told(ros) -> None:
+def test_a_refusal_by_a_callback_is_reported(ros) -> None:
     ros.node("""
 from rcl_interfaces.msg import SetParametersResult
 node = Node('strict')
@@ -179,7 +179,7 @@ node.add_on_set_parameters_callback(lambda parameters: SetParametersResult(succe
     assert ros.ask("param", "get", "/strict", "x", "--hide-type").stdout == "1\n"
 
 
-def test_a_node_that_ends_in_its_callback_is_told_of(ros) -> None:
+def test_a_node_that_ends_in_its_callback_is_reported(ros) -> None:
     node = ros.node("""
 node = Node('careless')
 node.declare_parameter('x', 1)

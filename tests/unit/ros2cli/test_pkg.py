@@ -39,7 +39,7 @@ def test_a_created_package_runs(ros, src: Path) -> None:
     assert Path(ros.ask("pkg", "prefix", "--share", "my_first").stdout.strip(), "package.xml").is_file()
 
 
-def test_what_is_created_is_told_line_by_line(ros, src: Path) -> None:
+def test_what_is_created_is_reported_line_by_line(ros, src: Path) -> None:
     words = (
         "--build-type",
         "ament_python",
@@ -94,10 +94,10 @@ def package(src: Path, name: str, **modules: str) -> None:
 
 
 def test_run_gives_the_words_and_the_exit_code(ros, src: Path) -> None:
-    package(src, "p", tell="import sys\ndef main():\n    print(sys.argv[1:])\n    return 3\n")
-    told = ros.ask("run", "p", "tell", "a", "--ros-args", "-p", "x:=1")
-    assert told.stdout == "['a', '--ros-args', '-p', 'x:=1']\n[ros2run]: Process exited with failure 3\n"
-    assert told.exit == 3
+    package(src, "p", report="import sys\ndef main():\n    print(sys.argv[1:])\n    return 3\n")
+    reported = ros.ask("run", "p", "tell", "a", "--ros-args", "-p", "x:=1")
+    assert reported.stdout == "['a', '--ros-args', '-p', 'x:=1']\n[ros2run]: Process exited with failure 3\n"
+    assert reported.exit == 3
 
 
 def test_a_package_can_use_another_one(ros, src: Path) -> None:
@@ -141,7 +141,7 @@ def test_ctrl_c_ends_the_node(ros, src: Path) -> None:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a script of the system's shell")
 def test_a_prefix_makes_a_process_of_its_own(ros, src: Path) -> None:
-    package(src, "p", tell="def main():\n    pass\n")
+    package(src, "p", report="def main():\n    pass\n")
     assert ros.ask("run", "--prefix", "echo prefixed", "p", "tell").stdout.startswith("prefixed ")
 
 
@@ -153,10 +153,10 @@ def test_rqt_is_the_console(ros, program: str) -> None:
 
 
 def test_launch_show_args_without_a_file_lists_the_launch_files(ros, src: Path) -> None:
-    told = ros.ask("launch", "bot_console_robot", "--show-args")
-    assert (told.exit, told.stderr) == (0, "")
-    assert "    robot_system.launch.py\n" in told.stdout and "    environment_launch.py\n" in told.stdout
-    package(src, "p", tell="def main():\n    pass\n")
+    reported = ros.ask("launch", "bot_console_robot", "--show-args")
+    assert (reported.exit, reported.stderr) == (0, "")
+    assert "    robot_system.launch.py\n" in reported.stdout and "    environment_launch.py\n" in reported.stdout
+    package(src, "p", report="def main():\n    pass\n")
     assert "package 'p' has no launch files" in ros.ask("launch", "p", "--show-args").stderr
 
 
@@ -233,9 +233,9 @@ def test_what_a_package_with_everything_is_made_of(ros, src: Path) -> None:
 
 
 def test_licenses_are_listed(ros, src: Path) -> None:
-    told = ros.ask("pkg", "create", "--license", "?", "nothing")
-    assert told.stdout.splitlines()[:3] == ["Supported licenses:", "Apache-2.0", "BSL-1.0"]
-    assert (told.exit, Path("nothing").exists()) == (0, False)
+    reported = ros.ask("pkg", "create", "--license", "?", "nothing")
+    assert reported.stdout.splitlines()[:3] == ["Supported licenses:", "Apache-2.0", "BSL-1.0"]
+    assert (reported.exit, Path("nothing").exists()) == (0, False)
 
 
 @pytest.mark.parametrize(
@@ -255,7 +255,7 @@ def test_a_license_comes_with_its_text(ros, src: Path, license_name: str, begin:
 
 
 @pytest.mark.parametrize("license_name", ["GPL-3.0-only", "my own", "../MIT"])
-def test_a_license_without_its_text_is_told(ros, src: Path, license_name: str) -> None:
+def test_a_license_without_its_text_is_reported(ros, src: Path, license_name: str) -> None:
     made = ros.ask("pkg", "create", "--build-type", "ament_python", "--license", license_name, "p")
     assert f"'{license_name}'" in made.stdout.partition("[WARNING]: ")[2]
     assert not Path("p/LICENSE").exists()
@@ -282,5 +282,5 @@ def test_a_plain_cmake_package_is_built_and_found(ros, src: Path) -> None:
                       ("--install", f"build/{package}")):  # fmt: skip
             done = subprocess.run(["cmake", *words], capture_output=True, text=True, check=False)
             assert done.returncode == 0, done.stderr
-    said = subprocess.run([prefix / "lib" / "second" / "hello"], capture_output=True, text=True, check=True)
-    assert said.stdout == "hello world second package\n"
+    message = subprocess.run([prefix / "lib" / "second" / "hello"], capture_output=True, text=True, check=True)
+    assert message.stdout == "hello world second package\n"

@@ -158,11 +158,11 @@ def test_hz_of_some_messages(ros) -> None:
 
 def test_bw(ros) -> None:
     ros.node(COUNTER)
-    told = ros.ask("topic", "bw", "/count", stop_after=2.1).stdout.splitlines()
-    assert told[0] == "Subscribed to [/count]"
-    assert told[1].endswith(" B/s from 4 messages")
-    assert told[2] == "\tMessage size mean: 8 B min: 8 B max: 8 B"
-    assert len(told) == 5
+    reported = ros.ask("topic", "bw", "/count", stop_after=2.1).stdout.splitlines()
+    assert reported[0] == "Subscribed to [/count]"
+    assert reported[1].endswith(" B/s from 4 messages")
+    assert reported[2] == "\tMessage size mean: 8 B min: 8 B max: 8 B"
+    assert len(reported) == 5
 
 
 def test_delay(ros) -> None:
@@ -177,8 +177,8 @@ def publish():
     publisher.publish(point)
 node.create_timer(0.5, publish)
 """)
-    told = ros.ask("topic", "delay", "/p", stop_after=1.2).stdout
-    assert told.startswith("average delay: 0.125\n\tmin: 0.125s max: 0.125s std dev: 0.00000s window: ")
+    reported = ros.ask("topic", "delay", "/p", stop_after=1.2).stdout
+    assert reported.startswith("average delay: 0.125\n\tmin: 0.125s max: 0.125s std dev: 0.00000s window: ")
     assert ros.ask("topic", "delay", "/rosout", stop_after=1.0).exit in (1, 2)
 
 

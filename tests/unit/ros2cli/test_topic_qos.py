@@ -23,7 +23,7 @@ FALLBACKS = (
 
 
 @pytest.mark.parametrize("words", [(), ("--qos-profile", "default")])
-def test_echo_tells_what_it_does_without(ros, words: tuple[str, ...]) -> None:
+def test_echo_reports_what_it_does_without(ros, words: tuple[str, ...]) -> None:
     ros.node(OFFERS)
     assert ros.ask("topic", "echo", "/mixed", "--once", *words).stdout == "".join(FALLBACKS) + "data: x\n---\n"
 
@@ -45,13 +45,13 @@ def test_echo_asks_for_the_preset_beside_an_option(ros, words: tuple[str, ...]) 
         (("--qos-depth", "7"), "  History (Depth): KEEP_LAST (7)\n"),
     ],
 )
-def test_pub_offers_what_the_options_say(ros, words: tuple[str, ...], shown: str) -> None:
+def test_pub_offers_what_the_options_mean(ros, words: tuple[str, ...], shown: str) -> None:
     ros.ros2("topic", "pub", "/t", "std_msgs/msg/Empty", *words)
     ros.run(0.2)
     assert shown in ros.ask("topic", "info", "-v", "/t").stdout
 
 
-def test_pub_tells_of_a_subscription_that_gets_nothing(ros) -> None:
+def test_pub_reports_a_subscription_that_gets_nothing(ros) -> None:
     pub = ros.ros2("topic", "pub", "/t", "std_msgs/msg/Empty", "--qos-reliability", "best_effort")
     ros.node("from std_msgs.msg import Empty\nnode = Node('s')\nnode.create_subscription(Empty, 't', print, 1)")
     ros.run(1.0)
@@ -88,8 +88,8 @@ def test_pub_goes_by_the_time_of_a_simulation(ros) -> None:
 
 def test_bw_goes_by_the_time_of_a_simulation(ros) -> None:
     ros.node(SIMULATION)
-    told = ros.ask("topic", "bw", "-s", "/numbers", stop_after=4.0).stdout.splitlines()
-    assert told[-2].startswith(("11 B/s", "12 B/s", "13 B/s")), "5 B four times a second, in twice the time"
+    reported = ros.ask("topic", "bw", "-s", "/numbers", stop_after=4.0).stdout.splitlines()
+    assert reported[-2].startswith(("11 B/s", "12 B/s", "13 B/s")), "5 B four times a second, in twice the time"
 
 
 @pytest.mark.parametrize("text", ["0", "-1"])
@@ -101,7 +101,7 @@ def test_a_time_limit_is_positive(ros, text: str) -> None:
     )
 
 
-def test_echo_tells_of_lost_messages(ros, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_echo_reports_lost_messages(ros, monkeypatch: pytest.MonkeyPatch) -> None:
     """Within one process none is lost: the subscription is told of one, as over a network."""
     from rclpy.event_handler import QoSMessageLostInfo, SubscriptionEventCallbacks
 
@@ -109,13 +109,13 @@ def test_echo_tells_of_lost_messages(ros, monkeypatch: pytest.MonkeyPatch) -> No
 
     def lose(self: object, **callbacks: object) -> None:
         whole(self, **callbacks)  # type: ignore[arg-type]
-        tell = callbacks.get("message_lost")
-        if callable(tell):
-            tell(QoSMessageLostInfo(total_count=3, total_count_change=2))
+        report = callbacks.get("message_lost")
+        if callable(report):
+            report(QoSMessageLostInfo(total_count=3, total_count_change=2))
 
     ros.node(OFFERS)
     monkeypatch.setattr(SubscriptionEventCallbacks, "__init__", lose)
     words = ("topic", "echo", "/mixed", "--once", "--qos-reliability", "best_effort")
-    told = "A message was lost!!!\n\ttotal count change:2\n\ttotal count: 3---\n"
-    assert ros.ask(*words).stdout == f"{told}data: x\n---\n"
+    reported = "A message was lost!!!\n\ttotal count change:2\n\ttotal count: 3---\n"
+    assert ros.ask(*words).stdout == f"{reported}data: x\n---\n"
     assert ros.ask(*words, "--no-lost-messages").stdout == "data: x\n---\n"

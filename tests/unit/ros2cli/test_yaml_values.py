@@ -8,7 +8,7 @@ from ros2cli.yaml_values import read_values
 
 
 @pytest.mark.parametrize("source", ["!!int", "!!float", "!!timestamp x", "[" * 1000])
-def test_what_the_library_lets_fall_is_told_on_one_line(source):
+def test_what_the_library_lets_fall_is_reported_on_one_line(source):
     with pytest.raises((RuntimeError, ValueError), match="no YAML"):
         read_values(source)
 

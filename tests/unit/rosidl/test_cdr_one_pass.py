@@ -37,7 +37,7 @@ class Changing:
         return 1
 
 
-def most_memory(do: Callable[[], Any]) -> int:
+def peak_memory(do: Callable[[], Any]) -> int:
     """The largest number of bytes that were allocated at once."""
     do()
     tracemalloc.start()
@@ -51,8 +51,8 @@ def most_memory(do: Callable[[], Any]) -> int:
 def test_a_byte_array_is_copied_once() -> None:
     image = Image(data=bytes(SIZE))
     written = serialize(image)
-    assert most_memory(lambda: serialize(image)) < 1.5 * SIZE
-    assert most_memory(lambda: deserialize(written, Image)) < 1.5 * SIZE
+    assert peak_memory(lambda: serialize(image)) < 1.5 * SIZE
+    assert peak_memory(lambda: deserialize(written, Image)) < 1.5 * SIZE
 
 
 @pytest.mark.parametrize(

@@ -103,5 +103,5 @@ class Unwritable:
 
 
 @pytest.mark.parametrize("value", [Unwritable(), [16**5000]], ids=["own", "endless"])
-def test_a_value_that_cannot_be_written_is_told_all_the_same(value: object) -> None:
+def test_a_value_that_cannot_be_written_is_reported_all_the_same(value: object) -> None:
     assert refused(Bool(data=value)).endswith("(which cannot be written)")

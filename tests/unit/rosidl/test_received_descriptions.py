@@ -30,8 +30,8 @@ def test_hash_of_the_texts_is_that_of_the_class(package: str) -> None:
     for name in names:
         kind, short = name.split("/")
         cls = getattr(importlib.import_module(f"{package}.{kind}"), short)
-        told = describe(cls)
-        parts = [told["type_description"], *told["referenced_type_descriptions"]]
+        reported = describe(cls)
+        parts = [reported["type_description"], *reported["referenced_type_descriptions"]]
         texts = {each["type_name"]: definition_text(*each["type_name"].split("/")) for each in parts}
         described = describe_texts(
             f"{package}/{name}", {part: text for part, text in texts.items() if text is not None}

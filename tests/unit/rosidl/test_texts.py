@@ -15,7 +15,7 @@ def all_names() -> list[str]:
     return [f"{package}/{name}" for package in texts.standard_packages() for name in texts.interface_names(package)]
 
 
-def test_every_file_says_what_its_class_has() -> None:
+def test_every_file_reports_what_its_class_has() -> None:
     for full_name in all_names():
         package, kind, name = full_name.split("/")
         interface = parse(texts.definition_text(package, kind, name) or "", package, kind, name)

@@ -21,7 +21,7 @@ def space() -> Space:
     return Space(parse_world("hall", data), [], Pose(10.0, 10.0, 0.0), RADIUS)
 
 
-def test_it_is_found_wherever_the_robot_was_looked_for_before(space: Space) -> None:
+def test_it_is_found_wherever_the_robot_was_searched_for_before(space: Space) -> None:
     beside, far_off = math.sqrt(2.0) - 0.1 - RADIUS, 4.0 - RADIUS
     for x, y, gap, what in [
         (10.0, 10.0, beside, "an obstacle"),

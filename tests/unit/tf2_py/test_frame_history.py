@@ -62,7 +62,7 @@ def test_a_frame_that_changes_its_parent_stays_where_it_was_until_then() -> None
     assert x_at(found, 199) == 100.0
 
 
-def test_a_fixed_frame_is_where_it_was_told_last_at_any_time() -> None:
+def test_a_fixed_frame_is_where_it_was_reported_last_at_any_time() -> None:
     found = history(entry(500), entry(100), is_static=True)
     assert (x_at(found, 7), x_at(found, 10**9), found.latest()) == (100.0, 100.0, (0, "map"))
 

@@ -60,7 +60,7 @@ def test_frames_of_two_trees(buffer: BufferCore, time: Time) -> None:
 
 @pytest.mark.parametrize("time", [Time(), Time(seconds=2)])
 @pytest.mark.parametrize("question", [("root", "in a loop"), ("in a loop", "root"), ("in a loop", "lens")])
-def test_a_loop_is_told_from_both_sides(buffer: BufferCore, question: tuple[str, str], time: Time) -> None:
+def test_a_loop_is_reported_from_both_sides(buffer: BufferCore, question: tuple[str, str], time: Time) -> None:
     buffer.set_transform_static(frame("back", "in a loop"), "me")
     buffer.set_transform_static(frame("in a loop", "back"), "me")
     with pytest.raises(LookupException, match="it contains a loop"):

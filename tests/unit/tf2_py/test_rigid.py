@@ -20,7 +20,7 @@ TURNS = {
     "any": (0.1, -0.5, 0.7, 0.5),
 }
 AXIS = 0.36, 0.48, 0.8
-LEAST = 2.0 * math.asin(math.sqrt(SMALL))
+MIN_ANGLE = 2.0 * math.asin(math.sqrt(SMALL))
 """The turn (rad) from which on the interpolation is no longer by its series."""
 
 
@@ -45,7 +45,7 @@ def test_one_after_another_is_the_product_of_matrices(first: str, second: str) -
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0], ids=["", "the quaternion's other sign"])
-@pytest.mark.parametrize("turn", [0.0, 1e-4, LEAST * 0.999, LEAST * 1.001, 0.2, 3.0])
+@pytest.mark.parametrize("turn", [0.0, 1e-4, MIN_ANGLE * 0.999, MIN_ANGLE * 1.001, 0.2, 3.0])
 def test_a_share_of_a_turn_is_that_share_of_its_angle(turn: float, sign: float) -> None:
     first, second = turned(0.0, 0.3), turned(1.0, 0.3 + turn / 2, sign)
     for share in (0.0, 0.25, 0.5, 1.0):

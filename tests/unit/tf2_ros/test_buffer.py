@@ -199,7 +199,7 @@ def test_how_far_from_one_a_quaternion_may_be(
     assert (words in capfd.readouterr().err) is not taken
 
 
-def test_what_is_told_twice_is_told_once(capfd: pytest.CaptureFixture[str], buffer: Buffer) -> None:
+def test_what_is_reported_twice_is_shown_once(capfd: pytest.CaptureFixture[str], buffer: Buffer) -> None:
     buffer.set_transform(frame("map", "odom", 3.0, 9.0), "you")
     assert place(buffer.lookup_transform("map", "odom", Time()))[0] == 3.0
     assert (
@@ -208,7 +208,7 @@ def test_what_is_told_twice_is_told_once(capfd: pytest.CaptureFixture[str], buff
     ) in capfd.readouterr().err
 
 
-def test_a_loop_is_told() -> None:
+def test_a_loop_is_reported() -> None:
     buffer = Buffer()
     for parent, child in (("a", "b"), ("b", "c"), ("c", "a")):
         buffer.set_transform_static(frame(parent, child), "me")

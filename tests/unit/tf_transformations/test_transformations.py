@@ -17,8 +17,8 @@ def test_angles_are_turns_one_after_the_other(axes: str) -> None:
     random = np.random.default_rng(7)
     for angles in random.uniform(-3, 3, (20, 3)):
         expected = np.identity(4)
-        for angle, letter in zip(angles, axes[1:], strict=True):
-            turn = tf.rotation_matrix(angle, UNIT[letter])
+        for angle, character in zip(angles, axes[1:], strict=True):
+            turn = tf.rotation_matrix(angle, UNIT[character])
             expected = expected @ turn if axes[0] == "r" else turn @ expected
         np.testing.assert_allclose(tf.euler_matrix(*angles, axes), expected, atol=1e-9)
         back = tf.euler_from_matrix(expected, axes)

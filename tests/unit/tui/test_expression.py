@@ -80,12 +80,12 @@ def test_a_number_with_a_unit_is_turned_into_that_of_the_parameter(text: str, un
 
 
 @pytest.mark.parametrize(("text", "unit"), [("3 kg", "m"), ("3 cm", ""), ("3 parsec", "m"), ("cm", "m"), ("", "m")])
-def test_a_unit_that_does_not_fit_is_told(text: str, unit: str) -> None:
+def test_a_unit_that_does_not_fit_is_reported(text: str, unit: str) -> None:
     with pytest.raises(ValueError, match=r"unit|number"):
         typed_value(text, of(Kind.DOUBLE, unit))
 
 
-def test_a_decimal_comma_is_told_with_the_number_that_is_meant() -> None:
+def test_a_decimal_comma_is_reported_with_the_number_that_is_meant() -> None:
     with pytest.raises(ValueError, match=r"^decimals have a point: 2\.5$"):
         typed_value("2,5", of(Kind.DOUBLE, "m"))
 

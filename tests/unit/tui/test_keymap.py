@@ -9,7 +9,7 @@ from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.key import Key
 from bot_console.tui.pane_table import PANES, PaneEntry
-from bot_console.tui.panes.broken import BrokenPane
+from bot_console.tui.panes.broken_pane import BrokenPane
 from bot_console.tui.panes.logs.levels_screen import LevelsScreen
 from bot_console.tui.panes.logs.rules_screen import RulesScreen
 from bot_console.tui.screens.arrange import ArrangeScreen

@@ -55,7 +55,7 @@ def test_every_program_has_its_pane(program: str, pane: str) -> None:
         ("rqt -s rqt_bag", "there is no pane for rqt_bag"),
     ],
 )
-def test_what_is_not_taken_over_is_told(line: str, note: str) -> None:
+def test_what_is_not_taken_over_is_reported(line: str, note: str) -> None:
     assert [each.startswith(note) for each in opening(line).notes] == [True]
 
 

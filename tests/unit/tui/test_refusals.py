@@ -18,11 +18,11 @@ def test_each_place_has_value_and_reason() -> None:
 
 
 @pytest.mark.parametrize("outcomes", [(HELD_BACK, REFUSED), (REFUSED, HELD_BACK), (TAKEN, REFUSED)])
-def test_of_many_the_one_that_a_node_refused_is_told(outcomes: tuple[SetOutcome, ...]) -> None:
+def test_of_many_the_one_that_a_node_refused_is_reported(outcomes: tuple[SetOutcome, ...]) -> None:
     assert of_many(outcomes) == "Nothing was set: /robot max_speed = 9.5 was refused: at most 2.0"
 
 
-def test_where_the_console_alone_refused_its_reason_is_told() -> None:
+def test_where_the_console_alone_refused_its_reason_is_reported() -> None:
     assert "reach = 1.0 was refused: /robot refused" in of_many([TAKEN, HELD_BACK])
     assert of_many([TAKEN]) == of_many([]) == ""
 

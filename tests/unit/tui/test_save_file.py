@@ -188,7 +188,9 @@ def test_what_a_killed_save_left_is_cleared_away_after_a_while(tmp_path: Path) -
     assert names(tmp_path) == sorted([young.name, "file"])
 
 
-def test_a_folder_that_cannot_be_made_is_told_beside_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_that_cannot_be_made_is_reported_beside_the_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def refuse(*_: object, **__: object) -> None:
         raise PermissionError(errno.EACCES, "Permission denied")
 
@@ -200,7 +202,7 @@ def test_a_folder_that_cannot_be_made_is_told_beside_the_file(tmp_path: Path, mo
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a working folder cannot be deleted")
-def test_a_deleted_working_folder_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_deleted_working_folder_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     gone = tmp_path / "gone"
     gone.mkdir()
     monkeypatch.chdir(gone)

@@ -44,8 +44,8 @@ def test_nothing_is_made_up(named: str) -> None:
     assert hint_for(named) == ""
 
 
-def test_a_command_line_that_names_it_is_told() -> None:
+def test_a_command_line_that_names_it_is_reported() -> None:
     find_with(hint_for)
     with pytest.raises(ArgumentsError) as refused:
         parse(["--ros-args", "--params-file", "config/robot.yaml"])
-    assert refused.value.mend.endswith("No such file or directory; package 'mine' has src/mine/config/robot.yaml")
+    assert refused.value.hint.endswith("No such file or directory; package 'mine' has src/mine/config/robot.yaml")

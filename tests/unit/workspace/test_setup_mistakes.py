@@ -35,14 +35,14 @@ def test_modules_that_are_not_imported(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "reported"),
     [
         ("setup(data_files=[\n  ('a', ['b'])\n  ('c', ['d'])])\ndef setup(**k): pass", "line 2: a comma is missing"),
         ("setup = print\nsetup(nmae)", "line 2: name 'nmae' is not defined"),
     ],
 )
-def test_other_mistakes(text, told):
-    assert first_mistake(ast.parse(text)).startswith(told)
+def test_other_mistakes(text, reported):
+    assert first_mistake(ast.parse(text)).startswith(reported)
 
 
 @pytest.mark.parametrize(

@@ -45,7 +45,9 @@ def test_entry_points_that_are_worked_out_are_found(package: Path, scripts: str)
 
 
 @pytest.mark.parametrize("scripts", ["[open('x').read()]", "[nodes[7]]", "['{:>9999999999}'.format(1)]", "[-nodes[0]]"])
-def test_what_only_running_it_could_tell_is_named_with_its_line_and_what_to_write(package: Path, scripts: str) -> None:
+def test_what_only_running_it_could_report_is_named_with_its_line_and_what_to_write(
+    package: Path, scripts: str
+) -> None:
     (package / "setup.py").write_text(f"{ABOVE}setup(name='mine', entry_points={{'console_scripts': {scripts}}})\n")
     problem = read_setup_py(package).problem
     assert "line 6: " in problem and "Write them out" in problem

@@ -3,9 +3,9 @@
 from pathlib import Path
 
 import pytest
+from bot_console.runtime.workspace.builtin_package import FIRST_VARIABLE, NAME, PAGE_NAME, is_own
 from bot_console.runtime.workspace.demos import demo_packages
 from bot_console.runtime.workspace.discover import Workspace, default_folders
-from bot_console.runtime.workspace.own import FIRST_VARIABLE, NAME, PAGE_NAME, is_own
 from bot_console.runtime.workspace.package import EntryPoint, read_package
 
 PACKAGE = """<package format="3"><name>{name}</name><version>0.1.0</version>
@@ -86,7 +86,7 @@ def test_a_line_that_is_no_entry_point_is_named_and_the_others_are_there(tmp_pat
     assert "setup.py: 'a = demo.a:mainb = demo.b:main' is not of the form" in package.problem
 
 
-def test_entry_points_that_only_running_could_tell_are_named(tmp_path: Path) -> None:
+def test_entry_points_that_only_running_could_report_are_named(tmp_path: Path) -> None:
     setup = SETUP.replace('"console_scripts": [', '"console_scripts" [')
     problem = read_package(make(tmp_path / "demo", setup=setup)).problem
     assert "setup.py: entry_points cannot be made out, line 18" in problem

@@ -21,9 +21,9 @@ def run(words: Sequence[str]) -> int:
         return kind.code
     if kind.ros is not None:
         return _needs_terminal() or _ros(options, str(kind.ros))
-    from bot_console.tui.cli.show import run as show
+    from bot_console.tui.cli.screen import run as show
 
-    return show(options.look)
+    return show(options.appearance)
 
 
 def _needs_terminal() -> int:
@@ -40,13 +40,13 @@ def _network(options: AttachOptions) -> int:
 
 
 def _ros(options: AttachOptions, place: str) -> int:
-    from bot_console.tui.cli.attach.console_needs import lend_missing, missing_messages
+    from bot_console.tui.cli.attach.console_needs import missing_messages, provide_missing
 
     missing = missing_messages()
     if missing:
         print(missing, file=sys.stderr)
         return 1
-    lend_missing()
+    provide_missing()
     from bot_console.tui.cli.attach.ros import run_ros
 
     return run_ros(options, place)

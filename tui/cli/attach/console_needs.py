@@ -12,7 +12,7 @@ from types import ModuleType
 from bot_console.tui.cli.attach.machine_ros import RUNTIME
 
 MESSAGES = ("diagnostic_msgs", "geometry_msgs", "nav_msgs", "rcl_interfaces", "sensor_msgs")
-LENT = ("rosidl_runtime_py", "launch", "launch_ros", "launch_xml", "launch_yaml")
+BUNDLED_PACKAGE = ("rosidl_runtime_py", "launch", "launch_ros", "launch_xml", "launch_yaml")
 """Plain Python over the machine's `rclpy` and `rosidl_parser`, which PyPI has no package of."""
 
 
@@ -23,7 +23,7 @@ class LentPackages:
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
         """The spec of a package that is lent; None for every other name."""
-        if fullname not in LENT:
+        if fullname not in BUNDLED_PACKAGE:
             return None
         folder = RUNTIME / fullname
         return importlib.util.spec_from_file_location(
@@ -31,7 +31,7 @@ class LentPackages:
         )
 
 
-def lend_missing() -> None:
+def provide_missing() -> None:
     """Make the packages of `LENT` importable where they are not installed; the machine's own go first."""
     if not any(isinstance(each, LentPackages) for each in sys.meta_path):
         sys.meta_path.append(LentPackages())

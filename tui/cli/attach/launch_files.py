@@ -9,7 +9,7 @@ from pathlib import Path
 
 ENDINGS = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
 """As `ros2 launch` has them: `talker.launch.py`, and `talker_launch.py` of Nav2 and of many others."""
-PATIENCE = 2.0
+SEARCH_TIMEOUT_S = 2.0
 """Seconds that who asks first waits at most."""
 
 
@@ -29,31 +29,31 @@ def launch_files() -> Sequence[str]:
 class LaunchFiles:
     """The result of the last search; may be asked from any thread."""
 
-    def __init__(self, look: Callable[[], Sequence[str]] = launch_files) -> None:
+    def __init__(self, poll: Callable[[], Sequence[str]] = launch_files) -> None:
         """Start the first search at once."""
-        self._look = look
+        self._poll = poll
         self._lock = threading.Lock()
         self._found: Sequence[str] = ()
-        self._looked = threading.Event()
-        self._looking = False
+        self._polled = threading.Event()
+        self._watching = False
         self._begin()
 
     def now(self) -> Sequence[str]:
         """What is known; starts another search for whoever asks next."""
-        if self._looked.wait(PATIENCE):
+        if self._polled.wait(SEARCH_TIMEOUT_S):
             self._begin()
         return self._found
 
     def _begin(self) -> None:
         with self._lock:
-            if self._looking:
+            if self._watching:
                 return
-            self._looking = True
+            self._watching = True
         threading.Thread(target=self._run, name="launch files", daemon=True).start()
 
     def _run(self) -> None:
         try:
-            self._found = self._look()
+            self._found = self._poll()
         finally:
-            self._looking = False
-            self._looked.set()
+            self._watching = False
+            self._polled.set()

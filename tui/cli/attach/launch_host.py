@@ -15,9 +15,9 @@ import threading
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from bot_console.tui.cli.attach.console_needs import lend_missing
+from bot_console.tui.child_command import child_command
+from bot_console.tui.cli.attach.console_needs import provide_missing
 from bot_console.tui.cli.live.launch_lines import launch_variables
-from bot_console.tui.own_program import own_program
 
 if TYPE_CHECKING:
     from bot_console.tui.console.launch.launcher import RosLauncher
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 SWITCH = "bot_console.tui.cli.attach.launch_host"
 
 
-def start_host() -> tuple[subprocess.Popen[bytes], socket.socket]:
+def start_ros_host() -> tuple[subprocess.Popen[bytes], socket.socket]:
     """Start a host that this process owns: when it hangs up, the host ends all that it has started, then itself.
 
     What launch writes to its screen comes by the process's standard output.
@@ -35,7 +35,7 @@ def start_host() -> tuple[subprocess.Popen[bytes], socket.socket]:
     ours, theirs = socket.socketpair()
     with theirs:
         process = subprocess.Popen(
-            [*own_program(SWITCH), "--owner", str(theirs.fileno())],
+            [*child_command(SWITCH), "--owner", str(theirs.fileno())],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
@@ -88,7 +88,7 @@ def main(words: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser("launch_host")
     parser.add_argument("--owner", type=int, required=True, metavar="DESCRIPTOR", help="the socket of the console")
     given = parser.parse_args(words)
-    lend_missing()
+    provide_missing()
     from bot_console.tui.cli.attach.launch_files import launch_files
     from bot_console.tui.cli.live.system_vitals import SystemVitals
     from bot_console.tui.console.launch.launcher import RosLauncher

@@ -7,8 +7,8 @@ import threading
 from collections.abc import Callable
 
 from bot_console.tui.cli.attach.launch_files import LaunchFiles
-from bot_console.tui.cli.attach.launch_host import start_host
-from bot_console.tui.cli.live.launch_lines import teller
+from bot_console.tui.cli.attach.launch_host import start_ros_host
+from bot_console.tui.cli.live.launch_lines import notifier
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.launch_host.combined import CombinedLauncher
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
@@ -20,7 +20,7 @@ def launcher_of_machine(record: Add, printed: Printed) -> CombinedLauncher:
     """A launcher whose launch files each get a host, as launch runs only in the main thread of a process there."""
 
     def start() -> tuple[str, HostedLauncher]:
-        process, connection = start_host()
+        process, connection = start_ros_host()
         threading.Thread(target=_read, args=(process, printed), name="launch output", daemon=True).start()
         return str(process.pid), HostedLauncher(connection, record, printed)
 
@@ -28,8 +28,8 @@ def launcher_of_machine(record: Add, printed: Printed) -> CombinedLauncher:
 
 
 def _read(process: subprocess.Popen[bytes], printed: Printed) -> None:
-    tell = teller(printed)
+    report = notifier(printed)
     with process.stdout or open("/dev/null", "rb") as lines:
         for line in lines:
-            tell(line.decode("utf-8", "replace"))
+            report(line.decode("utf-8", "replace"))
     process.wait()

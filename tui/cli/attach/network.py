@@ -10,7 +10,7 @@ from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
 from bot_console.runtime.rmw.zenoh.session import SessionError
 from bot_console.tui.cli.attach.options import AttachOptions
 from bot_console.tui.cli.attach.session import AttachedSession
-from bot_console.tui.cli.live.process_news import tell_news
+from bot_console.tui.cli.live.process_reports import log_process_reports
 from bot_console.tui.cli.live.ros2_command_line import Ros2CommandLine
 from bot_console.tui.cli.system.connecting import connect
 from bot_console.tui.cli.system.domain import domain
@@ -23,7 +23,7 @@ from bot_console.tui.settings.settings import read_settings
 CAPABILITIES = Capabilities(
     launch="Processes are not known over a network: launch on the robot itself, or run the console there (over SSH).",
 )
-SAID = (
+OUTPUT = (
     "Connected to {} in ROS domain {}: q ends the console, not the robot. If the link is lost, the robot has to stop "
     "by itself: `bot-console doctor` looks whether it has a time-out for commands."
 )
@@ -37,7 +37,7 @@ def run_network(options: AttachOptions) -> int:
     except SessionError as error:
         print(error, file=sys.stderr)
         return 1
-    choose(options.look.workspace)
+    choose(options.appearance.workspace)
     from bot_console.tui.cli.system.connected import frozen_nodes, graph_events
 
     console = RosConsole(
@@ -49,16 +49,18 @@ def run_network(options: AttachOptions) -> int:
         types=DomainTypes(),
         stop_means=read_settings().stop_means,
     )
-    said = [(Severity.INFO, SAID.format(options.way, domain()))]
+    message = [(Severity.INFO, OUTPUT.format(options.way, domain()))]
 
     def first_frame() -> None:
         from bot_console.runtime.process.virtual.install import reinstall_stdio
 
         reinstall_stdio()
 
-    forget = tell_news(console.printed, console.learn)
+    forget = log_process_reports(console.printed, console.learn)
     try:
-        return AttachedSession(console, Ros2CommandLine(), options.look, said=said, on_first_frame=first_frame).run()
+        return AttachedSession(
+            console, Ros2CommandLine(), options.appearance, message=message, on_first_frame=first_frame
+        ).run()
     finally:
         forget()
         buses.close()

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from bot_console.runtime.rmw.zenoh.network.client import CONFIG_VARIABLE, Way
-from bot_console.runtime.rmw.zenoh.network.reach import Tls, place_of
+from bot_console.runtime.rmw.zenoh.network.reachability import Tls, place_of
 from bot_console.tui.cli.arguments import Options, attach_parser, parse_attach
 from bot_console.tui.cli.system.domain import CONNECT_VARIABLE
 
@@ -29,7 +29,7 @@ examples:
 class AttachOptions:
     """The options given: one of the three ways to attach, or none."""
 
-    look: Options
+    appearance: Options
     """What every console is asked for."""
     way: Way | None = None
     """To a robot on a network."""
@@ -86,9 +86,9 @@ def parse(words: Sequence[str]) -> AttachOptions:
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--ros", action="store_true", help="the ROS 2 of this machine, by its own rclpy")
     which.add_argument("--embedded", action="store_true", help="a system of this program, where ROS 2 is there as well")
-    look, given = parse_attach(words, parser)
+    appearance, given = parse_attach(words, parser)
     way = None if given.ros or given.embedded else network_way(parser, given)
     if given.connect is not None and way is None:
         parser.error("--connect, --ros and --embedded exclude each other")
-    look.reached_by = " ".join(way.endpoints) if way else ""
-    return AttachOptions(look, way, given.ros, given.embedded)
+    appearance.reached_by = " ".join(way.endpoints) if way else ""
+    return AttachOptions(appearance, way, given.ros, given.embedded)

@@ -17,7 +17,7 @@ PROFILES = Path(__file__).resolve().parents[3] / "profiles"
 CAPABILITIES = Capabilities(
     launched_elsewhere="What others have launched is not known here; its nodes are in the Graph pane. o launches more."
 )
-SAID = "On {}, RMW {}: q ends the console and what it has launched, not the robot."
+OUTPUT = "On {}, RMW {}: q ends the console and what it has launched, not the robot."
 
 
 def run_ros(options: AttachOptions, described: str) -> int:
@@ -34,8 +34,8 @@ def run_ros(options: AttachOptions, described: str) -> int:
         stop_means=read_settings().stop_means,
     )
     launchers = launcher_of_machine(console.record, console.printed)
-    said = [(Severity.INFO, SAID.format(described, os.environ.get("RMW_IMPLEMENTATION", "as installed")))]
+    message = [(Severity.INFO, OUTPUT.format(described, os.environ.get("RMW_IMPLEMENTATION", "as installed")))]
     session = AttachedSession(
-        console, MachineCommandLine(), options.look, launcher=launchers, said=said, on_close=launchers.close
+        console, MachineCommandLine(), options.appearance, launcher=launchers, message=message, on_close=launchers.close
     )
     return session.run()

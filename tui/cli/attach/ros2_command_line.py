@@ -38,9 +38,9 @@ COMMANDS = (
     "wtf",
     "colcon",
 )
-LINE_LIMIT = 15.0
+LINE_TIMEOUT_S = 15.0
 """Seconds after which a line that does not end by itself is interrupted, as by Ctrl-C."""
-GRACE = 3.0
+INTERRUPT_TIMEOUT_S = 3.0
 """Seconds that it then has to end."""
 
 
@@ -96,15 +96,15 @@ class MachineCommandLine:
         return in_background(lambda: printed_by(line), "ros2")
 
 
-def printed_by(line: str, limit: float = LINE_LIMIT) -> str:
+def printed_by(line: str, limit: float = LINE_TIMEOUT_S) -> str:
     """What a line printed, errors included."""
     words = _words(line)
     if shutil.which(words[0]) is None:
         return f"there is no command '{words[0]}' on this machine's PATH: is its ROS 2 sourced?"
     process = _start(words)
-    for patience, end in ((limit, lambda: process.send_signal(signal.SIGINT)), (GRACE, process.kill)):
+    for timeout_s, end in ((limit, lambda: process.send_signal(signal.SIGINT)), (INTERRUPT_TIMEOUT_S, process.kill)):
         try:
-            printed, _ = process.communicate(timeout=patience)
+            printed, _ = process.communicate(timeout=timeout_s)
             return printed.decode("utf-8", "replace")
         except subprocess.TimeoutExpired:
             end()

@@ -6,11 +6,11 @@ import threading
 from collections.abc import Callable, Sequence
 
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.cli.appearance import appearance_of
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.foreground.foreground import Foreground
 from bot_console.tui.cli.interpreter import collect_from_now_on
-from bot_console.tui.cli.live.for_panes import for_panes
-from bot_console.tui.cli.look import look_of
+from bot_console.tui.cli.live.pane_dependencies import for_panes
 from bot_console.tui.cli.system.plugins import find_plugins
 from bot_console.tui.console.command_line import CommandLine
 from bot_console.tui.console.connection.ros_console import RosConsole
@@ -30,21 +30,21 @@ class AttachedSession:
         options: Options,
         *,
         launcher: Launcher | None = None,
-        said: Sequence[tuple[Severity, str]] = (),
+        message: Sequence[tuple[Severity, str]] = (),
         on_first_frame: Callable[[], None] = lambda: None,
         on_close: Callable[[], None] = lambda: None,
     ) -> None:
         """`said` are lines for the log; `on_close` ends what was started with the console, before that leaves."""
         self._console = console
-        self._said = said
+        self._last_message = message
         self._first_frame = on_first_frame
         self._on_close = on_close
-        look = look_of(options)
+        appearance = appearance_of(options)
         self.app = BotConsoleApp(
             *for_panes(console, launcher, command_line, read_only=options.read_only),
-            opening=options.opening._replace(notes=(*options.opening.notes, *look.notes)),
+            opening=options.opening._replace(notes=(*options.opening.notes, *appearance.notes)),
             on_first_frame=self._on_first_frame,
-            look=look,
+            appearance=appearance,
             plugins=find_plugins,
         )
         self._foreground = Foreground(self.app, console.printed, self._end)
@@ -62,11 +62,11 @@ class AttachedSession:
         self._first_frame()
         collect_from_now_on()
         self._console.start()
-        threading.Thread(target=self._tell, name="start", daemon=True).start()
+        threading.Thread(target=self._report, name="start", daemon=True).start()
 
-    def _tell(self) -> None:
+    def _report(self) -> None:
         if self._console.wait_ready(READY):
-            for severity, line in self._said:
+            for severity, line in self._last_message:
                 self._console.printed(severity, "bot-console", line)
 
     def _end(self, number: int) -> None:

@@ -11,9 +11,9 @@ from pathlib import Path
 from bot_console.tui.cli.check.runner import Outcome, Runner
 from bot_console.tui.cli.check.script import ScriptError, Step, read
 from bot_console.tui.cli.system.reached_console import known, reached_console
-from bot_console.tui.format import counted, harmless
+from bot_console.tui.format import counted, sanitize
 
-LARGEST = 1_000_000
+MAX_SCRIPT_BYTES = 1_000_000
 """Bytes of a script."""
 EPILOG = """a step a line, # begins a comment; what waits does so for 5 s, or as `within` says:
   set /robot_navigator max_speed 0.8
@@ -51,7 +51,7 @@ def run(words: list[str]) -> int:
         steps = read(_text(given.script))
     except (OSError, UnicodeDecodeError, ScriptError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else error
-        print(f"{given.script} cannot be used: {harmless(str(reason))}", file=sys.stderr)
+        print(f"{given.script} cannot be used: {sanitize(str(reason))}", file=sys.stderr)
         return 2
     with reached_console() as console:
         if console is None:
@@ -59,7 +59,7 @@ def run(words: list[str]) -> int:
         if not known(console, given.wait):
             print("no node runs in this domain; `bot-console up` starts the robot", file=sys.stderr)
             return 1
-        outcomes = _done(Runner(console), steps, tell=not given.json, stop=given.stop)
+        outcomes = _done(Runner(console), steps, print_progress=not given.json, stop=given.stop)
     if given.json:
         print(json.dumps(report(given.script, steps, outcomes), indent=2))
     else:
@@ -69,31 +69,31 @@ def run(words: list[str]) -> int:
 
 def _text(script: str) -> str:
     if script == "-":
-        return sys.stdin.read(LARGEST)
+        return sys.stdin.read(MAX_SCRIPT_BYTES)
     with Path(script).open("rb") as file:
-        content = file.read(LARGEST + 1)
-    if len(content) > LARGEST:
-        raise ScriptError(f"larger than {LARGEST} bytes; no script is")
+        content = file.read(MAX_SCRIPT_BYTES + 1)
+    if len(content) > MAX_SCRIPT_BYTES:
+        raise ScriptError(f"larger than {MAX_SCRIPT_BYTES} bytes; no script is")
     return content.decode("utf-8")
 
 
-def _done(runner: Runner, steps: Sequence[Step], *, tell: bool, stop: bool) -> list[Outcome]:
+def _done(runner: Runner, steps: Sequence[Step], *, print_progress: bool, stop: bool) -> list[Outcome]:
     outcomes: list[Outcome] = []
     for step in steps:
         outcome = runner.run(step)
         outcomes.append(outcome)
-        if tell:
-            print(line_of(outcome), flush=True)
+        if print_progress:
+            print(step_line(outcome), flush=True)
         if stop and outcome.why:
             break
     return outcomes
 
 
-def line_of(outcome: Outcome) -> str:
+def step_line(outcome: Outcome) -> str:
     """A step on one line, with its failure below."""
     step = outcome.step
-    head = f"{'FAIL' if outcome.why else 'ok  '} {step.line:>4}  {harmless(step.text)}"
-    return f"{head}\n           {harmless(outcome.why)}" if outcome.why else head
+    head = f"{'FAIL' if outcome.why else 'ok  '} {step.line:>4}  {sanitize(step.text)}"
+    return f"{head}\n           {sanitize(outcome.why)}" if outcome.why else head
 
 
 def summary(steps: Sequence[Step], outcomes: Sequence[Outcome]) -> str:

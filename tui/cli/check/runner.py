@@ -17,13 +17,13 @@ from bot_console.tui.format import parse_value, value_text
 from bot_console.tui.panes.alarms.alarm import Alarm, AlarmText
 
 T = TypeVar("T")
-PERIOD = 0.05
+POLL_S = 0.05
 """Seconds between two looks."""
-ANSWER = 10.0
+ANSWER_TIMEOUT_S = 10.0
 """Seconds that a node may take to answer."""
 FIGURE = 3.0
 """Seconds that a rate may take to be known beyond the time for which it is measured."""
-ASKER = "check"
+REQUESTER = "check"
 SIGNS: Mapping[str, Callable[[float, float], bool]] = {
     "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq,
 }  # fmt: skip
@@ -57,29 +57,29 @@ class Runner:
         why = getattr(self, f"_{step.verb.replace('-', '_')}")(step)
         return Outcome(step, why, self._clock() - began)
 
-    def _until(self, seconds: float, look: Callable[[], str]) -> str:
+    def _until(self, seconds: float, poll: Callable[[], str]) -> str:
         """Repeat a check until nothing is wrong, for so many seconds at most; returns what was wrong last."""
         deadline = self._clock() + seconds
-        while (why := look()) and self._clock() < deadline:
-            self._sleep(PERIOD)
+        while (why := poll()) and self._clock() < deadline:
+            self._sleep(POLL_S)
         return why
 
     def _answer(self, future: Future[T]) -> T | None:
-        deadline = self._clock() + ANSWER
+        deadline = self._clock() + ANSWER_TIMEOUT_S
         while not future.done() and self._clock() < deadline:
-            self._sleep(PERIOD)
+            self._sleep(POLL_S)
         return future.result() if future.done() else None
 
     def _parameter(self, node: str, name: str) -> ParameterInfo | str:
         """A parameter, waited for briefly, or why there is none."""
 
-        def look() -> str:
+        def poll() -> str:
             tree = self._console.snapshot().parameters.get(node)
             if tree is None:
                 return f"there is no node {node} with parameters"
             return "" if tree.get(name) else tree.problem or f"{node} has no parameter {name}"
 
-        why = self._until(2.0, look)
+        why = self._until(2.0, poll)
         found = None if why else self._console.snapshot().parameters[node].get(name)
         return found or why
 
@@ -121,14 +121,14 @@ class Runner:
             return self._until(step.seconds, lambda: self._holds(alarm))
         finally:
             for path in alarm.paths:
-                self._console.unwatch(path, ASKER)
+                self._console.unwatch(path, REQUESTER)
 
     def _holds(self, alarm: Alarm) -> str:
         for path in alarm.paths:
-            answer = self._console.watch(path, ASKER)
+            answer = self._console.watch(path, REQUESTER)
             if not answer.ok:
                 return answer.text
-        if alarm.look(self._console) or alarm.holds:
+        if alarm.poll(self._console) or alarm.holds:
             return ""
         values = ", ".join(f"{path} = {alarm.values[path]:.6g}" for path in alarm.paths if path in alarm.values)
         return alarm.problem or values or f"nothing has come on {', '.join(alarm.paths)}"
@@ -144,68 +144,68 @@ class Runner:
         except ValueError as error:
             return str(error)
 
-        def look() -> str:
+        def poll() -> str:
             tree = self._console.snapshot().parameters.get(node)
             now = tree.get(name) if tree else None
             same = now is not None and now.value == wanted
             return "" if same is (sign == "==") else f"it is {value_text(now.value if now else None)}"
 
-        return self._until(step.seconds, look)
+        return self._until(step.seconds, poll)
 
     def _assert_rate(self, step: Step) -> str:
         topic, sign, wanted = step.words
         traffic = self._console.traffic
-        traffic.measure([topic], ASKER)
+        traffic.measure([topic], REQUESTER)
         self._sleep(step.seconds)
 
-        def look() -> str:
+        def poll() -> str:
             found = traffic.measured().get(topic, Measure())
             return found.problem or (f"nothing has come on {topic}" if found.rate is None else "")
 
-        why = self._until(FIGURE, look)
+        why = self._until(FIGURE, poll)
         rate = traffic.measured().get(topic, Measure()).rate
-        traffic.measure([], ASKER)
+        traffic.measure([], REQUESTER)
         if why or rate is None:
             return why
         return "" if SIGNS[sign](rate, float(wanted)) else f"it comes at {rate:.4g} Hz"
 
     def _expect_node(self, step: Step) -> str:
-        def look() -> str:
+        def poll() -> str:
             names = [each.name for each in self._console.snapshot().graph.nodes]
             shown = ", ".join(each for each in names if "/_" not in each)
             return "" if step.words[0] in names else f"there is none; nodes: {shown or 'none'}"
 
-        return self._until(step.seconds, look)
+        return self._until(step.seconds, poll)
 
     def _expect_no_node(self, step: Step) -> str:
-        def look() -> str:
+        def poll() -> str:
             there = any(each.name == step.words[0] for each in self._console.snapshot().graph.nodes)
             return "it is there" if there else ""
 
-        return self._until(step.seconds, look)
+        return self._until(step.seconds, poll)
 
     def _expect_topic(self, step: Step) -> str:
         name, *types = step.words
 
-        def look() -> str:
+        def poll() -> str:
             found = next((each for each in self._console.snapshot().graph.topics if each.name == name), None)
             if found is None:
                 return "there is none"
             return "" if not types or types[0] in found.types else f"it is of type {', '.join(found.types)}"
 
-        return self._until(step.seconds, look)
+        return self._until(step.seconds, poll)
 
     def _expect_log(self, step: Step) -> str:
         which = LogFilter(words=step.words[0])
 
-        def look() -> str:
+        def poll() -> str:
             try:
                 found = self._console.matching_logs(which, 0, 1)
             except ValueError as error:
                 return str(error)
             return "" if found else "no line of the log has these words"
 
-        return self._until(step.seconds, look)
+        return self._until(step.seconds, poll)
 
     def _call(self, step: Step) -> str:
         answer = self._answer(self._console.call(step.words[0], step.words[1], {}))

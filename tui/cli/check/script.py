@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from bot_console.tui.format import cut
 from bot_console.tui.panes.alarms.condition import read as read_condition
 
-PATIENCE = 5.0
+DEFAULT_TIMEOUT_S = 5.0
 """Seconds that an expectation waits where the script says nothing else."""
-LONGEST = 3600.0
+MAX_TIMEOUT_S = 3600.0
 """Seconds that one line may take at most."""
 SPAN = re.compile(r"(\d+(?:\.\d+)?)\s*(ms|s|min)?")
 UNITS = {"ms": 0.001, "s": 1.0, "min": 60.0, "": 1.0}
@@ -34,7 +34,7 @@ class Step:
     text: str
     verb: str
     words: tuple[str, ...] = ()
-    seconds: float = PATIENCE
+    seconds: float = DEFAULT_TIMEOUT_S
 
 
 def read(text: str) -> list[Step]:
@@ -58,8 +58,8 @@ def seconds_of(text: str) -> float:
     if found is None:
         raise ValueError(f"'{cut(text, 20)}' is no time; write for instance 2 s, 500 ms or 1 min")
     value = float(found[1]) * UNITS[found[2] or ""]
-    if value > LONGEST:
-        raise ValueError(f"no line may take more than {LONGEST:g} s")
+    if value > MAX_TIMEOUT_S:
+        raise ValueError(f"no line may take more than {MAX_TIMEOUT_S:g} s")
     return value
 
 
@@ -69,7 +69,7 @@ def _step(number: int, text: str) -> Step:
     if reader is None:
         raise ValueError(f"'{cut(verb, 20)}' is none of {', '.join(VERBS)}")
     timed = WITHIN.search(rest) if verb not in ("set", "expect-refused", "wait") else None
-    seconds = seconds_of(timed[1]) if timed else PATIENCE
+    seconds = seconds_of(timed[1]) if timed else DEFAULT_TIMEOUT_S
     rest = rest[: timed.start()] if timed else rest
     words, own = reader(rest.strip())
     return Step(number, text, verb, words, seconds if own is None else own)
@@ -121,10 +121,10 @@ def _wait(rest: str) -> Read:
     return (), seconds_of(rest)
 
 
-def _words(least: int, most: int, usage: str) -> Callable[[str], Read]:
+def _words(least: int, maximum: int, usage: str) -> Callable[[str], Read]:
     def reading(rest: str) -> Read:
         words = rest.split()
-        if not least <= len(words) <= most:
+        if not least <= len(words) <= maximum:
             raise ValueError(f"write {usage}")
         return tuple(words), None
 

@@ -15,7 +15,7 @@ from bot_console.tui import __version__
 from bot_console.tui.cli.attach.choice import NO_ROS
 from bot_console.tui.cli.attach.machine_ros import find_machine_ros, how_to_install
 from bot_console.tui.cli.attach.options import add_network_options, network_way
-from bot_console.tui.cli.doctor.finding import Finding, Level, as_json, exit_code
+from bot_console.tui.cli.doctor.finding import DoctorFinding, Level, as_json, exit_code
 from bot_console.tui.cli.doctor.machine import machine_findings
 from bot_console.tui.cli.doctor.terminal import terminal_findings
 
@@ -41,20 +41,20 @@ def run(words: Sequence[str]) -> int:
         parser.error("--ros and --connect exclude each other")
     if given.capture and given.ros:
         parser.error("--capture goes with --connect or a system of this program: it records what Zenoh carries")
-    findings: list[Finding] = []
+    findings: list[DoctorFinding] = []
 
-    def tell(found: Sequence[Finding]) -> None:
+    def report(found: Sequence[DoctorFinding]) -> None:
         findings.extend(found)
         if not given.json:
             for each in found:
                 print(each.line(), flush=True)
 
-    tell(terminal_findings(os.environ))
-    tell(machine_findings(os.environ))
+    report(terminal_findings(os.environ))
+    report(machine_findings(os.environ))
     if given.ros:
-        _ros(tell)
+        _ros(report)
     else:
-        _zenoh(way, given.seconds, given.capture, tell)
+        _zenoh(way, given.seconds, given.capture, report)
     if given.json:
         print(json.dumps(as_json(findings), indent=2))
     return exit_code(findings)
@@ -81,27 +81,29 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _ros(tell: Callable[[Sequence[Finding]], None]) -> None:
+def _ros(report: Callable[[Sequence[DoctorFinding]], None]) -> None:
     ros = find_machine_ros()
     if ros is None or not ros.usable:
-        mend = NO_ROS if ros is None else how_to_install(ros)
-        tell([Finding(Level.FAIL, "ros", "no rclpy that this Python can import", mend)])
+        hint = NO_ROS if ros is None else how_to_install(ros)
+        report([DoctorFinding(Level.FAIL, "ros", "no rclpy that this Python can import", hint)])
         return
     try:
         from bot_console.tui.cli.doctor.nodes import node_findings
 
-        tell(node_findings())
+        report(node_findings())
     except (ImportError, RuntimeError) as error:  # a library, or the middleware of RMW_IMPLEMENTATION, is not there
-        mend = "look whether `ros2 node list` works in this shell, and source its setup file again"
-        tell([Finding(Level.FAIL, "ros", f"{ros} does not start: {error}", mend)])
+        hint = "look whether `ros2 node list` works in this shell, and source its setup file again"
+        report([DoctorFinding(Level.FAIL, "ros", f"{ros} does not start: {error}", hint)])
 
 
-def _zenoh(way: Way | None, seconds: float, capture: Path | None, tell: Callable[[Sequence[Finding]], None]) -> None:
+def _zenoh(
+    way: Way | None, seconds: float, capture: Path | None, report: Callable[[Sequence[DoctorFinding]], None]
+) -> None:
     from bot_console.runtime.rmw.zenoh.session import SessionError
     from bot_console.tui.cli.system.domain import others_take_part
 
     if way is None and not others_take_part():
-        tell([Finding(Level.NOTE, "graph", "no system of this program runs in this ROS domain")])
+        report([DoctorFinding(Level.NOTE, "graph", "no system of this program runs in this ROS domain")])
         return
     install()
     from bot_console.tui.cli.doctor.system import examine
@@ -109,8 +111,8 @@ def _zenoh(way: Way | None, seconds: float, capture: Path | None, tell: Callable
     try:
         found = examine(way, seconds, capture, f"bot-console {__version__}")
     except (SessionError, RuntimeError) as error:
-        found = [Finding(Level.FAIL, "link", str(error))]
+        found = [DoctorFinding(Level.FAIL, "link", str(error))]
     except OSError as error:
         print(f"cannot write {capture}: {error.strerror}", file=sys.stderr)
-        found = [Finding(Level.FAIL, "capture", f"cannot write {capture}: {error.strerror}")]
-    tell(found)  # not above: a pipe that nobody reads is no fault of the capture
+        found = [DoctorFinding(Level.FAIL, "capture", f"cannot write {capture}: {error.strerror}")]
+    report(found)  # not above: a pipe that nobody reads is no fault of the capture

@@ -21,26 +21,27 @@ MARKS = {Level.OK: "✓", Level.NOTE: "·", Level.WARN: "!", Level.FAIL: "✗"}
 
 
 @dataclass(frozen=True)
-class Finding:
+class DoctorFinding:
     """One line; `mend` says how to fix it, and is empty when there is nothing to fix."""
 
     level: Level
     about: str
     text: str
-    mend: str = ""
+    hint: str = ""
 
     def line(self) -> str:
         """For people; the word beside the mark serves those who cannot see the mark or its colour."""
         word = "" if self.level in (Level.OK, Level.NOTE) else f"{self.level.value.upper()}: "
-        mend = f"\n    → {self.mend}" if self.mend else ""
-        return f"{MARKS[self.level]} {self.about:<10} {word}{self.text}{mend}"
+        hint = f"\n    → {self.hint}" if self.hint else ""
+        return f"{MARKS[self.level]} {self.about:<10} {word}{self.text}{hint}"
 
 
-def as_json(findings: Iterable[Finding]) -> list[dict[str, Any]]:
+def as_json(findings: Iterable[DoctorFinding]) -> list[dict[str, Any]]:
     """As a script reads it."""
-    return [{**asdict(each), "level": each.level.value} for each in findings]
+    # `mend` is the name that `hint` had in earlier releases; it is written for one more release.
+    return [{**asdict(each), "level": each.level.value, "mend": each.hint} for each in findings]
 
 
-def exit_code(findings: Iterable[Finding]) -> int:
+def exit_code(findings: Iterable[DoctorFinding]) -> int:
     """1 if anything fails, else 0."""
     return int(any(each.level is Level.FAIL for each in findings))

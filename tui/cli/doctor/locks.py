@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from bot_console.tui.cli.doctor.finding import Finding, Level
-from bot_console.tui.console.graph.full_name import name_of
+from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
+from bot_console.tui.console.graph.full_name import node_name_of
 from bot_console.tui.console.robot.stop_link import LATCHED, RELEASE, REQUEST, STATUS, is_lock
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
@@ -46,7 +46,7 @@ def find_locks(node: Node) -> list[AskedLock]:
     found: list[AskedLock] = []
     for topic, types in sorted(node.get_topic_names_and_types()):
         if STATUS in types and is_lock(topic):
-            nodes = sorted({name_of(each) for each in node.get_publishers_info_by_topic(topic)})
+            nodes = sorted({node_name_of(each) for each in node.get_publishers_info_by_topic(topic)})
             found += [AskedLock(topic, nodes)] if nodes else []
     return found
 
@@ -110,12 +110,12 @@ def _serves(node: Node, name: str, spin: Spin) -> bool:
         node.destroy_client(client)
 
 
-def lock_finding(locks: Sequence[AskedLock]) -> Finding:
+def lock_finding(locks: Sequence[AskedLock]) -> DoctorFinding:
     """Whether all of them have answered."""
     silent = [each for each in locks if not each.answered]
     if not silent:
-        return Finding(Level.OK, "time-out", f"the robot has an emergency stop that answers ({_listed(locks)})")
-    return Finding(Level.FAIL, "time-out", f"the emergency stop does not answer ({_listed(silent)})", REMEDY)
+        return DoctorFinding(Level.OK, "time-out", f"the robot has an emergency stop that answers ({_listed(locks)})")
+    return DoctorFinding(Level.FAIL, "time-out", f"the emergency stop does not answer ({_listed(silent)})", REMEDY)
 
 
 def _listed(locks: Sequence[AskedLock]) -> str:

@@ -9,14 +9,14 @@ from collections.abc import Mapping
 from bot_console.runtime.domain_id import is_domain
 from bot_console.tui import __version__
 from bot_console.tui.cli.attach.machine_ros import OLDEST, MachineRos, find_machine_ros, how_to_install
-from bot_console.tui.cli.doctor.finding import Finding, Level
+from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 
 NEWEST = (3, 13)
-MOST = 101
+MAX_DDS_DOMAIN = 101
 """The greatest domain that every DDS takes on Linux."""
 
 
-def machine_findings(environment: Mapping[str, str]) -> list[Finding]:
+def machine_findings(environment: Mapping[str, str]) -> list[DoctorFinding]:
     """All checks of this machine."""
     return [
         python_finding(),
@@ -26,42 +26,44 @@ def machine_findings(environment: Mapping[str, str]) -> list[Finding]:
     ]
 
 
-def python_finding(version: tuple[int, int] = sys.version_info[:2]) -> Finding:
+def python_finding(version: tuple[int, int] = sys.version_info[:2]) -> DoctorFinding:
     """Which Python this is."""
     text = f"bot-console {__version__} on Python {platform.python_version()}, {platform.system()} {platform.machine()}"
     if OLDEST <= version <= NEWEST:
-        return Finding(Level.OK, "python", text)
+        return DoctorFinding(Level.OK, "python", text)
     tried = f"{OLDEST[0]}.{OLDEST[1]} to {NEWEST[0]}.{NEWEST[1]}"
-    return Finding(Level.WARN, "python", text, f"it is tried on {tried}: take one of these")
+    return DoctorFinding(Level.WARN, "python", text, f"it is tried on {tried}: take one of these")
 
 
-def ros_finding(ros: MachineRos | None, environment: Mapping[str, str]) -> Finding:
+def ros_finding(ros: MachineRos | None, environment: Mapping[str, str]) -> DoctorFinding:
     """Whether a real ROS 2 is there, and for which Python."""
     rmw = environment.get("RMW_IMPLEMENTATION", "")
     if ros is None:
         text = "no ROS 2 is sourced; the embedded runtime needs none"
         if rmw or environment.get("AMENT_PREFIX_PATH"):
-            mend = "source its setup file again, and look whether `python3 -c 'import rclpy'` works"
-            return Finding(Level.WARN, "ros", "variables of a ROS 2 are set, but its rclpy is not found", mend)
-        return Finding(Level.OK, "ros", text)
+            hint = "source its setup file again, and look whether `python3 -c 'import rclpy'` works"
+            return DoctorFinding(Level.WARN, "ros", "variables of a ROS 2 are set, but its rclpy is not found", hint)
+        return DoctorFinding(Level.OK, "ros", text)
     if not ros.usable:
-        return Finding(Level.WARN, "ros", f"{ros} is for Python {ros.other_python}", how_to_install(ros))
-    return Finding(Level.OK, "ros", f"{ros}{f', {rmw}' if rmw else ''}: `bot-console attach --ros`")
+        return DoctorFinding(Level.WARN, "ros", f"{ros} is for Python {ros.other_python}", how_to_install(ros))
+    return DoctorFinding(Level.OK, "ros", f"{ros}{f', {rmw}' if rmw else ''}: `bot-console attach --ros`")
 
 
-def domain_finding(text: str) -> Finding:
+def domain_finding(text: str) -> DoctorFinding:
     """What ROS_DOMAIN_ID says."""
     if not text:
-        return Finding(Level.OK, "domain", "ROS_DOMAIN_ID is not set: 0")
+        return DoctorFinding(Level.OK, "domain", "ROS_DOMAIN_ID is not set: 0")
     if not is_domain(text):
-        return Finding(Level.FAIL, "domain", f"ROS_DOMAIN_ID={text[:40]} is no number", "unset it, or set 0 to 101")
-    if int(text) > MOST:
-        mend = "DDS takes 0 to 101 on every system; Zenoh takes any"
-        return Finding(Level.WARN, "domain", f"ROS_DOMAIN_ID={text} is beyond {MOST}", mend)
-    return Finding(Level.OK, "domain", f"ROS_DOMAIN_ID={text}")
+        return DoctorFinding(
+            Level.FAIL, "domain", f"ROS_DOMAIN_ID={text[:40]} is no number", "unset it, or set 0 to 101"
+        )
+    if int(text) > MAX_DDS_DOMAIN:
+        hint = "DDS takes 0 to 101 on every system; Zenoh takes any"
+        return DoctorFinding(Level.WARN, "domain", f"ROS_DOMAIN_ID={text} is beyond {MAX_DDS_DOMAIN}", hint)
+    return DoctorFinding(Level.OK, "domain", f"ROS_DOMAIN_ID={text}")
 
 
-def sockets_findings() -> list[Finding]:
+def sockets_findings() -> list[DoctorFinding]:
     """The programs in the domain's folder, and the sockets of those that are dead or stopped."""
     from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
     from bot_console.runtime.rmw.zenoh.domain.sockets import sockets
@@ -70,17 +72,21 @@ def sockets_findings() -> list[Finding]:
     try:
         folder = domain_folder(domain())
     except FolderRefusedError as error:
-        return [Finding(Level.FAIL, "sockets", "programs of this user cannot meet", str(error))]
+        return [DoctorFinding(Level.FAIL, "sockets", "programs of this user cannot meet", str(error))]
     found = sockets(folder)
     dead = [each for each in found if each.is_dead()]
     stopped = [each for each in found if each not in dead and each.is_stopped()]
     alive = len(found) - len(dead)
     text = f"{alive} program{'' if alive == 1 else 's'} in {folder}"
-    findings = [Finding(Level.OK, "sockets", text)]
+    findings = [DoctorFinding(Level.OK, "sockets", text)]
     if dead:
         text = f"{len(dead)} of programs that were killed are left over"
-        findings.append(Finding(Level.NOTE, "sockets", text, "nothing: the next program that starts removes them"))
+        findings.append(
+            DoctorFinding(Level.NOTE, "sockets", text, "nothing: the next program that starts removes them")
+        )
     for each in stopped:
-        mend = f"`kill -CONT {each.pid}`, or end it"
-        findings.append(Finding(Level.WARN, "sockets", f"process {each.pid} is stopped: its nodes are not seen", mend))
+        hint = f"`kill -CONT {each.pid}`, or end it"
+        findings.append(
+            DoctorFinding(Level.WARN, "sockets", f"process {each.pid} is stopped: its nodes are not seen", hint)
+        )
     return findings

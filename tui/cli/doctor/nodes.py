@@ -8,8 +8,8 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from bot_console.tui.cli.doctor.finding import Finding, Level
-from bot_console.tui.console.graph.full_name import name_of
+from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
+from bot_console.tui.console.graph.full_name import node_name_of
 from bot_console.tui.console.graph.pairs import hash_of, unheard
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 TWISTS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
 TIMEOUT = re.compile(r"(cmd|command|vel|twist|input|watchdog).*time_?out|time_?out.*(cmd|command|vel)|watchdog", re.I)
 """Names of parameters of bases and controllers that stop a robot whose commands stay away."""
-SETTLE, PATIENCE = 1.5, 3.0
+SETTLE, TIMEOUT_S = 1.5, 3.0
 """Seconds for the graph to be seen, and for a node to list its parameters."""
 HOW = (
     "let the base stop by itself when commands stay away (ros2_controllers: cmd_vel_timeout; or the emergency "
@@ -26,7 +26,7 @@ HOW = (
 )
 
 
-def node_findings() -> list[Finding]:
+def node_findings() -> list[DoctorFinding]:
     """Run the checks from a node on this process's middleware."""
     import rclpy
 
@@ -48,21 +48,21 @@ def _spin(node: Node, seconds: float, until: Callable[[], bool] = lambda: False)
         rclpy.spin_once(node, timeout_sec=0.05)
 
 
-def pair_findings(node: Node) -> list[Finding]:
+def pair_findings(node: Node) -> list[DoctorFinding]:
     """Publishers and subscriptions between which no messages pass."""
-    found: list[Finding] = []
+    found: list[DoctorFinding] = []
     for topic, _ in sorted(node.get_topic_names_and_types()):
         publishers, subscriptions = (
             node.get_publishers_info_by_topic(topic),
             node.get_subscriptions_info_by_topic(topic),
         )
         for text in unheard(topic, publishers, subscriptions):
-            said, _, mend = text.rpartition("; " if "; " in text else ": ")
-            found.append(Finding(Level.WARN, "topics", said, mend))
-    return found or [Finding(Level.OK, "topics", "types, hashes and QoS of all publishers and subscriptions fit")]
+            message, _, hint = text.rpartition("; " if "; " in text else ": ")
+            found.append(DoctorFinding(Level.WARN, "topics", message, hint))
+    return found or [DoctorFinding(Level.OK, "topics", "types, hashes and QoS of all publishers and subscriptions fit")]
 
 
-def type_findings(node: Node) -> list[Finding]:
+def type_findings(node: Node) -> list[DoctorFinding]:
     """Types that are unknown here, or defined differently."""
     unknown: set[str] = set()
     other: set[str] = set()
@@ -75,14 +75,14 @@ def type_findings(node: Node) -> list[Finding]:
                 unknown.add(kind)
             elif ours and theirs - {ours}:
                 other.add(kind)
-    found: list[Finding] = []
+    found: list[DoctorFinding] = []
     if other:
-        mend = "install the same version of the interfaces on both sides"
-        found.append(Finding(Level.WARN, "types", f"defined otherwise here: {', '.join(sorted(other))}", mend))
+        hint = "install the same version of the interfaces on both sides"
+        found.append(DoctorFinding(Level.WARN, "types", f"defined otherwise here: {', '.join(sorted(other))}", hint))
     if unknown:
-        mend = "put their package in the workspace (--workspace DIR) or source it, to see their fields"
-        found.append(Finding(Level.NOTE, "types", f"not known here: {', '.join(sorted(unknown))}", mend))
-    return found or [Finding(Level.OK, "types", "all are known here")]
+        hint = "put their package in the workspace (--workspace DIR) or source it, to see their fields"
+        found.append(DoctorFinding(Level.NOTE, "types", f"not known here: {', '.join(sorted(unknown))}", hint))
+    return found or [DoctorFinding(Level.OK, "types", "all are known here")]
 
 
 def own_hash(type_name: str) -> str | None:
@@ -100,28 +100,28 @@ def own_hash(type_name: str) -> str | None:
         return ""
 
 
-def base_finding(node: Node) -> Finding:
+def base_finding(node: Node) -> DoctorFinding:
     """Whether the robot stops by itself when commands cease."""
     from bot_console.tui.cli.doctor.locks import ask_locks, find_locks, lock_finding  # of the rclpy that was started
 
     bases = {
-        name_of(each)
+        node_name_of(each)
         for topic, types in node.get_topic_names_and_types()
         if any(kind in TWISTS for kind in types)
         for each in node.get_subscriptions_info_by_topic(topic)
         if not str(each.node_name).startswith("_")
     }
     if not bases:
-        return Finding(Level.NOTE, "time-out", "no node obeys velocity commands")
+        return DoctorFinding(Level.NOTE, "time-out", "no node obeys velocity commands")
     if locks := find_locks(node):
         return lock_finding(ask_locks(node, locks, _spin))
     named = [(base, name, value) for base in sorted(bases) for name, value in time_outs(node, base).items()]
     if not named:
-        return Finding(Level.WARN, "time-out", f"none is seen in {', '.join(sorted(bases))}", HOW)
+        return DoctorFinding(Level.WARN, "time-out", f"none is seen in {', '.join(sorted(bases))}", HOW)
     listed = ", ".join(f"{base} {name} {value:g}" for base, name, value in named[:3])
     if all(value <= 0 for _, _, value in named):
-        return Finding(Level.WARN, "time-out", f"{listed}: it is switched off", HOW)
-    return Finding(Level.OK, "time-out", f"{listed}: look that it is short (0.5 s)")
+        return DoctorFinding(Level.WARN, "time-out", f"{listed}: it is switched off", HOW)
+    return DoctorFinding(Level.OK, "time-out", f"{listed}: look that it is short (0.5 s)")
 
 
 def time_outs(node: Node, base: str) -> dict[str, float]:
@@ -131,8 +131,10 @@ def time_outs(node: Node, base: str) -> dict[str, float]:
 
     listed = _answer(node, ListParameters, f"{base}/list_parameters", ListParameters.Request())
     names = [each for each in listed.result.names if TIMEOUT.search(each)] if listed else []
-    told = _answer(node, GetParameters, f"{base}/get_parameters", GetParameters.Request(names=names)) if names else None
-    values = [parameter_value_to_python(each) for each in told.values] if told else []
+    reported = (
+        _answer(node, GetParameters, f"{base}/get_parameters", GetParameters.Request(names=names)) if names else None
+    )
+    values = [parameter_value_to_python(each) for each in reported.values] if reported else []
     return {
         name: float(value)
         for name, value in zip(names, values, strict=False)
@@ -144,11 +146,11 @@ def _answer(node: Node, kind: Any, service: str, request: Any) -> Any:
     """The response of a service; None if there is none."""
     client = node.create_client(kind, service)
     try:
-        _spin(node, PATIENCE, client.service_is_ready)
+        _spin(node, TIMEOUT_S, client.service_is_ready)
         if not client.service_is_ready():
             return None
         answer = client.call_async(request)
-        _spin(node, PATIENCE, answer.done)
+        _spin(node, TIMEOUT_S, answer.done)
         return answer.result() if answer.done() else None
     finally:
         node.destroy_client(client)

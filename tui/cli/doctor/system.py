@@ -6,11 +6,11 @@ import json
 import time
 from pathlib import Path
 
-from bot_console.runtime.rmw.zenoh.domain.attendance import await_answers
 from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
+from bot_console.runtime.rmw.zenoh.domain.roll_call import await_answers
 from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session, with_environment
 from bot_console.runtime.rmw.zenoh.session import Session
-from bot_console.tui.cli.doctor.finding import Finding, Level
+from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 from bot_console.tui.cli.doctor.nodes import node_findings
 from bot_console.tui.cli.doctor.wire import captured, watch_wire, wire_findings
 from bot_console.tui.cli.system.connecting import connect
@@ -20,7 +20,7 @@ FAR_MS = 300
 PROBES = 3
 
 
-def examine(way: Way | None, seconds: float, capture: Path | None, made_with: str) -> list[Finding]:
+def examine(way: Way | None, seconds: float, capture: Path | None, made_with: str) -> list[DoctorFinding]:
     """Check the link, the wire and the nodes; raises `SessionError` and, where nothing can be written, `OSError`."""
     session = open_session(domain()) if way is None else open_network_session(domain(), with_environment(way))
     try:
@@ -34,7 +34,7 @@ def examine(way: Way | None, seconds: float, capture: Path | None, made_with: st
     if capture is not None:
         capture.write_text(json.dumps(captured(wire, [made_with]), indent=1) + "\n", encoding="utf-8")
         text = f"{len(wire.tokens)} tokens and {sum(map(len, wire.samples.values()))} attachments are in {capture}"
-        findings.append(Finding(Level.OK, "capture", text))
+        findings.append(DoctorFinding(Level.OK, "capture", text))
     if way is None:
         take_part()
     else:
@@ -52,11 +52,15 @@ def answer_time(session: Session) -> float | None:
     return min(times, default=None)
 
 
-def link_finding(to: str, delay: float | None) -> Finding:
+def link_finding(to: str, delay: float | None) -> DoctorFinding:
     """How fast the router answers."""
     if delay is None:
-        return Finding(Level.FAIL, "link", f"{to} is reached, but does not answer", "is it a router of Zenoh 1.x?")
+        return DoctorFinding(
+            Level.FAIL, "link", f"{to} is reached, but does not answer", "is it a router of Zenoh 1.x?"
+        )
     text = f"{to} answers after {delay * 1000:.1f} ms"
     if delay * 1000 > FAR_MS:
-        return Finding(Level.WARN, "link", text, "drive slowly: what you see is that old; or run the console over SSH")
-    return Finding(Level.OK, "link", text)
+        return DoctorFinding(
+            Level.WARN, "link", text, "drive slowly: what you see is that old; or run the console over SSH"
+        )
+    return DoctorFinding(Level.OK, "link", text)

@@ -12,67 +12,77 @@ import sys
 import time
 from collections.abc import Generator, Mapping
 
-from bot_console.tui.cli.doctor.finding import Finding, Level
+from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 
 ABOUT = "terminal"
 ASK, ANSWER = b"\x1b[6n", re.compile(rb"\x1b\[\d+;\d+R")
-PATIENCE = 3.0
+ANSWER_TIMEOUT_S = 3.0
 """Seconds that the terminal's answer is waited for."""
 BURST = b"\x1b[0m" * 4096
 """16 kB that show nothing."""
 SLOW_DELAY_MS, SLOW_KB_S = 300, 20
-TOLD_KB_S = 3000
+MAX_MEASURABLE_KB_S = 3000
 """More than this a burst cannot tell: it takes no longer than the answers differ."""
 
 
-def terminal_findings(environment: Mapping[str, str]) -> list[Finding]:
+def terminal_findings(environment: Mapping[str, str]) -> list[DoctorFinding]:
     """All checks of the terminal a console would use."""
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
-        return [Finding(Level.NOTE, ABOUT, "there is none here: size, colours and delay were not looked at")]
-    found = [size_finding(*shutil.get_terminal_size()), letters_finding(), colours_finding(environment)]
+        return [DoctorFinding(Level.NOTE, ABOUT, "there is none here: size, colours and delay were not looked at")]
+    found = [size_finding(*shutil.get_terminal_size()), characters_finding(), colours_finding(environment)]
     if os.name != "nt":
-        found.append(link_finding(*_measured()))
+        found.append(terminal_link_finding(*_measured()))
     return found
 
 
-def size_finding(columns: int, lines: int) -> Finding:
+def size_finding(columns: int, lines: int) -> DoctorFinding:
     """Whether it is large enough."""
     if columns < 60 or lines < 20:
-        return Finding(Level.FAIL, ABOUT, f"{columns}x{lines} is too small", "make it 60x20 or more; 80x24 is usual")
+        return DoctorFinding(
+            Level.FAIL, ABOUT, f"{columns}x{lines} is too small", "make it 60x20 or more; 80x24 is usual"
+        )
     more = "" if columns >= 100 and lines >= 30 else "; from 100x30 on several panes show at once"
-    return Finding(Level.OK, ABOUT, f"{columns}x{lines}{more}")
+    return DoctorFinding(Level.OK, ABOUT, f"{columns}x{lines}{more}")
 
 
-def letters_finding(encoding: str = "") -> Finding:
+def characters_finding(encoding: str = "") -> DoctorFinding:
     """Whether it can show lines and braille."""
     encoding = encoding or locale.getpreferredencoding(False)
     if encoding.lower().replace("-", "") == "utf8":
-        return Finding(Level.OK, ABOUT, "UTF-8")
-    return Finding(
+        return DoctorFinding(Level.OK, ABOUT, "UTF-8")
+    return DoctorFinding(
         Level.WARN, ABOUT, f"its locale is {encoding}, so lines and curves are ASCII", "export LANG=C.UTF-8 before it"
     )
 
 
-def colours_finding(environment: Mapping[str, str]) -> Finding:
+def colours_finding(environment: Mapping[str, str]) -> DoctorFinding:
     """How many colours its name promises."""
     term = environment.get("TERM", "")
     if environment.get("COLORTERM", "") in ("truecolor", "24bit"):
-        return Finding(Level.OK, ABOUT, f"{term}, 16 million colours")
+        return DoctorFinding(Level.OK, ABOUT, f"{term}, 16 million colours")
     if "256color" in term or "kitty" in term or "direct" in term:
-        return Finding(Level.OK, ABOUT, f"{term}, 256 colours")
-    mend = "export TERM=xterm-256color, if it is one (tmux: TERM=tmux-256color)"
-    return Finding(Level.WARN, ABOUT, f"TERM={term or '(empty)'} promises few colours", mend)
+        return DoctorFinding(Level.OK, ABOUT, f"{term}, 256 colours")
+    hint = "export TERM=xterm-256color, if it is one (tmux: TERM=tmux-256color)"
+    return DoctorFinding(Level.WARN, ABOUT, f"TERM={term or '(empty)'} promises few colours", hint)
 
 
-def link_finding(delay: float | None, bytes_per_s: float | None) -> Finding:
+def terminal_link_finding(delay: float | None, bytes_per_s: float | None) -> DoctorFinding:
     """Its latency: seconds for an answer, and the cost per frame."""
     if delay is None or bytes_per_s is None:
-        return Finding(Level.NOTE, ABOUT, f"it did not say within {PATIENCE:g} s where its cursor is: delay unknown")
-    rate = f"{bytes_per_s / 1000:,.0f}" if bytes_per_s <= TOLD_KB_S * 1000 else f"more than {TOLD_KB_S:,}"
+        return DoctorFinding(
+            Level.NOTE, ABOUT, f"it did not say within {ANSWER_TIMEOUT_S:g} s where its cursor is: delay unknown"
+        )
+    rate = (
+        f"{bytes_per_s / 1000:,.0f}"
+        if bytes_per_s <= MAX_MEASURABLE_KB_S * 1000
+        else f"more than {MAX_MEASURABLE_KB_S:,}"
+    )
     text = f"answers after {delay * 1000:.0f} ms, takes {rate} kB/s"
     if delay * 1000 > SLOW_DELAY_MS or bytes_per_s < SLOW_KB_S * 1000:
-        return Finding(Level.WARN, ABOUT, text, "over a slow link, show one pane: `bot-console --pane parameters`")
-    return Finding(Level.OK, ABOUT, text)
+        return DoctorFinding(
+            Level.WARN, ABOUT, text, "over a slow link, show one pane: `bot-console --pane parameters`"
+        )
+    return DoctorFinding(Level.OK, ABOUT, text)
 
 
 def _measured() -> tuple[float | None, float | None]:
@@ -92,7 +102,7 @@ def _answer_to(question: bytes) -> float | None:
     os.write(sys.stdout.fileno(), question)
     answer = b""
     while not ANSWER.search(answer):
-        left = PATIENCE - (time.monotonic() - began)
+        left = ANSWER_TIMEOUT_S - (time.monotonic() - began)
         if left <= 0 or not select.select([sys.stdin], [], [], left)[0]:
             return None
         answer += os.read(sys.stdin.fileno(), 64)

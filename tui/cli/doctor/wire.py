@@ -8,7 +8,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from bot_console.runtime.rmw.zenoh.declared import Declared
+from bot_console.runtime.rmw.zenoh.declarations import Declaration
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.wire.attachment import unpack
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError, data_key
@@ -20,13 +20,13 @@ from bot_console.runtime.rmw.zenoh.wire.tokens import (
     entity_token,
     parse_token,
 )
-from bot_console.tui.cli.doctor.finding import Finding, Level
+from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 
 PER_KEY = 3
 """Attachments that are kept of each key."""
 SKEW_S = 1.0
 """Seconds by which clocks may differ before that is worth a word."""
-PATIENCE = 5.0
+GRAPH_TIMEOUT_S = 5.0
 NAME = "_bot_console_doctor"
 _numbers = itertools.count(1)
 
@@ -68,7 +68,7 @@ def watch_wire(session: Session, seconds: float) -> Wire:
 
 
 def _tokens(session: Session) -> list[str]:
-    found, _ = session.collect_tokens(all_tokens(session.domain), PATIENCE)
+    found, _ = session.collect_tokens(all_tokens(session.domain), GRAPH_TIMEOUT_S)
     return sorted({each for each in found if session.zid not in each})
 
 
@@ -77,7 +77,7 @@ def _publishers(tokens: Sequence[Token]) -> list[Token]:
     return list({each.topic: each for each in tokens if each.kind == "MP"}.values())
 
 
-def _listen(session: Session, wire: Wire, publisher: Token) -> Declared:
+def _listen(session: Session, wire: Wire, publisher: Token) -> Declaration:
     """Subscribe as a node would, with a token of our own: some publishers send only to subscribers they can see."""
     kept = wire.samples.setdefault(publisher.topic, [])
 
@@ -93,21 +93,25 @@ def _listen(session: Session, wire: Wire, publisher: Token) -> Declared:
     return listening
 
 
-def wire_findings(wire: Wire, delay: float) -> list[Finding]:
+def wire_findings(wire: Wire, delay: float) -> list[DoctorFinding]:
     """What is wrong on the wire; `delay` (s) is the round-trip time of the link."""
     good, bad = wire.parsed()
     nodes = sum(each.kind == "NN" for each in good)
-    findings = [Finding(Level.OK if nodes else Level.WARN, "graph", f"{nodes} nodes, {len(good) - nodes} endpoints")]
+    findings = [
+        DoctorFinding(Level.OK if nodes else Level.WARN, "graph", f"{nodes} nodes, {len(good) - nodes} endpoints")
+    ]
     if not nodes:
-        mend = "is ROS_DOMAIN_ID the same there, and RMW_IMPLEMENTATION=rmw_zenoh_cpp?"
-        findings = [Finding(Level.WARN, "graph", f"no node is seen in ROS domain {wire.domain}", mend)]
+        hint = "is ROS_DOMAIN_ID the same there, and RMW_IMPLEMENTATION=rmw_zenoh_cpp?"
+        findings = [DoctorFinding(Level.WARN, "graph", f"no node is seen in ROS domain {wire.domain}", hint)]
     if bad:
-        mend = "another version of rmw_zenoh, or another program: `--capture FILE` keeps them for a report"
-        findings.append(Finding(Level.WARN, "graph", f"{len(bad)} tokens are not of the format: {bad[0][:120]}", mend))
+        hint = "another version of rmw_zenoh, or another program: `--capture FILE` keeps them for a report"
+        findings.append(
+            DoctorFinding(Level.WARN, "graph", f"{len(bad)} tokens are not of the format: {bad[0][:120]}", hint)
+        )
     return [*findings, *_attachment_findings(wire), *_clock_findings(wire, delay)]
 
 
-def _attachment_findings(wire: Wire) -> list[Finding]:
+def _attachment_findings(wire: Wire) -> list[DoctorFinding]:
     texts: dict[str, list[str]] = {}
     for topic, samples in sorted(wire.samples.items()):
         for attachment, _, _ in samples:
@@ -117,27 +121,27 @@ def _attachment_findings(wire: Wire) -> list[Finding]:
                 texts.setdefault(str(error), []).append(topic)
                 break
     return [
-        Finding(Level.FAIL, "messages", f"{', '.join(topics[:4])}: {text}", "update the middleware on that side")
+        DoctorFinding(Level.FAIL, "messages", f"{', '.join(topics[:4])}: {text}", "update the middleware on that side")
         for text, topics in texts.items()
     ]
 
 
-def _clock_findings(wire: Wire, delay: float) -> list[Finding]:
+def _clock_findings(wire: Wire, delay: float) -> list[DoctorFinding]:
     """The offset between clocks: from the fastest message, less half the round-trip time."""
     offsets = [
-        (arrived - told[1]) / 1e9 - delay / 2
+        (arrived - reported[1]) / 1e9 - delay / 2
         for samples in wire.samples.values()
         for attachment, _, arrived in samples
-        if (told := _unpacked(attachment)) is not None
+        if (reported := _unpacked(attachment)) is not None
     ]
     if not offsets:
-        return [Finding(Level.NOTE, "clock", "no message came, so the clocks were not compared")]
+        return [DoctorFinding(Level.NOTE, "clock", "no message came, so the clocks were not compared")]
     offset = min(offsets, key=abs)
     if abs(offset) < SKEW_S:
-        return [Finding(Level.OK, "clock", f"differs by {abs(offset):.2f} s at most")]
+        return [DoctorFinding(Level.OK, "clock", f"differs by {abs(offset):.2f} s at most")]
     side = "behind" if offset > 0 else "ahead of"
-    mend = "set both by NTP or chrony: stamps, tf and logs are off by that much"
-    return [Finding(Level.WARN, "clock", f"the robot's is {abs(offset):.1f} s {side} this one", mend)]
+    hint = "set both by NTP or chrony: stamps, tf and logs are off by that much"
+    return [DoctorFinding(Level.WARN, "clock", f"the robot's is {abs(offset):.1f} s {side} this one", hint)]
 
 
 def _unpacked(attachment: bytes | None):

@@ -18,7 +18,7 @@ from bot_console.tui.terminal.restorer_process import Restorer, restored_termina
 
 Printed = Callable[[int, str, str], None]
 LABEL = "stderr"
-LONGEST = 1 << 16
+MAX_LINE_BYTES = 1 << 16
 """Bytes after which a line without an end is told as it is."""
 FIRST = 100
 """Our descriptors begin here, beyond those that programs close or count."""
@@ -75,7 +75,7 @@ def _captured(number: int, name: str, printed: Printed) -> Generator[None]:
     reading, writing = os.pipe()
     os.dup2(writing, number)
     os.close(writing)
-    reader = threading.Thread(target=_tell, args=(reading, printed), name="descriptors", daemon=True)
+    reader = threading.Thread(target=_report, args=(reading, printed), name="descriptors", daemon=True)
     reader.start()
     setattr(sys, name, screen)
     try:
@@ -91,7 +91,7 @@ def _captured(number: int, name: str, printed: Printed) -> Generator[None]:
             screen.close()
 
 
-def _tell(descriptor: int, printed: Printed) -> None:
+def _report(descriptor: int, printed: Printed) -> None:
     for line in _lines(descriptor):
         from bot_console.tui.console.model import Severity  # with the first line, which most runs never have
 
@@ -103,7 +103,7 @@ def _lines(descriptor: int) -> Iterator[str]:
     try:
         while data := os.read(descriptor, 65536):
             *whole, rest = (rest + data).split(b"\n")
-            if len(rest) > LONGEST:
+            if len(rest) > MAX_LINE_BYTES:
                 whole, rest = [*whole, rest], b""
             yield from (text for line in whole if (text := line.decode("utf-8", "replace").rstrip("\r")).strip())
         if rest.strip():

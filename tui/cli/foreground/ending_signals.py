@@ -14,8 +14,8 @@ from types import FrameType
 ENDING = [getattr(signal, each) for each in ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT") if hasattr(signal, each)]
 """Signals that end a console in order."""
 
-LOOK_MS = 1000
-PATIENCE = 1.0
+SIGNAL_POLL_MS = 1000
+END_TIMEOUT_S = 1.0
 """How long what a signal has begun is waited for when the console has ended, in s."""
 
 
@@ -56,7 +56,7 @@ def ended_by_signals(end: Callable[[int], None]) -> Generator[None]:
             signal.signal(each, handler)
         with contextlib.suppress(OSError):
             os.close(writing)
-        thread.join(PATIENCE)
+        thread.join(END_TIMEOUT_S)
         with contextlib.suppress(OSError):
             os.close(reading)
 
@@ -78,6 +78,6 @@ def _watch(terminal: int, over: threading.Event) -> None:
     poller.register(terminal, 0)  # a hang-up is reported without being asked for
     while not over.is_set():
         with contextlib.suppress(InterruptedError):
-            if poller.poll(LOOK_MS) and not over.is_set():
+            if poller.poll(SIGNAL_POLL_MS) and not over.is_set():
                 os.kill(os.getpid(), signal.SIGHUP)
                 return

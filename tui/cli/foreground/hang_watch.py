@@ -27,10 +27,10 @@ from typing import Any
 from bot_console.tui.cli.foreground.waiting_tasks import waiting_tasks
 
 FILE = "console-stacks.txt"
-STANDS_S = 15.0
+HANG_AFTER_S = 15.0
 """Seconds after which a thread that draws and has done nothing counts as standing."""
-BEAT_S = 1.0
-DEAF = round(STANDS_S / BEAT_S)
+HEARTBEAT_S = 1.0
+MAX_MISSED_HEARTBEATS = round(HANG_AFTER_S / HEARTBEAT_S)
 """Beats without an answer after which an app counts as standing though its loop runs.
 
 Beats and not seconds: of a process that was stopped, or had lent its terminal, only the clock has gone on.
@@ -43,12 +43,12 @@ class HangWatch:
     """Writes the stacks of all threads unless the drawing thread reports regularly."""
 
     def __init__(
-        self, path: Path, descriptor: int, tell: Callable[[str], None], clock: Callable[[], float] = time.monotonic
+        self, path: Path, descriptor: int, report: Callable[[str], None], clock: Callable[[], float] = time.monotonic
     ) -> None:
         """`tell` is given a line when the thread has stood and goes on; `descriptor` is that of the file at `path`."""
         self._path = path
         self._descriptor = descriptor
-        self._tell = tell
+        self._report = report
         self._clock = clock
         self._heard: float | None = None
         self._written = False
@@ -57,24 +57,24 @@ class HangWatch:
 
     def watch(self) -> None:
         """Check once a second until the end, in the calling thread."""
-        while not self._over.wait(BEAT_S):
-            self.look()
+        while not self._over.wait(HEARTBEAT_S):
+            self.poll()
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Write the stacks if the drawing thread has been silent for long, once until it reports again."""
         heard = self._heard
         if heard is None:
             return
-        if self._clock() - heard >= STANDS_S and not self._written:
+        if self._clock() - heard >= HANG_AFTER_S and not self._written:
             self._written = True
             faulthandler.dump_traceback(self._descriptor)
 
-    def beat(self) -> None:
+    def heartbeat(self) -> None:
         """Report that the drawing thread is running."""
         now = self._clock()
-        if self._heard is not None and (stood := now - self._heard) >= STANDS_S:
+        if self._heard is not None and (stood := now - self._heard) >= HANG_AFTER_S:
             self.note(f"the screen has stood for {stood:.0f} s, or the whole process was stopped")
-            self._tell(f"the screen stood for {stood:.0f} s; what its threads did meanwhile is in {self._path}")
+            self._report(f"the screen stood for {stood:.0f} s; what its threads did meanwhile is in {self._path}")
         self._heard, self._written = now, False
 
     def rest(self) -> None:
@@ -88,8 +88,8 @@ class HangWatch:
 
     def follow(self) -> None:
         """Report from the running event loop from now on."""
-        self.beat()
-        asyncio.get_running_loop().call_later(BEAT_S, self.follow)
+        self.heartbeat()
+        asyncio.get_running_loop().call_later(HEARTBEAT_S, self.follow)
 
     def accompany(self, app: Any) -> None:
         """Beat in the running loop of an app (of Textual, which does not tell the types of its signals) from now on."""
@@ -100,30 +100,32 @@ class HangWatch:
             self.rest()
 
         def back(_: object) -> None:
-            self.beat()
+            self.heartbeat()
 
         app.app_suspend_signal.subscribe(app, left, immediate=True)
         app.app_resume_signal.subscribe(app, back, immediate=True)
 
     def _listen(self, app: Any) -> None:
-        self.heed(app)
-        asyncio.get_running_loop().call_later(BEAT_S, self._listen, app)
+        self.observe(app)
+        asyncio.get_running_loop().call_later(HEARTBEAT_S, self._listen, app)
 
-    def heed(self, app: Any) -> None:
+    def observe(self, app: Any) -> None:
         """Send the app a message, unless one is under way; write what its tasks wait for where that is not answered."""
         if self._unanswered == 0:
             app.call_later(self._answer, app)
         self._unanswered += 1
-        if self._unanswered == DEAF:
-            self.note(f"the app has dealt with nothing for {STANDS_S:.0f} s: {app.how_it_draws()}\n{waiting_tasks()}")
+        if self._unanswered == MAX_MISSED_HEARTBEATS:
+            self.note(
+                f"the app has dealt with nothing for {HANG_AFTER_S:.0f} s: {app.how_it_draws()}\n{waiting_tasks()}"
+            )
 
     def _answer(self, app: Any) -> None:
         if app.holds_frames:
-            app.set_timer(BEAT_S, lambda: self._answer(app))
+            app.set_timer(HEARTBEAT_S, lambda: self._answer(app))
             return
-        if self._unanswered >= DEAF:
-            self.note(f"the app goes on after {self._unanswered * BEAT_S:.0f} s")
-            self._tell(f"the console did nothing for {self._unanswered * BEAT_S:.0f} s; why is in {self._path}")
+        if self._unanswered >= MAX_MISSED_HEARTBEATS:
+            self.note(f"the app goes on after {self._unanswered * HEARTBEAT_S:.0f} s")
+            self._report(f"the console did nothing for {self._unanswered * HEARTBEAT_S:.0f} s; why is in {self._path}")
         self._unanswered = 0
 
     def note(self, text: str) -> None:
@@ -134,7 +136,7 @@ class HangWatch:
 
 
 @contextlib.contextmanager
-def hang_watch(folder: Path, state: Callable[[], str], tell: Callable[[str], None]) -> Generator[HangWatch | None]:
+def hang_watch(folder: Path, state: Callable[[], str], report: Callable[[str], None]) -> Generator[HangWatch | None]:
     """Keep stacks in a folder when they are wanted; `state` says in a line how the screen is, in the main thread.
 
     None where the file cannot be written.
@@ -147,7 +149,7 @@ def hang_watch(folder: Path, state: Callable[[], str], tell: Callable[[str], Non
     except OSError:
         yield None
         return
-    watching = HangWatch(path, descriptor, tell)
+    watching = HangWatch(path, descriptor, report)
 
     def asked(number: int, frame: FrameType | None) -> None:  # in the thread that draws: else it was written before
         faulthandler.dump_traceback(descriptor)
@@ -157,7 +159,7 @@ def hang_watch(folder: Path, state: Callable[[], str], tell: Callable[[str], Non
     fatal = not faulthandler.is_enabled()
     if fatal:
         faulthandler.enable(descriptor)
-    watching.beat()
+    watching.heartbeat()
     watch = threading.Thread(target=watching.watch, name="hang-watch", daemon=True)
     watch.start()
     try:

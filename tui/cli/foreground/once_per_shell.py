@@ -11,12 +11,12 @@ FOLDER = "told"
 """The folder of the marks, beside those of the domains."""
 
 
-def tell_once(text: str) -> None:
+def report_once(text: str) -> None:
     """Print a text on stderr; on a terminal only if it was not printed in the same session of it before.
 
     Where nobody reads, as in scripts and logs, it is printed each time, and nothing is remembered.
     """
-    from bot_console.runtime.terse import is_read
+    from bot_console.runtime.exit_messages import is_read
 
     if not is_read() or _is_new(text):
         print(text, file=sys.stderr)

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from bot_console.runtime.process import NodeProcess
-from bot_console.runtime.workspace.own import NAME
+from bot_console.runtime.workspace.builtin_package import NAME
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.live import robot_beside
+from bot_console.tui.cli.live import robot_starter
 from bot_console.tui.cli.system.domain import nodes_there
 from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH, launch_environment
-from bot_console.tui.console.launch.delayed import delayed_starts
+from bot_console.tui.console.launch.delayed_starts import delayed_starts
 
 SIMULATOR = (NAME, "simulator_node")
 """The last two parts of our simulator's path."""
@@ -30,7 +30,7 @@ class Launches:
         self._file = options.launch or SYSTEM_LAUNCH
         self._launch = NodeProcess("launch", clock)
         self._robot: NodeProcess | None = None
-        self._looking: NodeProcess | None = None
+        self._watching: NodeProcess | None = None
         self._running = 0
         self._services: list[Any] = []
         self._ending = False
@@ -55,11 +55,11 @@ class Launches:
         options = self._options
         arguments = dict(options.launch_arguments)
         if not options.launch:
-            arguments = {"profile": options.profile, **robot_beside.arguments(options), **arguments}
+            arguments = {"profile": options.profile, **robot_starter.arguments(options), **arguments}
         others = len(nodes_there())
         self._start(self._launch, self._file, arguments)
-        system = robot_beside.System(self._processes, _tell, self._start_robot, others)
-        self._looking = robot_beside.begin(options, system, self._clock)
+        system = robot_starter.System(self._processes, _report, self._start_robot, others)
+        self._watching = robot_starter.begin(options, system, self._clock)
 
     def on_end(self, call: Callable[[], None]) -> None:
         """Call back when the launch ends before a robot started, or when the simulator ends: no report can follow."""
@@ -68,19 +68,19 @@ class Launches:
             call()
         self._launch.on_exit(lambda _: None if self._robot else call())
 
-    def stop(self, patience: float) -> None:
+    def stop(self, timeout_s: float) -> None:
         """End all of them, each within so many seconds."""
         self._ending = True
-        for each in (self._looking, self._launch, self._robot):
+        for each in (self._watching, self._launch, self._robot):
             if each is not None:
-                each.stop(patience)
+                each.stop(timeout_s)
 
     def _processes(self) -> tuple[int, int]:
         return self._running, sum(map(delayed_starts, self._services))
 
     def _start_robot(self, arguments: Mapping[str, str]) -> None:
         self._robot = NodeProcess("launch", self._clock)
-        self._start(self._robot, robot_beside.LAUNCH_FILE, arguments)
+        self._start(self._robot, robot_starter.LAUNCH_FILE, arguments)
 
     def _start(self, process: NodeProcess, file: str, arguments: Mapping[str, str]) -> None:
         process.start(
@@ -132,7 +132,7 @@ class Launches:
         return service.run()
 
 
-def _tell(text: str) -> None:
+def _report(text: str) -> None:
     _to_stderr(f"[INFO] [bot-console]: {text}\n")
 
 

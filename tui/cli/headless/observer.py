@@ -18,11 +18,11 @@ from std_srvs.srv import Trigger
 if TYPE_CHECKING:
     from bot_console.tui.console.plot.watch import PlotWatch
 
-PATIENCE = 5.0
+ANSWER_TIMEOUT_S = 5.0
 """Seconds for which an answer is waited for where the run ends before its time."""
-PROBE_PERIOD = 0.1
+PROBE_PERIOD_S = 0.1
 """Seconds between two looks at how late a timer is called."""
-STEPPED_PERIOD = 1.0
+STEPPED_PROBE_PERIOD_S = 1.0
 """The same in a long stepped run, where no load makes a timer late and each look is a turn."""
 
 
@@ -34,7 +34,7 @@ class Observer:
 
     def __init__(self, duration: float, paths: Sequence[str] = ()) -> None:
         self._duration = duration
-        self._period = PROBE_PERIOD
+        self._period = PROBE_PERIOD_S
         self._paths = paths
         self._waited_for = list(paths)
         self._topics: PlotWatch | None = None
@@ -58,7 +58,7 @@ class Observer:
         self._end = node.create_timer(self._duration, self._ask, clock=self._steady)
         self._due = self._steady.now().nanoseconds
         if current().clock.stepped and not self._paths:
-            self._period = min(STEPPED_PERIOD, max(PROBE_PERIOD, 0.1 * self._duration))
+            self._period = min(STEPPED_PROBE_PERIOD_S, max(PROBE_PERIOD_S, 0.1 * self._duration))
         node.create_timer(self._period, self._probe, clock=self._steady)
         self._now = node.create_guard_condition(self._ask)
         if self._paths:
@@ -78,7 +78,7 @@ class Observer:
         """Request the report now instead of at the end, and wait at most `PATIENCE` s; from any thread."""
         if self._node is not None:
             self._now.trigger()
-            self.done.wait(PATIENCE)
+            self.done.wait(ANSWER_TIMEOUT_S)
 
     def _probe(self) -> None:
         period = round(self._period * 1e9)
@@ -102,7 +102,7 @@ class Observer:
         if self._asked:
             return
         if not self._client.service_is_ready():
-            self._end.timer_period_ns = round(PROBE_PERIOD * 1e9)  # a simulator that is still starting, or none
+            self._end.timer_period_ns = round(PROBE_PERIOD_S * 1e9)  # a simulator that is still starting, or none
             return
         self._asked = True
         self._end.cancel()

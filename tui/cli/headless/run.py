@@ -24,11 +24,11 @@ from bot_console.tui.cli.interruptible_wait import wait_interruptibly
 from bot_console.tui.cli.system.domain import (
     STOP_FILE_VARIABLE,
     is_in_range,
+    report_of_other_start,
     robot_claim,
     robot_there,
-    run_apart,
+    run_in_worker,
     take_part,
-    tell_of_other_start,
     unusable_domain,
     why_no_robot,
 )
@@ -44,9 +44,9 @@ Wait = Callable[[threading.Event, float], bool]
 
 DURATION = 60.0
 """Seconds of a run for which no duration is given."""
-GRACE = 5.0
+LAST_QUERY_TIMEOUT_S = 5.0
 """Seconds that the last question may take."""
-LAUNCH_GRACE = 12.0
+LAUNCH_END_TIMEOUT_S = 12.0
 """Seconds that the end of a launch may take: it sends SIGTERM after 5 and SIGKILL after 10, and whoever ended it before
 that would leave its processes behind."""
 SETTLED = 0.1
@@ -90,8 +90,8 @@ def simulated(options: Options, observer: Observer | None = None) -> tuple[dict[
         with contextlib.suppress(KeyboardInterrupt):
             _wait_for(observer, launches, duration, threading.Event.wait if options.fast else wait_interruptibly)
         report = observer.report()
-        launches.stop(LAUNCH_GRACE)
-        watching.stop(GRACE)
+        launches.stop(LAUNCH_END_TIMEOUT_S)
+        watching.stop(LAST_QUERY_TIMEOUT_S)
         report["deterministic"] = bool(getattr(clock, "deterministic", False))
         stalls = getattr(clock, "stalls", [])
     report["wall_time"] = round(time.perf_counter() - began, 3)
@@ -106,9 +106,9 @@ def _meet_others(options: Options) -> None:
     if not problem and not options.launch and is_in_range():
         claim = robot_claim()
         atexit.register(claim.release)
-        if why := why_no_robot(claim.seen(robot_there, tell_of_other_start), options.launch_arguments):
+        if why := why_no_robot(claim.seen(robot_there, report_of_other_start), options.launch_arguments):
             claim.release()
-            run_apart()
+            run_in_worker()
             problem = f"{why}; so this one runs apart"
     if problem:
         print(problem, file=sys.stderr)
@@ -165,7 +165,7 @@ def _wait_for(observer: Observer, launches: Launches, duration: float, wait: Wai
         if not gc.isenabled():
             gc.freeze()
             gc.enable()
-        if not wait(observer.done, duration + GRACE - SETTLED) and launches.has_robot:
+        if not wait(observer.done, duration + LAST_QUERY_TIMEOUT_S - SETTLED) and launches.has_robot:
             wait(observer.done, SLOW_START)
     except KeyboardInterrupt:
         observer.ask()

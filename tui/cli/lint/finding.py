@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bot_console.tui.console.parameters.lint import MENDS
+from bot_console.tui.console.parameters.lint import HINTS
 
 
 @dataclass(frozen=True, order=True)
-class Finding:
+class LintFinding:
     """A fault, its location, and its subject."""
 
     place: str
@@ -21,11 +21,11 @@ class Finding:
     """How to fix this one, if more is known than of its kind."""
 
     @property
-    def mend(self) -> str:
+    def hint(self) -> str:
         """How to fix it."""
-        return self.known or MENDS[self.fault]
+        return self.known or HINTS[self.fault]
 
     def text(self) -> str:
         """On one line."""
         where = f"{self.place}:{self.line}" if self.line else self.place
-        return f"{where}: {self.subject}: {self.fault}; {self.mend}"
+        return f"{where}: {self.subject}: {self.fault}; {self.hint}"

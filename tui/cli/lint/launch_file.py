@@ -7,12 +7,12 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from xml.etree import ElementTree
 
-from bot_console.tui.cli.lint.finding import Finding
+from bot_console.tui.cli.lint.finding import LintFinding
 
 MANIFEST = "package.xml"
 
 
-def dead_parameters(path: Path, declared: frozenset[str]) -> Iterator[Finding]:
+def dead_parameters(path: Path, declared: frozenset[str]) -> Iterator[LintFinding]:
     """The names in literal `parameters=[{...}]` of `Node(...)` that none of its package's nodes declares.
 
     Nodes of other packages declare what cannot be seen here; raises `SyntaxError` for a text that is no Python.
@@ -26,7 +26,7 @@ def dead_parameters(path: Path, declared: frozenset[str]) -> Iterator[Finding]:
         if isinstance(whose, ast.Constant) and whose.value == package:
             for name, line in _names(given):
                 if name not in declared and name != "use_sim_time" and not name.startswith("qos_overrides."):
-                    yield Finding(str(path), line, "dead parameter", name)
+                    yield LintFinding(str(path), line, "dead parameter", name)
 
 
 def folder_of_package(path: Path) -> Path | None:

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from bot_console.tui.cli.lint.finding import Finding
+from bot_console.tui.cli.lint.finding import LintFinding
 from bot_console.tui.cli.lint.python_file import Declared
 
 _MEANT = re.compile(r"^\s*ros_+parameters\s*:", re.MULTILINE)
@@ -23,7 +23,7 @@ def is_meant(path: Path) -> bool:
         return True  # and why it cannot be read is told by those who try
 
 
-def refused(path: Path) -> Iterator[Finding]:
+def refused(path: Path) -> Iterator[LintFinding]:
     """Why a node does not start with this file, where that is so."""
     from bot_console.runtime.rmw.parameter_file import read_parameter_file
     from bot_console.runtime.rmw.parameter_overrides import ParameterOverrides, ParameterYamlError
@@ -31,16 +31,16 @@ def refused(path: Path) -> Iterator[Finding]:
     try:
         read_parameter_file(str(path), ParameterOverrides())
     except ParameterYamlError as error:
-        said = str(error).strip()
-        named = _LINE.search(said)
-        place, _, mend = error.mend.removeprefix(str(path)).removeprefix(":").partition(": ")
+        message = str(error).strip()
+        named = _LINE.search(message)
+        place, _, hint = error.hint.removeprefix(str(path)).removeprefix(":").partition(": ")
         line = int(place) if place.isdigit() else int(named[1]) if named else 0
-        if said.startswith(_NO_KEYWORD) and not mend:
-            mend = "a node's name stands there, below it ros__parameters, and below that name: value"
-        yield Finding(str(path), line, "refused", _LINE.sub("", said).rstrip("."), mend)
+        if message.startswith(_NO_KEYWORD) and not hint:
+            hint = "a node's name stands there, below it ros__parameters, and below that name: value"
+        yield LintFinding(str(path), line, "refused", _LINE.sub("", message).rstrip("."), hint)
 
 
-def dead_values(path: Path, declared: Declared) -> Iterator[Finding]:
+def dead_values(path: Path, declared: Declared) -> Iterator[LintFinding]:
     """Keys that match no node, and parameters that nobody declares."""
     from bot_console.tui.console.parameters.file.node_keys import is_wildcard
     from bot_console.tui.console.parameters.file.text import KEYWORD, sections
@@ -54,8 +54,8 @@ def dead_values(path: Path, declared: Declared) -> Iterator[Finding]:
     for section in found:
         line = section.mapping.line
         if not is_wildcard(section.key) and section.key.rpartition("/")[2] not in declared.nodes:
-            yield Finding(str(path), line, "dead key", section.key)
+            yield LintFinding(str(path), line, "dead key", section.key)
             continue
         for name, place in section.places.items() if declared.whole else ():
             if name not in declared.parameters and name != "use_sim_time" and not name.startswith("qos_overrides."):
-                yield Finding(str(path), place.line, "dead parameter", f"{section.key} {name}")
+                yield LintFinding(str(path), place.line, "dead parameter", f"{section.key} {name}")

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from bot_console.tui.cli.lint.finding import Finding
+from bot_console.tui.cli.lint.finding import LintFinding
 from bot_console.tui.console.parameters.unit import is_dimensionless
 
 _CONTINUOUS = re.compile(r"speed|velocity|distance|radius|gain|rate|angle|tolerance|timeout|period|^k[pid](_|$)|scale")
@@ -25,10 +25,10 @@ class Declared:
     """Whether all names could be read; a name that is worked out while the program runs cannot."""
 
 
-def lint(path: Path) -> tuple[list[Finding], Declared]:
+def lint(path: Path) -> tuple[list[LintFinding], Declared]:
     """The faults of a file, and what it declares; raises `SyntaxError` if it is not valid Python."""
     tree = ast.parse(path.read_text(encoding="utf-8"), str(path))
-    found: list[Finding] = []
+    found: list[LintFinding] = []
     declared = Declared()
     for each in ast.walk(tree):
         if isinstance(each, ast.ClassDef):
@@ -68,7 +68,7 @@ def _learn(call: ast.Call, declared: Declared) -> None:
             declared.nodes.add(each.value.value)
 
 
-def _of_declaration(call: ast.Call, path: str, tree: ast.AST) -> Iterator[Finding]:
+def _of_declaration(call: ast.Call, path: str, tree: ast.AST) -> Iterator[LintFinding]:
     if not call.args or not isinstance(call.args[0], ast.Constant) or not isinstance(call.args[0].value, str):
         return
     name = call.args[0].value
@@ -78,13 +78,13 @@ def _of_declaration(call: ast.Call, path: str, tree: ast.AST) -> Iterator[Findin
     number = _number(default)
     texts, ranged, known = _described(descriptor, tree)
     if known and not texts:
-        yield Finding(path, call.lineno, "no description", name)
+        yield LintFinding(path, call.lineno, "no description", name)
     if known and number is not None and not ranged:
-        yield Finding(path, call.lineno, "no range", name)
+        yield LintFinding(path, call.lineno, "no range", name)
     if isinstance(number, float) and texts and not any(_UNIT.search(each) or is_dimensionless(each) for each in texts):
-        yield Finding(path, call.lineno, "no unit", name)
+        yield LintFinding(path, call.lineno, "no unit", name)
     if type(number) is int and _CONTINUOUS.search(name.rpartition(".")[2]):
-        yield Finding(path, call.lineno, "float as int", name)
+        yield LintFinding(path, call.lineno, "float as int", name)
 
 
 def _number(default: ast.expr | None) -> float | int | None:
@@ -118,7 +118,7 @@ def _described(descriptor: ast.expr | None, tree: ast.AST) -> tuple[list[str], b
     return texts, bool({"floating_point_range", "integer_range"} & set(given)), True
 
 
-def _of_class(node: ast.ClassDef, path: str) -> Iterator[Finding]:
+def _of_class(node: ast.ClassDef, path: str) -> Iterator[LintFinding]:
     """The rules of a node class: whether it has any, and whether they can refuse."""
     calls = [each for each in ast.walk(node) if isinstance(each, ast.Call)]
     names = {_called(each) for each in calls}
@@ -129,13 +129,13 @@ def _of_class(node: ast.ClassDef, path: str) -> Iterator[Finding]:
             ("", "ParameterDescriptor") for each in calls
         )  # fmt: skip
         if not ranged and not helped:
-            yield Finding(path, node.lineno, "no validation", node.name)
+            yield LintFinding(path, node.lineno, "no validation", node.name)
     for call in calls:
         if _called(call) == "add_on_set_parameters_callback" and call.args:
             callback = _called_name(call.args[0])
             for each in ast.walk(node):
                 if isinstance(each, ast.FunctionDef) and each.name == callback and not _can_refuse(each):
-                    yield Finding(path, each.lineno, "accepts anything", f"{node.name}.{each.name}")
+                    yield LintFinding(path, each.lineno, "accepts anything", f"{node.name}.{each.name}")
 
 
 def _called_name(of: ast.expr) -> str:

@@ -8,13 +8,13 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 
-from bot_console.tui.cli.lint.finding import Finding
+from bot_console.tui.cli.lint.finding import LintFinding
 from bot_console.tui.cli.lint.launch_file import dead_parameters, folder_of_package
 from bot_console.tui.cli.lint.parameter_file import dead_values, is_meant, refused
 from bot_console.tui.cli.lint.python_file import Declared
 from bot_console.tui.cli.lint.python_file import lint as lint_python
 
-PATIENCE = 5.0
+READ_TIMEOUT_S = 5.0
 """Seconds in which the parameters of running nodes are read."""
 
 
@@ -26,15 +26,21 @@ def run(words: list[str]) -> int:
         epilog="exit codes: 0 nothing found, 1 something found, 2 wrong usage",
     )
     parser.add_argument("what", metavar="PACKAGE | FILE | FOLDER | running", help="running: the nodes of the domain")
-    parser.add_argument("--json", action="store_true", help="a list for programs")
+    parser.add_argument(
+        "--json",
+        action="store_true",
+        help="a list for programs (`mend` is now `hint`, and is dropped in the next release)",
+    )
     given = parser.parse_args(words)
     problem, found = _running() if given.what == "running" else _of_files(given.what)
     if problem:
         print(problem, file=sys.stderr)
         return 2
     if given.json:
-        fields = ("place", "line", "fault", "subject", "mend")
-        print(json.dumps([{name: getattr(each, name) for name in fields} for each in found], indent=2))
+        fields = ("place", "line", "fault", "subject", "hint")
+        # `mend` is the name that `hint` had in earlier releases; it is written for one more release.
+        rows = [{name: getattr(each, name) for name in fields} | {"mend": each.hint} for each in found]
+        print(json.dumps(rows, indent=2))
     else:
         for each in found:
             print(each.text())
@@ -42,7 +48,7 @@ def run(words: list[str]) -> int:
     return 1 if found else 0
 
 
-def _of_files(what: str) -> tuple[str, list[Finding]]:
+def _of_files(what: str) -> tuple[str, list[LintFinding]]:
     files = files_of(what)
     if not files:
         return f"there is no file, folder or package '{what}' with Python or YAML files in it", []
@@ -62,8 +68,8 @@ def files_of(what: str) -> list[Path]:
         return [path]
     if not path.is_dir():
         from bot_console.runtime.importer import install
+        from bot_console.runtime.workspace.builtin_package import NAME, own_package
         from bot_console.runtime.workspace.discover import workspace
-        from bot_console.runtime.workspace.own import NAME, own_package
 
         install()
         package = own_package() if what == NAME else workspace().packages.get(what)
@@ -75,12 +81,12 @@ def files_of(what: str) -> list[Path]:
     )
 
 
-def lint_files(files: Iterable[Path], named: Path | None = None) -> list[Finding]:
+def lint_files(files: Iterable[Path], named: Path | None = None) -> list[LintFinding]:
     """The faults of files; parameter and launch files are compared with what the Python files declare.
 
     `named` is a file that the user has named: it is read as a parameter file, whatever is in it.
     """
-    found: list[Finding] = []
+    found: list[LintFinding] = []
     declared = Declared()
     parameters: list[Path] = []
     launches: list[Path] = []
@@ -109,7 +115,7 @@ def lint_files(files: Iterable[Path], named: Path | None = None) -> list[Finding
     return sorted(found)
 
 
-def _running() -> tuple[str, list[Finding]]:
+def _running() -> tuple[str, list[LintFinding]]:
     from bot_console.runtime.importer import install
     from bot_console.tui.cli.system.domain import take_part
 
@@ -124,8 +130,8 @@ def _running() -> tuple[str, list[Finding]]:
     console = RosConsole()
     console.start()
     try:
-        console.wait_ready(PATIENCE)
-        deadline, known, still = time.monotonic() + PATIENCE, 0, 0
+        console.wait_ready(READ_TIMEOUT_S)
+        deadline, known, still = time.monotonic() + READ_TIMEOUT_S, 0, 0
         while time.monotonic() < deadline and (still < 5 or not known):
             time.sleep(0.1)
             count = sum(len(tree.parameters) for tree in console.snapshot().parameters.values())
@@ -136,7 +142,7 @@ def _running() -> tuple[str, list[Finding]]:
     if not trees:
         return "no node with parameters was found in this ROS domain", []
     return "", sorted(
-        Finding(node, 0, fault, each.name)
+        LintFinding(node, 0, fault, each.name)
         for node, tree in trees.items()
         for each in tree.parameters
         for fault in faults(each)

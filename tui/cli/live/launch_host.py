@@ -61,18 +61,18 @@ def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], N
     from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
     from bot_console.runtime.rmw.zenoh.domain.sockets import lives
     from bot_console.tui.cli.interruptible_wait import wait_interruptibly
-    from bot_console.tui.cli.live.process_news import tell_news
+    from bot_console.tui.cli.live.process_reports import log_process_reports
     from bot_console.tui.cli.system.domain import domain
-    from bot_console.tui.console.launch_host.door import Door, remove_doors_of_the_dead
+    from bot_console.tui.console.launch_host.address import HostListener, remove_addresses_of_dead_hosts
     from launch.child import close_fork_server
 
-    forget = forget or tell_news(host.noticed, host.learn)
+    forget = forget or log_process_reports(host.noticed, host.learn)
     close_on_signals(host.close)
     folder = domain_folder(domain())
-    remove_doors_of_the_dead(folder, lives)
-    door = Door(folder, host.connect)
+    remove_addresses_of_dead_hosts(folder, lives)
+    gate = HostListener(folder, host.connect)
     wait_interruptibly(host.over, seconds)
-    door.close()
+    gate.close()
     forget()
     host.close()
     close_fork_server()

@@ -20,14 +20,14 @@ def launch_variables(environment: Mapping[str, str]) -> dict[str, str]:
     return {**environment, **OVERRIDE, **marking(environment)}
 
 
-def teller(printed: Callable[[int, str, str], None]) -> Callable[[str], None]:
+def notifier(printed: Callable[[int, str, str], None]) -> Callable[[str], None]:
     """A callback that takes such lines."""
 
-    def tell(text: str) -> None:
+    def report(text: str) -> None:
         line = LAUNCH_LINE.match(text)
         if line:
             printed(LEVELS.get(line[1], Severity.INFO), line[2], line[3])
         elif text.strip():
             printed(Severity.INFO, "launch", text.rstrip("\n"))
 
-    return tell
+    return report

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Protocol
 
-from bot_console.runtime.process.watch.held_lock import HeldLock
+from bot_console.runtime.process.watch.gil_holder import GilHolder
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 from bot_console.tui.cli.live.launching import Launching
 from bot_console.tui.cli.live.vitals import find_vitals
@@ -14,14 +14,14 @@ from bot_console.tui.cli.system.domain import domain
 from bot_console.tui.cli.system.workspaces import launch_environment, launch_files
 from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.launch.process_output import Add
+from bot_console.tui.console.launch_host.address import connect_to_host, door_of, host_addresses, pid_of_address
 from bot_console.tui.console.launch_host.combined import CombinedLauncher, OtherHosts
-from bot_console.tui.console.launch_host.door import door_of, doors, knock, pid_behind
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import LaunchInfo
 from bot_console.tui.console.protocol import Launcher
 
 if TYPE_CHECKING:
-    from bot_console.tui.cli.live.own_host import Host
+    from bot_console.tui.cli.live.child_host import Host
     from bot_console.tui.cli.live.snapshot_buffer import HostedSnapshotBuffer
     from bot_console.tui.console.connection.ros_console import RosConsole
 
@@ -29,7 +29,7 @@ HANGS = (
     "the launch host {0} hangs in {1}, which holds the interpreter's lock: no node that is a thread of it runs. "
     "kill -9 {0} ends all of them"
 )
-PATIENCE = 20.0
+CONNECT_TIMEOUT_S = 20.0
 """Seconds after which other hosts are looked for although the console has not connected."""
 Printed = Callable[[int, str, str], None]
 
@@ -48,7 +48,7 @@ class ConsoleLauncher(Launcher, Protocol):
 
 def why_it_hangs(pid: int) -> Callable[[], str]:
     """A function that says why a launch host does not respond; empty when it does."""
-    lock = HeldLock(pid)
+    lock = GilHolder(pid)
 
     def why() -> str:
         held = lock.held_in()
@@ -103,9 +103,9 @@ def attached(start_own: Callable[[], Host]) -> Callable[[RosConsole], CombinedLa
     """Through the hosts of all other programs in the domain, and one of its own once it launches something itself."""
 
     def make(console: RosConsole) -> CombinedLauncher:
-        def enter(door: str) -> HostedLauncher | None:
-            connection = knock(door)
-            hangs = why_it_hangs(pid_behind(door))
+        def enter(address: str) -> HostedLauncher | None:
+            connection = connect_to_host(address)
+            hangs = why_it_hangs(pid_of_address(address))
             return connection and HostedLauncher(
                 connection, console.record, console.printed, owner=False, learn=console.learn, hangs=hangs
             )
@@ -115,7 +115,7 @@ def attached(start_own: Callable[[], Host]) -> Callable[[RosConsole], CombinedLa
             return door_of(folder, host.process.pid), _of_own(host, console)
 
         folder = domain_folder(domain())
-        others = OtherHosts(lambda: doors(folder), enter, partial(console.wait_ready, PATIENCE))
+        others = OtherHosts(lambda: host_addresses(folder), enter, partial(console.wait_ready, CONNECT_TIMEOUT_S))
         return CombinedLauncher(own, launch_files, others)
 
     return make

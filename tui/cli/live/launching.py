@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from bot_console.runtime.process import NodeProcess
-from bot_console.tui.cli.live.launch_lines import launch_variables, teller
+from bot_console.tui.cli.live.launch_lines import launch_variables, notifier
 
 
 class Launching:
@@ -15,8 +15,8 @@ class Launching:
         self, target: Callable[[], None], printed: Callable[[int, str, str], None], env: Mapping[str, str]
     ) -> None:
         self._process = NodeProcess("launch")
-        tell = teller(printed)
-        self._process.start(target, env=launch_variables(env), stdout=tell, stderr=tell)
+        report = notifier(printed)
+        self._process.start(target, env=launch_variables(env), stdout=report, stderr=report)
 
     def join(self, timeout: float | None = None) -> object:
         """Wait for the end, at most so many seconds."""

@@ -19,7 +19,7 @@ from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Launcher
 from bot_console.tui.console.running_lines import RunningLine, goes_on
 
-LINE_LIMIT = 15.0
+LINE_TIMEOUT_S = 15.0
 """Seconds after which a line that does not end by itself, and was not expected to go on, is interrupted."""
 STARTING = 30.0
 """Seconds after which what a line launches is not waited for any more: the Launch pane tells the rest."""
@@ -120,6 +120,6 @@ def _start(words: Sequence[str], printed: RunningLine | list[str]) -> NodeProces
 def _printed_by(words: Sequence[str]) -> str:
     printed: list[str] = []
     process = _start(words, printed)
-    if process.wait(LINE_LIMIT) is None:
+    if process.wait(LINE_TIMEOUT_S) is None:
         process.stop()
     return "".join(printed)

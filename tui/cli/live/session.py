@@ -8,10 +8,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.cli.appearance import appearance_of
 from bot_console.tui.cli.foreground.foreground import Foreground
 from bot_console.tui.cli.interpreter import collect_from_now_on
-from bot_console.tui.cli.look import look_of
-from bot_console.tui.cli.slow_end import slow_end_told
+from bot_console.tui.cli.slow_exit import report_slow_exit
 
 if TYPE_CHECKING:
     from bot_console.tui.arrangement.arrival import System
@@ -30,12 +30,12 @@ class Session:
         self._options = options
         self._connect = connect or self._embedded
         self._closed = False
-        look = look_of(options)
+        appearance = appearance_of(options)
         self.app = BotConsoleApp(
             reach=self._reach,
-            opening=options.opening._replace(notes=(*options.opening.notes, *look.notes)),
+            opening=options.opening._replace(notes=(*options.opening.notes, *appearance.notes)),
             on_first_frame=collect_from_now_on,
-            look=look,
+            appearance=appearance,
             plugins=self._plugins,
         )
         self._foreground = Foreground(self.app, self._printed, self._end)
@@ -77,10 +77,10 @@ class Session:
 
     def run(self) -> int:
         """Show the console until it is quit; the robot stands still when this returns, however it ended."""
-        return self._foreground.run(self._close_told)
+        return self._foreground.run(self._close_reporting)
 
-    def _close_told(self) -> None:
-        with slow_end_told():
+    def _close_reporting(self) -> None:
+        with report_slow_exit():
             self.close()
 
     def _end(self, number: int) -> None:

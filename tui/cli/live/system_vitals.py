@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from bot_console.runtime.process.watch.held_lock import HeldLock
+from bot_console.runtime.process.watch.gil_holder import GilHolder
 from bot_console.runtime.process.watch.processor_time import wanted_seconds
 
 
@@ -14,7 +14,7 @@ class SystemVitals:
 
     def __init__(self, pid: int) -> None:
         self._pid = pid
-        self._lock = HeldLock(pid)
+        self._lock = GilHolder(pid)
         self._stat = Path(f"/proc/{pid}/stat")
         self._statm = Path(f"/proc/{pid}/statm")
 

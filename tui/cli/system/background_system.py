@@ -13,7 +13,7 @@ from bot_console.runtime.importer import install
 from bot_console.tui.cli.arguments import Options, parse
 
 SWITCH = "bot_console.tui.cli.system.background_system"
-GRACE = 5.0
+ROBOT_SEARCH_TIMEOUT_S = 5.0
 """Seconds that the look for a robot may take to end."""
 
 
@@ -38,10 +38,10 @@ def main(words: Sequence[str] | None = None) -> int:
 
 
 def _run(options: Options, file: Path) -> int:
-    from bot_console.tui.cli.live import robot_beside
+    from bot_console.tui.cli.live import robot_starter
     from bot_console.tui.cli.live.launch_host import serve
     from bot_console.tui.cli.live.launchers import launcher_here
-    from bot_console.tui.cli.live.process_news import tell_news
+    from bot_console.tui.cli.live.process_reports import log_process_reports
     from bot_console.tui.cli.system.domain import nodes_there
     from bot_console.tui.cli.system.rotating_file import rotate_launch_files
     from bot_console.tui.cli.system.system_log import SystemLog
@@ -60,17 +60,17 @@ def _run(options: Options, file: Path) -> int:
         return made[0]
 
     host = LaunchHost(make, log.printed)
-    forget = tell_news(host.noticed, host.learn)  # before the nodes begin, which tell what they declare
+    forget = log_process_reports(host.noticed, host.learn)  # before the nodes begin, which tell what they declare
     [launcher] = made
     arguments = dict(options.launch_arguments)
     if not options.launch:
-        arguments = {"profile": options.profile, **robot_beside.arguments(options), **arguments}
+        arguments = {"profile": options.profile, **robot_starter.arguments(options), **arguments}
 
-    def tell(text: str) -> None:
+    def report(text: str) -> None:
         host.printed(Severity.INFO, "bot-console", text)
 
     def start_robot(arguments: Mapping[str, str]) -> None:
-        launcher.launch(robot_beside.LAUNCH_FILE, arguments)
+        launcher.launch(robot_starter.LAUNCH_FILE, arguments)
 
     others = len(nodes_there())
     answer = launcher.launch(options.launch or SYSTEM_LAUNCH, arguments).result()
@@ -78,11 +78,11 @@ def _run(options: Options, file: Path) -> int:
         print(answer.text, file=sys.stderr)
         host.close()
         return 1
-    system = robot_beside.System(lambda: robot_beside.processes(launcher.info()), tell, start_robot, others)
-    looking = robot_beside.begin(options, system)
+    system = robot_starter.System(lambda: robot_starter.processes(launcher.info()), report, start_robot, others)
+    watching = robot_starter.begin(options, system)
     serve(host, options.duration, forget)
-    if looking is not None:
-        looking.stop(GRACE)
+    if watching is not None:
+        watching.stop(ROBOT_SEARCH_TIMEOUT_S)
     log.close()
     return 0
 

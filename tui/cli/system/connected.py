@@ -10,10 +10,10 @@ from bot_console.runtime.process import NodeProcess
 from bot_console.runtime.process.virtual.install import reinstall_stdio
 from bot_console.tui.arrangement.arrival import System
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.live import robot_beside
-from bot_console.tui.cli.live.for_panes import for_panes
+from bot_console.tui.cli.live import robot_starter
 from bot_console.tui.cli.live.launchers import ConsoleLauncher, embedded
-from bot_console.tui.cli.live.process_news import tell_news
+from bot_console.tui.cli.live.pane_dependencies import for_panes
+from bot_console.tui.cli.live.process_reports import log_process_reports
 from bot_console.tui.cli.live.ros2_command_line import Ros2CommandLine
 from bot_console.tui.cli.system.domain import nodes_there
 from bot_console.tui.cli.system.plugins import find_plugins
@@ -41,7 +41,7 @@ class Connected:
     def __init__(
         self,
         options: Options,
-        said: Sequence[tuple[Severity, str]] = (),
+        message: Sequence[tuple[Severity, str]] = (),
         system: Callable[[RosConsole], ConsoleLauncher] = embedded,
         buffer: Keeper | None = None,
     ) -> None:
@@ -50,8 +50,8 @@ class Connected:
         `buffer` keeps the last minutes.
         """
         self._options = options
-        self._said = said
-        self._looking: NodeProcess | None = None
+        self._last_message = message
+        self._watching: NodeProcess | None = None
         self._forget_notices: Callable[[], None] = lambda: None
         self.console = RosConsole(
             launch_info=self._launch_info,
@@ -90,29 +90,29 @@ class Connected:
         """Start the system once the console listens, so that not even its first log line is lost."""
         if not self.console.wait_ready(READY):
             return
-        self._forget_notices = tell_news(self.console.printed, self.console.learn)
+        self._forget_notices = log_process_reports(self.console.printed, self.console.learn)
         options = self._options
-        for severity, line in self._said:
+        for severity, line in self._last_message:
             self.console.printed(severity, "bot-console", line)
         if options.attach:
             return
         if options.launch:
             others = len(nodes_there())
             self.launcher.launch(options.launch, options.launch_arguments)
-            system = robot_beside.System(self._processes, self._tell, self._start_robot, others)
-            self._looking = robot_beside.begin(options, system)
+            system = robot_starter.System(self._processes, self._report, self._start_robot, others)
+            self._watching = robot_starter.begin(options, system)
             return
-        arguments = {"profile": options.profile, **robot_beside.arguments(options), **options.launch_arguments}
+        arguments = {"profile": options.profile, **robot_starter.arguments(options), **options.launch_arguments}
         self.launcher.launch(SYSTEM_LAUNCH, arguments)
 
-    def _tell(self, text: str) -> None:
+    def _report(self, text: str) -> None:
         self.console.printed(Severity.INFO, "bot-console", text)
 
     def _start_robot(self, arguments: Mapping[str, str]) -> None:
-        self.launcher.launch(robot_beside.LAUNCH_FILE, arguments)
+        self.launcher.launch(robot_starter.LAUNCH_FILE, arguments)
 
     def _processes(self) -> tuple[int, int]:
-        return robot_beside.processes(self.launcher.info())
+        return robot_starter.processes(self.launcher.info())
 
     def close(self) -> None:
         """Send zero velocity, end the launched processes, then leave the graph.
@@ -123,8 +123,8 @@ class Connected:
             self.console.all_stop(True, "bot-console was quit")
             self.console.await_standing(LAST_WORD)
             self.console.steer(False)  # else its silence would be a stop that the next start of the robot finds
-        if self._looking is not None:
-            self._looking.stop()
+        if self._watching is not None:
+            self._watching.stop()
         self.launcher.close()
         self._local_tuner.close()
         self._forget_notices()

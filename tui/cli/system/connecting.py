@@ -8,7 +8,7 @@ from bot_console.runtime.importer import install
 from bot_console.runtime.rmw.middleware import bus_of, choose_middleware
 from bot_console.runtime.rmw.zenoh.network.client import Way, with_environment
 from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
-from bot_console.runtime.rmw.zenoh.network.reach import place_of
+from bot_console.runtime.rmw.zenoh.network.reachability import place_of
 from bot_console.runtime.rmw.zenoh.session import SessionError
 from bot_console.tui.cli.system.domain import domain
 

@@ -56,7 +56,7 @@ def take_part() -> str:
     global _taking_part
     if alone := why_alone():
         return alone
-    from bot_console.runtime.child_range import let_children_meet
+    from bot_console.runtime.child_discovery import let_children_meet
     from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
 
     share_domains()
@@ -73,9 +73,9 @@ def stop_file() -> Path:
     return state_folder() / "stops" / f"domain-{domain()}.json"
 
 
-def run_apart() -> None:
+def run_in_worker() -> None:
     """Isolate the contexts initialised from now on, and the programs of launches, from all other programs."""
-    from bot_console.runtime.child_range import let_children_meet
+    from bot_console.runtime.child_discovery import let_children_meet
     from bot_console.runtime.rmw.local import local_bus
     from bot_console.runtime.rmw.middleware import choose_middleware
 
@@ -122,7 +122,7 @@ def robot_there() -> list[str]:
     called after `take_part` and before anything runs in this process.
     """
     from bot_console.runtime.rmw.middleware import bus_of
-    from bot_console.tui.console.robot.robot_wanted import SOURCES, VELOCITY
+    from bot_console.tui.console.robot.robot_needed import SOURCES, VELOCITY
 
     if not others_take_part():
         return []
@@ -174,7 +174,7 @@ def why_no_robot(robot: Sequence[str], arguments: Mapping[str, str]) -> str:
     return ""
 
 
-def tell_of_other_start() -> None:
+def report_of_other_start() -> None:
     """Say, on standard error, that this program waits for a robot that another one is starting."""
     print(f"Another bot-console is starting a robot in ROS domain {domain()}: waiting for it ...", file=sys.stderr)
 

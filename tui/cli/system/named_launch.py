@@ -22,7 +22,7 @@ def with_launch_file(options: Options) -> tuple[Options, str]:
     if not name and (os.sep in named or named.endswith(PATHS)):
         return options, f"there is no launch file {named}"
     from bot_console.runtime.importer import install
-    from bot_console.tui.cli.system.workspaces import choose, tell_whose
+    from bot_console.tui.cli.system.workspaces import choose, report_workspace
 
     install()
     choose(options.workspace)
@@ -33,5 +33,5 @@ def with_launch_file(options: Options) -> tuple[Options, str]:
         parse_launch_arguments(left)  # a word behind a path that is no argument
     except LaunchFileError as error:
         return options, str(error)
-    tell_whose(named)
+    report_workspace(named)
     return replace(options, launch=os.path.abspath(path), launch_file=""), ""

@@ -10,7 +10,7 @@ from bot_console.runtime.process.current import MAIN
 from bot_console.runtime.process.fork_server import has_one_thread
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.process.watch.busy_watch import busy_watch
-from bot_console.runtime.process.watch.lock_watch import LockWatch
+from bot_console.runtime.process.watch.gil_watch import GilWatch
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
 from bot_console.runtime.warm_up import import_shared
@@ -22,7 +22,7 @@ STARTS_NOTHING = {"-h", "--help", "-p", "--print", "--print-description", "-s", 
 """Words of `launch` with which it needs no process."""
 
 
-def foresee(words: Sequence[str], *, from_here: bool = False) -> None:
+def prefork(words: Sequence[str], *, from_here: bool = False) -> None:
     """Start the fork server early for a `launch` with these arguments: it warms up while the launch file is read.
 
     `from_here`, in a program that has just begun, it is a fork of this process where that is possible.
@@ -53,7 +53,7 @@ def isolate() -> None:
 def watch_threads() -> None:
     """Report when C code of a node that is a thread of this process has kept all others from running."""
 
-    def tell(ident: int, text: str) -> None:
+    def report(ident: int, text: str) -> None:
         notify(busy_watch.process_of(ident) or MAIN, text)
 
-    LockWatch(tell).begin()
+    GilWatch(report).begin()

@@ -36,7 +36,7 @@ def _of_workspace() -> Iterator[PluginEntry]:
 
 
 def _entry(name: str, find: Callable[[], Any], source: str) -> PluginEntry:
-    id = "".join(letter if letter.isalnum() else "_" for letter in name)
+    id = "".join(character if character.isalnum() else "_" for character in name)
     return PluginEntry(f"plugin_{id}", "", name.replace("_", " "), "", find=find, source=source)
 
 

@@ -16,7 +16,7 @@ LINK = 10.0
 """Seconds to connect."""
 STILL = 0.5
 """Seconds for which nothing may come or go before the system counts as known."""
-PERIOD = 0.05
+POLL_S = 0.05
 T = TypeVar("T")
 
 
@@ -48,17 +48,17 @@ def reached_console(*, learning: bool = False) -> Generator[RosConsole | None]:
 def _listen_to_hosts(console: RosConsole, stack: contextlib.ExitStack) -> None:
     from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
     from bot_console.tui.cli.system.domain import domain
-    from bot_console.tui.console.launch_host.door import doors, knock
+    from bot_console.tui.console.launch_host.address import connect_to_host, host_addresses
     from bot_console.tui.console.launch_host.proxy import HostedLauncher
 
-    for door in doors(domain_folder(domain())):
-        connection = knock(door)
+    for gate in host_addresses(domain_folder(domain())):
+        connection = connect_to_host(gate)
         if connection is not None:
             host = HostedLauncher(connection, console.record, console.printed, owner=False, learn=console.learn)
             stack.callback(host.close)
 
 
-def known(console: RosConsole, patience: float) -> bool:
+def known(console: RosConsole, timeout_s: float) -> bool:
     """Wait until nodes and parameters stop changing, at most so many seconds; returns whether there are any nodes."""
 
     def counts() -> tuple[int, int, int]:
@@ -67,16 +67,16 @@ def known(console: RosConsole, patience: float) -> bool:
         nodes = sum(not each.hidden for each in snapshot.graph.nodes)
         return nodes, len(trees), sum(len(each.parameters) for each in trees.values())
 
-    return bool(settled(counts, lambda found: bool(found[0]), STILL, patience)[0])
+    return bool(settled(counts, lambda found: bool(found[0]), STILL, timeout_s)[0])
 
 
-def settled(look: Callable[[], T], is_there: Callable[[T], bool], still: float, patience: float) -> T:
+def settled(poll: Callable[[], T], is_there: Callable[[T], bool], still: float, timeout_s: float) -> T:
     """A value, once there is one and it has not changed for `still` seconds; at the latest after `patience` seconds."""
-    deadline = time.monotonic() + patience
-    seen, since = look(), time.monotonic()
+    deadline = time.monotonic() + timeout_s
+    seen, since = poll(), time.monotonic()
     while time.monotonic() < deadline and not (is_there(seen) and time.monotonic() - since >= still):
-        time.sleep(PERIOD)
-        now = look()
+        time.sleep(POLL_S)
+        now = poll()
         if now != seen:
             seen, since = now, time.monotonic()
     return seen

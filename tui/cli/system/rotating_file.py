@@ -18,15 +18,15 @@ LAUNCH_PARTS = 1
 
 
 class RotatingFile(UnwritableLog, RotatingFileHandler):
-    """Writes to a file until it has `most_bytes`; rotated files are named `.1` (the newest) and up.
+    """Writes to a file until it has `max_bytes`; rotated files are named `.1` (the newest) and up.
 
     Descriptors in `followed` that refer to the file are redirected to the new one on rotation: otherwise what this
     program writes to standard output, past the log, would end up in a file that is soon deleted.
     """
 
-    def __init__(self, path: str | Path, most_bytes: int, parts: int, followed: tuple[int, ...] = ()) -> None:
+    def __init__(self, path: str | Path, max_bytes: int, parts: int, followed: tuple[int, ...] = ()) -> None:
         super().__init__(
-            path, maxBytes=most_bytes, backupCount=parts, encoding="utf-8", delay=True, errors="backslashreplace"
+            path, maxBytes=max_bytes, backupCount=parts, encoding="utf-8", delay=True, errors="backslashreplace"
         )
         self._followed = followed
 

@@ -18,7 +18,7 @@ SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if 
 
 
 @contextlib.contextmanager
-def start_lock(lock: Path, patience: float) -> Generator[bool]:
+def start_lock(lock: Path, timeout_s: float) -> Generator[bool]:
     """Hold the lock, and the signals that would end this process, for the length of a `with` block.
 
     Gives whether the lock was got in so many seconds. A signal takes effect behind the block: amid it, a system could
@@ -26,7 +26,7 @@ def start_lock(lock: Path, patience: float) -> Generator[bool]:
     """
     handle = open_lock(lock)
     try:
-        deadline = time.monotonic() + patience
+        deadline = time.monotonic() + timeout_s
         while not (got := try_lock(handle)) and time.monotonic() < deadline:
             time.sleep(POLL)
         with _signals_held_back():

@@ -10,11 +10,11 @@ from pathlib import Path
 from bot_console.tui.cli.system.rotating_file import STANDARD_STREAMS, RotatingFile
 from bot_console.tui.files.folders import state_folder
 
-MOST_BYTES = 5_000_000
+MAX_FILE_BYTES = 5_000_000
 """The size of a file after which the next one begins."""
-KEPT_PARTS = 4
+MAX_OLD_FILES = 4
 """Older files of one system that are kept, named `.1` (the newest) and up."""
-KEPT_SYSTEMS = 5
+MAX_SYSTEMS = 5
 """Systems whose logs are kept."""
 NAMES = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
 
@@ -22,8 +22,8 @@ NAMES = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
 class SystemLog:
     """Writes lines as `[INFO] [1700000000.123456] [talker]: text`; may be called from any thread."""
 
-    def __init__(self, path: Path, most_bytes: int = MOST_BYTES) -> None:
-        self._handler = RotatingFile(path, most_bytes, KEPT_PARTS, STANDARD_STREAMS)
+    def __init__(self, path: Path, max_bytes: int = MAX_FILE_BYTES) -> None:
+        self._handler = RotatingFile(path, max_bytes, MAX_OLD_FILES, STANDARD_STREAMS)
 
     def logged(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
         """Write a logger's line; `stamp` in ns since the epoch."""
@@ -44,7 +44,7 @@ def new_log(pid: int) -> Path:
     folder = state_folder() / "systems"
     folder.mkdir(parents=True, exist_ok=True)
     old = sorted(folder.glob("*.log"), key=lambda each: each.stat().st_mtime)
-    for first in old[: max(0, len(old) - KEPT_SYSTEMS + 1)]:
+    for first in old[: max(0, len(old) - MAX_SYSTEMS + 1)]:
         for each in (first, *parts(first)):
             each.unlink(missing_ok=True)
     return folder / f"{time.strftime('%Y%m%d-%H%M%S')}-{pid}.log"

@@ -6,11 +6,11 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
+from bot_console.runtime.workspace.builtin_package import FIRST_VARIABLE, NAME, PAGE_NAME, ROOT, is_own
 from bot_console.runtime.workspace.choices import launch_file_paths
 from bot_console.runtime.workspace.demos import is_demo
 from bot_console.runtime.workspace.discover import Workspace, default_folders, use, workspace
-from bot_console.runtime.workspace.own import FIRST_VARIABLE, NAME, PAGE_NAME, ROOT, is_own
-from bot_console.tui.cli.foreground.once_per_shell import tell_once
+from bot_console.tui.cli.foreground.once_per_shell import report_once
 
 PROGRAM_LAUNCH = ROOT / "launch" / "program.launch.py"
 """Runs what a person has named, which is not ours."""
@@ -47,7 +47,7 @@ def launch_environment(file: str) -> dict[str, str]:
     return {**os.environ, FIRST_VARIABLE: "1"} if ours else dict(os.environ)
 
 
-def tell_whose(package: str) -> None:
+def report_workspace(package: str) -> None:
     """Say on stderr, once per shell, that a named package is the workspace's, if one of ours has the same name."""
     here = workspace()
     if package not in (NAME, PAGE_NAME):
@@ -55,7 +55,7 @@ def tell_whose(package: str) -> None:
     found = here.packages.get(package)
     if found is not None and not is_own(found):
         built_in = f"; the robot that comes along is '{NAME}'" if package != NAME else ", not the one that comes along"
-        tell_once(f"[INFO] [bot-console]: package '{package}' is the one in {found.folder}{built_in}")
+        report_once(f"[INFO] [bot-console]: package '{package}' is the one in {found.folder}{built_in}")
 
 
 def config_folders() -> tuple[Path, ...]:

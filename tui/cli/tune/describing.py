@@ -8,40 +8,41 @@ from typing import Any
 
 from bot_console.tui.console.model import Kind, ParameterInfo
 from bot_console.tui.format import counted, value_text
-from bot_console.tui.tuning.dial import Dial
-from bot_console.tui.tuning.question import Question
-from bot_console.tui.tuning.study import Judged, Progress
+from bot_console.tui.tuning.job import Progress, SettingResult
+from bot_console.tui.tuning.specification import TuningSpecification
+from bot_console.tui.tuning.tunable import Tunable
 
 
-def dials_of(system: Mapping[str, Any]) -> list[Dial]:
+def tunables_of(system: Mapping[str, Any]) -> list[Tunable]:
     """The tunable parameters among those a probe has found: numbers and booleans that are not read-only."""
-    found: list[Dial] = []
+    found: list[Tunable] = []
     for node, parameters in system.items():
         if not node.startswith("/"):
             continue
-        for name, said in parameters.items():
-            value = said["value"]
-            if said["read_only"] or not isinstance(value, (bool, int, float)) or name == "use_sim_time":
+        for name, message in parameters.items():
+            value = message["value"]
+            if message["read_only"] or not isinstance(value, (bool, int, float)) or name == "use_sim_time":
                 continue
             kind = {bool: "bool", int: "integer", float: "double"}[type(value)]
-            low, high = (0, 1) if kind == "bool" else said["range"] or (-math.inf, math.inf)
-            unit = ParameterInfo(node, name, Kind.DOUBLE, value, said["description"]).unit
-            found.append(Dial(node, name, kind, low, high, value, unit))
+            low, high = (0, 1) if kind == "bool" else message["range"] or (-math.inf, math.inf)
+            unit = ParameterInfo(node, name, Kind.DOUBLE, value, message["description"]).unit
+            found.append(Tunable(node, name, kind, low, high, value, unit))
     return found
 
 
-def line_of(question: Question, judged: Judged) -> str:
+def result_line(specification: TuningSpecification, result: SettingResult) -> str:
     """A setting and its score on one line."""
     values = "  ".join(
-        f"{dial.name} {value_text(value)}" for dial, value in zip(question.dials, judged.setting, strict=True)
+        f"{tunable.name} {value_text(value)}"
+        for tunable, value in zip(specification.tunables, result.setting, strict=True)
     )
-    if judged.problem:
-        return f"  failed  {values}  {judged.problem}"
-    bumps = f"  {counted(judged.collisions, 'collision')}" if judged.collisions else ""
-    return f"{judged.score:8.3f}  {values}{bumps}"
+    if result.problem:
+        return f"  failed  {values}  {result.problem}"
+    bumps = f"  {counted(result.collisions, 'collision')}" if result.collisions else ""
+    return f"{result.score:8.3f}  {values}{bumps}"
 
 
-def gain(before: Judged, after: Judged) -> str:
+def gain(before: SettingResult, after: SettingResult) -> str:
     """How much better one is than the other, in words."""
     if not (math.isfinite(before.score) and math.isfinite(after.score)):
         return ""
@@ -49,28 +50,31 @@ def gain(before: Judged, after: Judged) -> str:
     return f"{share:+.0%}" if math.isfinite(share) else ""
 
 
-def result_of(question: Question, progress: Progress) -> dict[str, Any]:
+def result_of(specification: TuningSpecification, progress: Progress) -> dict[str, Any]:
     """The result for programs; `text` holds it as lines for people."""
     rows, best = progress.rows, progress.best
     result: dict[str, Any] = {
-        "profile": question.profile,
-        "worlds": [each for each in question.worlds if each],
-        "score": question.score.text,
-        "search": question.search,
+        "profile": specification.profile,
+        "worlds": [each for each in specification.worlds if each],
+        "score": specification.score.text,
+        "search": specification.search,
         "runs": progress.done,
         "seconds": round(progress.elapsed, 3),
         "complete": progress.ended and not progress.problem,
-        "settings": [_plain(question, each) for each in rows],
+        "settings": [_plain(specification, each) for each in rows],
         "text": [],
     }
     if best is None:
         return result
     worst = min(rows, key=lambda each: each.score)
-    result |= {name: _plain(question, each) for name, each in (("now", rows[0]), ("best", best), ("worst", worst))}
-    lines = [f"now   {line_of(question, rows[0])}", f"best  {line_of(question, best)}  {gain(rows[0], best)}"]
+    result |= {name: _plain(specification, each) for name, each in (("now", rows[0]), ("best", best), ("worst", worst))}
+    lines = [
+        f"now   {result_line(specification, rows[0])}",
+        f"best  {result_line(specification, best)}  {gain(rows[0], best)}",
+    ]
     if progress.held_out:
         before, after = progress.held_out
-        result["held_out"] = {"now": _plain(question, before), "best": _plain(question, after)}
+        result["held_out"] = {"now": _plain(specification, before), "best": _plain(specification, after)}
         seeds = counted(len(before.scores), "other seed")
         lines.append(f"on {seeds}: {before.score:.3f} → {after.score:.3f}  {gain(before, after)}")
         if after.score <= before.score and best is not rows[0]:
@@ -79,8 +83,8 @@ def result_of(question: Question, progress: Progress) -> dict[str, Any]:
     return result
 
 
-def _plain(question: Question, judged: Judged) -> dict[str, Any]:
-    values = {dial.label: value for dial, value in zip(question.dials, judged.setting, strict=True)}
-    told: dict[str, Any] = {"values": values, "score": judged.score if math.isfinite(judged.score) else None}
-    told |= {"scores": list(judged.scores), "collisions": judged.collisions}
-    return told | ({"problem": judged.problem} if judged.problem else {})
+def _plain(specification: TuningSpecification, result: SettingResult) -> dict[str, Any]:
+    values = {tunable.label: value for tunable, value in zip(specification.tunables, result.setting, strict=True)}
+    reported: dict[str, Any] = {"values": values, "score": result.score if math.isfinite(result.score) else None}
+    reported |= {"scores": list(result.scores), "collisions": result.collisions}
+    return reported | ({"problem": result.problem} if result.problem else {})

@@ -14,7 +14,7 @@ from typing import Any
 
 from bot_console.runtime.process.fork_server import ForkServer, Job, Report
 from bot_console.tui.console.parameters.file.patch import patched
-from bot_console.tui.tuning.question import Question, Trial
+from bot_console.tui.tuning.specification import Trial, TuningSpecification
 
 CAN_FORK = hasattr(os, "fork")
 PROBING = 1.0
@@ -36,13 +36,13 @@ class Pool:
     Raises `OSError` where nothing can be forked.
     """
 
-    def __init__(self, most: int = 0) -> None:
+    def __init__(self, maximum: int = 0) -> None:
         """At most `most` runs at a time; 0 means one per CPU."""
         if not CAN_FORK:
             raise OSError("this system cannot fork processes, which runs side by side need")
         places = processors()
         self._places: SimpleQueue[int] = SimpleQueue()
-        count = most or len(places)
+        count = maximum or len(places)
         for index in range(count):
             self._places.put(places[index % len(places)])
         self._server = ForkServer(_WARM_UP)
@@ -54,24 +54,24 @@ class Pool:
         """The process that forks the runs."""
         return self._server.pid
 
-    def begin(self, question: Question, trial: Trial) -> Future[Mapping[str, Any]]:
+    def begin(self, specification: TuningSpecification, trial: Trial) -> Future[Mapping[str, Any]]:
         """Start a run as soon as a CPU is free; its report has `problem` if it failed."""
         run = _Run(
             "run",
-            question.profile,
-            patched(profile_text(question.profile), question.values(trial.setting)),
+            specification.profile,
+            patched(profile_yaml(specification.profile), specification.values(trial.setting)),
             trial.world,
             trial.seed,
-            question.duration,
-            [f"{name}:={value}" for name, value in question.arguments.items()],
-            question.score.paths,
+            specification.duration,
+            [f"{name}:={value}" for name, value in specification.arguments.items()],
+            specification.score.paths,
         )
         return self._threads.submit(self._run, run)
 
     def probe(self, profile: str, arguments: Mapping[str, str]) -> Future[Mapping[str, Any]]:
         """The parameters, by node and name, of the system that a profile starts."""
         words = [f"{name}:={value}" for name, value in arguments.items()]
-        run = _Run("probe", profile, profile_text(profile), "", 1, PROBING, words)
+        run = _Run("probe", profile, profile_yaml(profile), "", 1, PROBING, words)
         return self._threads.submit(self._run, run)
 
     def close(self) -> None:
@@ -115,10 +115,10 @@ class _Run:
     def _reported(server: ForkServer, arguments: Sequence[Any]) -> Mapping[str, Any]:
         job = Job("tune", _JOB, arguments, ["bot-console"], dict(os.environ), os.getcwd())
         reading, writing = os.pipe()
-        with tempfile.TemporaryFile() as said, open(os.devnull, "r+b") as nothing:
+        with tempfile.TemporaryFile() as message, open(os.devnull, "r+b") as nothing:
             try:
                 descriptor = server.start(
-                    job, stdin=nothing.fileno(), stdout=writing, stderr=said.fileno(), data=nothing.fileno()
+                    job, stdin=nothing.fileno(), stdout=writing, stderr=message.fileno(), data=nothing.fileno()
                 )
             except OSError:
                 os.close(reading)
@@ -128,17 +128,17 @@ class _Run:
             printed = _drain(reading)
             ended = Report()
             ended.feed(_drain(descriptor))
-            return _report(printed, ended, said)
+            return _report(printed, ended, message)
 
 
-def _report(printed: bytes, ended: Report, said: Any) -> Mapping[str, Any]:
+def _report(printed: bytes, ended: Report, message: Any) -> Mapping[str, Any]:
     try:
         report: dict[str, Any] = json.loads(printed)
     except ValueError:
         report = {"problem": ended.problem or f"the run ended with exit code {ended.exit_code}"}
     if problem := report.get("problem"):
-        said.seek(0)
-        lines = said.read().decode("utf-8", "replace").splitlines()
+        message.seek(0)
+        lines = message.read().decode("utf-8", "replace").splitlines()
         why = next((each for fault in _FAULTS for each in lines if fault in each), "")
         report["problem"] = f"{problem}: {why.partition(']: ')[2] or why}" if why else problem
     return report
@@ -154,7 +154,7 @@ def is_file(profile: str) -> bool:
     return profile.endswith((".yaml", ".yml"))
 
 
-def profile_text(profile: str) -> str:
+def profile_yaml(profile: str) -> str:
     """The parameter file of a profile; raises `OSError` if it does not exist."""
     folder = Path(__file__).resolve().parents[3] / "profiles"
     path = Path(profile).expanduser() if is_file(profile) else folder / f"{profile}.yaml"

@@ -10,16 +10,16 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from bot_console.tui.cli.arguments import profile_names
-from bot_console.tui.cli.tune.describing import dials_of, line_of, result_of
-from bot_console.tui.cli.tune.pool import Pool, profile_text
+from bot_console.tui.cli.tune.describing import result_line, result_of, tunables_of
+from bot_console.tui.cli.tune.pool import Pool, profile_yaml
 from bot_console.tui.files.folders import state_folder
 from bot_console.tui.files.save_file import NotSaved
-from bot_console.tui.tuning.dial import Setting, find_dials
-from bot_console.tui.tuning.journal import Journal
-from bot_console.tui.tuning.question import Question
+from bot_console.tui.tuning.job import Progress, TuningJob
+from bot_console.tui.tuning.journal import TuningJournal
 from bot_console.tui.tuning.score import FIGURES, READY, parse_score
 from bot_console.tui.tuning.search import SEARCHES
-from bot_console.tui.tuning.study import Progress, Study
+from bot_console.tui.tuning.specification import TuningSpecification
+from bot_console.tui.tuning.tunable import Setting, find_tunables
 
 EPILOG = """\
 scores that stand ready, more is better:
@@ -44,7 +44,7 @@ def run(words: Sequence[str]) -> int:
     named = [each for each in given.parameters if ":=" not in each]
     try:
         score = parse_score(given.score)
-        profile_text(given.profile)
+        profile_yaml(given.profile)
     except (ValueError, OSError) as error:
         problem = error.strerror if isinstance(error, OSError) else error
         known = f"; profiles: {', '.join(profile_names())}" if isinstance(error, OSError) else ""
@@ -59,7 +59,7 @@ def run(words: Sequence[str]) -> int:
         if problem := system.get("problem"):
             print(f"the system does not start: {problem}", file=sys.stderr)
             return 1
-        question = Question(
+        specification = TuningSpecification(
             _found(parser, named, system),
             score,
             profile=given.profile,
@@ -72,59 +72,59 @@ def run(words: Sequence[str]) -> int:
             search=given.search,
             arguments=arguments,
         )
-        if problem := question.problem():
+        if problem := specification.problem():
             parser.error(problem)
-        progress = _tuned(question, pool, given)
+        progress = _tuned(specification, pool, given)
     finally:
         pool.close()
-    return _told(question, progress, given)
+    return _reported(specification, progress, given)
 
 
 def _found(parser: argparse.ArgumentParser, named: list[str], system: Mapping[str, Any]) -> Any:
     try:
-        return find_dials(named, dials_of(system))
+        return find_tunables(named, tunables_of(system))
     except ValueError as error:
         parser.error(str(error))
 
 
-def _tuned(question: Question, pool: Pool, given: argparse.Namespace) -> Progress:
+def _tuned(specification: TuningSpecification, pool: Pool, given: argparse.Namespace) -> Progress:
     """Run the study to its end or until Ctrl-C; what was found stays in the journal."""
-    journal = Journal(state_folder() / "tune", question, resume=given.resume)
+    journal = TuningJournal(state_folder() / "tune", specification, resume=given.resume)
     if given.resume:
         print(f"{journal.resumed} runs are known already", file=sys.stderr)
-    study = Study(question, pool, journal, _teller(question))
+    job = TuningJob(specification, pool, journal, _event_reporter(specification))
     try:
-        return study.run()
+        return job.run()
     except KeyboardInterrupt:
         print(f"\nstopped; --resume goes on with the runs in {journal.path}", file=sys.stderr)
-        return study.progress
+        return job.progress
     finally:
         journal.close()
 
 
-def _teller(question: Question) -> Callable[[Progress], None]:
+def _event_reporter(specification: TuningSpecification) -> Callable[[Progress], None]:
     """Prints each setting once, and the progress, on stderr."""
-    told: set[Setting] = set()
+    reported: set[Setting] = set()
 
-    def tell(progress: Progress) -> None:
+    def report(progress: Progress) -> None:
         rest = "\r\033[K" if sys.stderr.isatty() else ""
         for each in progress.rows:
-            if each.setting not in told:
-                print(f"{rest}{line_of(question, each)}", file=sys.stderr)
-                told.add(each.setting)
+            if each.setting not in reported:
+                print(f"{rest}{result_line(specification, each)}", file=sys.stderr)
+                reported.add(each.setting)
         if rest and not progress.ended:
             left = f", {math.ceil(progress.left)} s left" if progress.left is not None else ""
             print(f"{rest}{progress.done} of {progress.runs} runs{left}", end="", file=sys.stderr, flush=True)
         elif rest:
             print(rest, end="", file=sys.stderr)
 
-    return tell
+    return report
 
 
-def _told(question: Question, progress: Progress, given: argparse.Namespace) -> int:
+def _reported(specification: TuningSpecification, progress: Progress, given: argparse.Namespace) -> int:
     """Print the result and save it; returns the exit code."""
     best = progress.best
-    result = result_of(question, progress)
+    result = result_of(specification, progress)
     if given.json:
         print(json.dumps(result, indent=2))
     elif best is not None:
@@ -139,7 +139,7 @@ def _told(question: Question, progress: Progress, given: argparse.Namespace) -> 
         from bot_console.tui.cli.tune.saving import save_profile
 
         try:
-            print(save_profile(given.save, question, best), file=sys.stderr)
+            print(save_profile(given.save, specification, best), file=sys.stderr)
         except NotSaved as error:
             print(f"not saved: {error}", file=sys.stderr)
             return 1

@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-from bot_console.tui.cli.tune.pool import is_file, profile_text
+from bot_console.tui.cli.tune.pool import is_file, profile_yaml
 from bot_console.tui.console.parameters.file.patch import patched
 from bot_console.tui.console.parameters.profile_names import profile_name_problem
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
-from bot_console.tui.tuning.question import Question
-from bot_console.tui.tuning.study import Judged
+from bot_console.tui.tuning.job import SettingResult
+from bot_console.tui.tuning.specification import TuningSpecification
 
 
-def save_profile(name: str, question: Question, best: Judged) -> str:
+def save_profile(name: str, specification: TuningSpecification, best: SettingResult) -> str:
     """Save the tuned profile with the best values, and say where; raises `NotSaved`."""
     if problem := profile_name_problem(name):
         raise NotSaved(problem)
     path = config_folder() / "profiles" / f"{name}.yaml"
-    text = profile_text(question.profile)
-    if not is_file(question.profile):
+    text = profile_yaml(specification.profile)
+    if not is_file(specification.profile):
         # The first comment is the title, and says what a profile is for.
-        title = f"# {question.profile}, tuned for {question.score.text}: score {best.score:.3f}\n"
+        title = f"# {specification.profile}, tuned for {specification.score.text}: score {best.score:.3f}\n"
         text = title + text
-    save_file(path, patched(text, question.values(best.setting)))
+    save_file(path, patched(text, specification.values(best.setting)))
     return f"saved as profile {name}: {path}"

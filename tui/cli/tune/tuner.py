@@ -12,10 +12,10 @@ from bot_console.tui.cli.tune.saving import save_profile
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.files.folders import state_folder
 from bot_console.tui.files.save_file import NotSaved
-from bot_console.tui.tuning.dial import Setting
-from bot_console.tui.tuning.journal import Journal
-from bot_console.tui.tuning.question import Question
-from bot_console.tui.tuning.study import Progress, Study
+from bot_console.tui.tuning.job import Progress, TuningJob
+from bot_console.tui.tuning.journal import TuningJournal
+from bot_console.tui.tuning.specification import TuningSpecification
+from bot_console.tui.tuning.tunable import Setting
 
 
 class LocalTuner:
@@ -26,22 +26,22 @@ class LocalTuner:
         self._pool: Pool | None = None
         self._tuning: LocalTuning | None = None
 
-    def problem(self, question: Question) -> str:
+    def problem(self, specification: TuningSpecification) -> str:
         """Why a question cannot be answered; empty when it can."""
         if not CAN_FORK:
             return "this system cannot fork processes, which runs side by side need"
-        strange = [each.label for each in question.dials if each.node not in SYSTEM_NODES]
+        strange = [each.label for each in specification.tunables if each.node not in SYSTEM_NODES]
         if strange:
             return f"{', '.join(strange)}: only nodes of the robot that comes along are in the simulated runs"
-        return question.problem()
+        return specification.problem()
 
-    def begin(self, question: Question) -> LocalTuning:
+    def begin(self, specification: TuningSpecification) -> LocalTuning:
         """Start, or resume from what the journal knows."""
         if self._tuning is not None:
             self._tuning.stop()
         if self._pool is None:
             self._pool = Pool()
-        self._tuning = LocalTuning(question, self._pool, self._folder)
+        self._tuning = LocalTuning(specification, self._pool, self._folder)
         return self._tuning
 
     def close(self) -> None:
@@ -55,11 +55,11 @@ class LocalTuner:
 class LocalTuning:
     """A study and its thread."""
 
-    def __init__(self, question: Question, pool: Pool, folder: Path) -> None:
-        self._question = question
+    def __init__(self, specification: TuningSpecification, pool: Pool, folder: Path) -> None:
+        self._specification = specification
         self._pool = pool
         self._folder = folder
-        self._study: Study | None = None
+        self._job: TuningJob | None = None
         self._problem = ""
         self._stopped = False
         self.thread = threading.Thread(target=self._run, name="tune", daemon=True)
@@ -70,36 +70,36 @@ class LocalTuning:
         """The progress so far."""
         if self._problem:
             return Progress(ended=True, problem=self._problem)
-        return self._study.progress if self._study is not None else Progress()
+        return self._job.progress if self._job is not None else Progress()
 
     def stop(self) -> None:
         """Stop after the runs in progress."""
         self._stopped = True
-        if self._study is not None:
-            self._study.stop()
+        if self._job is not None:
+            self._job.stop()
 
     def save(self, name: str, setting: Setting) -> Answer:
         """Save the profile with a setting's values."""
-        judged = next((each for each in self.progress.rows if each.setting == setting), None)
-        if judged is None:
+        result = next((each for each in self.progress.rows if each.setting == setting), None)
+        if result is None:
             return Answer(False, "nothing is known of this setting yet")
         try:
-            return Answer(True, save_profile(name, self._question, judged))
+            return Answer(True, save_profile(name, self._specification, result))
         except NotSaved as error:
             return Answer(False, f"not saved: {error}")
 
     def _run(self) -> None:
         try:
-            journal = Journal(self._folder, self._question, resume=True)
+            journal = TuningJournal(self._folder, self._specification, resume=True)
         except OSError as error:
             self._problem = f"the journal cannot be written: {error}"
             return
-        self._study = Study(self._question, self._pool, journal)
+        self._job = TuningJob(self._specification, self._pool, journal)
         if self._stopped:
-            self._study.stop()
+            self._job.stop()
         try:
-            self._study.run()
+            self._job.run()
         except RuntimeError:  # the pool has been closed: the console ends
-            self._study.progress = replace(self._study.progress, ended=True, problem="stopped")
+            self._job.progress = replace(self._job.progress, ended=True, problem="stopped")
         finally:
             journal.close()

@@ -17,25 +17,25 @@ from pathlib import Path
 
 from bot_console.runtime.process.session_end import end_session
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import RANGE_VARIABLE
+from bot_console.tui.child_command import child_command
 from bot_console.tui.cli.system.background_system import SWITCH
 from bot_console.tui.cli.system.domain import (
     domain,
     frozen,
     is_in_range,
+    report_of_other_start,
     robot_claim,
     robot_there,
     stop_file,
     take_part,
-    tell_of_other_start,
     why_no_robot,
 )
 from bot_console.tui.cli.system.named_launch import with_launch_file
 from bot_console.tui.cli.system.start_lock import start_lock
 from bot_console.tui.cli.system.system_log import new_log
-from bot_console.tui.console.launch_host.door import DOOR
+from bot_console.tui.console.launch_host.address import ADDRESS_SUFFIX
 from bot_console.tui.files.folders import OVERRIDE, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
-from bot_console.tui.own_program import own_program
 
 STARTING = 60.0
 """Seconds that it may take until its nodes are seen, on a busy machine."""
@@ -62,7 +62,7 @@ class Background:
         if self.way_in and _is_program(self.way_in, b"router"):
             os.kill(self.way_in, signal.SIGTERM)
 
-    def told(self) -> str:
+    def reported(self) -> str:
         """A description on one line."""
         return f"process {self.pid} ({' '.join(self.words) or 'indoor'}), log {self.log}"
 
@@ -85,10 +85,10 @@ def up(words: Sequence[str]) -> int:
         claim = None if options.launch or _known() else robot_claim()
         if claim is not None:
             until_started.callback(claim.release)
-            problem = why_no_robot(claim.seen(_robot_or_system, tell_of_other_start), options.launch_arguments)
+            problem = why_no_robot(claim.seen(_robot_or_system, report_of_other_start), options.launch_arguments)
         got = until_started.enter_context(start_lock(_file().with_name("background.lock"), STARTING))
         if there := _known():
-            problem = why_no_robot([there.told()], {})
+            problem = why_no_robot([there.reported()], {})
         elif not got:
             problem = why_no_robot(["another one that is being started"], {})
         if problem:
@@ -100,7 +100,7 @@ def up(words: Sequence[str]) -> int:
             why = f"the log cannot be kept in {state_folder()}: {error.strerror}"
             print(f"not started: {why}; {OVERRIDE} names another folder", file=sys.stderr)
             return 1
-        line = [*own_program(SWITCH), str(log), *words]
+        line = [*child_command(SWITCH), str(log), *words]
         with log.open("ab") as output:
             process = subprocess.Popen(
                 line, stdin=subprocess.DEVNULL, stdout=output, stderr=output, start_new_session=True, close_fds=True,
@@ -122,7 +122,7 @@ def up(words: Sequence[str]) -> int:
 def _robot_or_system() -> list[str]:
     """The robot in the domain, or the system in the background that is starting one; for `RobotClaim.seen`."""
     there = _known()
-    return [there.told()] if there else robot_there()
+    return [there.reported()] if there else robot_there()
 
 
 def _await(process: subprocess.Popen[bytes], started: Background, *, launched: bool, router_log: Path | None) -> int:
@@ -134,7 +134,7 @@ def _await(process: subprocess.Popen[bytes], started: Background, *, launched: b
         while process.poll() is None and not (seen := is_up()) and time.monotonic() < deadline:
             time.sleep(0.1)
     except KeyboardInterrupt:
-        print(f"it goes on starting: {started.told()}; bot-console down ends it", file=sys.stderr)
+        print(f"it goes on starting: {started.reported()}; bot-console down ends it", file=sys.stderr)
         raise
     if process.poll() is not None:
         _forget()
@@ -143,9 +143,9 @@ def _await(process: subprocess.Popen[bytes], started: Background, *, launched: b
         return 1
     if not seen:
         what = "nothing that it launches runs" if launched else "no robot was seen"
-        print(f"{what} after {STARTING:g} s: {started.told()} says why; bot-console down ends it", file=sys.stderr)
+        print(f"{what} after {STARTING:g} s: {started.reported()} says why; bot-console down ends it", file=sys.stderr)
         return 1
-    print(f"running in ROS domain {domain()}: {started.told()}")
+    print(f"running in ROS domain {domain()}: {started.reported()}")
     print("bot-console attach shows it, bot-console down ends it")
     if not launched and stop_file().exists():
         _print_holders()  # of stops that nobody has released since an earlier start
@@ -182,7 +182,7 @@ def _serving(words: Sequence[str]) -> tuple[list[str], list[str]]:
 
 def _open_way_in(words: Sequence[str], log: Path) -> int:
     """Start the router process that lets other machines in."""
-    line = [*own_program("bot_console.tui"), "router", "--mesh", *words]
+    line = [*child_command("bot_console.tui"), "router", "--mesh", *words]
     with log.open("ab") as output:
         return subprocess.Popen(
             line, stdin=subprocess.DEVNULL, stdout=output, stderr=output, start_new_session=True, close_fds=True
@@ -226,7 +226,7 @@ def down(words: Sequence[str]) -> int:
     end_session(there.pid)  # what it launched has outlived it only if it was killed
     there.close_way_in()
     _forget()
-    print(f"ended: {there.told()}")
+    print(f"ended: {there.reported()}")
     return 0
 
 
@@ -234,7 +234,7 @@ def _bring_to_rest() -> None:
     """Hold the robot until its system has ended; one without an emergency stop ends with its nodes."""
     from bot_console.tui.cli.verbs import stop
 
-    stop.ask("stop", "its system is being ended", kept=False, answers_s=stop.PATIENCE)
+    stop.ask("stop", "its system is being ended", kept=False, answers_s=stop.HOLDER_TIMEOUT_S)
 
 
 def status(words: Sequence[str]) -> int:
@@ -246,7 +246,7 @@ def status(words: Sequence[str]) -> int:
         return 1
     there, robot = _known(), robot_there()
     if there:
-        print(f"running in ROS domain {domain()}: {there.told()}")
+        print(f"running in ROS domain {domain()}: {there.reported()}")
     if robot:
         print(f"robot in ROS domain {domain()}: {', '.join(robot)}")
         _print_holders()
@@ -261,14 +261,14 @@ def status(words: Sequence[str]) -> int:
 
 def _print_holders() -> None:
     from bot_console.tui.cli.verbs.stop import holders
-    from bot_console.tui.format import harmless
+    from bot_console.tui.format import sanitize
 
     found = holders()
     if found is None:
         print("whether somebody holds it is not known: its emergency stop has not answered")
         return
     for each in found:
-        print(f"held by {harmless(each)}; bot-console release --all lets it go")
+        print(f"held by {sanitize(each)}; bot-console release --all lets it go")
 
 
 def _no_words(command: str, what: str, words: Sequence[str]) -> None:
@@ -284,7 +284,7 @@ def _file() -> Path:
 
 def _runs(pid: int) -> bool:
     """Whether a system accepts consoles, which it does once its first process runs."""
-    return (_file().parent / f"{pid}{DOOR}").exists()
+    return (_file().parent / f"{pid}{ADDRESS_SUFFIX}").exists()
 
 
 def _files() -> tuple[Path, Path]:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.runtime.importer import install
 from bot_console.tui.cli.system.domain import take_part
 from bot_console.tui.files.save_file import NotSaved
-from bot_console.tui.format import harmless
+from bot_console.tui.format import sanitize
 
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.recorder import Ring
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 RECORDER = "rosbag2_recorder"
 SNAPSHOT = f"/{RECORDER}/snapshot"
-LARGEST_RING = 512 * 1024 * 1024
+MAX_SNAPSHOT_BYTES = 512 * 1024 * 1024
 """Bytes that a snapshot keeps at most."""
 READY = 0.5
 """Seconds that a player waits for its readers before the first message."""
@@ -33,13 +33,13 @@ def run(words: Sequence[str]) -> int:
     """Run a `bag` command line; 0 done, 1 failed, 2 wrong usage."""
     install()
     from bot_console.tui.console.bags.damage import NoBag
-    from bot_console.tui.console.bags.needed import Missing
+    from bot_console.tui.console.bags.missing_packages import Missing
 
     given = _parser().parse_args(words)
     try:
         return given.run(given)
     except (Missing, NoBag, NotSaved, re.error) as error:
-        print(harmless(str(error)), file=sys.stderr)
+        print(sanitize(str(error)), file=sys.stderr)
         return 1
     except KeyboardInterrupt:  # before there was a node that ends in order
         return 130
@@ -105,7 +105,7 @@ def _wanted(given: argparse.Namespace) -> Callable[[str], bool]:
 
 def _record(given: argparse.Namespace) -> int:
     from bot_console.tui.console.bags.definitions import class_of
-    from bot_console.tui.console.bags.recorder import PACE, Recorder, Ring
+    from bot_console.tui.console.bags.recorder import PACE_S, Recorder, Ring
     from bot_console.tui.console.bags.writer import BagWriter
 
     if not (given.all or given.topics or given.regex):
@@ -116,24 +116,24 @@ def _record(given: argparse.Namespace) -> int:
     node = _node(RECORDER)
     if node is None:
         return 1
-    sink = Ring(given.snapshot_duration, LARGEST_RING) if given.snapshot_mode else BagWriter(folder)
+    sink = Ring(given.snapshot_duration, MAX_SNAPSHOT_BYTES) if given.snapshot_mode else BagWriter(folder)
     recorder = Recorder(node, sink, wanted, class_of)
     logger = node.get_logger()
-    told: set[str] = set()
+    reported: set[str] = set()
 
-    def tell() -> None:
-        for name in recorder.subscribed.keys() - told:
+    def report() -> None:
+        for name in recorder.subscribed.keys() - reported:
             logger.info(f"Subscribed to topic '{name}'")
-        for name in recorder.unknown.keys() - told:
+        for name in recorder.unknown.keys() - reported:
             logger.warning(f"Topic '{name}' is not recorded: {recorder.unknown[name]}")
-        told.update(recorder.subscribed, recorder.unknown)
+        reported.update(recorder.subscribed, recorder.unknown)
 
     import rclpy
 
     try:
         control = rclpy.create_node(f"_{RECORDER}_control", start_parameter_services=False)
-        control.create_timer(PACE, recorder.turn)
-        control.create_timer(0.5, tell)
+        control.create_timer(PACE_S, recorder.turn)
+        control.create_timer(0.5, report)
         if isinstance(sink, Ring):
             _offer_snapshots(control, sink, given.output)
             logger.info(f"Keeping the last {given.snapshot_duration:g} s; `bot-console bag snapshot` writes them")
@@ -185,7 +185,7 @@ def _snapshot(given: argparse.Namespace) -> int:
     if answer is None:
         print("The recorder has not answered within 30 s", file=sys.stderr)
         return 1
-    print(harmless(answer.message), file=sys.stdout if answer.success else sys.stderr)
+    print(sanitize(answer.message), file=sys.stdout if answer.success else sys.stderr)
     return 0 if answer.success else 1
 
 
@@ -197,7 +197,7 @@ def _play(given: argparse.Namespace) -> int:
     from bot_console.tui.console.bags.reader import Bag
 
     bag = Bag(given.bag)
-    _tell_mended(bag)
+    _report_repaired(bag)
     remaps = dict(each.split(":=", 1) for each in given.remap if ":=" in each)
     node = _node("rosbag2_player")
     if node is None:
@@ -207,7 +207,7 @@ def _play(given: argparse.Namespace) -> int:
     for name, why in player.unknown.items():
         node.get_logger().warning(f"Topic '{name}' is not played: {why}")
     if player.left_out:
-        print(harmless(f"warning: {left_out_warning(player.left_out)}"), file=sys.stderr)
+        print(sanitize(f"warning: {left_out_warning(player.left_out)}"), file=sys.stderr)
     stopped = threading.Event()
     damage: list[str] = []
 
@@ -227,7 +227,7 @@ def _play(given: argparse.Namespace) -> int:
     thread.join(5.0)
     print(f"{player.published} messages published", file=sys.stderr)
     if damage:
-        print(harmless(damage[0]), file=sys.stderr)
+        print(sanitize(damage[0]), file=sys.stderr)
     return len(damage)
 
 
@@ -235,7 +235,7 @@ def _info(given: argparse.Namespace) -> int:
     from bot_console.tui.console.bags.reader import Bag
 
     bag = Bag(given.bag)
-    _tell_mended(bag)
+    _report_repaired(bag)
     about = bag.metadata
     size = sum(each.stat().st_size for each in bag.files)
     rows = [
@@ -253,20 +253,20 @@ def _info(given: argparse.Namespace) -> int:
         for each in sorted(about.topics.values(), key=lambda topic: topic.name)
     ]
     lines += [f"{'Topic information:' if not at else '':<19}{topic}" for at, topic in enumerate(topics)]
-    print("\n".join(harmless(line) for line in lines))
+    print("\n".join(sanitize(line) for line in lines))
     return 0
 
 
 def _open(given: argparse.Namespace) -> int:
     from bot_console.tui.app import BotConsoleApp
+    from bot_console.tui.cli.appearance import appearance_of
     from bot_console.tui.cli.arguments import parse
-    from bot_console.tui.cli.look import look_of
     from bot_console.tui.console.bags.contents import Contents
-    from bot_console.tui.console.bags.opened import OpenedBag
+    from bot_console.tui.console.bags.opened_bag import OpenedBag
     from bot_console.tui.console.bags.reader import Bag
 
     bag = Bag(given.bag)
-    _tell_mended(bag)
+    _report_repaired(bag)
     print(f"Reading {bag.metadata.count} messages ...", file=sys.stderr)
     contents = Contents(bag)
     console = OpenedBag(contents, given.bag.resolve().name)
@@ -274,7 +274,9 @@ def _open(given: argparse.Namespace) -> int:
     notes = [f"{each} is not shown: the bag is too large" for each in contents.left_out]
     notes += [contents.damage] if contents.damage else []
     try:
-        app = BotConsoleApp(console, opening=options.opening._replace(notes=tuple(notes)), look=look_of(options))
+        app = BotConsoleApp(
+            console, opening=options.opening._replace(notes=tuple(notes)), appearance=appearance_of(options)
+        )
         app.time_cursor.follow(console.topics)
         app.run()
     finally:
@@ -282,9 +284,9 @@ def _open(given: argparse.Namespace) -> int:
     return 0
 
 
-def _tell_mended(bag: Any) -> None:
-    for each in bag.mended:
-        print(harmless(each), file=sys.stderr)
+def _report_repaired(bag: Any) -> None:
+    for each in bag.repaired:
+        print(sanitize(each), file=sys.stderr)
 
 
 def _size(count: int) -> str:

@@ -25,11 +25,11 @@ def run(words: Sequence[str]) -> int:
         print(each, file=sys.stderr)
     print(answer)
     if answer == NOTHING_TO_DO and words[:1] == ["build"]:
-        _tell_setup_files()
+        _report_setup_files()
     return 0 if answer == NOTHING_TO_DO else 1
 
 
-def _tell_setup_files() -> None:
+def _report_setup_files() -> None:
     """Write what is sourced after a build, and say what it is good for."""
     here = Path.cwd()
     try:

@@ -15,7 +15,7 @@ def run(words: list[str]) -> int:
     parser = argparse.ArgumentParser("bot-console export", description="Write the robot's package for colcon.")
     parser.add_argument("folder", metavar="DIR", help="where the package's folder is made")
     given = parser.parse_args(words)
-    from bot_console.runtime.terse import place_fault
+    from bot_console.runtime.exit_messages import place_fault
     from bot_console.runtime.workspace.exporting import NAME, export
 
     try:

@@ -15,12 +15,12 @@ from bot_console.tui.console.graph.connections import connections, is_hidden, is
 from bot_console.tui.console.graph.expected import Expected, differences, read, written
 from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import GraphInfo
-from bot_console.tui.format import harmless
+from bot_console.tui.format import sanitize
 from bot_console.tui.settings.settings import read_settings
 
 STILL = 1.0
 """Seconds for which the graph must not change before it counts as known."""
-PERIOD = 0.1
+GRAPH_POLL_S = 0.1
 
 EPILOG = """exit codes: 0 as expected, or nothing wrong; 1 not; 2 wrong usage or a file that cannot be read
 
@@ -41,7 +41,7 @@ def run(words: list[str]) -> int:
         try:
             expected = read(Path(given.check).read_text("utf-8"))
         except (OSError, UnicodeDecodeError, ValueError) as error:
-            print(f"{given.check} cannot be used: {harmless(str(error))}", file=sys.stderr)
+            print(f"{given.check} cannot be used: {sanitize(str(error))}", file=sys.stderr)
             return 2
     with reached_console() as console:
         return 1 if console is None else _judge(console, expected, given)
@@ -54,7 +54,7 @@ def _judge(console: RosConsole, expected: Expected | None, given: argparse.Names
     if given.findings:
         found = findings(info)
         for each in found:
-            print(f"{'fault' if each.fault else 'hint '}  {harmless(each.text)}")
+            print(f"{'fault' if each.fault else 'hint '}  {sanitize(each.text)}")
         return 1 if any(each.fault for each in found) else 0
     if given.text:
         print(*lines_of(info, read_settings().graph_hides), sep="\n")
@@ -76,9 +76,9 @@ def lines_of(info: GraphInfo, hides: Iterable[str]) -> Iterator[str]:
         for kind, name, text in connections(info)
         if not is_hidden(name, hides) and not (kind == "service" and is_own_service(name, info.nodes))
     ]
-    yield from (harmless(text) for _, _, text in found)
+    yield from (sanitize(text) for _, _, text in found)
     alone = unconnected(info.nodes, {(kind, name) for kind, name, _ in found})
-    yield from (f"{harmless(each)}  without topics, services and actions" for each in alone)
+    yield from (f"{sanitize(each)}  without topics, services and actions" for each in alone)
 
 
 def _compare(console: RosConsole, expected: Expected, given: argparse.Namespace) -> int:
@@ -86,13 +86,13 @@ def _compare(console: RosConsole, expected: Expected, given: argparse.Namespace)
     deadline = time.monotonic() + given.wait
     found = differences(expected, console.snapshot().graph)
     while found and time.monotonic() < deadline:
-        time.sleep(PERIOD)
+        time.sleep(GRAPH_POLL_S)
         found = differences(expected, console.snapshot().graph)
     if not found and expected.rated:
         rates = _measured(console, expected.rated, given.measure)
         found = differences(expected, console.snapshot().graph, rates)
     for each in found:
-        print(harmless(each))
+        print(sanitize(each))
     parts = f"{len(expected.nodes)} nodes, {len(expected.topics)} topics"
     print(f"{len(found)} differences" if found else f"as expected: {parts}", file=sys.stderr)
     return 1 if found else 0

@@ -13,10 +13,10 @@ from bot_console.tui.cli.system.reached_console import known, reached_console
 from bot_console.tui.cli.verbs.stop import ask
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import ConsoleSnapshot, Value
-from bot_console.tui.format import counted, harmless, value_text
+from bot_console.tui.format import counted, sanitize, value_text
 
 T = TypeVar("T")
-PATIENCE = 10.0
+ANSWER_TIMEOUT_S = 10.0
 """Seconds for what runs to be known, and for each answer."""
 TRIGGER = "std_srvs/srv/Trigger"
 REASON = "the system is put back to its start"
@@ -36,7 +36,7 @@ def run(words: list[str]) -> int:
     with reached_console(learning=True) as console:
         if console is None:
             return 1
-        if not known(console, PATIENCE):
+        if not known(console, ANSWER_TIMEOUT_S):
             print("there is no node to put back", file=sys.stderr)
             return 1
         return _reset(console, dry=given.dry_run)
@@ -46,17 +46,17 @@ def _reset(console: RosConsole, *, dry: bool) -> int:
     snapshot = console.snapshot()
     moved, untold = differing(snapshot, console.start_values())
     if dry:
-        _tell(moved, snapshot)
+        _report(moved, snapshot)
         return 0
     good = _lock()
     good = _put_back(console, moved, snapshot) and good
     for service in resets(snapshot):
         answer = _wait(console.call(service, TRIGGER, {}))
-        said = answer.text if answer else "no answer"
-        print(f"{service}: {harmless(said)}")
+        message = answer.text if answer else "no answer"
+        print(f"{service}: {sanitize(message)}")
         good = good and answer is not None and answer.ok
     if untold:
-        nodes = ", ".join(map(harmless, untold))
+        nodes = ", ".join(map(sanitize, untold))
         print(f"left as they are, since they have not told how they began: {nodes}", file=sys.stderr)
     return 0 if good else 1
 
@@ -79,19 +79,19 @@ def _put_back(console: RosConsole, moved: Values, snapshot: ConsoleSnapshot) -> 
     refused = [each for each in outcomes or () if not each.accepted]
     if outcomes is None or refused:
         for each in refused:
-            print(f"{each.node} {each.name}: {harmless(each.reason)}", file=sys.stderr)
+            print(f"{each.node} {each.name}: {sanitize(each.reason)}", file=sys.stderr)
         print("no parameter was put back", file=sys.stderr)
         return False
-    _tell(moved, snapshot)
+    _report(moved, snapshot)
     return True
 
 
-def _tell(moved: Values, snapshot: ConsoleSnapshot) -> None:
+def _report(moved: Values, snapshot: ConsoleSnapshot) -> None:
     for node, values in moved.items():
         for name, value in values.items():
             parameter = snapshot.parameters[node].get(name)
             before = value_text(parameter.value) if parameter else ""
-            print(harmless(f"{node} {name}: {before} -> {value_text(value)}"))
+            print(sanitize(f"{node} {name}: {before} -> {value_text(value)}"))
     count = sum(len(each) for each in moved.values())
     print(
         f"{counted(count, 'parameter')} differed from the start" if count else "all parameters are those of the start"
@@ -124,6 +124,6 @@ def resets(snapshot: ConsoleSnapshot) -> list[str]:
 
 def _wait(answer: Future[T]) -> T | None:
     try:
-        return answer.result(PATIENCE)
+        return answer.result(ANSWER_TIMEOUT_S)
     except TooLate:
         return None

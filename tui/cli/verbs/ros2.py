@@ -45,12 +45,12 @@ def taking_part(words: Sequence[str]) -> int:
 
 def launch(words: Sequence[str]) -> int:
     """Run a launch file in the domain that the environment names; a user's nodes get processes of their own."""
-    from bot_console.tui.cli.system.own_processes import foresee
+    from bot_console.tui.cli.system.own_processes import prefork
 
-    foresee(words)
-    from bot_console.tui.cli.system.workspaces import tell_whose
+    prefork(words)
+    from bot_console.tui.cli.system.workspaces import report_workspace
 
-    tell_whose(next((each for each in words if not each.startswith("-")), ""))
+    report_workspace(next((each for each in words if not each.startswith("-")), ""))
     problem = take_part()
     if problem:
         print(problem, file=sys.stderr)

@@ -9,7 +9,7 @@ import threading
 from collections.abc import Sequence
 from types import FrameType
 
-from bot_console.runtime.rmw.zenoh.network.reach import PORT, Tls, place_of
+from bot_console.runtime.rmw.zenoh.network.reachability import PORT, Tls, place_of
 from bot_console.runtime.rmw.zenoh.session import Session, SessionError
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.tui.cli.interruptible_wait import wait_interruptibly

@@ -7,7 +7,7 @@ import sys
 
 from bot_console.tui.cli.arguments import SIMULATOR_HELP, Options
 from bot_console.tui.cli.programs import program
-from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH, tell_whose
+from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH, report_workspace
 
 
 def run(words: list[str]) -> int:
@@ -15,7 +15,7 @@ def run(words: list[str]) -> int:
     parser = _parser()
     given, rest = parser.parse_known_args(words[: _operand(words)])
     rest += words[_operand(words) :]
-    tell_whose(rest[0] if rest else "")
+    report_workspace(rest[0] if rest else "")
     if given.prefix is not None:
         if given.watch or given.headless:
             parser.error("--prefix is for a program in this terminal: leave out --watch and --headless")
@@ -40,7 +40,7 @@ def run(words: list[str]) -> int:
         from bot_console.tui.cli.headless.run import run as run_headless
 
         return run_headless(options)
-    from bot_console.tui.cli.show import run as show
+    from bot_console.tui.cli.screen import run as show
 
     return show(options)
 

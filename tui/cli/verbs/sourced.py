@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from bot_console.runtime.commands import command
+from bot_console.runtime.workspace.builtin_package import is_own
 from bot_console.runtime.workspace.demos import is_demo
 from bot_console.runtime.workspace.discover import SOURCED_VARIABLE, Workspace
-from bot_console.runtime.workspace.own import is_own
 from bot_console.tui.files.save_file import save_file
 
 FIRST = "# Written by `bot-console colcon build`, which builds nothing. A colcon of ROS 2 replaces this file."

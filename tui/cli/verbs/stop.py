@@ -7,21 +7,21 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
+from bot_console.runtime.exit_messages import ended_code
 from bot_console.runtime.importer import install
-from bot_console.runtime.terse import ended_code
 from bot_console.tui.cli.system.reached_stop import ReachedStop
 from bot_console.tui.cli.system.reaching import reach_system
 from bot_console.tui.console.robot.robot_model import RobotStop
-from bot_console.tui.format import harmless
+from bot_console.tui.format import sanitize
 
 if TYPE_CHECKING:
     from bot_console.tui.console.robot.stop_link import StopInfo
 
-PATIENCE = 3.0
+HOLDER_TIMEOUT_S = 3.0
 """Seconds to hear who holds a robot, and to stop one that is ended in any case."""
-LOOKS = 30
+MAX_ROBOT_POLLS = 30
 """How often a robot is looked for, every 0.1 s: looks and not seconds, in which a busy machine leaves room for few."""
-ANSWERS_S = 15.0
+ANSWER_TIMEOUT_S = 15.0
 """Seconds from the start in which a robot that was found may answer; it is asked on until then."""
 
 
@@ -54,11 +54,11 @@ def run(verb: str, words: list[str]) -> int:
         if ended_code(error):
             print(f"bot-console {verb} was ended before a robot has answered", file=sys.stderr)
         raise
-    return _tell(verb, done, info)
+    return _report(verb, done, info)
 
 
 def ask(
-    verb: str, reason: str, *, everybody: bool = False, kept: bool = True, answers_s: float = ANSWERS_S
+    verb: str, reason: str, *, everybody: bool = False, kept: bool = True, answers_s: float = ANSWER_TIMEOUT_S
 ) -> tuple[bool, StopInfo]:
     """Ask every robot that is found to lock or release; with `everybody`, a release covers the stops of others too.
 
@@ -76,9 +76,9 @@ def ask(
         link = reached.link
         if verb == "stop":
             link.stop(reason, kept=kept)
-        looks, until, done = 0, time.monotonic() + answers_s, False
-        while not done and (looks < LOOKS or (link.info.locks and time.monotonic() < until)):
-            looks += 1
+        polls, until, done = 0, time.monotonic() + answers_s, False
+        while not done and (polls < MAX_ROBOT_POLLS or (link.info.locks and time.monotonic() < until)):
+            polls += 1
             reached.follow()
             if verb == "release" and not link.releasing and (wanted := _to_release(link.info, everybody)):
                 link.release([each.key for each in wanted])
@@ -89,7 +89,7 @@ def ask(
     return done, link.info
 
 
-def holders(to_find: float = 1.0, to_hear: float = PATIENCE) -> list[str] | None:
+def holders(to_find: float = 1.0, to_hear: float = HOLDER_TIMEOUT_S) -> list[str] | None:
     """Who holds the robots that are found, each with a reason; None if one that can be held has not answered.
 
     `to_find` and `to_hear` are the seconds to find a robot, and to hear from one that was found.
@@ -102,10 +102,10 @@ def holders(to_find: float = 1.0, to_hear: float = PATIENCE) -> list[str] | None
                 break
             reached.follow()
             reached.hear()
-    return _said(link.info) if link.heard else None
+    return _last_message(link.info) if link.heard else None
 
 
-def _said(info: StopInfo) -> list[str]:
+def _last_message(info: StopInfo) -> list[str]:
     from bot_console.tui.console.robot.stop_holders import with_gone
 
     return [f"{each.who}: {each.reason}" for each in with_gone(info.stops)]
@@ -116,10 +116,10 @@ def _to_release(info: StopInfo, everybody: bool) -> list[RobotStop]:
     return [each for each in info.stops if each.here or each.by_node or everybody]
 
 
-def _tell(verb: str, done: bool, info: StopInfo) -> int:
+def _report(verb: str, done: bool, info: StopInfo) -> int:
     if done and verb == "release" and info.stopped:
-        others = "; ".join(_said(info))
-        print(f"still held by {harmless(others)} (`bot-console release --all` releases this, too)", file=sys.stderr)
+        others = "; ".join(_last_message(info))
+        print(f"still held by {sanitize(others)} (`bot-console release --all` releases this, too)", file=sys.stderr)
         return 1
     if done:
         print("held: the robot is locked until a person releases it" if verb == "stop" else "released")

@@ -20,7 +20,7 @@ from bot_console.tui.console.values import info
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.serialization import deserialize_message
 
-MOST = 500_000_000
+MAX_BYTES = 500_000_000
 """Bytes of messages that are held; of what is beyond, topics of large messages are left out first."""
 LOG, EVENTS = "rcl_interfaces/msg/Log", "rcl_interfaces/msg/ParameterEvent"
 
@@ -57,7 +57,7 @@ class Contents:
                 continue
             self._messages.setdefault(topic, []).append((stamp, data))
             held[topic] = held.get(topic, 0) + len(data)
-            if sum(held.values()) > MOST:
+            if sum(held.values()) > MAX_BYTES:
                 largest = max(held, key=lambda name: held[name])
                 self.left_out.append(largest)
                 self._messages[largest] = []

@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 MAGIC = b"\x89MCAP0\r\n"
-MOST_CUT = 16 * 1024 * 1024
+MAX_CUT_BYTES = 16 * 1024 * 1024
 """Bytes that a kill may cost: what a recorder writes at once. Where more would be lost, the file as it was is kept."""
-KEPT = ".damaged"
+BACKUP_SUFFIX = ".damaged"
 """What the name of such a file ends in."""
 
 DAMAGED = (
@@ -27,7 +27,7 @@ class NoBag(ValueError):
 
 
 @contextmanager
-def told(path: Path, where: Callable[[], str] = str) -> Generator[None]:
+def reading_errors(path: Path, where: Callable[[], str] = str) -> Generator[None]:
     """Turn exceptions of the reading library into `NoBag`."""
     from mcap.exceptions import McapError
 
@@ -41,9 +41,9 @@ def told(path: Path, where: Callable[[], str] = str) -> Generator[None]:
         raise NoBag(f"{path} is damaged{where()}: {error or type(error).__name__}") from None
 
 
-def mend(path: Path) -> str:
+def repair(path: Path) -> str:
     """Complete a file that has no end; returns what was done, and an empty text for a complete file. Raises `NoBag`."""
-    with told(path), path.open("rb") as file:
+    with reading_errors(path), path.open("rb") as file:
         if file.read(len(MAGIC)) != MAGIC:
             raise NoBag(f"{path}: is no MCAP file")
         size = file.seek(0, os.SEEK_END)
@@ -55,8 +55,8 @@ def mend(path: Path) -> str:
         try:
             lost = size - _write_whole(file, beside)
             done = f"{path.name} had no end, as a killed recorder leaves it, and was given one"
-            if lost > MOST_CUT or file.tell() < size:
-                kept = path.with_name(path.name + KEPT)
+            if lost > MAX_CUT_BYTES or file.tell() < size:
+                kept = path.with_name(path.name + BACKUP_SUFFIX)
                 path.replace(kept)
                 done = f"{path.name} is damaged {lost} bytes before its end; as it was it is kept as {kept.name}"
             beside.replace(path)

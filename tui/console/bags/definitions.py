@@ -32,7 +32,7 @@ def class_of(type_name: str) -> Any:
         raise ValueError(f"'{type_name}' is no type of a message") from None
 
 
-def type_name(kind: Any) -> str:
+def interface_type_name(kind: Any) -> str:
     """The type name, `package/msg/Name`, of a message class."""
     package, _, rest = kind.__module__.partition(".")
     return f"{package}/{rest.split('.')[0]}/{kind.__name__}"

@@ -22,7 +22,7 @@ class _Plain(yaml.SafeDumper):
         return True
 
 
-def yaml_text(data: object) -> str:
+def metadata_yaml(data: object) -> str:
     """Block YAML in the order given."""
     return yaml.dump(data, Dumper=_Plain, sort_keys=False)
 
@@ -59,7 +59,7 @@ class Metadata:
 
     def save(self, folder: Path) -> None:
         """Write the file; raises `NotSaved`."""
-        save_file(folder / FILE, yaml_text({"rosbag2_bagfile_information": self._data()}))
+        save_file(folder / FILE, metadata_yaml({"rosbag2_bagfile_information": self._data()}))
 
     def _data(self) -> dict[str, Any]:
         times = {

@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Any, NamedTuple, cast
 
 import yaml
-from bot_console.tui.console.bags.damage import NoBag, mend, told
+from bot_console.tui.console.bags.damage import NoBag, reading_errors, repair
 from bot_console.tui.console.bags.metadata import FILE, Metadata, Topic
-from bot_console.tui.console.bags.needed import check
+from bot_console.tui.console.bags.missing_packages import check
 from bot_console.tui.text.yaml_faults import UNREADABLE
 
 LATEST = 2**63 - 1
@@ -39,14 +39,14 @@ class Bag:
         check()
         self.path = path
         self.files = _files(path)
-        self.mended = [done for each in self.files if each.suffix == ".mcap" and (done := mend(each))]
+        self.repaired = [done for each in self.files if each.suffix == ".mcap" and (done := repair(each))]
         """What was done to files whose end was missing."""
         self.metadata = Metadata(self.files[0].name)
         for each in self.files:
             for topic in _topics(each, self.metadata):
                 known = self.metadata.topics.setdefault(topic.name, replace(topic, count=0))
                 known.count += topic.count
-        if self.mended and path.is_dir():
+        if self.repaired and path.is_dir():
             self.metadata.save(path)
 
     def messages(self, topics: Collection[str] | None = None, begin: int = 0) -> Iterator[Entry]:
@@ -82,7 +82,7 @@ def _topics(path: Path, metadata: Metadata) -> Iterable[Topic]:
 
 def _messages(path: Path, topics: Collection[str] | None, begin: int) -> Iterator[Entry]:
     came = 0
-    with told(path, lambda: f" after {came} messages"):
+    with reading_errors(path, lambda: f" after {came} messages"):
         for each in (_sqlite_messages if path.suffix == ".db3" else _mcap_messages)(path, topics, begin):
             if not 0 <= each.received <= LATEST:
                 raise ValueError(f"a message came at {each.received} ns since 1970")
@@ -93,7 +93,7 @@ def _messages(path: Path, topics: Collection[str] | None, begin: int) -> Iterato
 def _mcap_topics(path: Path, metadata: Metadata) -> Iterable[Topic]:
     from mcap.reader import make_reader
 
-    with told(path), path.open("rb") as file:
+    with reading_errors(path), path.open("rb") as file:
         summary = make_reader(file).get_summary()
     if summary is None or summary.statistics is None:
         raise NoBag(f"{path}: says nothing of its messages")
@@ -123,7 +123,7 @@ def _sqlite_topics(path: Path, metadata: Metadata) -> Iterable[Topic]:
         "select name, type, offered_qos_profiles, count(messages.id), min(timestamp), max(timestamp) "
         "from topics left join messages on messages.topic_id = topics.id group by topics.id"
     )
-    with told(path), closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
+    with reading_errors(path), closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
         rows = base.execute(asked).fetchall()
     for name, type, qos, count, first, last in rows:
         if count:

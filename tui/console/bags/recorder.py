@@ -12,9 +12,9 @@ from bot_console.tui.console.offered_qos import OfferedSubscription
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-PACE = 0.1
+PACE_S = 0.1
 """Seconds between two turns."""
-LOOK = 0.5
+TOPIC_POLL_S = 0.5
 """Seconds between two looks for new topics."""
 ONE_CLOCK = 1_000_000_000
 """Nanoseconds by which a message's time of sending may lie back and still be believed."""
@@ -54,7 +54,7 @@ class Recorder:
         self._sink = sink
         self._wanted = wanted
         self._find = find
-        self._looked = 0.0
+        self._polled = 0.0
         self._last = 0
         self.subscribed: dict[str, OfferedSubscription] = {}
         self.unknown: dict[str, str] = {}
@@ -70,9 +70,9 @@ class Recorder:
     def turn(self) -> None:
         """Take what waits; from time to time look for new topics, and flush. To be called every `PACE` seconds."""
         self._take()
-        if time.monotonic() - self._looked >= LOOK:
-            self._looked = time.monotonic()
-            self._look()
+        if time.monotonic() - self._polled >= TOPIC_POLL_S:
+            self._polled = time.monotonic()
+            self._poll()
 
     def _take(self) -> None:
         now = time.time_ns()
@@ -81,7 +81,7 @@ class Recorder:
             self._last = received
             self._sink.write(name, data, received, sent)
 
-    def _look(self) -> None:
+    def _poll(self) -> None:
         """Subscribe to new topics, follow changes of QoS, and flush."""
         self._sink.flush()
         for name, types in self._node.get_topic_names_and_types():
@@ -130,10 +130,10 @@ def _nobody(data: bytes) -> None:
 class Ring:
     """Keeps the last minutes in memory, so that an event can be saved after it has happened."""
 
-    def __init__(self, seconds: float, most: int) -> None:
+    def __init__(self, seconds: float, maximum: int) -> None:
         """Limited to so many bytes."""
         self._seconds = seconds
-        self._most = most
+        self._maximum = maximum
         self._held = 0
         self._kept: deque[tuple[int, str, bytes]] = deque()
         self.topics: dict[str, tuple[Any, list[dict[str, Any]], str]] = {}
@@ -147,7 +147,7 @@ class Ring:
         self._kept.append((received, topic, data))
         self._held += len(data) + OVERHEAD
         oldest = received - int(self._seconds * 1e9)
-        while self._kept and (self._kept[0][0] < oldest or self._held > self._most):
+        while self._kept and (self._kept[0][0] < oldest or self._held > self._maximum):
             self._held -= len(self._kept.popleft()[2]) + OVERHEAD
 
     @property

@@ -11,8 +11,8 @@ from typing import Any
 
 import rclpy
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.bags.needed import Missing
-from bot_console.tui.console.bags.recorder import CLOCK, PACE, Recorder
+from bot_console.tui.console.bags.missing_packages import Missing
+from bot_console.tui.console.bags.recorder import CLOCK, PACE_S, Recorder
 from bot_console.tui.console.bags.recording_sinks import BagSink
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.console.connection.no_console import done
@@ -115,7 +115,7 @@ class Recordings:
         )
         recorder: Recorder | None = None
         try:
-            while not self._closing.wait(PACE):
+            while not self._closing.wait(PACE_S):
                 wanted = self._sink.writer is not None
                 if recorder is not None:
                     recorder.turn() if wanted else recorder.close()

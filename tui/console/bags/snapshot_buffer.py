@@ -10,7 +10,7 @@ from concurrent.futures import Future
 from typing import Any, Protocol
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.bags.needed import Missing
+from bot_console.tui.console.bags.missing_packages import Missing
 from bot_console.tui.console.bags.qos import noted
 from bot_console.tui.console.bags.recorder import CLOCK, Ring, in_order
 from bot_console.tui.console.bags.recording_sinks import RingSink
@@ -20,7 +20,7 @@ from bot_console.tui.files.save_file import NotSaved, typed_path
 
 PACE = 0.25
 """Seconds between two turns."""
-WAITING = 50_000
+MAX_WAITING_MESSAGES = 50_000
 """Messages that may come between two turns; of more the oldest go."""
 
 
@@ -45,7 +45,7 @@ class SnapshotBuffer:
         self._serialize = serialize
         self._hash_of = hash_of
         self._sink = RingSink(Ring(size.seconds, size.bytes))
-        self._waiting: deque[tuple[Carried, bytes, int, int, Any]] = deque(maxlen=WAITING)
+        self._waiting: deque[tuple[Carried, bytes, int, int, Any]] = deque(maxlen=MAX_WAITING_MESSAGES)
         self._numbers: dict[bytes, int] = {}
         self._known: set[str] = set()
         self._last = 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from bot_console.tui.console.bags.contents import Contents
-from bot_console.tui.console.topics.idle import IdleTraffic
+from bot_console.tui.console.topics.idle_traffic import IdleTraffic
 from bot_console.tui.console.topics.message_tree import tree
 from bot_console.tui.console.traffic import LiveMessage, Measure
 

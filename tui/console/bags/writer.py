@@ -7,9 +7,9 @@ import time
 from pathlib import Path
 from typing import Any
 
-from bot_console.tui.console.bags.definitions import definition, type_name
-from bot_console.tui.console.bags.metadata import Metadata, Topic, yaml_text
-from bot_console.tui.console.bags.needed import check
+from bot_console.tui.console.bags.definitions import definition, interface_type_name
+from bot_console.tui.console.bags.metadata import Metadata, Topic, metadata_yaml
+from bot_console.tui.console.bags.missing_packages import check
 from bot_console.tui.files.save_file import NotSaved
 
 FLUSH = 0.5
@@ -44,11 +44,11 @@ class BagWriter:
         """Begin a topic, before its first message."""
         if name in self._channels:
             return
-        type = type_name(kind)
+        type = interface_type_name(kind)
         if type not in self._schemas:
             text = definition(kind).encode()
             self._schemas[type] = self._writer.register_schema(name=type, encoding="ros2msg", data=text)
-        offered = yaml_text(qos)
+        offered = metadata_yaml(qos)
         facts = {"offered_qos_profiles": offered, "topic_type_hash": type_hash}
         self._channels[name] = self._writer.register_channel(
             topic=name, message_encoding="cdr", schema_id=self._schemas[type], metadata=facts

@@ -28,17 +28,17 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.node import ConsoleNode
+from bot_console.tui.console.parameters.profile_store import ProfileStore
 from bot_console.tui.console.parameters.profiles import cannot_apply
-from bot_console.tui.console.parameters.shelf import Shelf
 from bot_console.tui.console.protocol import Samples
 from bot_console.tui.console.recording import Keeper, Recording
 from bot_console.tui.console.robot.robot_model import Pose
-from bot_console.tui.console.sights.model import Sights
+from bot_console.tui.console.sensors.model import Sensors
 from bot_console.tui.console.traffic import Traffic
 
 LAST_WORD = 0.15
 """Seconds that the final zero Twist, or lock, has to reach the robot before anything is shut down."""
-SHELF_PERIOD = 1.0
+PROFILE_STORE_POLL_S = 1.0
 """Seconds between two looks whether a profile has come, gone or changed: editors and nodes write them, too."""
 
 
@@ -50,15 +50,15 @@ class LinkedConsole:
         node: ConsoleNode,
         logs: LogStore,
         views: LogViews,
-        shelf: Shelf,
+        profile_store: ProfileStore,
         capabilities: Capabilities,
         buffer: Keeper | None = None,
     ) -> None:
         self._node = node
         self._logs = logs
         self._views = views
-        self._shelf = shelf
-        node.node.create_timer(SHELF_PERIOD, shelf.look_if_changed)
+        self._profile_store = profile_store
+        node.node.create_timer(PROFILE_STORE_POLL_S, profile_store.reload_if_changed)
         self._capabilities = capabilities
         self._recordings = Recordings(buffer)
         self._once_there: set[str] = set()
@@ -75,9 +75,9 @@ class LinkedConsole:
         return self._node.traffic
 
     @property
-    def sights(self) -> Sights:
+    def sensors(self) -> Sensors:
         """What the robot shows of itself."""
-        return self._node.sights
+        return self._node.sensors
 
     def snapshot(self) -> ConsoleSnapshot:
         """What the node knows now; each unchanged part is the same object."""
@@ -91,7 +91,7 @@ class LinkedConsole:
             journal=node.journal.state,
             world=world,
             drive=node.drive.info(world),
-            profiles=self._shelf.profiles,
+            profiles=self._profile_store.profiles,
             active_profile=active,
             profile_changes=node.profile_changes(self._profile(active)),
             capabilities=self._capabilities,
@@ -156,13 +156,13 @@ class LinkedConsole:
         """Repeat the change that was undone last."""
         return self._node.redo()
 
-    def watch(self, path: str, asker: str = "") -> Answer:
+    def watch(self, path: str, requester: str = "") -> Answer:
         """Collect a series."""
-        return self._node.plots.watch(path, self._node.graph.info, self._node.parameters.trees, asker)
+        return self._node.plots.watch(path, self._node.graph.info, self._node.parameters.trees, requester)
 
-    def unwatch(self, path: str, asker: str = "") -> None:
+    def unwatch(self, path: str, requester: str = "") -> None:
         """Stop collecting a series."""
-        self._node.plots.unwatch(path, asker)
+        self._node.plots.unwatch(path, requester)
 
     def samples(self, path: str, after: int = 0) -> Samples:
         """New samples of a series."""
@@ -199,9 +199,9 @@ class LinkedConsole:
         """Keep that stop, or withdraw what was held for this press alone."""
         self._node.drive.settle_early(press, keep=keep)
 
-    def await_standing(self, patience: float) -> None:
+    def await_standing(self, timeout_s: float) -> None:
         """Wait until the robot's locks hold it, so many seconds at most."""
-        self._node.drive.await_standing(patience)
+        self._node.drive.await_standing(timeout_s)
 
     def release(self, others: Sequence[str]) -> None:
         """Take back this console's stop and the stops of others."""
@@ -243,33 +243,33 @@ class LinkedConsole:
         return self._node.apply(profile, reset_world)
 
     def _profile(self, name: str) -> Profile | None:
-        return next((each for each in self._shelf.profiles if each.name == name), None)
+        return next((each for each in self._profile_store.profiles if each.name == name), None)
 
     def open_profile(self, path: str) -> Answer:
         """Take a file in as a profile."""
-        return self._shelf.open(path)
+        return self._profile_store.open(path)
 
     def fetch_profile(self, address: str) -> Future[Answer]:
         """Take in what stands at an address as a profile, as soon as it has come."""
-        return self._shelf.fetch(address)
+        return self._profile_store.fetch(address)
 
     def save_profile(self, name: str, description: str = "") -> Answer:
         """Save what runs as a profile."""
-        answer = self._shelf.save(name, description, self._node.parameters.trees)
+        answer = self._profile_store.save(name, description, self._node.parameters.trees)
         if answer.ok:
             self._node.journal.saved(())
         return answer
 
     def rename_profile(self, name: str, to: str) -> Answer:
         """Give a profile another name; what runs on it is called so, too."""
-        answer = self._shelf.rename(name, to)
+        answer = self._profile_store.rename(name, to)
         if answer.ok and self._node.setter.profile == name:
             self._node.setter.profile = to
         return answer
 
     def delete_profile(self, name: str) -> Answer:
         """Delete the file of a profile."""
-        return self._shelf.delete(name)
+        return self._profile_store.delete(name)
 
     def save_parameters(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
         """Write parameters to a file."""

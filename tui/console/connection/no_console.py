@@ -24,9 +24,9 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.protocol import ConsoleReading, Samples
 from bot_console.tui.console.recording import Recording, RecordingInfo
 from bot_console.tui.console.robot.robot_model import Pose
-from bot_console.tui.console.sights.idle import IdleSights
-from bot_console.tui.console.sights.model import Sights
-from bot_console.tui.console.topics.idle import IdleTraffic
+from bot_console.tui.console.sensors.idle_sensors import IdleSensors
+from bot_console.tui.console.sensors.model import Sensors
+from bot_console.tui.console.topics.idle_traffic import IdleTraffic
 from bot_console.tui.console.traffic import Traffic
 
 T = TypeVar("T")
@@ -51,11 +51,11 @@ class EarlyView:
         self._open_view = open_view
         self._view: LogView | None = None
 
-    def look(self) -> LogFindings:
+    def poll(self) -> LogFindings:
         """What has been found so far."""
         if self._view is None:
             self._view = self._open_view(self._which)
-        return self._view.look() if self._view else LogFindings(_NoNumbers())
+        return self._view.poll() if self._view else LogFindings(_NoNumbers())
 
 
 class NothingKnown:
@@ -139,7 +139,7 @@ class NoConsole:
         self._refusal = Answer(False, why)
         self._idle: Traffic = IdleTraffic(why)
         self._no_recording = NoRecording(self._refusal)
-        self._blind: Sights = IdleSights(why)
+        self._blind: Sensors = IdleSensors(why)
         self.snapshot = known.snapshot
         self.log = known.log
         self.matching_logs = known.matching_logs
@@ -163,7 +163,7 @@ class NoConsole:
         return self._idle
 
     @property
-    def sights(self) -> Sights:
+    def sensors(self) -> Sensors:
         """Nothing is seen."""
         return self._blind
 
@@ -197,11 +197,11 @@ class NoConsole:
         """Refused."""
         return done(self._refusal)
 
-    def watch(self, path: str, asker: str = "") -> Answer:
+    def watch(self, path: str, requester: str = "") -> Answer:
         """Refused."""
         return self._refusal
 
-    def unwatch(self, path: str, asker: str = "") -> None:
+    def unwatch(self, path: str, requester: str = "") -> None:
         """Nothing is collected."""
 
     def drive(self, linear: float, angular: float) -> None:

@@ -13,7 +13,7 @@ from bot_console.tui.console.connection.no_console import NoConsole, done
 from bot_console.tui.console.model import Capabilities, ConsoleSnapshot, LaunchArgument
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.console.recording import Recording
-from bot_console.tui.console.sights.model import Sights
+from bot_console.tui.console.sensors.model import Sensors
 from bot_console.tui.console.topics.reading import ReadingTraffic
 from bot_console.tui.console.traffic import Traffic
 
@@ -36,16 +36,16 @@ READING: Mapping[str, frozenset[str]] = {
 class ReadOnlyConsole(NoConsole):
     """Reads, plots and saves to files; the one request it sends is to stop the robot, which anybody may."""
 
-    def __init__(self, console: Console, tell: Callable[[str], None]) -> None:
+    def __init__(self, console: Console, report: Callable[[str], None]) -> None:
         """`tell` receives refusals of requests that have no answer."""
         super().__init__(WHY, console)
         self._console = console
-        self._tell = tell
+        self._report = report
         self._seen = self._shown = ConsoleSnapshot()
         self._can, self._cannot = Capabilities(), Capabilities(change=WHY)
-        self.snapshot = self._looked_at
+        self.snapshot = self._last_poll
 
-    def _looked_at(self) -> ConsoleSnapshot:
+    def _last_poll(self) -> ConsoleSnapshot:
         """The newest snapshot, which says that nothing is changed from here; the same object when nothing changed."""
         seen = self._console.snapshot()
         if seen.capabilities is not self._can:
@@ -66,17 +66,17 @@ class ReadOnlyConsole(NoConsole):
         return ReadingTraffic(WHY, self._console.traffic)
 
     @property
-    def sights(self) -> Sights:
+    def sensors(self) -> Sensors:
         """All that the robot shows."""
-        return self._console.sights
+        return self._console.sensors
 
-    def watch(self, path: str, asker: str = "") -> Answer:
+    def watch(self, path: str, requester: str = "") -> Answer:
         """Collect a series."""
-        return self._console.watch(path, asker)
+        return self._console.watch(path, requester)
 
-    def unwatch(self, path: str, asker: str = "") -> None:
+    def unwatch(self, path: str, requester: str = "") -> None:
         """Stop collecting a series."""
-        self._console.unwatch(path, asker)
+        self._console.unwatch(path, requester)
 
     def clear_logs(self) -> None:
         """Forget the records of this console."""
@@ -111,7 +111,7 @@ class ReadOnlyConsole(NoConsole):
         if hold:
             self._console.all_stop(True, reason)
         else:
-            self._tell(f"the robot stays locked: {WHY}")
+            self._report(f"the robot stays locked: {WHY}")
 
     def hold_early(self, press: str) -> None:
         """Hold the robot for a key press whose turn has not come."""

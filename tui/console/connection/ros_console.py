@@ -15,8 +15,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from bot_console.tui.console.connection.console_relay import ConsoleRelay
 from bot_console.tui.console.connection.no_console import CLOSED, STARTING, NoConsole, NothingKnown
-from bot_console.tui.console.connection.relay import ConsoleRelay
 from bot_console.tui.console.model import (
     Capabilities,
     ConsoleSnapshot,
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from bot_console.tui.console.logs.view import LogViews
     from bot_console.tui.console.node import ConsoleNode
     from bot_console.tui.console.parameters.history import History
-    from bot_console.tui.console.parameters.shelf import Shelf
+    from bot_console.tui.console.parameters.profile_store import ProfileStore
     from bot_console.tui.console.robot.drive_node import DriveNode
     from bot_console.tui.console.robot.stop_means.configured import ConfiguredMeans
 
@@ -86,7 +86,7 @@ class RosConsole(ConsoleRelay):
         last minutes, None: nobody does; `frozen` which nodes' processes are stopped; `types` makes the types that this
         program does not have; `stop_means` hold robots that have no lock.
         """
-        self._shelf_of = profile_folders, own_profiles, workspace_profiles, fetch
+        self._profile_store_of = profile_folders, own_profiles, workspace_profiles, fetch
         self._launch_info = launch_info
         self._active_profile = active_profile
         self._capabilities = capabilities or Capabilities()
@@ -151,7 +151,7 @@ class RosConsole(ConsoleRelay):
 
         context = Context()
         rclpy.init(args=[], context=context)
-        robot = DriveNode(context, self._tell_fault, self._stop_means)
+        robot = DriveNode(context, self._report_fault, self._stop_means)
         robot.start()
         with self._linking:
             self._now = StopConsole(STARTING, self._nothing, robot)
@@ -168,14 +168,14 @@ class RosConsole(ConsoleRelay):
         from bot_console.tui.console.logs.store import LogStore
         from bot_console.tui.console.logs.view import LogViews
         from bot_console.tui.console.node import ConsoleNode
-        from bot_console.tui.console.parameters.shelf import Shelf
+        from bot_console.tui.console.parameters.profile_store import ProfileStore
 
         logs = LogStore()
         self._add = logs.add
         self._views = LogViews(logs)
         history = self._guarded("the history", self._history)
-        shelf = self._guarded("the profiles", self._shelf) or Shelf(())
-        self._profile_names = {os.path.realpath(each.path): each.name for each in shelf.profiles}
+        profile_store = self._guarded("the profiles", self._profile_store) or ProfileStore(())
+        self._profile_names = {os.path.realpath(each.path): each.name for each in profile_store.profiles}
         node = ConsoleNode(
             *(robot, logs.add, self._graph_events, self._provenance, history),
             foreign=self._foreign,
@@ -187,7 +187,7 @@ class RosConsole(ConsoleRelay):
         self._learn = node.learn
         node.setter.profile = self._active_profile
         self._heard = node.loggers
-        return node, LinkedConsole(node, logs, self._views, shelf, self._capabilities, self._buffer)
+        return node, LinkedConsole(node, logs, self._views, profile_store, self._capabilities, self._buffer)
 
     def _guarded(self, name: str, make: Callable[[], T]) -> T | None:
         """A part that the console can be without; None, and a line in the log, if it cannot be made."""
@@ -200,7 +200,7 @@ class RosConsole(ConsoleRelay):
     def _warn(self, text: str) -> None:
         self._add(time.time_ns(), Severity.WARN, LABEL, text, NOWHERE)
 
-    def _tell_fault(self, error: Exception) -> None:
+    def _report_fault(self, error: Exception) -> None:
         """Take in an exception of the link that stops the robot, which goes on; the same one is told once."""
         text = f"a fault of the link to the robot, which goes on: {_placed(error)}"
         if text not in self._faults:
@@ -227,11 +227,11 @@ class RosConsole(ConsoleRelay):
 
         return History(self._history_file, time.time_ns())
 
-    def _shelf(self) -> Shelf:
-        from bot_console.tui.console.parameters.shelf import Shelf
+    def _profile_store(self) -> ProfileStore:
+        from bot_console.tui.console.parameters.profile_store import ProfileStore
 
-        folders, own, workspace, fetch = self._shelf_of
-        return Shelf(folders, own, workspace(), fetch)
+        folders, own, workspace, fetch = self._profile_store_of
+        return ProfileStore(folders, own, workspace(), fetch)
 
     def wait_ready(self, timeout: float) -> bool:
         """Wait until connected, or the connection failed; whether it is connected."""
@@ -307,10 +307,10 @@ class RosConsole(ConsoleRelay):
         stopped = self._early_stop is not None and self._early_stop[0]
         return self._robot is None and (stopped or bool(self._early_presses))
 
-    def await_standing(self, patience: float) -> None:
+    def await_standing(self, timeout_s: float) -> None:
         """Wait until a stop holds the robot, so many seconds at most; without a link nothing is waited for."""
         if self._robot is not None:
-            self._robot.link.await_standing(patience)
+            self._robot.link.await_standing(timeout_s)
 
     def _zero_again(self) -> None:
         """Repeat the zero velocity after a long silence, in which whatever waited in the link was lost."""

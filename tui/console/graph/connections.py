@@ -27,7 +27,7 @@ def connections(
     broken = mismatched(info)
     dead = {*info.silent, *(node for node, _ in info.frozen)}
 
-    def said(nodes: Iterable[str], wrong: Container[str] = ()) -> str:
+    def message(nodes: Iterable[str], wrong: Container[str] = ()) -> str:
         words = (f"{'✗' * (each in wrong)}{each}{' (no answer)' * (each in dead)}" for each in sorted(nodes))
         return " ".join(words) or NOBODY
 
@@ -38,7 +38,7 @@ def connections(
         for name in sorted(givers.keys() | takers.keys()):
             wrong = {each for _, each, _ in broken.get(name, ())} if kind == "topic" else set[str]()
             what = name if kind == "topic" else f"{kind} {name}"
-            yield kind, name, f"{what}  {said(givers.get(name, ()))} → {said(takers.get(name, ()), wrong)}"
+            yield kind, name, f"{what}  {message(givers.get(name, ()))} → {message(takers.get(name, ()), wrong)}"
 
 
 def is_hidden(name: str, patterns: Iterable[str]) -> bool:

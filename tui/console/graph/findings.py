@@ -18,7 +18,7 @@ SILENT = "has not answered for a second: it was killed, it hangs, or it is busy"
 
 
 @dataclass(frozen=True)
-class Finding:
+class GraphFinding:
     """Something odd: the topic, service, action or node, what is odd, and whether it is certainly wrong."""
 
     subject: str
@@ -26,23 +26,23 @@ class Finding:
     fault: bool = False
 
 
-def findings(info: GraphInfo) -> tuple[Finding, ...]:
+def findings(info: GraphInfo) -> tuple[GraphFinding, ...]:
     """Everything odd, faults first, by subject; hidden nodes and topics are left out."""
     nodes = [each for each in info.nodes if not each.hidden]
     visible = GraphInfo(tuple(nodes), info.topics, info.services)
-    otherwise = (Finding(each.partition(": ")[0], each, True) for each in info.unheard)
-    frozen = (Finding(node, f"{node} is frozen: {mend(pid)}", True) for node, pid in info.frozen)
-    silent = (Finding(node, f"{node} {SILENT}", True) for node in info.silent)
-    found = [*_namesakes(nodes), *_topics(visible), *_services(nodes), *_alone(nodes), *otherwise, *frozen, *silent]
+    otherwise = (GraphFinding(each.partition(": ")[0], each, True) for each in info.unheard)
+    frozen = (GraphFinding(node, f"{node} is frozen: {finding_hint(pid)}", True) for node, pid in info.frozen)
+    silent = (GraphFinding(node, f"{node} {SILENT}", True) for node in info.silent)
+    found = [*_same_named(nodes), *_topics(visible), *_services(nodes), *_alone(nodes), *otherwise, *frozen, *silent]
     return tuple(sorted(found, key=lambda each: (not each.fault, each.subject)))
 
 
-def mend(pid: int) -> str:
+def finding_hint(pid: int) -> str:
     """How to resume a stopped process."""
     return f"process {pid} is stopped; `kill -CONT {pid}` lets it go on"
 
 
-def _topics(info: GraphInfo) -> Iterator[Finding]:
+def _topics(info: GraphInfo) -> Iterator[GraphFinding]:
     publishers = _ends(info.nodes, "publishers")
     subscribers = _ends(info.nodes, "subscriptions")
     broken = mismatched(info)
@@ -52,41 +52,43 @@ def _topics(info: GraphInfo) -> Iterator[Finding]:
         gives, takes = publishers.get(topic, {}), subscribers.get(topic, {})
         types = {each for end in (*gives.values(), *takes.values()) for each in end.types}
         if len(types) > 1:
-            yield Finding(topic, f"{topic} has different types, which do not hear each other: {_list(types)}", True)
+            yield GraphFinding(
+                topic, f"{topic} has different types, which do not hear each other: {_list(types)}", True
+            )
         for publisher, subscriber, why in broken.get(topic, ()):
-            yield Finding(topic, f"{topic} {why}: nothing arrives from {publisher} at {subscriber}", True)
+            yield GraphFinding(topic, f"{topic} {why}: nothing arrives from {publisher} at {subscriber}", True)
         if topic in SHARED:
             continue
         if takes and not gives and not topic.endswith(ON_OCCASION):
-            yield Finding(topic, f"nobody publishes {topic}, which {_list(takes)} {_listens(takes)} to")
+            yield GraphFinding(topic, f"nobody publishes {topic}, which {_list(takes)} {_listens(takes)} to")
         if len(gives) > 1:
-            yield Finding(topic, f"{_number(len(gives))} publishers on {topic}: {_list(gives)}")
+            yield GraphFinding(topic, f"{_number(len(gives))} publishers on {topic}: {_list(gives)}")
 
 
-def _services(nodes: list[NodeInfo]) -> Iterator[Finding]:
+def _services(nodes: list[NodeInfo]) -> Iterator[GraphFinding]:
     for given, taken, what in (("services", "clients", "serves"), ("action_servers", "action_clients", "executes")):
         gives, takes = _ends(nodes, given), _ends(nodes, taken)
         for name in sorted(takes.keys() - gives.keys()):
-            yield Finding(name, f"nobody {what} {name}, which {_list(takes[name])} asks for", True)
+            yield GraphFinding(name, f"nobody {what} {name}, which {_list(takes[name])} asks for", True)
         for name in sorted(each for each, servers in gives.items() if len(servers) > 1):
-            yield Finding(name, f"{_number(len(gives[name]))} servers of {name}: {_list(gives[name])}", True)
+            yield GraphFinding(name, f"{_number(len(gives[name]))} servers of {name}: {_list(gives[name])}", True)
 
 
-def _alone(nodes: list[NodeInfo]) -> Iterator[Finding]:
+def _alone(nodes: list[NodeInfo]) -> Iterator[GraphFinding]:
     for node in nodes:
         ends = (*node.publishers, *node.subscriptions, *node.clients, *node.action_servers, *node.action_clients)
         services = [each for each in node.services if not each.name.startswith(f"{node.name}/")]
         if not services and all(each.name in SHARED for each in ends):
-            yield Finding(node.name, f"{node.name} publishes, hears and serves nothing")
+            yield GraphFinding(node.name, f"{node.name} publishes, hears and serves nothing")
 
 
-def _namesakes(nodes: list[NodeInfo]) -> Iterator[Finding]:
+def _same_named(nodes: list[NodeInfo]) -> Iterator[GraphFinding]:
     for node in nodes:
         if node.copies > 1:
-            yield Finding(node.name, namesakes(node), True)
+            yield GraphFinding(node.name, same_named(node), True)
 
 
-def namesakes(node: NodeInfo) -> str:
+def same_named(node: NodeInfo) -> str:
     """Says that several nodes share this name, and what that causes."""
     return (
         f"{_number(node.copies)} nodes are called {node.name}: what is shown and set may be of any of them; "

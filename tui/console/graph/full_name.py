@@ -8,11 +8,11 @@ if TYPE_CHECKING:
     from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 
-def full_name(namespace: str, name: str) -> str:
+def full_node_name(namespace: str, name: str) -> str:
     """A node's name, prefixed with its namespace."""
     return f"{namespace.rstrip('/')}/{name}"
 
 
-def name_of(endpoint: TopicEndpointInfo) -> str:
+def node_name_of(endpoint: TopicEndpointInfo) -> str:
     """The full name of an endpoint's node."""
-    return full_name(endpoint.node_namespace, endpoint.node_name)
+    return full_node_name(endpoint.node_namespace, endpoint.node_name)

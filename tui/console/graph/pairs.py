@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from bot_console.tui.console.graph.full_name import name_of
+from bot_console.tui.console.graph.full_name import node_name_of
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from rclpy.node import Node
 from rclpy.qos import QoSCompatibility, qos_check_compatible
@@ -42,7 +42,7 @@ class UnheardPairs:
         self._nodes = nodes
         for topic in touched:
             ends = self._ends[topic]
-            texts = self._look(topic) if len({publishes for publishes, _ in ends}) == 2 else ()
+            texts = self._poll(topic) if len({publishes for publishes, _ in ends}) == 2 else ()
             self._known.pop(topic, None)
             if texts:
                 self._known[topic] = texts
@@ -61,7 +61,7 @@ class UnheardPairs:
             self._ends.setdefault(each.name, set()).add((publishes, node))
         return {each.name for _, each in before ^ now}
 
-    def _look(self, topic: str) -> tuple[str, ...]:
+    def _poll(self, topic: str) -> tuple[str, ...]:
         """Only what cannot be seen from the QoS and types in the graph's own texts."""
         publishers, subscriptions = self._publishers(topic), self._subscriptions(topic)
         if len({hash_of(each) for each in (*publishers, *subscriptions)} - {""}) < 2:
@@ -93,7 +93,7 @@ def unheard(
 def _pair(topic: str, publisher: TopicEndpointInfo, subscription: TopicEndpointInfo) -> str:
     if _hidden(publisher) or _hidden(subscription):
         return ""  # tools, which choose for themselves
-    one, other = name_of(publisher), name_of(subscription)
+    one, other = node_name_of(publisher), node_name_of(subscription)
     if publisher.topic_type != subscription.topic_type:
         return f"{topic}: {one} publishes {publisher.topic_type}, {other} wants {subscription.topic_type}: rename one"
     if text := otherwise_defined(topic, publisher, subscription):
@@ -112,8 +112,8 @@ def otherwise_defined(topic: str, publisher: TopicEndpointInfo, subscription: To
     if publisher.topic_type != subscription.topic_type:
         return ""  # two types, which is another fault
     return (
-        f"{topic}: {publisher.topic_type} is defined otherwise in {name_of(publisher)} than in "
-        f"{name_of(subscription)}, so no message passes: build both from the same definition"
+        f"{topic}: {publisher.topic_type} is defined otherwise in {node_name_of(publisher)} than in "
+        f"{node_name_of(subscription)}, so no message passes: build both from the same definition"
     )
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import time
 from collections.abc import Hashable, Iterator
 
-from bot_console.tui.console.graph.findings import mend, namesakes
+from bot_console.tui.console.graph.findings import finding_hint, same_named
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.model import GraphInfo, NodeInfo, Severity
-from bot_console.tui.console.robot.command_topics import types_of
+from bot_console.tui.console.robot.command_topics import command_types_of
 
 SOURCE = "bot-console"
 
@@ -18,24 +18,24 @@ class GraphWarnings:
 
     def __init__(self, log: Add) -> None:
         self._log = log
-        self._told: frozenset[Hashable] = frozenset()
+        self._reported: frozenset[Hashable] = frozenset()
 
     def follow(self, graph: GraphInfo) -> None:
         """Log what holds of this graph and did not of the one before."""
         found = dict(warnings(graph))
         for key, text in found.items():
-            if key not in self._told:
+            if key not in self._reported:
                 self._log(time.time_ns(), Severity.WARN, SOURCE, text, ("", "", 0))
-        self._told = frozenset(found)
+        self._reported = frozenset(found)
 
 
 def warnings(graph: GraphInfo) -> Iterator[tuple[Hashable, str]]:
     """The warnings that hold of a graph, each with a key that tells it from all others."""
     for node, pid in graph.frozen:
-        yield ("frozen", node, pid), f"{node} is frozen: {mend(pid)}"
+        yield ("frozen", node, pid), f"{node} is frozen: {finding_hint(pid)}"
     for node in graph.nodes:
         if node.copies > 1 and not node.hidden:
-            yield ("namesakes", node.name), namesakes(node)
+            yield ("namesakes", node.name), same_named(node)
     for topic, nodes in _rivals(graph):
         yield ("rivals", topic, nodes), rivals(topic, nodes)
 
@@ -55,7 +55,7 @@ def _rivals(graph: GraphInfo) -> Iterator[tuple[str, tuple[str, ...]]]:
     """
     nodes = [each for each in graph.nodes if not each.hidden]
     heard = {end.name for node in nodes for end in node.subscriptions}
-    for topic in sorted(types_of(graph).keys() & heard):
+    for topic in sorted(command_types_of(graph).keys() & heard):
         senders = [node for node in nodes if any(end.name == topic for end in node.publishers)]
         if len(senders) > 1 and not all(map(_has_lifecycle, senders)):
             yield topic, tuple(sorted(node.name for node in senders))

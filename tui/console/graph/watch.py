@@ -8,14 +8,14 @@ from dataclasses import replace
 from time import monotonic, thread_time
 from typing import Any
 
-from bot_console.tui.console.graph.full_name import full_name
+from bot_console.tui.console.graph.full_name import full_node_name
 from bot_console.tui.console.graph.pairs import UnheardPairs
-from bot_console.tui.console.graph.silence import SilentNodes
+from bot_console.tui.console.graph.unresponsive_nodes import SilentNodes
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from rclpy.node import Node
 
 ACTION_SERVER_TOPIC = "/_action/status"
-PERIOD = 0.5
+GRAPH_POLL_S = 0.5
 """Seconds between two looks, where something may have changed."""
 LONG, SHARE = 0.1, 0.2
 """A look that took longer (s of processor time) is followed by a rest, so that looks take no more than this share:
@@ -62,24 +62,24 @@ class GraphWatch:
         self._topics: Pairs = []
         self._services: Pairs = []
         self._news: deque[Owner] = deque()
-        self._looked = False
+        self._polled = False
         self._rests_until = 0.0
-        self._told = events is not None
+        self._reported = events is not None
         self._unheard = UnheardPairs(node)
         self._silence = SilentNodes(node, self._silent_are)
         self._end = events(node.context.get_domain_id(), self._news.append) if events else _nothing
-        node.create_timer(PERIOD, self._tick)
+        node.create_timer(GRAPH_POLL_S, self._tick)
 
     def _tick(self) -> None:
-        if (self._news or not (self._told and self._looked)) and monotonic() >= self._rests_until:
+        if (self._news or not (self._reported and self._polled)) and monotonic() >= self._rests_until:
             began = thread_time()
-            self.look()
+            self.poll()
             took = thread_time() - began
             if took > LONG:
                 self._rests_until = monotonic() + took * (1 / SHARE - 1)
-        self._look_for_frozen()
+        self._check_for_frozen()
 
-    def _look_for_frozen(self) -> None:
+    def _check_for_frozen(self) -> None:
         """Look for stopped processes, which stay in the graph for long with nodes that seem alive."""
         if self._frozen is None:
             return
@@ -93,18 +93,18 @@ class GraphWatch:
         """Stop receiving events."""
         self._end()
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Query the graph now."""
         known = self._unchanged()  # before the questions: what changes meanwhile is asked for again
-        self._looked = True
+        self._polled = True
         node = self._node
         profiles = Profiles(node)
         owners = Counter(node.get_node_names_and_namespaces())
         nodes = {
-            owner: _copied(known.get(owner) or self._look_at(owner, profiles), count) for owner, count in owners.items()
+            owner: _copied(known.get(owner) or self._inspect(owner, profiles), count) for owner, count in owners.items()
         }
         different = [each for each in nodes.keys() | self._nodes.keys() if nodes.get(each) is not self._nodes.get(each)]
-        if self._told and not different:
+        if self._reported and not different:
             return
         topics, services = self._names(nodes, different)
         if not different and topics is self._topics and services is self._services:
@@ -122,10 +122,10 @@ class GraphWatch:
         self._changed(self.info)
         self._silence.follow(self.info)
 
-    def look_at_nodes(self, on: bool) -> None:
+    def watch_nodes(self, on: bool) -> None:
         """Start or stop finding out which nodes do not answer; where there are events, they tell that already."""
-        if not self._told:
-            self._silence.look(on, self.info)
+        if not self._reported:
+            self._silence.poll(on, self.info)
 
     def _silent_are(self, nodes: tuple[str, ...]) -> None:
         self.info = replace(self.info, silent=nodes)
@@ -133,7 +133,7 @@ class GraphWatch:
 
     def _unchanged(self) -> dict[Owner, tuple[Answer, NodeInfo]]:
         """What need not be queried again."""
-        if not (self._told and self._looked):
+        if not (self._reported and self._polled):
             self._news.clear()
             return {}
         known = dict(self._nodes)
@@ -145,13 +145,13 @@ class GraphWatch:
         """Topics and services; the same objects as before if they are unchanged."""
         changed = [(_answer(nodes, each), _answer(self._nodes, each)) for each in different]
         topics, services = self._topics, self._services
-        if not self._told or any(now[:2] != before[:2] for now, before in changed):
+        if not self._reported or any(now[:2] != before[:2] for now, before in changed):
             topics = _same(self._node.get_topic_names_and_types(), topics)
-        if not self._told or any(now[2:] != before[2:] for now, before in changed):
+        if not self._reported or any(now[2:] != before[2:] for now, before in changed):
             services = _same(self._node.get_service_names_and_types(), services)
         return topics, services
 
-    def _look_at(self, owner: Owner, profiles: Profiles) -> tuple[Answer, NodeInfo]:
+    def _inspect(self, owner: Owner, profiles: Profiles) -> tuple[Answer, NodeInfo]:
         """A node's answer and its meaning; the same object as before if the answer is unchanged."""
         answer, known = self._ask(*owner), self._nodes.get(owner)
         if known is None:
@@ -211,7 +211,7 @@ def _described(owner: Owner, answer: Answer, before: NodeInfo, profiles: Profile
     publishers, subscriptions, services, clients = answer
     name, space = owner
     return NodeInfo(
-        full_name(space, name),
+        full_node_name(space, name),
         _with_qos(owner, publishers, before.publishers, profiles, publisher=True),
         _with_qos(owner, subscriptions, before.subscriptions, profiles, publisher=False),
         _endpoints(services),

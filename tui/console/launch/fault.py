@@ -32,7 +32,7 @@ def fault_text(
     own = _user_line(error)
     if isinstance(error, RecursionError):
         return _at(own or _include_line(causes) or (path, None), ENDLESS)
-    place = own or _told(causes, file_of) or (path, _parsers_line(error) if reading else None)
+    place = own or _reported(causes, file_of) or (path, _parsers_line(error) if reading else None)
     named = own and not _is_missing_package(error)
     return _at(place, f"{type(error).__name__}: {error}" if named else _text(error))
 
@@ -54,13 +54,13 @@ def _is_missing_package(error: BaseException) -> bool:
     return isinstance(error, PackageNotFoundError) and bool(error.args)
 
 
-def _no_package(said: str) -> str:
+def _no_package(message: str) -> str:
     """A package that was not found, with a remedy."""
     from difflib import get_close_matches
 
     from ament_index_python.packages import get_packages_with_prefixes
 
-    text = said.partition(", searching:")[0]
+    text = message.partition(", searching:")[0]
     name = re.search("'([^']*)'", text)
     similar = get_close_matches(name[1] if name else "", list(get_packages_with_prefixes()), 3)
     return f"{text}; " + (f"is it {' or '.join(similar)}?" if similar else "is its workspace given with --workspace?")
@@ -100,12 +100,12 @@ def _parsers_line(error: BaseException) -> int | None:
     return None if position is None else position[0]
 
 
-def _told(causes: Sequence[BaseException], file_of: Callable[[Any], str]) -> Place | None:
+def _reported(causes: Sequence[BaseException], file_of: Callable[[Any], str]) -> Place | None:
     """What launch has noted on the innermost error; a library's line is replaced by the launch file that caused it."""
-    for told in _all_told(reversed(causes)):
-        if told.file and not (told.entity is not None and told.file.startswith(library_folders())):
-            return told.file, told.line
-        file = "" if told.entity is None else file_of(told.entity)
+    for reported in _all_causes(reversed(causes)):
+        if reported.file and not (reported.entity is not None and reported.file.startswith(library_folders())):
+            return reported.file, reported.line
+        file = "" if reported.entity is None else file_of(reported.entity)
         if file:
             return file, None
     return None
@@ -113,9 +113,9 @@ def _told(causes: Sequence[BaseException], file_of: Callable[[Any], str]) -> Pla
 
 def _include_line(causes: Sequence[BaseException]) -> Place | None:
     """The line of the include that was being visited."""
-    return next(((told.file, told.line) for told in _all_told(causes) if told.line), None)
+    return next(((reported.file, reported.line) for reported in _all_causes(causes) if reported.line), None)
 
 
-def _all_told(errors: Iterable[BaseException]) -> Iterator[Any]:
+def _all_causes(errors: Iterable[BaseException]) -> Iterator[Any]:
     """The `launch.launch_place.LaunchPlace` of each error that has one."""
     return (each for each in (getattr(error, "launch_place", None) for error in errors) if each is not None)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import done
-from bot_console.tui.console.graph.full_name import full_name
+from bot_console.tui.console.graph.full_name import full_node_name
 from bot_console.tui.console.launch.arguments import read_arguments
 from bot_console.tui.console.launch.process import ENDED, KILLED, LaunchedProcess, Order
 from bot_console.tui.console.launch.process_output import Add, ProcessOutput
@@ -18,7 +18,7 @@ from bot_console.tui.console.launch.process_verbs import ProcessVerbs
 from bot_console.tui.console.launch.restart import Recipe, recipe
 from bot_console.tui.console.launch.run import LaunchRun, Listener
 from bot_console.tui.console.launch.timeline import LaunchTimeline
-from bot_console.tui.console.launch.title import line_of, title_of, unused
+from bot_console.tui.console.launch.title import argument_line, title_of, unused
 from bot_console.tui.console.launch.vitals import HANGS, FindVitals, Usage, Vitals
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessState, Severity
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from launch import LaunchContext
 
 CLOSED = "the console is closing"
-KILLED_S = 1.0
+KILLED_TIMEOUT_S = 1.0
 """Seconds that launches get to end after their processes were killed."""
 BUSY_S = 6.0
 """Seconds after which a process that never waits is named."""
@@ -98,7 +98,7 @@ class RosLauncher(ProcessVerbs):
     def info(self) -> LaunchInfo:
         """What is known now; the same object until something changes."""
         with self._lock:
-            self._look()
+            self._poll()
             if self._dirty:
                 self._dirty = False
                 processes = tuple(each.process.info for each in self._held.values())
@@ -106,7 +106,7 @@ class RosLauncher(ProcessVerbs):
                 self._info = LaunchInfo(tuple(self._files), processes, events, self._problem, self._delayed)
             return self._info
 
-    def _look(self) -> None:
+    def _poll(self) -> None:
         """Measure what no event reports."""
         now = time.monotonic()
         delayed = sum(run.delayed_starts for run in self._runs)
@@ -117,27 +117,27 @@ class RosLauncher(ProcessVerbs):
             if held.output is not None and held.process.alive:
                 held.output.settle()
             if held.usage is not None and held.process.alive:
-                self._look_at(held, held.usage, now)
+                self._inspect(held, held.usage, now)
             elif held.vitals is not None and info.exit_code == KILLED and info.state is not ProcessState.ABANDONED:
                 where = held.vitals.hangs_in() if info.state in ENDED else ""
                 if where:
                     held.process.abandoned(where)
-                    self._tell(f"{info.label} is abandoned: {where}", Severity.WARN)
+                    self._report(f"{info.label} is abandoned: {where}", Severity.WARN)
 
-    def _look_at(self, held: _Held, usage: Usage, now: float) -> None:
+    def _inspect(self, held: _Held, usage: Usage, now: float) -> None:
         before = usage.busy_s
-        usage.look(now)
+        usage.poll(now)
         self._dirty |= held.process.uses(usage.share, usage.memory)
         label = held.process.info.label
         if held.process.stands(usage.stands):
             self._dirty = True
             if usage.stands.startswith(HANGS):
-                self._tell(f"{label} {usage.stands}", Severity.WARN)
+                self._report(f"{label} {usage.stands}", Severity.WARN)
         if before < BUSY_S <= usage.busy_s:
-            self._tell(f"{label} has computed for {BUSY_S:g} s without waiting", Severity.WARN)
+            self._report(f"{label} has computed for {BUSY_S:g} s without waiting", Severity.WARN)
 
-    def _tell(self, text: str, severity: Severity = Severity.INFO) -> None:
-        self._timeline.tell(text, severity)
+    def _report(self, text: str, severity: Severity = Severity.INFO) -> None:
+        self._timeline.report(text, severity)
         self._dirty = True
 
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
@@ -158,7 +158,7 @@ class RosLauncher(ProcessVerbs):
                 return outcome
             self._files.append(path)
             self._problem = ""
-            self._tell(line_of(path, given))
+            self._report(argument_line(path, given))
             shown = {each.title for each in self._runs} | {each.run.title for each in self._held.values()}
             run = LaunchRun(unused(title_of(path, given), shown), self._listener)
             run.path = path
@@ -180,11 +180,11 @@ class RosLauncher(ProcessVerbs):
             of_file = self._unanswered.pop(run, None)
             if problem:
                 self._problem = problem
-                self._tell(problem, Severity.ERROR)
+                self._report(problem, Severity.ERROR)
                 if not run.logged:
                     self._printed(Severity.ERROR, "launch", problem)
             else:
-                self._tell(f"{run.title} has ended")
+                self._report(f"{run.title} has ended")
             for held in [each for each in self._held.values() if each.run is run]:
                 self._left_over(held, "" if run.has_begun else problem)
         if of_file is not None:
@@ -208,7 +208,7 @@ class RosLauncher(ProcessVerbs):
             before = held.process.info
             order, outcome = held.process.want(verb)
             if held.process.info is not before or order is not Order.NOTHING:
-                self._tell(f"{verb} {before.label}")
+                self._report(f"{verb} {before.label}")
             self._order(held, order)
         return outcome
 
@@ -257,7 +257,7 @@ class RosLauncher(ProcessVerbs):
             held.output = ProcessOutput(event.process_name, self._record, self._printed, self._heard, self._every)
             order = held.process.started(event.process_name, event.pid, nodes)
             times = held.process.info.restarts
-            self._tell(f"{held.process.info.label} started{f' again ({times})' if times else ''}, pid {event.pid}")
+            self._report(f"{held.process.info.label} started{f' again ({times})' if times else ''}, pid {event.pid}")
             self._order(held, order)
             outcome = self._unanswered.pop(run, None)
         if outcome is not None:
@@ -271,7 +271,7 @@ class RosLauncher(ProcessVerbs):
         held = _Held(process, run, event.action, recipe(event, context))
         self._held[key] = self._by_action[event.action] = held
         if self._closed or run.ending:
-            process.told_to_end()
+            process.exit_requested()
         return held
 
     def _output(self, event: Any) -> None:
@@ -293,7 +293,7 @@ class RosLauncher(ProcessVerbs):
             held.usage = None
             bad = held.process.info.state is ProcessState.CRASHED or held.process.info.problem
             text = f"{held.process.info.label} ended, exit code {event.returncode}"
-            self._tell(text, Severity.ERROR if bad else Severity.INFO)
+            self._report(text, Severity.ERROR if bad else Severity.INFO)
             self._order(held, order)
 
     def _missing(self, run: LaunchRun, event: Any, context: LaunchContext) -> None:
@@ -303,7 +303,7 @@ class RosLauncher(ProcessVerbs):
             process = LaunchedProcess(key, label, run.tree.place(event.action, context))
             process.missing(event.reason)
             self._held[key] = _Held(process, run, None, Recipe([], label, {}, "", is_node=True, package=event.package))
-            self._tell(f"{label} is missing: {event.reason}", Severity.WARN)
+            self._report(f"{label} is missing: {event.reason}", Severity.WARN)
 
     def _over(self, action: Any) -> None:
         with self._lock:
@@ -317,21 +317,21 @@ class RosLauncher(ProcessVerbs):
             before = held.process.info
             order = held.process.over(why)
             if held.process.info is not before:
-                self._tell(f"{before.label}: {held.process.info.problem or 'has ended'}")
+                self._report(f"{before.label}: {held.process.info.problem or 'has ended'}")
             self._order(held, order)
 
     def _ending(self, run: LaunchRun, reason: str) -> None:
         with self._lock:
             if reason not in ("", "idle"):
-                self._tell(f"{run.title} ends: {reason}")
+                self._report(f"{run.title} ends: {reason}")
             for held in self._held.values():
                 if held.run is run and held.process.alive:
-                    held.process.told_to_end()
+                    held.process.exit_requested()
 
     def _fault(self, error: Exception) -> None:
         self._printed(Severity.ERROR, "bot-console", f"the launch pane misses something: {error!r}")
 
-    def close(self, patience: float = 10.0) -> None:
+    def close(self, timeout_s: float = 10.0) -> None:
         """Shut all launches down and wait, at most so many seconds in total; then kill what still runs.
 
         A second call does nothing.
@@ -343,18 +343,18 @@ class RosLauncher(ProcessVerbs):
             runs = list(self._runs.items())
         for run, _ in runs:
             run.shut_down()
-        if _joined([thread for _, thread in runs], patience):
+        if _joined([thread for _, thread in runs], timeout_s):
             return
         with self._lock:
             for held in self._held.values():
                 if held.process.alive:
                     self._order(held, Order.KILL)
-        _joined([thread for _, thread in runs], KILLED_S)
+        _joined([thread for _, thread in runs], KILLED_TIMEOUT_S)
 
 
-def _joined(threads: Sequence[Joinable | None], patience: float) -> bool:
+def _joined(threads: Sequence[Joinable | None], timeout_s: float) -> bool:
     """Wait for these, at most so many seconds in total; return whether that was enough."""
-    deadline = time.monotonic() + patience
+    deadline = time.monotonic() + timeout_s
     for each in threads:
         if each is not None:
             each.join(max(0.0, deadline - time.monotonic()))
@@ -374,7 +374,7 @@ def _node_names(action: Any) -> tuple[str, ...]:
     name, namespace = action.expanded_node_name, getattr(action, "expanded_node_namespace", "")
     if not name or "<" in name:
         return ()
-    return (full_name("" if "<" in namespace else namespace, name),)
+    return (full_node_name("" if "<" in namespace else namespace, name),)
 
 
 def _full_node_name(action: Any) -> tuple[str, ...]:

@@ -36,7 +36,7 @@ class LaunchedProcess:
         self._starts = 0
         self._alive = False
         self._ran = False
-        self._told = False
+        self._reported = False
         self._again = False
         self._fault = self._stands = ""
         self._waiting: list[tuple[str, Future[Answer]]] = []
@@ -72,7 +72,7 @@ class LaunchedProcess:
         if self.info.state in ENDED:
             return self._start()
         self._again = True
-        return self._tell_to_end() if self.info.state is ProcessState.RUNNING else Order.NOTHING
+        return self._request_exit() if self.info.state is ProcessState.RUNNING else Order.NOTHING
 
     def _want_ended(self, verb: str) -> Order:
         if self._again:
@@ -80,33 +80,33 @@ class LaunchedProcess:
             done = "killed" if verb == "kill" else "stopped"
             self._settle(STARTS, Answer(False, f"{self.info.label} was {done} instead"))
         if verb == "kill" and self._alive:
-            self._tell_to_end()
+            self._request_exit()
             return Order.KILL
-        return Order.NOTHING if self.info.state is ProcessState.STOPPING else self._tell_to_end()
+        return Order.NOTHING if self.info.state is ProcessState.STOPPING else self._request_exit()
 
     def _start(self) -> Order:
-        self._again = self._told = self._ran = False
+        self._again = self._reported = self._ran = False
         self.info = replace(self.info, state=ProcessState.STARTING, problem="")
         return Order.START
 
-    def _tell_to_end(self) -> Order:
-        self.told_to_end()
+    def _request_exit(self) -> Order:
+        self.exit_requested()
         return Order.SHUT_DOWN
 
-    def told_to_end(self) -> None:
+    def exit_requested(self) -> None:
         """Take note that a person, or the end of its launch, has told it to end."""
         if self.info.state not in ENDED:
-            self._told = True
+            self._reported = True
             self.info = replace(self.info, state=ProcessState.STOPPING)
 
     def started(self, label: str, pid: int, nodes: tuple[str, ...] = ()) -> Order:
         """Take note that it runs, by itself or on request; launch may change its label each time."""
         restarts, self._starts, self._alive = self._starts, self._starts + 1, True
         self._ran, self._stands = True, ""
-        state = ProcessState.STOPPING if self._told else ProcessState.RUNNING
+        state = ProcessState.STOPPING if self._reported else ProcessState.RUNNING
         nodes = nodes or self.info.nodes
         self.info = replace(self.info, label=label, state=state, pid=pid, nodes=nodes, restarts=restarts, problem="")
-        if self._told:
+        if self._reported:
             return Order.SHUT_DOWN
         self._settle(STARTS, Answer(True, f"{self.info.label} runs, pid {pid}"))
         return Order.NOTHING
@@ -124,7 +124,7 @@ class LaunchedProcess:
             return self._end()
         if any(verb == "stop" for verb, _ in self._waiting):
             return Order.NOTHING  # it ended by itself just before; launch is told already not to start it again
-        self._told = False
+        self._reported = False
         why = f"{self._why(code)}; launch starts it again" if code else ""
         self.info = replace(self.info, state=ProcessState.STARTING, problem=why)
         self._settle(("stop", "kill"), Answer(True, f"{self.info.label} has ended, and launch starts it again"))
@@ -134,7 +134,7 @@ class LaunchedProcess:
         """Take note that launch will not start it again; `why` says what went wrong if it never ran."""
         if self._alive or self.info.state in ENDED:
             return Order.NOTHING
-        if not self._ran and not self._told:
+        if not self._ran and not self._reported:
             problem = why or "it did not start; the log says why"
             self.info = replace(self.info, state=ProcessState.CRASHED, problem=problem)
             self._again = False
@@ -144,7 +144,7 @@ class LaunchedProcess:
     def _end(self) -> Order:
         code = self.info.exit_code if self._ran else None
         if self.info.state not in ENDED:
-            fine = code is None or (code in INTERRUPTED if self._told else code == 0)
+            fine = code is None or (code in INTERRUPTED if self._reported else code == 0)
             state = ProcessState.EXITED if fine else ProcessState.CRASHED
             self.info = replace(self.info, state=state, problem="" if fine else self._why(code or 0))
         ended = "" if code is None else f", exit code {code}"

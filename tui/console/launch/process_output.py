@@ -28,11 +28,11 @@ LEVELS = {"DEBUG": 10, "INFO": 20, "WARN": 30, "ERROR": 40, "FATAL": 50}
 COLOUR = r"(?:\x1b\[[0-9;]*m)?"
 _BEGIN = re.compile(COLOUR + BEGIN)
 _END = re.compile(f"{END}{COLOUR}\r?\n")
-LONGEST = 1 << 20
+MAX_RECORD_CHARACTERS = 1 << 20
 """Letters that wait for the end of a line or record; a program may print without ever ending one."""
-LARGEST = 2**63 - 1
+MAX_TIME_NS = 2**63 - 1
 """The latest time, in ns since the epoch, that a column of the log holds."""
-PATIENCE_S = 2.0
+ROSOUT_TIMEOUT_S = 2.0
 """How long (s) a line waits for `/rosout` to bring the first line of its logger."""
 
 Add = Callable[[int, int, str, str, tuple[str, str, int]], None]
@@ -112,7 +112,7 @@ class Undecided:
     def wait(self, record: Record) -> None:
         """Take a line, unless `/rosout` has that logger's lines anyway."""
         if not self._heard(record[2]):
-            self._waiting.append((self._now() + PATIENCE_S, record))
+            self._waiting.append((self._now() + ROSOUT_TIMEOUT_S, record))
         self.settle()
 
     def settle(self, *, ended: bool = False) -> None:
@@ -135,7 +135,7 @@ class OutputReader:
     def feed(self, text: str) -> None:
         """Take the next piece; an unfinished line or record waits for its end, unless it is very long."""
         self._take(self._rest + text)
-        if len(self._rest) > LONGEST:
+        if len(self._rest) > MAX_RECORD_CHARACTERS:
             rest, self._rest = self._rest, ""
             self._printed(rest)
 
@@ -182,4 +182,4 @@ class OutputReader:
 
 def _is_number(text: str) -> bool:
     """Whether it is an integer that fits a column of the log; a node may print anything as a mark."""
-    return text.isascii() and text.isdecimal() and len(text) <= len(str(LARGEST)) and int(text) <= LARGEST
+    return text.isascii() and text.isdecimal() and len(text) <= len(str(MAX_TIME_NS)) and int(text) <= MAX_TIME_NS

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from bot_console.tui.console.launch.delayed import delayed_starts
+from bot_console.tui.console.launch.delayed_starts import delayed_starts
 from bot_console.tui.console.launch.fault import fault_text
 from bot_console.tui.console.launch.tree import LaunchTree
 
@@ -122,7 +122,7 @@ class LaunchRun:
 
         from launch import EventHandler
 
-        def harmless(hear: Callable[[Any, Any], None]) -> Callable[..., None]:
+        def sanitize(hear: Callable[[Any, Any], None]) -> Callable[..., None]:
             def handle(event: Any, context: Any = None) -> None:
                 try:
                     hear(event, context)
@@ -134,34 +134,34 @@ class LaunchRun:
         def is_include(action: Any) -> bool:
             return isinstance(action, IncludeLaunchDescription)
 
-        printed = harmless(lambda event, context: heard.printed(event))
+        printed = sanitize(lambda event, context: heard.printed(event))
         includes = OnExecutionComplete(
             target_action=is_include,
-            on_completion=harmless(lambda event, context: self.tree.included(event.action)),
+            on_completion=sanitize(lambda event, context: self.tree.included(event.action)),
         )
-        missing = harmless(lambda event, context: heard.missing(self, event, context))
+        missing = sanitize(lambda event, context: heard.missing(self, event, context))
 
-        def tell_missing(context: Any) -> None:
+        def report_missing(context: Any) -> None:
             missing(context.locals.event, context)
 
         handlers = (
             includes,
             EventHandler(
                 matcher=lambda event: event.name == MISSING,
-                entities=[OpaqueFunction(function=tell_missing)],
+                entities=[OpaqueFunction(function=report_missing)],
             ),
-            OnProcessStart(on_start=harmless(self._started)),
+            OnProcessStart(on_start=sanitize(self._started)),
             OnProcessIO(on_stdout=printed, on_stderr=printed),
-            OnProcessExit(on_exit=harmless(lambda event, context: heard.exited(event))),
-            OnShutdown(on_shutdown=harmless(self._ends)),
+            OnProcessExit(on_exit=sanitize(lambda event, context: heard.exited(event))),
+            OnShutdown(on_shutdown=sanitize(self._ends)),
         )
         return [RegisterEventHandler(each) for each in handlers]
 
     def _started(self, event: ProcessStarted, context: LaunchContext) -> None:
-        self._tell_when_over(event.action)
+        self._report_when_over(event.action)
         self._listener.started(self, event, context)
 
-    def _tell_when_over(self, action: Any) -> None:
+    def _report_when_over(self, action: Any) -> None:
         def over(future: Any) -> None:
             self._listener.over(action)
 
@@ -197,10 +197,10 @@ class LaunchRun:
 
     def _guarded(self, make: Callable[[], Any], failed: Callable[[str], None]) -> Any:
         """Wrap a process so that its failure to start does not end the launch."""
-        from bot_console.tui.console.launch.guarded import GuardedStart
+        from bot_console.tui.console.launch.guarded_start import GuardedStart
         from launch.actions import GroupAction
 
-        start = GuardedStart(make, self._tell_when_over, failed)
+        start = GuardedStart(make, self._report_when_over, failed)
         return GroupAction([start], scoped=True, forwarding=False)
 
     def emit(self, event: Any) -> None:

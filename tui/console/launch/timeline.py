@@ -7,17 +7,17 @@ from collections import deque
 
 from bot_console.tui.console.model import LaunchEvent, Severity
 
-KEPT = 500
+MAX_EVENTS = 500
 
 
 class LaunchTimeline:
     """Launch events, numbered from 0; the oldest are dropped."""
 
     def __init__(self) -> None:
-        self._events: deque[LaunchEvent] = deque(maxlen=KEPT)
+        self._events: deque[LaunchEvent] = deque(maxlen=MAX_EVENTS)
         self._count = 0
 
-    def tell(self, text: str, severity: Severity = Severity.INFO) -> None:
+    def report(self, text: str, severity: Severity = Severity.INFO) -> None:
         """Add an event that happens now."""
         self._events.append(LaunchEvent(self._count, time.time_ns(), text, severity))
         self._count += 1

@@ -16,7 +16,7 @@ def title_of(path: str, arguments: Mapping[str, str]) -> str:
     return Path(arguments.get("program", name)).name if name == PROGRAM else name
 
 
-def line_of(path: str, arguments: Mapping[str, str]) -> str:
+def argument_line(path: str, arguments: Mapping[str, str]) -> str:
     """The request as a person would repeat it: a launch file with its arguments, or a program."""
     if Path(path).name == PROGRAM and "program" in arguments:
         words = (arguments.get(each, "") for each in ("package", "program", "words"))

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol, TypeAlias
 
-PERIOD = 1.0
+CPU_POLL_S = 1.0
 """Seconds over which a processor share is measured."""
 
 
-STATE_PERIOD = 0.5
+STATE_POLL_S = 0.5
 """Seconds between two looks at whether it is frozen, or hangs."""
 
 
@@ -68,12 +68,12 @@ class Usage:
         self.busy_s = 0.0
         """How long (s) it has not waited for anything but a processor."""
 
-    def look(self, now: float) -> None:
+    def poll(self, now: float) -> None:
         """Measure if it is due; the argument is a steady time (s)."""
-        if now - self._asked >= STATE_PERIOD:
+        if now - self._asked >= STATE_POLL_S:
             self._asked, self.stands = now, self._why_it_stands()
         passed = now - self._at
-        if passed < PERIOD:
+        if passed < CPU_POLL_S:
             return
         used, wanted = self._vitals.cpu_seconds(), self._vitals.wanted_seconds()
         self.share = _share(self._used, used, passed)

@@ -13,7 +13,7 @@ Message = Mapping[str, Any]
 
 SPARE_BYTES = 4 << 20
 """What may wait for a reader before messages that can be spared are dropped, and counted."""
-MOST_BYTES = 64 << 20
+MAX_MESSAGE_BYTES = 64 << 20
 """What may wait at all: a reader that lets more come together is given up."""
 
 
@@ -49,21 +49,21 @@ class Channel:
             if spare and self._bytes > SPARE_BYTES:
                 self._dropped += 1
                 return
-            if self._bytes > MOST_BYTES:
+            if self._bytes > MAX_MESSAGE_BYTES:
                 self._shut()
                 return
             if self._dropped:
-                told = json.dumps({"dropped": self._dropped}).encode() + b"\n"
+                reported = json.dumps({"dropped": self._dropped}).encode() + b"\n"
                 self._dropped = 0
-                line = told + line
+                line = reported + line
             self._waiting.append(line)
             self._bytes += len(line)
             self._news.notify()
 
-    def close(self, patience: float = 1.0) -> None:
+    def close(self, timeout_s: float = 1.0) -> None:
         """Write what is queued, for at most so many seconds, then disconnect; a second call does nothing."""
         with self._news:
-            self._news.wait_for(lambda: self._closed or not self._bytes, patience)
+            self._news.wait_for(lambda: self._closed or not self._bytes, timeout_s)
             self._shut()
 
     def _shut(self) -> None:

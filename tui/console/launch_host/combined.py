@@ -32,7 +32,7 @@ class OtherHosts:
     returned.
     """
 
-    doors: Callable[[], Sequence[str]]
+    addresses: Callable[[], Sequence[str]]
     enter: Callable[[str], HostedLauncher | None]
     ready: Callable[[], object] = lambda: None
 
@@ -61,29 +61,31 @@ class CombinedLauncher(ProcessVerbs):
     def _search(self, others: OtherHosts) -> None:
         others.ready()
         while not self._over.is_set():
-            for door in others.doors():
-                if not self._is_known(door) and (launcher := others.enter(door)) is not None:
-                    self._add_other(door, launcher)
+            for address in others.addresses():
+                if not self._is_known(address) and (launcher := others.enter(address)) is not None:
+                    self._add_other(address, launcher)
             self._over.wait(HOSTS_POLL_S)
 
-    def _is_known(self, door: str) -> bool:
-        return door in self._others or door in self._own
+    def _is_known(self, address: str) -> bool:
+        return address in self._others or address in self._own
 
-    def _add_other(self, door: str, launcher: HostedLauncher) -> None:
+    def _add_other(self, address: str, launcher: HostedLauncher) -> None:
         with self._lock:
-            if not self._over.is_set() and not self._is_known(door):
-                self._others[door] = launcher
+            if not self._over.is_set() and not self._is_known(address):
+                self._others[address] = launcher
                 return
         launcher.close()
 
     def info(self) -> LaunchInfo:
         """The state of all of them; the same object until something changes."""
         with self._lock:
-            gone = [door for door, each in self._others.items() if each.is_gone]
-            for door in gone:
-                number = door.rpartition("/")[2].partition(".")[0]
-                self._merged.forget(door, f"the launch host {number} has gone: what it had started has ended with it")
-                del self._others[door]
+            gone = [address for address, each in self._others.items() if each.is_gone]
+            for address in gone:
+                number = address.rpartition("/")[2].partition(".")[0]
+                self._merged.forget(
+                    address, f"the launch host {number} has gone: what it had started has ended with it"
+                )
+                del self._others[address]
             return self._merged.of({name: each.info() for name, each in (*self._others.items(), *self._own.items())})
 
     def _free(self, *, use: bool) -> HostedLauncher | None:

@@ -13,15 +13,15 @@ from typing import Any, Protocol
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.launch_host.channel import Channel, Message
-from bot_console.tui.console.launch_host.plain import of_arguments, of_info
+from bot_console.tui.console.launch_host.plain_data import of_arguments, of_info
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo
 from bot_console.tui.console.recording import Keeper
 
-LOOK_S = 0.1
+LAUNCHER_POLL_S = 0.1
 """Seconds between two looks at what has changed."""
-LINES_KEPT = 1000
+MAX_LINES = 1000
 """Lines of output that a console which comes later is given."""
-FACTS_KEPT = 10_000
+MAX_FACTS = 10_000
 """Facts, of a declared parameter each, that such a console is given."""
 
 Printed = Callable[[int, str, str], None]
@@ -78,15 +78,15 @@ class LaunchHost:
         self._buffer = buffer
         self._lock = threading.RLock()
         self._consoles: list[_Console] = []
-        self._lines: deque[Message] = deque(maxlen=LINES_KEPT)
-        self._facts: deque[Message] = deque(maxlen=FACTS_KEPT)
+        self._lines: deque[Message] = deque(maxlen=MAX_LINES)
+        self._facts: deque[Message] = deque(maxlen=MAX_FACTS)
         self.over = threading.Event()
         """Set when everything was ended: because a console asked for it, or the one that owns this host has gone."""
         self._replies: deque[tuple[_Console, Message]] = deque()
         self._wake = threading.Event()
         self._ended = False
         self._service = make(self._record, self.printed)
-        threading.Thread(target=self._look, name="look", daemon=True).start()
+        threading.Thread(target=self._poll, name="look", daemon=True).start()
 
     def connect(self, connection: socket.socket, *, owner: bool = False) -> None:
         """Serve one more console; when an owner disconnects, everything ends."""
@@ -104,7 +104,7 @@ class LaunchHost:
 
     def printed(self, severity: int, name: str, text: str) -> None:
         """Send a line to all consoles."""
-        self._also_told(severity, name, text)
+        self._also_notified(severity, name, text)
         self._line({"printed": [severity, name, text]})
 
     def learn(self, kind: str, facts: Mapping[str, Any]) -> None:
@@ -113,10 +113,10 @@ class LaunchHost:
 
     def noticed(self, severity: int, name: str, text: str) -> None:
         """Send a notice about a process, which a flood of its lines cannot displace."""
-        self._also_told(severity, name, text)
+        self._also_notified(severity, name, text)
         self._pass_on({"printed": [severity, name, text]}, self._facts, spare=False)
 
-    def _also_told(self, severity: int, name: str, text: str) -> None:
+    def _also_notified(self, severity: int, name: str, text: str) -> None:
         if self._also is not None:
             self._also(severity, name, text)
 
@@ -129,23 +129,23 @@ class LaunchHost:
             for each in self._consoles:
                 each.channel.send(message, spare=spare)
 
-    def _look(self) -> None:
+    def _poll(self) -> None:
         """Send what is new; serialized by a lock, or an older state might follow a newer one."""
         while not self.over.is_set():
-            self._wake.wait(LOOK_S)
+            self._wake.wait(LAUNCHER_POLL_S)
             self._wake.clear()
             ended = self._ended
             replies = [self._replies.popleft() for _ in range(len(self._replies))]
             info = self._service.info()  # newer than the replies: who has an answer knows what it speaks of
             with self._lock:
                 for each in self._consoles:
-                    self._tell(each, info)
+                    self._report(each, info)
             for console, message in replies:
                 console.channel.send(message)
             if ended:
                 self.over.set()
 
-    def _tell(self, console: _Console, info: LaunchInfo) -> None:
+    def _report(self, console: _Console, info: LaunchInfo) -> None:
         if info is not console.known:
             console.channel.send({"info": of_info(info, console.next_event)})
             console.known = info

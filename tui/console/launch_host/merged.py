@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from bot_console.tui.console.launch.timeline import KEPT
+from bot_console.tui.console.launch.timeline import MAX_EVENTS
 from bot_console.tui.console.model import LaunchEvent, LaunchInfo, ProcessInfo
 
 SEPARATOR = "|"
@@ -51,7 +51,7 @@ class MergedInfo:
     def _add(self, events: Sequence[LaunchEvent]) -> None:
         first = self._info.timeline[-1].seq + 1 if self._info.timeline else 0
         numbered = (replace(each, seq=first + at) for at, each in enumerate(events))
-        self._info = replace(self._info, timeline=(*self._info.timeline, *numbered)[-KEPT:])
+        self._info = replace(self._info, timeline=(*self._info.timeline, *numbered)[-MAX_EVENTS:])
 
 
 def _keyed(name: str, process: ProcessInfo) -> ProcessInfo:

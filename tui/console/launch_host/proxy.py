@@ -17,18 +17,18 @@ from bot_console.tui.console.launch.launcher import CLOSED
 from bot_console.tui.console.launch.process import ENDED
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.launch.process_verbs import ProcessVerbs
-from bot_console.tui.console.launch.timeline import KEPT
+from bot_console.tui.console.launch.timeline import MAX_EVENTS
 from bot_console.tui.console.launch_host.channel import Channel, Message
-from bot_console.tui.console.launch_host.plain import to_arguments, to_info
+from bot_console.tui.console.launch_host.plain_data import to_arguments, to_info
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessInfo, ProcessState, Severity
 from bot_console.tui.console.parameters.provenance import Learn
 
 GONE = "the launch host has ended, and with it all that it had started"
-LOOK_S = 0.5
+CONNECTION_POLL_S = 0.5
 """Seconds between two looks at whether the host hangs."""
-FILES_S = 2.0
+FILES_TIMEOUT_S = 2.0
 """Seconds after which a list of files that does not come is empty."""
-ARGUMENTS_S = 30.0
+ARGUMENTS_TIMEOUT_S = 30.0
 """Seconds that a launch file may take to say its arguments: it is a program."""
 
 
@@ -62,9 +62,9 @@ class HostedLauncher(ProcessVerbs):
         self._numbers = itertools.count(1)
         self._asked: dict[int, Future[Message]] = {}
         self._info = self._shown = LaunchInfo()
-        self._looked = 0.0
+        self._polled = 0.0
         self._hangs = ""
-        self._told: set[str] = set()
+        self._reported: set[str] = set()
         self._closed = False
         self._ends = False
         """Whether this console ends its host."""
@@ -79,13 +79,13 @@ class HostedLauncher(ProcessVerbs):
 
     def info(self) -> LaunchInfo:
         """What is known now; the same object until something changes."""
-        if (now := time.monotonic()) - self._looked >= LOOK_S:
-            self._looked = now
+        if (now := time.monotonic()) - self._polled >= CONNECTION_POLL_S:
+            self._polled = now
             before, self._hangs = self._hangs, "" if self._gone.is_set() else self._why_it_hangs()
             if self._hangs != before:
                 self._shown = replace(self._info, problem=self._hangs)
-                if self._hangs and self._hangs not in self._told:
-                    self._told.add(self._hangs)
+                if self._hangs and self._hangs not in self._reported:
+                    self._reported.add(self._hangs)
                     self._printed(Severity.WARN, "launch", self._hangs)
         return self._shown if self._hangs else self._info
 
@@ -100,9 +100,9 @@ class HostedLauncher(ProcessVerbs):
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
         """The arguments a launch file declares; raises `ValueError` when it cannot be read."""
         try:
-            message = self._ask("arguments", path).result(ARGUMENTS_S)
+            message = self._ask("arguments", path).result(ARGUMENTS_TIMEOUT_S)
         except TooLate:
-            raise ValueError(f"{path} has not said its arguments for {ARGUMENTS_S:g} s") from None
+            raise ValueError(f"{path} has not said its arguments for {ARGUMENTS_TIMEOUT_S:g} s") from None
         if "error" in message:
             raise ValueError(message["error"])
         return to_arguments(message["value"])
@@ -110,11 +110,11 @@ class HostedLauncher(ProcessVerbs):
     def files(self) -> Sequence[str]:
         """Launch files of the host's workspace."""
         try:
-            return tuple(self._ask("files").result(FILES_S).get("value", ()))
+            return tuple(self._ask("files").result(FILES_TIMEOUT_S).get("value", ()))
         except TooLate:
             return ()
 
-    def close(self, patience: float = 12.0) -> None:
+    def close(self, timeout_s: float = 12.0) -> None:
         """Disconnect, within so many seconds; if this is the owner's, everything that runs ends."""
         with self._lock:
             if self._closed:
@@ -126,9 +126,9 @@ class HostedLauncher(ProcessVerbs):
         if self._owner and not hangs:
             ended = self._ask("close")
             try:
-                ended.result(patience)
+                ended.result(timeout_s)
             except TooLate:
-                self._printed(Severity.WARN, "launch", f"the launch host has not ended within {patience:g} s")
+                self._printed(Severity.WARN, "launch", f"the launch host has not ended within {timeout_s:g} s")
         with self._lock:
             self._closed = True
         self._channel.close()
@@ -162,7 +162,7 @@ class HostedLauncher(ProcessVerbs):
 
     def _received(self, message: Message) -> None:
         if "info" in message:
-            self._info = to_info(message["info"], self._info, KEPT)
+            self._info = to_info(message["info"], self._info, MAX_EVENTS)
         elif "record" in message:
             stamp, severity, name, text, site = message["record"]
             self._record(stamp, severity, name, text, (site[0], site[1], site[2]))

@@ -15,7 +15,7 @@ from bot_console.tui.console.logs.view import LogViews
 from bot_console.tui.console.model import LogFilter, LogRecord, LogState
 from bot_console.tui.files.save_file import NotSaved, typed_path
 
-PERIOD = 0.25
+FILE_POLL_S = 0.25
 """Seconds between two looks whether the file has grown."""
 AT_ONCE = 1 << 18
 """Bytes that are read at once: others get the processor in between."""
@@ -37,7 +37,7 @@ class LogFile:
     def _read(self) -> None:
         while not self._closed.is_set():
             if not self.take_in():
-                self._closed.wait(PERIOD)
+                self._closed.wait(FILE_POLL_S)
         self._tail.close()
 
     def take_in(self) -> bool:

@@ -48,8 +48,10 @@ class LoggerLevels:
         except NoAnswer:
             return Answer(False, f"{node} {NONE_OFFERED}")
         result = answer.results[0]
-        says = f"{level.name} logs {severity.name} and worse" if severity else f"{level.name} logs as its parent does"
-        return Answer(result.successful, result.reason or says)
+        message_of = (
+            f"{level.name} logs {severity.name} and worse" if severity else f"{level.name} logs as its parent does"
+        )
+        return Answer(result.successful, result.reason or message_of)
 
 
 def logger_of(node: str) -> str:

@@ -50,7 +50,9 @@ def _engine(written: str, body: str, literal: bool) -> Engine:
 
 
 def _escaped(text: str) -> str:
-    return "".join(letter if letter.isalnum() or not letter.isascii() else "\\" + letter for letter in text)
+    return "".join(
+        character if character.isalnum() or not character.isascii() else "\\" + character for character in text
+    )
 
 
 class WordEngine:

@@ -21,7 +21,7 @@ _HEADS = (
     ),
     re.compile(rf"(?P<time>\d{{1,10}}\.\d{{1,9}}) \[(?P<level>{_LEVEL}|WARNING)\] \[(?P<node>[^\]]*)\]:? ?"),
 )
-LONGEST = 1 << 16
+MAX_LINE_CHARACTERS = 1 << 16
 """Letters of one record; more of it begins another."""
 LATEST = 2**63 - 1
 """The last moment that a column of the log holds, in ns since the epoch."""
@@ -50,7 +50,7 @@ class SavedLines:
                 level = Severity.WARN if found["level"] == "WARNING" else Severity[found["level"]]
                 self._head = (_stamp(found["time"]), level, found["node"])
                 line = line[found.end() :]
-            elif self._length + len(line) > LONGEST:
+            elif self._length + len(line) > MAX_LINE_CHARACTERS:
                 self.settle()
             self._texts.append(line)
             self._length += len(line)

@@ -54,22 +54,25 @@ class _Words:
         self._levels[levels] = True
         self._least = levels[0] if levels and levels == [each for each in Severity if each >= levels[0]] else None
         """The severity from which on all pass, where it is as simple as that: a comparison is cheaper than a table."""
-        self._nodes = [(_Judged(store.names, each.stands_in), each.exclude) for each in query.nodes]
+        self._nodes = [(_TestResults(store.names, each.stands_in), each.exclude) for each in query.nodes]
         self._places = [
-            (_Judged(store.sites, lambda site, term=each: term.stands_in(*site)), each.exclude) for each in query.places
+            (_TestResults(store.sites, lambda site, term=each: term.stands_in(*site)), each.exclude)
+            for each in query.places
         ]
         self._spans = query.spans
-        self._texts = [(each, _Judged(store.names, each.name.stands_in) if each.name else None) for each in query.texts]
+        self._texts = [
+            (each, _TestResults(store.names, each.name.stands_in) if each.name else None) for each in query.texts
+        ]
 
     def holding(self, segment: LogSegment, begin: int, end: int) -> Mask:
         """For each record among indices `begin` to `end` - 1 of a segment, whether it matches."""
         severity = segment.severity[begin:end]
         mask = self._levels[severity] if self._least is None else severity >= self._least
         nodes = segment.node[begin:end]
-        for judged, exclude in self._nodes:
-            mask &= judged.of(nodes) != exclude
-        for judged, exclude in self._places:
-            mask &= judged.of(segment.site[begin:end]) != exclude
+        for result, exclude in self._nodes:
+            mask &= result.of(nodes) != exclude
+        for result, exclude in self._places:
+            mask &= result.of(segment.site[begin:end]) != exclude
         for term in self._spans:
             mask &= _within(term.span, segment.stamp[begin:end]) != term.exclude
         if self._texts and mask.any():
@@ -82,7 +85,7 @@ class _Words:
         return mask
 
 
-class _Judged(Generic[T]):
+class _TestResults(Generic[T]):
     """The results of a test on the items of a table, each tested once."""
 
     def __init__(self, table: Table[T], test: Callable[[T], bool]) -> None:

@@ -85,7 +85,7 @@ class LogStore:
 
     def __init__(self, capacity: int = CAPACITY) -> None:
         self._size = max(1, min(SEGMENT, capacity // 2))
-        self._most = max(2, capacity // self._size)
+        self._maximum = max(2, capacity // self._size)
         self.segments: tuple[LogSegment, ...] = (LogSegment(0, self._size),)
         self.names: Table[str] = Table()
         self.sites: Table[Site] = Table()
@@ -117,7 +117,7 @@ class LogStore:
 
     def _roll(self) -> LogSegment:
         kept = self.segments
-        if len(kept) == self._most:
+        if len(kept) == self._maximum:
             self._dropped += kept[0].count
             kept = kept[1:]
         new = LogSegment(self.segments[-1].first + self.segments[-1].count, self._size)

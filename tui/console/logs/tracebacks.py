@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
-from bot_console.tui.console.user_code import is_library
+from bot_console.tui.console.user_code import is_library_file
 
 TRACEBACK = "Traceback (most recent call last):"
 LINKS = {
@@ -20,7 +20,7 @@ _CARETS = re.compile(r"\s+[\^~\s]+$")
 
 
 @dataclass(frozen=True)
-class Frame:
+class TracebackFrame:
     """One call of a traceback, with its source line if that was printed."""
 
     file: str
@@ -44,9 +44,9 @@ class Traceback:
         self.frames = tuple(_frames(lines[1:-1]))
 
     @property
-    def own(self) -> Frame | None:
+    def own(self) -> TracebackFrame | None:
         """The innermost frame outside the runtime and libraries."""
-        return next((each for each in reversed(self.frames) if not is_library(each.file)), None)
+        return next((each for each in reversed(self.frames) if not is_library_file(each.file)), None)
 
     @property
     def reason(self) -> str:
@@ -56,7 +56,7 @@ class Traceback:
     def text(self) -> str:
         """The exception, then the frames, innermost first; library frames are folded unless there are no others."""
         lines = [self.exception, *([f"  {self._link}"] if self._link else [])]
-        for library, group in groupby(reversed(self.frames), lambda each: is_library(each.file)):
+        for library, group in groupby(reversed(self.frames), lambda each: is_library_file(each.file)):
             frames = list(group)
             if library and self.own:
                 lines.append(f"  ({len(frames)} {'call' if len(frames) == 1 else 'calls'} in libraries)")
@@ -71,13 +71,13 @@ def _name(file: str) -> str:
     return re.split(r"[/\\]", file)[-1]
 
 
-def _frames(lines: Sequence[str]) -> Iterator[Frame]:
+def _frames(lines: Sequence[str]) -> Iterator[TracebackFrame]:
     for index, text in enumerate(lines):
         found = _FRAME.match(text)
         if found:
             after = lines[index + 1] if index + 1 < len(lines) else ""
             source = after.strip() if after.startswith("    ") and not _CARETS.match(after) else ""
-            yield Frame(found["file"], int(found["line"]), found["function"] or "<module>", source)
+            yield TracebackFrame(found["file"], int(found["line"]), found["function"] or "<module>", source)
 
 
 class Printed:

@@ -24,7 +24,7 @@ BUDGET_S = 5.0
 
 
 @dataclass(frozen=True, slots=True)
-class Found(LogFindings):
+class SearchResult(LogFindings):
     """Findings whose numbers can be joined to others."""
 
     numbers: Numbers | Folded
@@ -40,13 +40,13 @@ class SearchedView:
         self._spent = 0.0
         self._search: LogSearch | None = None
         self._folds = which.folded
-        self._found: Found = Found(Folded() if which.folded else Numbers(), end, end)
+        self._found: SearchResult = SearchResult(Folded() if which.folded else Numbers(), end, end)
         try:
             self._search = LogSearch(store, which)
         except ValueError as error:
             self._found = replace(self._found, problem=str(error), complete=True)
 
-    def look(self) -> Found:
+    def poll(self) -> SearchResult:
         """What has been found so far; the same object until there is more."""
         self._wake()
         return self._found
@@ -71,11 +71,11 @@ class SearchedView:
         if not new.complete:
             self._spent += time.thread_time() - started
             if self._spent > BUDGET_S:
-                looked = f"only the newest {new.end - new.begin} lines were searched"
-                self._found = replace(new, complete=True, problem=f"this filter is too costly: {looked}")
+                polled = f"only the newest {new.end - new.begin} lines were searched"
+                self._found = replace(new, complete=True, problem=f"this filter is too costly: {polled}")
         return True
 
-    def _newer(self, search: LogSearch, found: Found) -> Found | None:
+    def _newer(self, search: LogSearch, found: SearchResult) -> SearchResult | None:
         for segment in self._store.segments:
             count = segment.count
             if segment.first <= found.end < segment.first + count:
@@ -84,7 +84,7 @@ class SearchedView:
                 return replace(found, numbers=joined, end=segment.first + count)
         return None
 
-    def _older(self, search: LogSearch, found: Found) -> Found:
+    def _older(self, search: LogSearch, found: SearchResult) -> SearchResult:
         for segment in reversed(self._store.segments):
             if segment.first < found.begin:
                 last = min(found.begin - segment.first, segment.count)

@@ -4,7 +4,7 @@ Standard library only. Times are integer nanoseconds, distances m, angles rad, s
 not changed since the last snapshot is the same object, so a pane redraws by comparing identity.
 """
 
-from bot_console.tui.console.model.changes import BEGUN_ANEW, Change, ChangeSource, JournalState, SetOutcome
+from bot_console.tui.console.model.changes import RESTARTED, Change, ChangeSource, JournalState, SetOutcome
 from bot_console.tui.console.model.graph import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.model.launch import LaunchArgument, LaunchEvent, LaunchInfo, ProcessInfo, ProcessState
 from bot_console.tui.console.model.logs import LogFilter, LoggerLevel, LogRecord, LogState, Severity
@@ -13,7 +13,7 @@ from bot_console.tui.console.model.profiles import Profile, ProfileDifference
 from bot_console.tui.console.model.snapshot import Capabilities, ConsoleSnapshot, LinkInfo
 
 __all__ = [
-    "BEGUN_ANEW",
+    "RESTARTED",
     "Capabilities",
     "Change",
     "ChangeSource",

@@ -21,7 +21,7 @@ class ChangeSource(str, Enum):
     OTHER = "elsewhere"
 
 
-BEGUN_ANEW = "the node came back with it"
+RESTARTED = "the node came back with it"
 """`Change.by` of a value that nobody has set: its node has begun again with another one than it had."""
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import TypeAlias
 
-from bot_console.tui.console.parameters.unit import unit_of
+from bot_console.tui.console.parameters.unit import unit_in_description
 
 Value: TypeAlias = "bool | int | float | str | tuple[bool | int | float | str | bytes, ...] | None"
 """A parameter's value; arrays are tuples, None is NOT_SET."""
@@ -74,7 +74,7 @@ class ParameterInfo:
     @property
     def unit(self) -> str:
         """The unit that ends the description in parentheses, such as `m/s`; else empty."""
-        return unit_of(self.description)
+        return unit_in_description(self.description)
 
     @property
     def changed(self) -> bool:

@@ -12,7 +12,7 @@ EACH = 20
 
 
 @dataclass(frozen=True, slots=True)
-class Wish:
+class ParameterRequest:
     """A requested value: its source, and the operation it was part of."""
 
     node: str
@@ -26,23 +26,23 @@ class Expected:
     """The requests that have not been announced yet."""
 
     def __init__(self) -> None:
-        self._wishes: dict[tuple[str, str], deque[Wish]] = {}
+        self._requests: dict[tuple[str, str], deque[ParameterRequest]] = {}
 
-    def add(self, wish: Wish) -> None:
+    def add(self, request: ParameterRequest) -> None:
         """Add a request."""
-        self._wishes.setdefault((wish.node, wish.name), deque(maxlen=EACH)).append(wish)
+        self._requests.setdefault((request.node, request.name), deque(maxlen=EACH)).append(request)
 
-    def announced(self, node: str, name: str, value: Value) -> Wish | None:
+    def announced(self, node: str, name: str, value: Value) -> ParameterRequest | None:
         """The request that an event answers; None if nobody here made one."""
-        found = next((each for each in self._wishes.get((node, name), ()) if each.value == value), None)
+        found = next((each for each in self._requests.get((node, name), ()) if each.value == value), None)
         if found:
             self.forget(found)
         return found
 
-    def forget(self, wish: Wish) -> None:
+    def forget(self, request: ParameterRequest) -> None:
         """Remove a request that was refused or answered."""
-        wishes = self._wishes.get((wish.node, wish.name))
-        if wishes and wish in wishes:
-            wishes.remove(wish)
-            if not wishes:
-                del self._wishes[wish.node, wish.name]
+        requests = self._requests.get((request.node, request.name))
+        if requests and request in requests:
+            requests.remove(request)
+            if not requests:
+                del self._requests[request.node, request.name]

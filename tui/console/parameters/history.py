@@ -18,7 +18,7 @@ ROWS = 20_000
 """Rows that are kept; the oldest go."""
 TRIMMED_EVERY = 500
 """Rows after which the table is cut to its bound."""
-PATIENCE_S = 0.5
+TIMEOUT_S = 0.5
 """Seconds for which a console waits for another one that writes to the same file."""
 SAME = 2_000_000_000
 """Nanoseconds within which the consoles of one system see the same change."""
@@ -81,17 +81,17 @@ class History:
             if isinstance(error, sqlite3.OperationalError):
                 self.problem = f"changes are not kept: {self._file}: {error}"
                 return
-            self._begin_anew()
+            self._restart()
         except OSError as error:
             self.problem = f"changes are not kept: {self._file}: {error.strerror}"
 
-    def _begin_anew(self) -> None:
+    def _restart(self) -> None:
         """Set aside a file that is not a database, so that nothing of it is lost, and start a new one.
 
         Of several consoles that find the same file, one does so; the others use the new one.
         """
         try:
-            with folder_lock(self._file.parent, PATIENCE_S) as locked:
+            with folder_lock(self._file.parent, TIMEOUT_S) as locked:
                 self.problem = self._replaced() if locked else "changes are not kept: another console repairs the file"
         except (OSError, sqlite3.Error) as error:
             self.problem = f"changes are not kept: {self._file}: {error}"
@@ -137,7 +137,7 @@ class History:
         self._added = 0
         link.execute("DELETE FROM changes WHERE number <= (SELECT MAX(number) FROM changes) - ?", (self._rows,))
 
-    def earlier(self, most: int) -> Sequence[Change]:
+    def earlier(self, maximum: int) -> Sequence[Change]:
         """The newest changes of other runs, oldest first, numbered up to -1; rows that cannot be read are left out.
 
         If two consoles saw the same change, the row of the one that made it stands for both.
@@ -148,7 +148,7 @@ class History:
             if self._link is None:
                 return ()
             try:
-                for row in self._link.execute(_EARLIER, (self._run, SAME, SAME, most)):
+                for row in self._link.execute(_EARLIER, (self._run, SAME, SAME, maximum)):
                     change = _change(-1 - len(found), row)
                     if change is None:
                         unreadable += 1
@@ -174,7 +174,7 @@ class History:
 
 def _opened(file: Path) -> sqlite3.Connection:
     """A connection whose commits survive the program being killed."""
-    link = sqlite3.connect(file, timeout=PATIENCE_S, check_same_thread=False)
+    link = sqlite3.connect(file, timeout=TIMEOUT_S, check_same_thread=False)
     try:
         # A write-ahead log is whole after a crash, and other consoles can read while one writes.
         link.execute("PRAGMA journal_mode = WAL")

@@ -141,14 +141,14 @@ class Journal:
             self._unsaved.saved(nodes)
             self._renew()
 
-    def begun_anew(self, node: str, name: str) -> None:
+    def restarted(self, node: str, name: str) -> None:
         """Take note that a node restarted with another value: earlier sets can be neither undone nor lost any more."""
         with self._lock:
             for steps in (self._undo, self._redo):
                 left = [each for each in (_without(step, node, name) for step in steps) if each.moves]
                 steps.clear()
                 steps.extend(left)
-            self._unsaved.begun_anew(node, name)
+            self._unsaved.restarted(node, name)
             self._renew()
 
     def after(self, seq: int) -> Sequence[Change]:

@@ -24,7 +24,7 @@ def faults(parameter: ParameterInfo) -> tuple[str, ...]:
     return tuple(found)
 
 
-MENDS = {
+HINTS = {
     NO_DESCRIPTION: "give declare_parameter a ParameterDescriptor(description=...)",
     "no range": "give the descriptor a floating_point_range or an integer_range, so that nonsense is refused",
     "no unit": "end the description with the unit in brackets, such as (m/s), or call the value a ratio or a share",

@@ -38,7 +38,7 @@ WINDOW = 16
 """Nodes that are read at the same time. Asked all at once, the nodes of a busy machine would all answer too late."""
 
 Changed = Callable[[str, str, Value, Value], ChangeSource]
-Anew = Callable[[str, str, Value, Value], object]
+OnRestart = Callable[[str, str, Value, Value], object]
 
 LEFT = 500
 """Nodes that have left whose values are kept, so that it is seen which are others when they come back."""
@@ -58,13 +58,13 @@ class ParameterMirror:
         calls: Calls,
         changed: Changed,
         provenance: Provenance | None = None,
-        anew: Anew = lambda node, name, old, new: None,
+        on_restart: OnRestart = lambda node, name, old, new: None,
     ) -> None:
         self._provenance = provenance or Provenance()
         self.trees: Mapping[str, ParameterTree] = MappingProxyType({})
         self._calls = calls
         self._changed = changed
-        self._anew = anew
+        self._on_restart = on_restart
         self._left: dict[str, ParameterTree] = {}
         self._copies: dict[str, int] = {}
         self._offering: set[str] = set()
@@ -72,7 +72,7 @@ class ParameterMirror:
         self._waiting: deque[tuple[Reading, str]] = deque()
         self._reading = 0
         node.create_subscription(ParameterEvent, "/parameter_events", self._on_event, qos_profile_parameter_events)
-        node.create_timer(RELIST, self._look_again)
+        node.create_timer(RELIST, self._poll_again)
 
     def get(self, node: str, name: str) -> ParameterInfo | None:
         """A parameter's last known state."""
@@ -143,7 +143,7 @@ class ParameterMirror:
         for each in tree.parameters:
             old = before.get(each.name) if before else None
             if old is not None and not same(old.value, each.value):
-                self._anew(each.node, each.name, old.value, each.value)
+                self._on_restart(each.node, each.name, old.value, each.value)
 
     async def _describe(self, node: str, names: Sequence[str]) -> list[ParameterInfo]:
         if not names:
@@ -172,11 +172,11 @@ class ParameterMirror:
         """Take in new facts about the origin of a node's values; in the thread that serves the node."""
         tree = self.trees.get(node)
         if tree is not None:
-            told = tuple(self._provenance.applied(each) for each in tree.parameters)
-            if told != tree.parameters:
-                self._publish({**self.trees, node: replace(tree, parameters=told)})
+            reported = tuple(self._provenance.applied(each) for each in tree.parameters)
+            if reported != tree.parameters:
+                self._publish({**self.trees, node: replace(tree, parameters=reported)})
 
-    def _look_again(self) -> None:
+    def _poll_again(self) -> None:
         if self._waiting:
             return  # who has not been read yet comes first
         for node in self.trees:
@@ -213,7 +213,7 @@ class ParameterMirror:
                 continue
             unknown = True  # its description may be another one, too: the program may have been changed and restarted
             if before is not None:
-                known[message.name] = self._begun_anew(before, message)
+                known[message.name] = self._restarted(before, message)
         for message in event.changed_parameters:
             before = known.get(message.name)
             if before is None:
@@ -235,11 +235,11 @@ class ParameterMirror:
             return before
         return replace(before, value=value, kind=kind, origin=origin_text(source, time.time_ns()))
 
-    def _begun_anew(self, before: ParameterInfo, message: Parameter) -> ParameterInfo:
+    def _restarted(self, before: ParameterInfo, message: Parameter) -> ParameterInfo:
         """Take in a parameter that is declared again: its node restarted before its absence was noticed."""
         value = from_message(message.value)
         if not same(value, before.value):
-            self._anew(before.node, before.name, before.value, value)
+            self._on_restart(before.node, before.name, before.value, value)
         kind = Kind(message.value.type) if message.value.type else before.kind
         first = replace(before, value=value, kind=kind, default=value, origin=START, declared_at="")
         return self._provenance.applied(first)

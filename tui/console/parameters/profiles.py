@@ -20,7 +20,7 @@ from bot_console.tui.text.yaml_faults import UNREADABLE, fault_of
 
 AT_RESET = "at reset"
 """A parameter whose description says so needs a reset of the world to take effect."""
-LARGEST = 4_000_000
+MAX_FILE_BYTES = 4_000_000
 """Bytes of a file that is looked into."""
 
 
@@ -49,7 +49,7 @@ def _named(profile: Profile, name: str) -> Profile:
 
 def _is_profile(path: Path) -> bool:
     try:
-        return KEYWORD in read_store(path, LARGEST).decode("utf-8-sig")
+        return KEYWORD in read_store(path, MAX_FILE_BYTES).decode("utf-8-sig")
     except (OSError, UnicodeDecodeError):
         return False
 
@@ -57,7 +57,7 @@ def _is_profile(path: Path) -> bool:
 def load(path: Path) -> Profile:
     """Read a ROS parameter file as a profile; its first comment line is the title."""
     try:
-        text = read_store(path, LARGEST).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+        text = read_store(path, MAX_FILE_BYTES).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
         title = next((line[1:].strip() for line in text.splitlines() if line.startswith("#")), "")
         launch = _launch_profile(path, title, text)
         if launch is not None:

@@ -89,10 +89,10 @@ class Provenance:
         return f"profile {profile}" if profile else f"parameter file {source}"
 
 
-def _value(told: Any) -> Value:
-    if not isinstance(told, list):
-        return told
+def _value(reported: Any) -> Value:
+    if not isinstance(reported, list):
+        return reported
     return tuple(
         bytes([cast("dict[str, int]", each)["byte"]]) if isinstance(each, dict) else each
-        for each in cast("list[Any]", told)
+        for each in cast("list[Any]", reported)
     )

@@ -75,7 +75,7 @@ def takes_safety(parameter: ParameterInfo, before: Value, after: Value) -> str:
     return ""
 
 
-def foretold(parameter: ParameterInfo) -> str:
+def risky_change(parameter: ParameterInfo) -> str:
     """Which change of a parameter would make the robot less safe, and how; empty when none would."""
     name = parameter.name.rpartition(".")[2]
     for rule in SWITCHES if isinstance(parameter.value, bool) else NUMBERS:

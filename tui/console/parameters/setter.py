@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.calls import Calls, NoAnswer
-from bot_console.tui.console.model import BEGUN_ANEW, ChangeSource, SetOutcome, Value
-from bot_console.tui.console.parameters.expected import Expected, Wish
+from bot_console.tui.console.model import RESTARTED, ChangeSource, SetOutcome, Value
+from bot_console.tui.console.parameters.expected import Expected, ParameterRequest
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.mirror import ParameterMirror
 from bot_console.tui.console.values import refusal, to_message
@@ -30,22 +30,22 @@ class ParameterSetter:
 
     def announced(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
         """Take in a parameter event, ours if it was expected, else a change made elsewhere; returns who made it."""
-        wish = self._expected.announced(node, name, new)
-        source = wish.source if wish else ChangeSource.OTHER
-        if old != new or wish:
-            self._journal.record(time.time_ns(), node, name, (old, new), source, by=wish.by if wish else "")
+        request = self._expected.announced(node, name, new)
+        source = request.source if request else ChangeSource.OTHER
+        if old != new or request:
+            self._journal.record(time.time_ns(), node, name, (old, new), source, by=request.by if request else "")
         return source
 
-    def begun_anew(self, node: str, name: str, old: Value, new: Value) -> None:
+    def restarted(self, node: str, name: str, old: Value, new: Value) -> None:
         """Take note that a node came back with another value: nobody has set that one."""
-        self._journal.record(time.time_ns(), node, name, (old, new), ChangeSource.OTHER, by=BEGUN_ANEW)
-        self._journal.begun_anew(node, name)
+        self._journal.record(time.time_ns(), node, name, (old, new), ChangeSource.OTHER, by=RESTARTED)
+        self._journal.restarted(node, name)
 
     async def set(
         self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool = False
     ) -> tuple[SetOutcome, ...]:
         """Set parameters of one node; never raises, every failure is an outcome. What is accepted can be undone."""
-        outcomes, move = await self._moved(_wishes(node, values, source), atomically=atomically)
+        outcomes, move = await self._moved(_requests(node, values, source), atomically=atomically)
         if move.after:
             self._journal.did(Step((move,)), source)
         return outcomes
@@ -78,14 +78,14 @@ class ParameterSetter:
         moves: list[Move] = []
         # ROS has no transaction over nodes. Who is going to refuse is asked first: nobody else has moved then.
         for node in sorted(wanted, key=lambda each: not self._will_refuse(each, wanted[each])):
-            found, move = await self._moved(_wishes(node, wanted[node], source, by), atomically=True)
+            found, move = await self._moved(_requests(node, wanted[node], source, by), atomically=True)
             outcomes += found
             moves += [move] if move.after else []
             bad = next((each for each in found if not each.accepted), None)
             if bad:
-                told = f"not set, since {bad.node} refused {bad.name}: {bad.reason}"
-                stuck = await self._taken_back(moves, told)
-                return _none_of(wanted, outcomes, stuck, told), tuple(each for each in moves if each.node in stuck)
+                reported = f"not set, since {bad.node} refused {bad.name}: {bad.reason}"
+                stuck = await self._taken_back(moves, reported)
+                return _none_of(wanted, outcomes, stuck, reported), tuple(each for each in moves if each.node in stuck)
         return tuple(outcomes), tuple(moves)
 
     def _will_refuse(self, node: str, values: Mapping[str, Value]) -> bool:
@@ -95,72 +95,76 @@ class ParameterSetter:
         """Restore the old values; returns what the nodes said that refused."""
         stuck: dict[str, str] = {}
         for move in reversed(moves):
-            outcomes = await self._set(_wishes(move.node, move.before, ChangeSource.ROLLBACK, why), atomically=True)
+            outcomes = await self._set(_requests(move.node, move.before, ChangeSource.ROLLBACK, why), atomically=True)
             stuck.update({each.node: each.reason for each in outcomes if not each.accepted})
         return stuck
 
-    async def _moved(self, wishes: Sequence[Wish], *, atomically: bool) -> tuple[tuple[SetOutcome, ...], Move]:
+    async def _moved(
+        self, requests: Sequence[ParameterRequest], *, atomically: bool
+    ) -> tuple[tuple[SetOutcome, ...], Move]:
         """The outcome of each value, and what of it can be undone."""
-        before = {each.name: self._value(each.node, each.name) for each in wishes}
-        outcomes = await self._set(wishes, atomically=atomically)
+        before = {each.name: self._value(each.node, each.name) for each in requests}
+        outcomes = await self._set(requests, atomically=atomically)
         taken = {each.name: each.value for each in outcomes if each.accepted}
-        node = wishes[0].node if wishes else ""
+        node = requests[0].node if requests else ""
         return outcomes, Move(node, {name: before[name] for name in taken}, taken)
 
-    async def _set(self, wishes: Sequence[Wish], *, atomically: bool) -> tuple[SetOutcome, ...]:
+    async def _set(self, requests: Sequence[ParameterRequest], *, atomically: bool) -> tuple[SetOutcome, ...]:
         """Send one node all requests for it."""
-        before = {each.name: self._value(each.node, each.name) for each in wishes}
+        before = {each.name: self._value(each.node, each.name) for each in requests}
         try:
-            messages = [self._message(each) for each in wishes]
+            messages = [self._message(each) for each in requests]
         except ValueError as error:
-            return self._all_refused(wishes, before, ("console", str(error)))
-        for each in wishes:
+            return self._all_refused(requests, before, ("console", str(error)))
+        for each in requests:
             self._expected.add(each)
         try:
-            results = await self._ask(wishes[0].node, messages, atomically) if wishes else ()
+            results = await self._ask(requests[0].node, messages, atomically) if requests else ()
         except NoAnswer as error:
-            return self._all_refused(wishes, before, ("node", str(error)))
+            return self._all_refused(requests, before, ("node", str(error)))
         outcomes: list[SetOutcome] = []
-        for wish, result in zip(wishes, results, strict=False):
-            outcomes.append(self._outcome(wish, before[wish.name], result.successful, result.reason))
+        for request, result in zip(requests, results, strict=False):
+            outcomes.append(self._outcome(request, before[request.name], result.successful, result.reason))
         return tuple(outcomes)
 
     async def _ask(self, node: str, messages: Sequence[Parameter], atomically: bool) -> Sequence[SetParametersResult]:
         if atomically:
-            request = SetParametersAtomically.Request(parameters=list(messages))
-            answer = await self._calls.ask(SetParametersAtomically, f"{node}/set_parameters_atomically", request)
+            call = SetParametersAtomically.Request(parameters=list(messages))
+            answer = await self._calls.ask(SetParametersAtomically, f"{node}/set_parameters_atomically", call)
             return [answer.result] * len(messages)
         answer = await self._calls.ask(
             SetParameters, f"{node}/set_parameters", SetParameters.Request(parameters=list(messages))
         )
         return answer.results
 
-    def _outcome(self, wish: Wish, old: Value, accepted: bool, reason: str) -> SetOutcome:
+    def _outcome(self, request: ParameterRequest, old: Value, accepted: bool, reason: str) -> SetOutcome:
         if accepted:
-            return SetOutcome(wish.node, wish.name, wish.value, True)
-        self._expected.forget(wish)
+            return SetOutcome(request.node, request.name, request.value, True)
+        self._expected.forget(request)
         why = reason or "the node gave no reason"
-        by = refusal(self._mirror.get(wish.node, wish.name), wish.value)[0] or "callback"
-        self._refused(wish, old, why)
-        return SetOutcome(wish.node, wish.name, wish.value, False, why, by)
+        by = refusal(self._mirror.get(request.node, request.name), request.value)[0] or "callback"
+        self._refused(request, old, why)
+        return SetOutcome(request.node, request.name, request.value, False, why, by)
 
     def _all_refused(
-        self, wishes: Sequence[Wish], before: Mapping[str, Value], why: tuple[str, str]
+        self, requests: Sequence[ParameterRequest], before: Mapping[str, Value], why: tuple[str, str]
     ) -> tuple[SetOutcome, ...]:
-        for each in wishes:
+        for each in requests:
             self._refused(each, before[each.name], why[1])
-        return tuple(SetOutcome(each.node, each.name, each.value, False, why[1], why[0]) for each in wishes)
+        return tuple(SetOutcome(each.node, each.name, each.value, False, why[1], why[0]) for each in requests)
 
-    def _refused(self, wish: Wish, old: Value, why: str) -> None:
-        self._journal.record(time.time_ns(), wish.node, wish.name, (old, wish.value), wish.source, why, wish.by)
+    def _refused(self, request: ParameterRequest, old: Value, why: str) -> None:
+        self._journal.record(
+            time.time_ns(), request.node, request.name, (old, request.value), request.source, why, request.by
+        )
 
     def _value(self, node: str, name: str) -> Value:
         known = self._mirror.get(node, name)
         return known.value if known else None
 
-    def _message(self, wish: Wish) -> Parameter:
-        known = self._mirror.get(wish.node, wish.name)
-        return to_message(wish.name, wish.value, known.kind) if known else to_message(wish.name, wish.value)
+    def _message(self, request: ParameterRequest) -> Parameter:
+        known = self._mirror.get(request.node, request.name)
+        return to_message(request.name, request.value, known.kind) if known else to_message(request.name, request.value)
 
     async def undo(self) -> Answer:
         """Undo the last accepted change of this console."""
@@ -179,7 +183,7 @@ class ParameterSetter:
         refused: list[SetOutcome] = []
         for move in step.moves:
             values = _values(move, source)
-            outcomes = await self._set(_wishes(move.node, values, source), atomically=len(values) > 1)
+            outcomes = await self._set(_requests(move.node, values, source), atomically=len(values) > 1)
             bad = [each for each in outcomes if not each.accepted]
             (left if bad else done).append(move)
             refused += bad[:1]
@@ -195,12 +199,14 @@ class ParameterSetter:
         return Answer(True, f"{source.value}: {_text(step, source)}")
 
 
-def _wishes(node: str, values: Mapping[str, Value], source: ChangeSource, by: str = "") -> tuple[Wish, ...]:
-    return tuple(Wish(node, name, value, source, by) for name, value in values.items())
+def _requests(
+    node: str, values: Mapping[str, Value], source: ChangeSource, by: str = ""
+) -> tuple[ParameterRequest, ...]:
+    return tuple(ParameterRequest(node, name, value, source, by) for name, value in values.items())
 
 
 def _none_of(
-    wanted: Mapping[str, Mapping[str, Value]], asked: Sequence[SetOutcome], stuck: Mapping[str, str], told: str
+    wanted: Mapping[str, Mapping[str, Value]], asked: Sequence[SetOutcome], stuck: Mapping[str, str], reported: str
 ) -> tuple[SetOutcome, ...]:
     """The outcomes when not everything was accepted: only refusals, and accepted values that could not be reverted."""
     known = {(each.node, each.name): each for each in asked}
@@ -209,7 +215,7 @@ def _none_of(
         for name, value in values.items():
             outcome = known.get((node, name))
             if outcome is None or (outcome.accepted and node not in stuck):
-                outcome = SetOutcome(node, name, value, False, told, "console")
+                outcome = SetOutcome(node, name, value, False, reported, "console")
             elif outcome.accepted:
                 outcome = replace(outcome, reason=f"could not be taken back: {stuck[node]}")
             outcomes.append(outcome)

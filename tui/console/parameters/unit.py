@@ -9,12 +9,12 @@ _DIMENSIONLESS = re.compile(r"\b(factor|fraction|probability|ratio|share)\b", re
 
 
 @lru_cache(maxsize=20_000)
-def unit_of(description: str) -> str:
+def unit_in_description(description: str) -> str:
     """The unit that ends a description in brackets, `(m/s)` or `[m/s]`; else empty."""
     text = description.rstrip()
     start = text.rfind({")": "(", "]": "["}.get(text[-1:], "\0"))
     inside = text[start + 1 : -1].split()[-1:] if start >= 0 else []
-    return inside[0] if inside and any(letter.isalpha() for letter in inside[0]) and len(inside[0]) <= 6 else ""
+    return inside[0] if inside and any(character.isalpha() for character in inside[0]) and len(inside[0]) <= 6 else ""
 
 
 def is_dimensionless(description: str) -> bool:

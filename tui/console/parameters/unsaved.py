@@ -35,7 +35,7 @@ class Unsaved:
             if not nodes or key[0] in nodes:
                 self._safe[key].append(value)
 
-    def begun_anew(self, node: str, name: str) -> None:
+    def restarted(self, node: str, name: str) -> None:
         """Take note that a parameter has its start value again."""
         self._now.pop((node, name), None)
         self._safe.pop((node, name), None)

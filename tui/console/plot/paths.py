@@ -9,7 +9,7 @@ from typing import Any
 
 from bot_console.tui.console.plot.arrays import NotPlottable
 
-DEEPEST = 4
+MAX_DEPTH = 4
 """Messages within each other that are looked into."""
 ARRAY = re.compile(r"sequence<([^,>]+).*>|(.+?)\[\d+\]")
 WHOLE = ("min", "max", "mean")
@@ -30,7 +30,7 @@ def number_paths(type_name: str) -> tuple[str, ...]:
     fields: list[str] = []
     elements: list[str] = []
     made: list[str] = []
-    for path, kind in _leaves(type_name, DEEPEST):
+    for path, kind in _leaves(type_name, MAX_DEPTH):
         array = ARRAY.fullmatch(kind)
         if kind.endswith("/Quaternion"):
             made.append(f"{path}.yaw()")

@@ -31,7 +31,7 @@ class _Watched:
         self.series = Series()
         self.subscription: Any = None
         self.problem = ""
-        self.askers: set[str] = set()
+        self.requesters: set[str] = set()
 
 
 class PlotWatch:
@@ -53,10 +53,10 @@ class PlotWatch:
         """The position of a moment (ns since the epoch; None is now) on that axis."""
         return self.now() if stamp is None else (stamp - self._started_at) / 1e9
 
-    def watch(self, path: str, graph: GraphInfo, trees: Mapping[str, ParameterTree], asker: str = "") -> Answer:
+    def watch(self, path: str, graph: GraphInfo, trees: Mapping[str, ParameterTree], requester: str = "") -> Answer:
         """Start collecting a path, or say why it cannot be plotted."""
         if path in self._watched:
-            self._watched[path].askers.add(asker)
+            self._watched[path].requesters.add(requester)
             return Answer(True, f"{path} is plotted already")
         try:
             if is_parameter(path):
@@ -65,7 +65,7 @@ class PlotWatch:
                 self._watch_topic(path, graph)
         except NotPlottable as error:
             return Answer(False, str(error))
-        self._watched[path].askers.add(asker)
+        self._watched[path].requesters.add(requester)
         return Answer(True, path)
 
     def _watch_parameter(self, path: str, trees: Mapping[str, ParameterTree]) -> None:
@@ -119,13 +119,13 @@ class PlotWatch:
         if watched and isinstance(value, (bool, int, float)):
             watched.series.add(self.now(), float(value))
 
-    def unwatch(self, path: str, asker: str = "") -> None:
+    def unwatch(self, path: str, requester: str = "") -> None:
         """Stop collecting and forget, unless somebody else still wants the series."""
         watched = self._watched.get(path)
         if watched is None:
             return
-        watched.askers.discard(asker)
-        if not watched.askers:
+        watched.requesters.discard(requester)
+        if not watched.requesters:
             del self._watched[path]
             if watched.subscription is not None:
                 self._node.destroy_subscription(watched.subscription)

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from bot_console.tui.console.robot.robot_model import Pose
 from sensor_msgs.msg import LaserScan
 
-FARTHEST = 1e7
+MAX_RANGE_M = 1e7
 """The greatest range, in m, that is taken for real."""
 
 
@@ -29,7 +29,7 @@ class BeamEnds(Sequence[tuple[float, float]]):
         """The nearest return (m)."""
         bearings = (self._begin, self._step * len(ranges))
         known = pose is not None and all(map(math.isfinite, (pose.heading, *bearings)))
-        self._pose = pose if known and len(self._ranges) and self._ranges.max() <= FARTHEST else None
+        self._pose = pose if known and len(self._ranges) and self._ranges.max() <= MAX_RANGE_M else None
 
     @cached_property
     def points(self) -> npt.NDArray[np.float64]:

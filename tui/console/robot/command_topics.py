@@ -29,7 +29,7 @@ class CommandTopics:
 NOBODY = CommandTopics("", MappingProxyType({}))
 
 
-def types_of(graph: GraphInfo) -> dict[str, str]:
+def command_types_of(graph: GraphInfo) -> dict[str, str]:
     """The type of each velocity topic."""
     ends = (each for node in graph.nodes for each in (*node.publishers, *node.subscriptions))
     return {each.name: kind for each in ends for kind in each.types if kind in (TWIST, STAMPED)}

@@ -33,7 +33,7 @@ from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
-HOLD_PERIOD = 0.1
+HOLD_PERIOD_S = 0.1
 """Seconds between two zeros, or requests, while a stop is not acknowledged; a command is dead after 0.5 s."""
 
 BY_PERSON = "ALL STOP"
@@ -46,7 +46,7 @@ VERDICT_LIFETIME_S = 2.0
 SILENCE = 0.5
 """Seconds after which a velocity command is dead, and the robot stops by itself."""
 CLOCK = "/clock"
-ANYHOW = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+FORCED = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
 """Hears every publisher, whatever it offers."""
 NO_COMMAND = "no command on cmd_vel for 0.5 s"
 NO_ARBITER = "the node that takes cmd_vel_teleop has ended; start it again to drive"
@@ -109,7 +109,7 @@ class DriveLink:
         """Whether the steered robot has left and another one taken its place while somebody was steering."""
         self._acted = False
         self._arbitrated = False
-        node.create_timer(HOLD_PERIOD, self._repeat)
+        node.create_timer(HOLD_PERIOD_S, self._repeat)
 
     def follow(self, graph: GraphInfo) -> None:
         """Find the robots' command topics, and listen to those of the steered one."""
@@ -163,13 +163,13 @@ class DriveLink:
         if token == VERDICT:
             self._verdict = Verdict()
             if topic:
-                self._watching[token] = self._node.create_subscription(DiagnosticArray, topic, self._told, 10)
+                self._watching[token] = self._node.create_subscription(DiagnosticArray, topic, self._reported, 10)
         elif topic:
             self._watching[token] = self._node.create_subscription(
-                self._kind(topic), topic, partial(self._saw, token), ANYHOW
+                self._kind(topic), topic, partial(self._saw, token), FORCED
             )
 
-    def _told(self, message: DiagnosticArray) -> None:
+    def _reported(self, message: DiagnosticArray) -> None:
         """What a velocity arbiter says about its last decision."""
         for status in message.status:
             values = {each.key: each.value for each in status.values}
@@ -250,7 +250,7 @@ class DriveLink:
             self._stop.hand_back()
             self._replaced = False
 
-    def close(self, patience: float = 0.0) -> None:
+    def close(self, timeout_s: float = 0.0) -> None:
         """Send zero velocity, and lock the robot if this console leaves while it holds the steering.
 
         A robot that was only watched is left alone, and not waited for; any other is waited for as in `await_standing`.
@@ -261,18 +261,18 @@ class DriveLink:
         if acted:
             self.zero()
         if steering or acted:
-            self.await_standing(patience)
+            self.await_standing(timeout_s)
 
-    def await_standing(self, patience: float) -> None:
+    def await_standing(self, timeout_s: float) -> None:
         """Wait until all locks hold the robot, at most so many seconds.
 
         Without a lock that is the whole time, since nobody acknowledges a zero; if nobody listens, nothing is waited
         for.
         """
         if self._stop.info.stopped and self._stop.info.locks:
-            self._stop.await_held(patience)
+            self._stop.await_held(timeout_s)
         elif self._is_heard():
-            threading.Event().wait(patience)
+            threading.Event().wait(timeout_s)
 
     def _is_heard(self) -> bool:
         """Whether anybody else listens where this console drives."""

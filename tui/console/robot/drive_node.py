@@ -60,7 +60,7 @@ class DriveNode:
     def follow_alone(self) -> None:
         """Find the robots without the console's own node, which has failed."""
         if not self._closed:
-            self._executor.create_task(lambda: GraphWatch(self._node, self.link.follow).look())
+            self._executor.create_task(lambda: GraphWatch(self._node, self.link.follow).poll())
 
     def close(self) -> None:
         """Stop serving, and leave the graph; a second call does nothing."""

@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from bot_console.tui.console.model import GraphInfo
-from bot_console.tui.console.robot.command_topics import NOBODY, CommandTopics, robots_of, types_of
+from bot_console.tui.console.robot.command_topics import NOBODY, CommandTopics, command_types_of, robots_of
 
 Published = Mapping[str, Collection[str]]
 """Topics, each with the names of its publishers' nodes."""
@@ -71,7 +71,7 @@ class Fleet:
 
     def __init__(self, graph: GraphInfo) -> None:
         self.robots: Sequence[CommandTopics] = robots_of(graph)
-        self.types: Mapping[str, str] = types_of(graph)
+        self.types: Mapping[str, str] = command_types_of(graph)
         """The type of each velocity topic."""
         self._graph = graph
         self._listening: dict[str, set[str]] = {}

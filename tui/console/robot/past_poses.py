@@ -8,16 +8,16 @@ from typing import Any
 import numpy as np
 from bot_console.tui.console.robot.robot_model import Pose
 
-KEPT = 12_000
+MAX_POSES = 12_000
 """Poses that are kept: 20 minutes."""
-APART = 100_000_000
+MAX_GAP = 100_000_000
 """Nanoseconds between two of them at least."""
 
 
 class PastPoses:
     """A ring of poses by time of arrival."""
 
-    def __init__(self, capacity: int = KEPT) -> None:
+    def __init__(self, capacity: int = MAX_POSES) -> None:
         self._stamps = np.zeros(capacity, np.int64)
         self._poses = np.zeros((capacity, 3))
         self._end = 0
@@ -25,7 +25,7 @@ class PastPoses:
     def add(self, stamp: int, pose: Any) -> None:
         """Keep a pose (`geometry_msgs/Pose`) received at a time (ns since the epoch), unless one came just before."""
         capacity = len(self._stamps)
-        if self._end and 0 <= stamp - int(self._stamps[(self._end - 1) % capacity]) < APART:
+        if self._end and 0 <= stamp - int(self._stamps[(self._end - 1) % capacity]) < MAX_GAP:
             return
         self._stamps[self._end % capacity] = stamp
         self._poses[self._end % capacity] = (pose.position.x, pose.position.y, heading(pose.orientation))

@@ -126,10 +126,10 @@ class StopLink:
             self._refresh()
             self._changed.notify_all()
 
-    def await_held(self, patience: float) -> bool:
+    def await_held(self, timeout_s: float) -> bool:
         """Wait, at most so many seconds, until every lock has acknowledged the request and holds; whether so."""
         with self._changed:
-            return self._changed.wait_for(lambda: self.info.confirmed, patience)
+            return self._changed.wait_for(lambda: self.info.confirmed, timeout_s)
 
     def _drop_released(self) -> None:
         """Forget the stops that somebody has released; a lock that merely lacks one has not heard of it, or restarted.

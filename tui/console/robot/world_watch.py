@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.offered_qos import OfferedSubscription
-from bot_console.tui.console.robot.beam_ends import FARTHEST, BeamEnds
+from bot_console.tui.console.robot.beam_ends import MAX_RANGE_M, BeamEnds
 from bot_console.tui.console.robot.command_topics import NOBODY
 from bot_console.tui.console.robot.fleet import Fleet, steered_of
 from bot_console.tui.console.robot.past_poses import PastPoses, heading
@@ -29,9 +29,9 @@ from sensor_msgs.msg import LaserScan
 TRAIL = 400
 TRAIL_STEP = 0.1
 """Metres between two points of the trail."""
-FINEST = 1e-6
+MIN_CELL_M = 1e-6
 """The smallest cell, in m, that is taken for real; the greatest place is that of a beam's end."""
-SILENT_S = 1.0
+SILENT_AFTER_S = 1.0
 """Without a pose for so long the robot is silent: slower robots tell theirs more often than once a second."""
 
 SENSOR = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -155,7 +155,7 @@ class WorldWatch:
             self._fresh = False
             self._info = self._build()
         silence = self._now() - self._heard if self._odometry else 0.0
-        silent_s = int(silence) if silence > SILENT_S else 0
+        silent_s = int(silence) if silence > SILENT_AFTER_S else 0
         if silent_s != self._info.silent_s:
             self._info = replace(self._info, silent_s=silent_s)
         return self._info
@@ -185,7 +185,7 @@ class WorldWatch:
 def pose_of(message: Any) -> Pose | None:
     """A `geometry_msgs/Pose` in the plane; None if it cannot be drawn."""
     place = message.position
-    inside = abs(place.x) <= FARTHEST and abs(place.y) <= FARTHEST  # False for what is no number
+    inside = abs(place.x) <= MAX_RANGE_M and abs(place.y) <= MAX_RANGE_M  # False for what is no number
     return Pose(place.x, place.y, heading(message.orientation)) if inside else None
 
 
@@ -196,7 +196,7 @@ def grid_of(message: OccupancyGrid) -> GridMap | None:
     count = meta.width * meta.height
     if origin is None or not count or count != len(message.data):
         return None
-    if not (meta.resolution >= FINEST and max(meta.width, meta.height) * meta.resolution <= FARTHEST):
+    if not (meta.resolution >= MIN_CELL_M and max(meta.width, meta.height) * meta.resolution <= MAX_RANGE_M):
         return None
     cells = np.asarray(message.data, np.int8).tobytes()  # -1, unknown, is the byte 255
     return GridMap(meta.width, meta.height, meta.resolution, origin, cells)

@@ -19,7 +19,7 @@ from bot_console.tui.console.topics.interfaces import (
 )
 from bot_console.tui.console.topics.message_tree import scalar_text
 from bot_console.tui.console.topics.typed import NOW, parse
-from bot_console.tui.console.topics.units import unit_of
+from bot_console.tui.console.topics.units import field_unit
 from bot_console.tui.console.traffic import Payload, Slot, Values
 from rosidl_runtime_py import message_to_ordereddict
 
@@ -40,7 +40,7 @@ def _slots(message: Any, type_name: str, path: str, depth: int, unit: str, value
         if name == "structure_needs_at_least_one_member":
             continue
         value, place = getattr(message, name), f"{path}.{name}" if path else name
-        own = unit_of(type_name, name, unit)
+        own = field_unit(type_name, name, unit)
         if is_message(kind) and kind not in TIMES:
             is_turn = kind == QUATERNION
             text = values.get(place, angles_text(value) if is_turn else "")

@@ -52,15 +52,15 @@ class Goals:
         sent = self._sent[action] = _Sent(type_name, time.monotonic(), Goal(action, "sent"))
         self._when_ready(client, goal, sent)
 
-    def _when_ready(self, client: Any, goal: Any, sent: _Sent, looks: int = 40) -> None:
+    def _when_ready(self, client: Any, goal: Any, sent: _Sent, polls: int = 40) -> None:
         """A client that was made only now has to meet its server first."""
         if client.server_is_ready():
             answer = client.send_goal_async(goal, feedback_callback=partial(self._feedback, sent))
             answer.add_done_callback(partial(self._accepted, sent))
             return
-        left = [looks]
+        left = [polls]
 
-        def look() -> None:
+        def poll() -> None:
             left[0] -= 1
             if client.server_is_ready() or left[0] <= 0:
                 self._node.destroy_timer(timer)
@@ -69,7 +69,7 @@ class Goals:
                 else:
                     self._end(sent, "not sent", problem=f"no server of {sent.goal.action} answers; has its node ended?")
 
-        timer = self._node.create_timer(0.05, look)
+        timer = self._node.create_timer(0.05, poll)
 
     def _feedback(self, sent: _Sent, message: Any) -> None:
         sent.feedback = message.feedback

@@ -54,7 +54,7 @@ def element_type(type_name: str) -> str:
     return (found["of"] or found["fixed"]).strip() if found else ""
 
 
-def full_name(field_type: str) -> str:
+def full_type_name(field_type: str) -> str:
     """`geometry_msgs/Point` as `geometry_msgs/msg/Point`."""
     package, _, name = field_type.partition("/")
     return f"{package}/msg/{name}"

@@ -7,13 +7,13 @@ from collections.abc import Callable
 from typing import Any
 
 from bot_console.tui.console.model import GraphInfo
-from bot_console.tui.console.topics.followed import FollowedTopic
+from bot_console.tui.console.topics.followed_topic import FollowedTopic
 from bot_console.tui.console.topics.interfaces import interface
 from bot_console.tui.console.topics.message_tree import tree
 from bot_console.tui.console.traffic import LiveMessage, Payload
 from rclpy.node import Node
 
-AGES = 10
+MAX_AGES = 10
 """Parts of a second in which an age is told, so that it is not another thing at every look."""
 
 
@@ -31,7 +31,7 @@ class Listening(FollowedTopic):
         """Listen to this topic and to no other; called by the executor."""
         if topic == self._topic and (self._subscription is None) == (not topic):
             return
-        self._let_go()
+        self._detach()
         self._newest, self._problem = (0, None, 0.0), ""
         self._topic = topic
         self.follow(graph)
@@ -48,7 +48,7 @@ class Listening(FollowedTopic):
     def heard(self) -> LiveMessage:
         """What came last; from any thread, and the same object until there is more to tell."""
         count, message, moment = self._newest
-        age = round((time.monotonic() - moment) * AGES) / AGES if count else None
+        age = round((time.monotonic() - moment) * MAX_AGES) / MAX_AGES if count else None
         old = self._live
         if (old.topic, old.count, old.problem, old.age) == (self._topic, count, self._problem, age):
             return old

@@ -17,20 +17,20 @@ from bot_console.tui.console.topics.interfaces import (
     is_message,
     short_name,
 )
-from bot_console.tui.console.topics.units import unit_of
+from bot_console.tui.console.topics.units import field_unit
 from bot_console.tui.console.traffic import Field
 
 ELEMENTS = 8
 """Elements of an array that stand on lines of their own, or on one line."""
-MOST_FIELDS = 2000
+MAX_FIELDS = 2000
 """Lines of a message; what comes after them is told in one."""
-LONGEST = 400
+MAX_TEXT_CHARACTERS = 400
 """Letters of a text that are shown."""
 
 
 def tree(message: Any, type_name: str) -> tuple[Field, ...]:
     """The lines of a message of a type (`package/msg/Name`)."""
-    lines = _fields(message, short_name(type_name), "", 0, "", [MOST_FIELDS])
+    lines = _fields(message, short_name(type_name), "", 0, "", [MAX_FIELDS])
     return tuple(lines)
 
 
@@ -43,7 +43,7 @@ def _fields(message: Any, type_name: str, path: str, depth: int, unit: str, left
             return [*found, Field(path, "...", depth, "", "more fields than can be shown")]
         value = getattr(message, name)
         place = f"{path}.{name}" if path else name
-        own = unit_of(type_name, name, unit)
+        own = field_unit(type_name, name, unit)
         if is_message(kind):
             found += _nested(value, kind, name, place, depth, own, left)
         elif element := element_type(kind):
@@ -110,6 +110,8 @@ def scalar_text(value: Any, names: Any) -> str:
     if isinstance(value, (float, np.floating)):
         return f"{value:.6g}"
     if isinstance(value, str):
-        return value if len(value) <= LONGEST else f"{value[:LONGEST]}... ({len(value)} letters)"
+        return (
+            value if len(value) <= MAX_TEXT_CHARACTERS else f"{value[:MAX_TEXT_CHARACTERS]}... ({len(value)} letters)"
+        )
     known = names.get(int(value)) if names and not isinstance(value, str) else None
     return f"{value} {known}" if known else str(value)

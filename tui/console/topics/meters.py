@@ -10,7 +10,7 @@ from typing import Any
 
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.topics.interfaces import HEADER, fields_of, interface
-from bot_console.tui.console.topics.offers import offered_qos, types_of
+from bot_console.tui.console.topics.offered_topics import offered_qos, offered_types_of
 from bot_console.tui.console.traffic import Measure, Payload
 from rclpy.node import Node
 
@@ -20,7 +20,7 @@ TURN = 3.0
 """Seconds for which it is settled who is measured."""
 BUDGET = 1000.0
 """Messages per second that are measured at most."""
-LOOK = 0.25
+METER_POLL_S = 0.25
 """Least seconds between two looks that are kept."""
 OTHER_CLOCK = 3600.0
 """Seconds by which a stamp may be off before it counts as one of another clock."""
@@ -39,7 +39,7 @@ class Meter:
         self._late = 0
         """Sum of all latencies, ns."""
         self._first = self._last = 0.0
-        self._looks: deque[tuple[float, float, int, int, int, int]] = deque([(time.monotonic(), 0.0, 0, 0, 0, 0)])
+        self._polls: deque[tuple[float, float, int, int, int, int]] = deque([(time.monotonic(), 0.0, 0, 0, 0, 0)])
 
     def take(self, data: bytes) -> None:
         """Count one serialized message."""
@@ -52,16 +52,16 @@ class Meter:
             self._late += self._clock() - seconds * 1_000_000_000 - nanoseconds
             self._stamps += 1
 
-    def look(self) -> Measure:
+    def poll(self) -> Measure:
         """What is known now, over the last seconds."""
         now = time.monotonic()
         here = (now, self._last, self._count, self._size, self._late, self._stamps)
-        looks = self._looks
-        if now - looks[-1][0] >= LOOK:
-            looks.append(here)
-        while len(looks) > 2 and now - looks[1][0] > WINDOW:
-            looks.popleft()
-        begun, first, count, size, late, stamps = looks[0]
+        polls = self._polls
+        if now - polls[-1][0] >= METER_POLL_S:
+            polls.append(here)
+        while len(polls) > 2 and now - polls[1][0] > WINDOW:
+            polls.popleft()
+        begun, first, count, size, late, stamps = polls[0]
         new = self._count - count
         if not new:
             silent = now - begun >= WINDOW
@@ -103,7 +103,7 @@ class Meters:
         self._wanted = frozenset(topics)
         for topic in list(self._meters):
             if topic not in self._wanted or self._meters[topic][2] != offered_qos(graph, topic).key:
-                self._let_go(topic)
+                self._detach(topic)
         for known in (self._problems, self._resting):
             for topic in known.keys() - self._wanted:
                 del known[topic]
@@ -116,13 +116,13 @@ class Meters:
             self._timer = None
         self._graph = graph
 
-    def _let_go(self, topic: str) -> Meter:
+    def _detach(self, topic: str) -> Meter:
         subscription, meter, _ = self._meters.pop(topic)
         self._node.destroy_subscription(subscription)
         return meter
 
     def _begin(self, topic: str, graph: GraphInfo) -> None:
-        types = types_of(graph, topic)
+        types = offered_types_of(graph, topic)
         if not types:
             return
         try:
@@ -141,12 +141,12 @@ class Meters:
         rates = {topic: each.rate or 0.0 for topic, each in self.measured().items()}
         chosen = in_turn(rates, list(self._resting), BUDGET)
         for topic in [each for each in self._meters if each not in chosen]:
-            self._resting[topic] = self._shown(topic, self._meters[topic][1].look())
-            self._let_go(topic)
+            self._resting[topic] = self._shown(topic, self._meters[topic][1].poll())
+            self._detach(topic)
         for topic in [each for each in self._resting if each in chosen and each not in self._meters]:
             self._begin(topic, graph)
         for topic in [each for each in self._resting if each in self._meters]:
-            if self._meters[topic][1].look().rate is not None:
+            if self._meters[topic][1].poll().rate is not None:
                 del self._resting[topic]
 
     def _shown(self, topic: str, now: Measure) -> Measure:
@@ -161,7 +161,7 @@ class Meters:
     def measured(self) -> Mapping[str, Measure]:
         """What is known; from any thread."""
         found = dict(self._resting)
-        found.update({topic: self._shown(topic, meter.look()) for topic, (_, meter, _) in list(self._meters.items())})
+        found.update({topic: self._shown(topic, meter.poll()) for topic, (_, meter, _) in list(self._meters.items())})
         return {**found, **{topic: Measure(problem=why) for topic, why in list(self._problems.items())}}
 
 

@@ -20,11 +20,11 @@ from bot_console.tui.console.topics.interfaces import interface
 from bot_console.tui.console.topics.listening import Listening
 from bot_console.tui.console.topics.message_tree import tree
 from bot_console.tui.console.topics.meters import Meters
-from bot_console.tui.console.topics.publishing import FASTEST, Publishing
+from bot_console.tui.console.topics.publishing import MAX_RATE_HZ, Publishing
 from bot_console.tui.console.traffic import Goal, LiveMessage, Measure, Payload, Repeated, Reply, Slot, Values
 from rclpy.node import Node
 
-PATIENCE = 30.0
+ANSWER_TIMEOUT_S = 30.0
 """Seconds to wait for the response of a service that a person has called."""
 REMEMBERED = 50
 """Messages, requests and goals of one name that can be had back."""
@@ -39,10 +39,10 @@ class NodeTraffic:
         """`types` makes those that this program does not have; without it they stay unknown."""
         self._calls = calls
         self._graph = graph
-        self._told = TypeDiscovery(node, calls, types, self._follow_known)
+        self._reported = TypeDiscovery(node, calls, types, self._follow_known)
         self._clock = node.get_clock()
         self._meters = Meters(node)
-        self._listening = Listening(node, self._told.explain)
+        self._listening = Listening(node, self._reported.explain)
         self._publishing = Publishing(node)
         self._goals = Goals(node)
         self._asked: dict[str, frozenset[str]] = {}
@@ -51,7 +51,7 @@ class NodeTraffic:
 
     def follow(self, graph: GraphInfo) -> None:
         """The graph is another; called by the executor."""
-        self._told.follow(graph)
+        self._reported.follow(graph)
         self._meters.follow(graph)
         self._listening.follow(graph)
 
@@ -74,9 +74,9 @@ class NodeTraffic:
 
         return self._calls.run(run(), partial(Answer, False))
 
-    def measure(self, topics: Collection[str], asker: str = "") -> None:
+    def measure(self, topics: Collection[str], requester: str = "") -> None:
         """Measure these topics, and those that other askers want."""
-        self._asked[asker] = frozenset(topics)
+        self._asked[requester] = frozenset(topics)
         wanted = {topic for each in self._asked.values() for topic in each}
         self._later(lambda: self._meters.measure(wanted, self._graph()))
 
@@ -97,7 +97,7 @@ class NodeTraffic:
         try:
             return forms.slots(payload, type_name, values)
         except ValueError as error:
-            raise ValueError(self._told.explain(type_name, str(error))) from None
+            raise ValueError(self._reported.explain(type_name, str(error))) from None
 
     def wrong(self, payload: Payload, type_name: str, path: str, text: str) -> str:
         """Why a text cannot stand in a slot."""
@@ -127,14 +127,14 @@ class NodeTraffic:
     def publish(self, topic: str, type_name: str, values: Values, rate: float = 0.0) -> Answer:
         """Publish once, or at a rate."""
         wrong = self._all_wrong(Payload.MESSAGE, type_name, values)
-        wrong = wrong or ("" if 0 <= rate <= FASTEST else f"a rate is between 0 and {FASTEST:g} Hz")
+        wrong = wrong or ("" if 0 <= rate <= MAX_RATE_HZ else f"a rate is between 0 and {MAX_RATE_HZ:g} Hz")
         if wrong:
             return Answer(False, wrong)
         self._remember(topic, values)
         self._later(lambda: self._publishing.publish(topic, type_name, values, rate, self._graph()))
         heard = any(each.name == topic for node in self._graph().nodes for each in node.subscriptions)
-        said = f"publishing to {topic} at {rate:g} Hz" if rate else f"published to {topic}"
-        return Answer(True, said + ("" if heard else ", where nobody listens"))
+        message = f"publishing to {topic} at {rate:g} Hz" if rate else f"published to {topic}"
+        return Answer(True, message + ("" if heard else ", where nobody listens"))
 
     def _all_wrong(self, payload: Payload, type_name: str, values: Values) -> str:
         try:
@@ -163,7 +163,7 @@ class NodeTraffic:
             kind = interface(Payload.REQUEST, type_name)
             forms.stamp(request, now, lambda: self._clock.now().to_msg())
             began = time.monotonic()
-            response = await self._calls.ask(kind, service, request, PATIENCE)
+            response = await self._calls.ask(kind, service, request, ANSWER_TIMEOUT_S)
         except (ValueError, NoAnswer) as error:
             return Reply(False, str(error))
         return Reply(True, "", time.monotonic() - began, tree(response, f"{type_name}_Response"))

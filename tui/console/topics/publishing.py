@@ -12,11 +12,11 @@ from bot_console.tui.console.traffic import Payload, Repeated, Values
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
-FASTEST = 1000.0
+MAX_RATE_HZ = 1000.0
 """Hz"""
-LOOK = 0.05
+MATCH_POLL_S = 0.05
 """Seconds between two looks whether a new publisher has met those who listen."""
-LOOKS = 20
+MAX_MATCH_POLLS = 20
 
 
 @dataclass
@@ -62,7 +62,7 @@ class Publishing:
             self._running[topic] = running
             return
         heard = any(each.name == topic for node in graph.nodes for each in node.subscriptions)
-        self._when_matched(publisher, send, LOOKS if heard else 0)
+        self._when_matched(publisher, send, MAX_MATCH_POLLS if heard else 0)
 
     def _publisher(self, topic: str, type_name: str, kind: Any, graph: GraphInfo) -> Any:
         key = topic, type_name
@@ -74,20 +74,20 @@ class Publishing:
             self._publishers[key] = self._node.create_publisher(kind, topic, profile)
         return self._publishers[key]
 
-    def _when_matched(self, publisher: Any, send: Any, looks: int) -> None:
+    def _when_matched(self, publisher: Any, send: Any, polls: int) -> None:
         """Send when the publisher has met a subscription; after a while in any case."""
-        if not looks or publisher.get_subscription_count():
+        if not polls or publisher.get_subscription_count():
             send()
             return
-        left = [looks]
+        left = [polls]
 
-        def look() -> None:
+        def poll() -> None:
             left[0] -= 1
             if publisher.get_subscription_count() or left[0] <= 0:
                 self._node.destroy_timer(timer)
                 send()
 
-        timer = self._node.create_timer(LOOK, look)
+        timer = self._node.create_timer(MATCH_POLL_S, poll)
 
     def stop(self, topic: str = "") -> None:
         """End what is published at a rate, on one topic or on all."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
-from bot_console.tui.console.topics.idle import IdleTraffic
+from bot_console.tui.console.topics.idle_traffic import IdleTraffic
 from bot_console.tui.console.traffic import LiveMessage, Measure, Payload, Slot, Traffic, Values
 
 
@@ -15,9 +15,9 @@ class ReadingTraffic(IdleTraffic):
         super().__init__(why)
         self._traffic = traffic
 
-    def measure(self, topics: Collection[str], asker: str = "") -> None:
+    def measure(self, topics: Collection[str], requester: str = "") -> None:
         """Measure these topics."""
-        self._traffic.measure(topics, asker)
+        self._traffic.measure(topics, requester)
 
     def measured(self) -> Mapping[str, Measure]:
         """What is known of them."""

@@ -14,7 +14,7 @@ from bot_console.tui.console.topics.interfaces import (
     REALS,
     TIMES,
     element_type,
-    full_name,
+    full_type_name,
     interface,
     is_message,
 )
@@ -113,7 +113,7 @@ def _yaml(words: str, shape: type, example: str) -> Any:
 
 
 def _message(kind: str, values: Any) -> Any:
-    message = interface(Payload.MESSAGE, full_name(kind))()
+    message = interface(Payload.MESSAGE, full_type_name(kind))()
     try:
         set_message_fields(message, values)
     except (AttributeError, TypeError, ValueError, OverflowError) as error:

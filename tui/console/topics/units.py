@@ -61,6 +61,6 @@ INHERITED = ("geometry_msgs/Vector3", "geometry_msgs/Point", "geometry_msgs/Poin
 """Types whose fields have the unit that stands at the field that holds them."""
 
 
-def unit_of(type_name: str, field: str, outer: str) -> str:
+def field_unit(type_name: str, field: str, outer: str) -> str:
     """The unit of a field of a type (`package/Name`); `outer` is that of the field which holds the message."""
     return outer if type_name in INHERITED else OF_FIELD.get((type_name, field), "")

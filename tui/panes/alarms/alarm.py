@@ -9,7 +9,7 @@ from typing import Any, cast
 from bot_console.tui.console.protocol import ConsoleReading, Samples
 from bot_console.tui.panes.alarms.condition import Condition, read
 
-MOST_SAMPLES = 50
+MAX_SAMPLES = 50
 """Samples of one path that are looked at in one turn; of more the newest count."""
 
 
@@ -58,7 +58,7 @@ class Alarm:
     problem: str = ""
     untold: list[float] = field(default_factory=list[float])
     """The values at which it has begun to hold, of the times that nobody was told of."""
-    told: float = float("-inf")
+    reported: float = float("-inf")
     """When somebody was told last, in s of the pane's clock."""
     _cursors: dict[str, int] = field(default_factory=dict[str, int])
 
@@ -72,7 +72,7 @@ class Alarm:
         """The paths in its condition."""
         return self.condition.paths
 
-    def look(self, console: ConsoleReading) -> list[float]:
+    def poll(self, console: ConsoleReading) -> list[float]:
         """Process new samples in order; returns the values of the first path at which the alarm became active."""
         began: list[float] = []
         for time, path, value in self._new(console):
@@ -93,7 +93,7 @@ class Alarm:
             new: Samples = console.samples(path, self._cursors.get(path, 0))
             self._cursors[path] = new.cursor
             self.problem = new.problem or self.problem
-            first = max(0, len(new.times) - MOST_SAMPLES)
+            first = max(0, len(new.times) - MAX_SAMPLES)
             found += [(float(new.times[at]), path, float(new.values[at])) for at in range(first, len(new.times))]
         found.sort(key=lambda each: each[0])
         return found

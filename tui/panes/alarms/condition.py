@@ -17,7 +17,7 @@ from bot_console.tui.text.expression.numbers import value_of
 from bot_console.tui.text.expression.parse import Reader
 from bot_console.tui.text.expression.tree import Span, Tree, paths_of, walk
 
-LONGEST = 400
+MAX_CHARACTERS = 400
 """Letters of a condition at most."""
 NOTHING_NAMED = "name a field or a parameter in it, for instance /battery/percentage < 0.2"
 COMPARISON = re.compile(r"<=|>=|==|!=|<|>")
@@ -59,8 +59,8 @@ class Condition:
 
 def read(text: str) -> Condition:
     """Parse a condition; raises `ValueError` that says what is wrong and how to fix it."""
-    if len(text) > LONGEST:
-        raise ValueError(f"a condition of more than {LONGEST} letters")
+    if len(text) > MAX_CHARACTERS:
+        raise ValueError(f"a condition of more than {MAX_CHARACTERS} letters")
     if not text.strip():
         raise ValueError(NOTHING_NAMED)
     alternatives = _ConditionReader(text, paths=True).alternatives()

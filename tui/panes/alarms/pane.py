@@ -18,16 +18,16 @@ from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Line
 from bot_console.tui.widgets.row_list import RowList
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
 
-ASKER = "alarms"
-KEPT = "alarms"
-PERIOD, SHOWN, AGAIN = 0.2, 0.5, 1.0
+REQUESTER = "alarms"
+STATE_NAME = "alarms"
+POLL_S, SHOWN, AGAIN = 0.2, 0.5, 1.0
 """Seconds between two looks at the samples, at the list, and at paths that are not there yet."""
 NOTICE = 8.0
 """Seconds that a notice stands; the times that an alarm begins to hold meanwhile are told with its next one."""
-MOST = 100
+MAX_ALARMS = 100
 """Alarms that there can be."""
 EXAMPLE = "/battery/percentage < 0.2"
 NAMED = re.compile(r"([^/<>=()]+?):\s+(.+)")
@@ -57,17 +57,17 @@ class AlarmsPane(ListPane):
         self._query = Query()
         self._waiting: dict[str, str] = {}
         """Paths that cannot be watched now, and why."""
-        self._looked = self._drawn = self._asked = float("-inf")
+        self._polled = self._drawn = self._asked = float("-inf")
 
     def compose(self) -> ComposeResult:
         """The alarms, details of the one at the cursor, and a prompt."""
         yield AlarmRows()
-        yield Words(id="alarms-status")
+        yield StaticText(id="alarms-status")
         yield Prompt(id="alarms-prompt")
 
     def on_mount(self) -> None:
         """Restore the alarms of the last run."""
-        for text in texts_of(self.state_store.get(KEPT))[:MOST]:
+        for text in texts_of(self.state_store.get(STATE_NAME))[:MAX_ALARMS]:
             self._alarms.append(Alarm.of(text))
             self._waiting |= dict.fromkeys(self._alarms[-1].paths, "not watched yet")
 
@@ -82,19 +82,19 @@ class AlarmsPane(ListPane):
     def tick(self) -> None:
         """Process new samples, even while hidden, and update the list while it is visible."""
         now = self.clock()
-        if self._alarms and now - self._looked >= PERIOD:
-            self._looked = now
+        if self._alarms and now - self._polled >= POLL_S:
+            self._polled = now
             if self._waiting and now - self._asked >= AGAIN:
                 self._asked = now
                 self._watch(self._waiting)
             for alarm in self._alarms:
-                began = alarm.look(self.console)
+                began = alarm.poll(self.console)
                 if began and alarm.text.bell:
                     self.host.bell()
                 alarm.untold += began
-                if alarm.untold and now - alarm.told >= NOTICE:
-                    self._tell(alarm, alarm.untold[-1], len(alarm.untold))
-                    alarm.told, alarm.untold = now, []
+                if alarm.untold and now - alarm.reported >= NOTICE:
+                    self._report(alarm, alarm.untold[-1], len(alarm.untold))
+                    alarm.reported, alarm.untold = now, []
         holding = [each.text.name for each in self._alarms if each.holds]
         if holding != self._holding:
             self._holding = holding
@@ -104,13 +104,13 @@ class AlarmsPane(ListPane):
 
     def _watch(self, paths: Any) -> None:
         for path in tuple(paths):
-            answer = self.console.watch(path, ASKER)
+            answer = self.console.watch(path, REQUESTER)
             if answer.ok:
                 self._waiting.pop(path, None)
             else:
                 self._waiting[path] = answer.text
 
-    def _tell(self, alarm: Alarm, value: float, times: int) -> None:
+    def _report(self, alarm: Alarm, value: float, times: int) -> None:
         often = f" ({times} times)" if times > 1 else ""
         self.notify(
             f"{alarm.text.name}: {value:.4g}{often}\n{alarm.text.condition}",
@@ -129,7 +129,7 @@ class AlarmsPane(ListPane):
         shown = [each for each in every if self._query.matches(f"{each.name} {each.condition}")]
         self._list.exchange(shown)
         holding = sum(each.holds is True for each in every)
-        self.tell_filter(len(shown), len(every), f"{holding} of {len(every)} hold" if holding else "")
+        self.report_filter(len(shown), len(every), f"{holding} of {len(every)} hold" if holding else "")
         self._describe()
 
     def _describe(self) -> None:
@@ -139,7 +139,7 @@ class AlarmsPane(ListPane):
         else:
             values = "  ".join(f"{each} = {alarm.values[each]:.4g}" for each in alarm.paths if each in alarm.values)
             text = alarm.problem or values or "no value yet"
-        self.query_one("#alarms-status", Words).say(text)
+        self.query_one("#alarms-status", StaticText).show_text(text)
 
     @property
     def _current(self) -> Alarm | None:
@@ -163,8 +163,8 @@ class AlarmsPane(ListPane):
 
     def action_add(self) -> None:
         """Ask for a new alarm."""
-        if len(self._alarms) >= MOST:
-            self.notify(f"There are {MOST} alarms; d takes one away.", severity="warning")
+        if len(self._alarms) >= MAX_ALARMS:
+            self.notify(f"There are {MAX_ALARMS} alarms; d takes one away.", severity="warning")
             return
         self._ask("alarm", "", None)
 
@@ -198,20 +198,20 @@ class AlarmsPane(ListPane):
         else:
             self._alarms.append(alarm)
         self._watch(alarm.paths)
-        self._let_go_of(old)
+        self._release(old)
         self._keep()
         names = [each.name for each in self._list.rows]
         self._list.cursor = names.index(name) if name in names else self._list.cursor
 
-    def _let_go_of(self, alarm: Alarm | None) -> None:
+    def _release(self, alarm: Alarm | None) -> None:
         """Stop watching the paths that no other alarm uses."""
         wanted = {path for each in self._alarms for path in each.paths}
         for path in set(alarm.paths) - wanted if alarm else ():
             self._waiting.pop(path, None)
-            self.console.unwatch(path, ASKER)
+            self.console.unwatch(path, REQUESTER)
 
     def _keep(self) -> None:
-        why = self.state_store.put(KEPT, [each.text.data for each in self._alarms])
+        why = self.state_store.put(STATE_NAME, [each.text.data for each in self._alarms])
         if why:
             self.notify(f"The alarms are not kept: {why}", severity="warning")
         self._arrange()
@@ -221,7 +221,7 @@ class AlarmsPane(ListPane):
         alarm = self._current
         if alarm is not None:
             self._alarms.remove(alarm)
-            self._let_go_of(alarm)
+            self._release(alarm)
             self._keep()
 
     def action_bell(self) -> None:
@@ -236,10 +236,10 @@ class AlarmsPane(ListPane):
         for path in self._current.paths if self._current else ():
             self.post_message(self.PlotWanted(path))
 
-    def let_go(self) -> None:
+    def detach(self) -> None:
         """Stop watching all paths."""
         for path in {path for each in self._alarms for path in each.paths}:
-            self.console.unwatch(path, ASKER)
+            self.console.unwatch(path, REQUESTER)
 
 
 def parted(typed: str) -> tuple[str, str]:

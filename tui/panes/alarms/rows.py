@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from bot_console.tui.console.query import Query
-from bot_console.tui.format import counted, cut, harmless
+from bot_console.tui.format import counted, cut, sanitize
 from bot_console.tui.panes.alarms.alarm import Alarm
 from bot_console.tui.text.figures import age_text
 from bot_console.tui.widgets.item_list import ItemList
@@ -60,11 +60,11 @@ class AlarmRows(ItemList[Row]):
         """State, name, times, value, condition."""
         row = self.rows[index]
         sign, word, style = STATES[row.holds]
-        name = min(NAME, max((cell_len(harmless(each.name)) for each in self.rows), default=0), max(8, width // 3))
+        name = min(NAME, max((cell_len(sanitize(each.name)) for each in self.rows), default=0), max(8, width // 3))
         loud = self._style(style)
         segments = [
             Segment(f"{sign} {word:<{STATE - 2}}", loud),
-            Segment(cut(harmless(row.name), name, pad=True) + "  ", loud if row.holds else self._style("strong")),
+            Segment(cut(sanitize(row.name), name, pad=True) + "  ", loud if row.holds else self._style("strong")),
         ]
         if width >= 60:
             so = age_text(row.age) if row.holds is not None else ""
@@ -72,8 +72,8 @@ class AlarmRows(ItemList[Row]):
         segments += [
             Segment(f"{counted(row.times, 'time') if row.times else '':<9}", loud if row.holds else self._style("dim")),
             Segment("♪ " if row.bell else "  ", self._style("dim")),
-            Segment(cut(harmless(row.value), 16, pad=True) + "  "),
-            Segment(harmless(row.condition), self._style("dim")),
+            Segment(cut(sanitize(row.value), 16, pad=True) + "  "),
+            Segment(sanitize(row.condition), self._style("dim")),
         ]
         return segments
 

@@ -10,8 +10,8 @@ from typing import Any
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.console.sights.model import Diagnostics, Level
-from bot_console.tui.format import harmless
+from bot_console.tui.console.sensors.model import Diagnostics, Level
+from bot_console.tui.format import sanitize
 from bot_console.tui.panes.diagnostics.details import below_text, sections
 from bot_console.tui.panes.diagnostics.table import StatusRows
 from bot_console.tui.panes.diagnostics.tree import Row, matches, rows
@@ -19,12 +19,12 @@ from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.screens.facts import FactsScreen
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.row_list import RowList
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.static_text import StaticText
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.containers import Container
 
-PERIOD = 0.5
+POLL_S = 0.5
 """Seconds between two looks."""
 SIDE = 110
 """Cells from which the list and what is at the cursor stand side by side."""
@@ -53,7 +53,7 @@ class DiagnosticsPane(ListPane):
         self._query = Query()
         self._bad_only = False
         self._folded: frozenset[str] = frozenset()
-        self._looked = 0.0
+        self._polled = 0.0
         self._due = 0.0
         """When something here is a second older, and perhaps stale, with nothing new having come."""
 
@@ -61,7 +61,7 @@ class DiagnosticsPane(ListPane):
         """The tree, details of the row at the cursor, and a prompt."""
         with Container(id="diagnostics-body"):
             yield StatusRows()
-            yield Words(id="diagnostics-detail")
+            yield StaticText(id="diagnostics-detail")
         yield Prompt(id="diagnostics-prompt")
 
     @property
@@ -73,16 +73,16 @@ class DiagnosticsPane(ListPane):
         if snapshot.problem != self._problem:
             self._problem = snapshot.problem
             self._due = 0.0
-        self._look()
+        self._poll()
 
     def tick(self) -> None:
         """Update the tree while it is visible."""
-        if self.display and self.clock() - self._looked >= PERIOD:
-            self._look()
+        if self.display and self.clock() - self._polled >= POLL_S:
+            self._poll()
 
-    def _look(self) -> None:
-        now = self._looked = self.clock()
-        info = self.console.sights.diagnostics()
+    def _poll(self) -> None:
+        now = self._polled = self.clock()
+        info = self.console.sensors.diagnostics()
         if info is not self._info or now >= self._due:
             self._info = info
             self._arrange()
@@ -96,26 +96,26 @@ class DiagnosticsPane(ListPane):
         self._list.exchange(rows(passing, now, self._folded, bad_only=self._bad_only))
         shown = sum(not self._bad_only or each.now(now) is not Level.OK for each in passing)
         more = f"{self._info.dropped} more names than are kept" if self._info.dropped else ""
-        self.tell_filter(shown, len(every), "not OK" if self._bad_only else "", more)
+        self.report_filter(shown, len(every), "not OK" if self._bad_only else "", more)
         self._describe()
 
     def _describe(self) -> None:
-        row, detail = self._list.current, self.query_one("#diagnostics-detail", Words)
+        row, detail = self._list.current, self.query_one("#diagnostics-detail", StaticText)
         detail.set_class(row is None, "sentence")
-        detail.say(self._details(row))
+        detail.show_text(self._details(row))
 
     def _details(self, row: Row | None) -> Text:
         if row is None:
             if self._info.statuses:
                 return Text("All is OK; w shows everything." if self._bad_only else "Nothing matches.", "dim")
-            return Text(harmless(self._problem or self._info.problem) or NOTHING, "dim")
+            return Text(sanitize(self._problem or self._info.problem) or NOTHING, "dim")
         if row.status is None:
-            return Text(harmless(below_text(row)))
+            return Text(sanitize(below_text(row)))
         text = Text(no_wrap=True, overflow="ellipsis")
         for heading, lines in sections(row.status, self.clock()):
             if lines:
-                text.append(f"{harmless(heading)}\n", "bold")
-                text.append("".join(f"  {harmless(line)}\n" for line in lines))
+                text.append(f"{sanitize(heading)}\n", "bold")
+                text.append("".join(f"  {sanitize(line)}\n" for line in lines))
         return text
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
@@ -151,7 +151,7 @@ class DiagnosticsPane(ListPane):
         """Show all details of a status; fold or unfold a part that only contains others."""
         row = self._list.current
         if row is not None and row.status is not None:
-            self.host.push_screen(FactsScreen(harmless(row.status.name), sections(row.status, self.clock())))
+            self.host.push_screen(FactsScreen(sanitize(row.status.name), sections(row.status, self.clock())))
         elif row is not None:
             self.action_fold(not row.folded)
 

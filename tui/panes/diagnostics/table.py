@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from bot_console.tui.console.query import Query
-from bot_console.tui.console.sights.model import Level
-from bot_console.tui.format import cut, harmless
+from bot_console.tui.console.sensors.model import Level
+from bot_console.tui.format import cut, sanitize
 from bot_console.tui.panes.diagnostics.tree import Row, matches
 from bot_console.tui.text.figures import age_text
 from bot_console.tui.widgets.item_list import ItemList
@@ -14,7 +14,7 @@ from rich.style import Style
 from textual.events import Click
 from textual.message import Message
 
-LOOKS = {
+LEVEL_STYLES = {
     Level.OK: ("●", "good"),
     Level.WARN: ("▲", "warn"),
     Level.ERROR: ("✗", "error"),
@@ -64,28 +64,28 @@ class StatusRows(ItemList[Row]):
 
     def _name_width(self, width: int) -> int:
         if self._names[0] is not self.rows:
-            longest = max((2 * each.depth + 4 + cell_len(harmless(each.title)) for each in self.rows), default=0)
+            longest = max((2 * each.depth + 4 + cell_len(sanitize(each.title)) for each in self.rows), default=0)
             self._names = (self.rows, longest)
         return max(12, min(self._names[1], NAME, width - LEVEL - AGE - 2))
 
     def row(self, index: int, width: int) -> list[Segment]:
         """Fold mark, name, level, age, message."""
         row = self.rows[index]
-        sign, style = LOOKS[row.level]
+        sign, style = LEVEL_STYLES[row.level]
         own = self._style(style)
         fold = ("▸ " if row.folded else "▾ ") if row.count else "  "
-        name = cut(f"{'  ' * row.depth}{fold}{harmless(row.title)}", self._name_width(width), pad=True)
+        name = cut(f"{'  ' * row.depth}{fold}{sanitize(row.title)}", self._name_width(width), pad=True)
         quiet = row.level is Level.OK
         return [
             Segment(name, self._style("head") if row.count else self._style("strong") if not quiet else None),
             Segment(f" {sign} {row.level.name:<{LEVEL - 1}}", own),
             Segment(f"{age_text(row.age):>{AGE}}  ", self._style("dim")),
-            Segment(harmless(self._said(row)), None if quiet else own),
+            Segment(sanitize(self._last_message(row)), None if quiet else own),
         ]
 
-    def _said(self, row: Row) -> str:
+    def _last_message(self, row: Row) -> str:
         below = f"{row.count - row.bad} of {row.count} OK" if row.count else ""
-        return "  ".join(each for each in (row.said, below) if each)
+        return "  ".join(each for each in (row.message, below) if each)
 
     def _style(self, name: str) -> Style:
         return self.part_style(f"row-list--{name}")

@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 
 from bot_console.tui.console.query import Query
-from bot_console.tui.console.sights.model import Level, Status
+from bot_console.tui.console.sensors.model import Level, Status
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,7 +18,7 @@ class Row:
     depth: int
     level: Level
     status: Status | None = field(default=None, compare=False)
-    said: str = ""
+    message: str = ""
     age: int = 0
     """Whole seconds since it, or the one below it that is silent longest, was heard."""
     count: int = 0
@@ -70,7 +70,7 @@ def _add(found: list[Row], above: _Part, path: str, depth: int, now: float, fold
         bad = sum(each.now(now) is not Level.OK for each in below)
         age = now - (part.status.heard if part.status else min(each.heard for each in every))
         closed = bool(part.parts) and own in folded
-        said = part.status.message if part.status else ""
-        found.append(Row(own, title, depth, level, part.status, said, max(0, int(age)), len(below), bad, closed))
+        message = part.status.message if part.status else ""
+        found.append(Row(own, title, depth, level, part.status, message, max(0, int(age)), len(below), bad, closed))
         if not closed:
             _add(found, part, own, depth + 1, now, folded)

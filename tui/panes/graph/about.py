@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bot_console.tui.console.graph.findings import SILENT
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
-from bot_console.tui.format import counted, harmless
+from bot_console.tui.format import counted, sanitize
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC
 
 
@@ -13,16 +13,16 @@ def summary(info: GraphInfo, item: str) -> str:
     if not item:
         return ""
     if item.startswith(SPACE):
-        return harmless(f"{item.removeprefix(SPACE)}  enter or + unfolds it")
+        return sanitize(f"{item.removeprefix(SPACE)}  enter or + unfolds it")
     if item.startswith((SERVICE, ACTION)):
         kind, _, name = item.partition(":")
-        return harmless(f"{kind} {name}  {' '.join(server_types(info, item))}")
+        return sanitize(f"{kind} {name}  {' '.join(server_types(info, item))}")
     if item.startswith(TOPIC):
         name = item.removeprefix(TOPIC)
         publishers, subscribers = ends_of(info, name)
         kinds = types_of(info, name)
         text = f"{name}  {', '.join(kinds) or 'type unknown'}  {counted(len(publishers), 'publisher')}"
-        return harmless(f"{text}, {counted(len(subscribers), 'subscription')}{warning(publishers, subscribers)}")
+        return sanitize(f"{text}, {counted(len(subscribers), 'subscription')}{warning(publishers, subscribers)}")
     node = node_of(info, item)
     if node is None:
         return ""
@@ -30,7 +30,7 @@ def summary(info: GraphInfo, item: str) -> str:
     parts += [f"{counted(len(node.services), 'service')}", f"{counted(len(node.clients), 'client')}"]
     stopped = "".join(f" - frozen: process {pid} is stopped" for name, pid in info.frozen if name == item)
     stopped = stopped or (f" - {SILENT}" if item in info.silent else "")
-    return harmless(f"{item}  {', '.join(parts)}{stopped}")
+    return sanitize(f"{item}  {', '.join(parts)}{stopped}")
 
 
 def server_types(info: GraphInfo, item: str) -> list[str]:

@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC, is_link, namespace_of
-from bot_console.tui.text.shown import counted, cut_name, harmless
+from bot_console.tui.text.sanitize import counted, cut_name, sanitize
 from bot_console.tui.widgets.diagram.chart.model import Chart, ChartBox, ChartLink
 
 LINE = "line:"
 """Begins the id of a line between two boxes."""
 KINDS = {TOPIC: "", SERVICE: "srv ", ACTION: "act "}
-LONGEST = 40
+MAX_LENGTH = 40
 """Letters of a name at most."""
 RATE_CELLS = 6
 """Cells kept for a rate, so that the drawing stays as it is while the rate changes."""
@@ -71,8 +71,8 @@ def bundled(
     for pair in sorted(links):
         ends = [group_of[each] for each in pair]
         alone = all(len(each) == 1 for each in ends)
-        said = names.words(pair, links[pair], wrong.get(pair, set()), rates) if alone and rates else words[pair]
-        line = ChartLink(f"{LINE}{pair[0]}>{pair[1]}", *pair, said)
+        message = names.words(pair, links[pair], wrong.get(pair, set()), rates) if alone and rates else words[pair]
+        line = ChartLink(f"{LINE}{pair[0]}>{pair[1]}", *pair, message)
         lines.append(line)
         if pair in wrong:
             broken |= {(each, line.id) for each in ends[0]} | {(line.id, each) for each in ends[1]}
@@ -126,14 +126,14 @@ def _alike(boxes: list[str], words: Mapping[Pair, tuple[str, ...]]) -> list[tupl
 def _natural(name: str) -> tuple[tuple[int, str], ...]:
     """Sorts robot2 before robot10."""
     digits, parts = "", list[tuple[int, str]]()
-    for letter in name:
-        if letter.isdecimal():
-            digits += letter
+    for character in name:
+        if character.isdecimal():
+            digits += character
             continue
         if digits:
             parts.append((int(digits), ""))
             digits = ""
-        parts.append((0, letter))
+        parts.append((0, character))
     return (*parts, *(((int(digits), ""),) if digits else ()))
 
 
@@ -150,7 +150,7 @@ class _Names:
         space = box.startswith(SPACE)
         # Beside folded namespaces, a node says which one it is in.
         unique = self._boxes[_last(name)] == 1 and (space or not self._members)
-        text = cut_name(harmless(_last(name) if unique else name), LONGEST)
+        text = cut_name(sanitize(_last(name) if unique else name), MAX_LENGTH)
         return f"▸ {text}  {counted(self._members.get(box, 0), 'node')}" if space else text
 
     def words(
@@ -168,7 +168,7 @@ class _Names:
             if space and len(some) > 1:
                 kind = KINDS[some[0].partition(":")[0] + ":"]
                 found.append(
-                    (any(each in faulty for each in some), f"{kind}{harmless(space.rpartition('/')[2])} ×{len(some)}")
+                    (any(each in faulty for each in some), f"{kind}{sanitize(space.rpartition('/')[2])} ×{len(some)}")
                 )
             else:
                 found += [(each in faulty, self._word(each, pair, rates)) for each in some]
@@ -182,7 +182,7 @@ class _Names:
         short = _last(name)
         if self._links[short] > 1:
             short = inner or name
-        text = KINDS[f"{kind}:"] + cut_name(harmless(short), LONGEST)
+        text = KINDS[f"{kind}:"] + cut_name(sanitize(short), MAX_LENGTH)
         rate = rates.get(name) if kind == "topic" else None
         return f"{text} {rate:<{RATE_CELLS}}" if rate else text
 

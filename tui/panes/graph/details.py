@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from bot_console.tui.console.graph.findings import Finding, findings
+from bot_console.tui.console.graph.findings import GraphFinding, findings
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo
 from bot_console.tui.format import value_text
 from bot_console.tui.panes.graph.about import ends_of, node_of, server_types, types_of
@@ -108,7 +108,7 @@ def finding_options(info: GraphInfo) -> list[Option]:
     return [Option(each.text, "fault" if each.fault else "", ITEM + _item_of(info, each)) for each in findings(info)]
 
 
-def _item_of(info: GraphInfo, finding: Finding) -> str:
+def _item_of(info: GraphInfo, finding: GraphFinding) -> str:
     subject = finding.subject
     if node_of(info, subject) is not None:
         return subject

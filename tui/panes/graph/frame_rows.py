@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.format import cut, harmless
+from bot_console.tui.format import cut, sanitize
 from bot_console.tui.panes.graph.frame_tree import FrameRow
 from bot_console.tui.text.figures import age_text
 from bot_console.tui.widgets.item_list import ItemList
@@ -25,15 +25,15 @@ class FrameRows(ItemList[FrameRow]):
     def row(self, index: int, width: int) -> list[Segment]:
         """Tree and name, rate, age, publisher, and problems."""
         row = self.rows[index]
-        longest = max(2 * each.depth + cell_len(harmless(each.name)) for each in self.rows)
-        name = cut("  " * row.depth + harmless(row.name), max(12, min(longest, NAME, width - RATE - AGE)), pad=True)
-        trouble = [Segment(f"✗ {harmless(row.trouble)}  ", self._style("error"))] if row.trouble else []
+        longest = max(2 * each.depth + cell_len(sanitize(each.name)) for each in self.rows)
+        name = cut("  " * row.depth + sanitize(row.name), max(12, min(longest, NAME, width - RATE - AGE)), pad=True)
+        trouble = [Segment(f"✗ {sanitize(row.trouble)}  ", self._style("error"))] if row.trouble else []
         return [
             Segment(name, self._style("head") if row.frame is None else None),
             Segment(f"{_rate(row):>{RATE}}"),
             Segment(f"{age_text(row.age):>{AGE}}  ", self._style("dim")),
             *trouble,
-            Segment(harmless(row.by), self._style("dim")),
+            Segment(sanitize(row.by), self._style("dim")),
         ]
 
     def _style(self, name: str) -> Style:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from bot_console.tui.console.query import Query
-from bot_console.tui.console.sights.frame_model import Frame, Frames, findings, loop_of, roots
+from bot_console.tui.console.sensors.frame_model import Frame, Frames, findings, loop_of, roots
 from bot_console.tui.screens.facts import Section
 
 
@@ -40,7 +40,7 @@ def rows(info: Frames, clock: float, query: Query) -> list[FrameRow]:
         if name in seen or name not in wanted:
             return
         seen.add(name)
-        by = ", ".join(info.tellers(frame)) if frame else ""
+        by = ", ".join(info.publishers(frame)) if frame else ""
         age = clock - frame.heard if frame and not frame.fixed else None
         found.append(FrameRow(name, depth, frame, by, wrong.get(name, ""), age))
         for each in below.get(name, ()):
@@ -96,18 +96,18 @@ def summary(row: FrameRow | None, info: Frames) -> str:
 def facts(row: FrameRow, info: Frames, clock: float) -> list[Section]:
     """All details of a frame."""
     frame = row.frame
-    told = [text for name, text in findings(info, clock) if name == row.name]
+    reported = [text for name, text in findings(info, clock) if name == row.name]
     if frame is None:
-        return [("Frame", ["stands in no other frame; nobody tells where it is"]), ("What is odd", told)]
+        return [("Frame", ["stands in no other frame; nobody tells where it is"]), ("What is odd", reported)]
     where = summary(row, info).partition("  ")[2].replace("  ", ", ")
     how = ["fixed, told on /tf_static"] if frame.fixed else list(_how(frame, clock))
-    by = info.tellers(frame)
+    by = info.publishers(frame)
     several = ["one of them; messages do not say which"] if len(by) > 1 else []
     return [
         (f"In {frame.parent}", [where]),
         ("Told", how),
         ("By", [*by, *several] or ["a node that has left"]),
-        ("What is odd", told),
+        ("What is odd", reported),
     ]
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.console.sights.frame_model import Frames, findings
-from bot_console.tui.console.sights.model import Sights
-from bot_console.tui.format import counted, harmless
+from bot_console.tui.console.sensors.frame_model import Frames, findings
+from bot_console.tui.console.sensors.model import Sensors
+from bot_console.tui.format import counted, sanitize
 from bot_console.tui.panes.graph.frame_rows import FrameRows
 from bot_console.tui.panes.graph.frame_tree import facts, rows, summary
 from bot_console.tui.screens.facts import FactsScreen
@@ -15,7 +15,7 @@ from bot_console.tui.widgets.prompt.question import Option
 from textual.app import App, ComposeResult
 from textual.containers import Container
 
-PERIOD = 0.5
+FRAMES_POLL_S = 0.5
 """Seconds between two looks."""
 
 
@@ -27,8 +27,8 @@ class FramesView(Container):
     def __init__(self) -> None:
         super().__init__()
         self.open = False
-        self._looking_by: Sights | None = None
-        self._looked = 0.0
+        self._watched_by: Sensors | None = None
+        self._polled = 0.0
         self._info = Frames()
         self._query = Query()
         self._words = ""
@@ -46,21 +46,21 @@ class FramesView(Container):
         """Open or close the list."""
         self.open = not self.open
         self.display = self.open
-        self._looked = 0.0
+        self._polled = 0.0
 
     def take_focus(self) -> None:
         """Focus the list."""
         self._rows.focus()
 
-    def look(self, sights: Sights, clock: float, *, seen: bool) -> None:
+    def poll(self, sensors: Sensors, clock: float, *, seen: bool) -> None:
         """Subscribe while it is open and visible; update it when due."""
         wanted = self.open and seen
-        if self._looking_by is not (sights if wanted else None):  # a different one after a reconnection
-            self._looking_by = sights if wanted else None
-            sights.look_at_frames(wanted)
-        if wanted and clock - self._looked >= PERIOD:
-            self._looked = clock
-            self._info = sights.frames()
+        if self._watched_by is not (sensors if wanted else None):  # a different one after a reconnection
+            self._watched_by = sensors if wanted else None
+            sensors.watch_frames(wanted)
+        if wanted and clock - self._polled >= FRAMES_POLL_S:
+            self._polled = clock
+            self._info = sensors.frames()
             self._count = sum(1 for _ in findings(self._info, clock))
             self._arrange(clock)
 
@@ -71,7 +71,7 @@ class FramesView(Container):
         """Show the frames that pass, and their ancestors."""
         self._query, self._words = parse(words), words
         if self.open:
-            self._arrange(self._looked)
+            self._arrange(self._polled)
 
     def find(self, query: Query, step: int) -> bool:
         """Go to the next matching frame; returns whether there is one."""
@@ -95,9 +95,9 @@ class FramesView(Container):
     @property
     def summary(self) -> str:
         """A line on the frame at the cursor."""
-        return harmless(summary(self._rows.current, self._info))
+        return sanitize(summary(self._rows.current, self._info))
 
-    def odd(self, clock: float) -> Sequence[Option]:
+    def anomalies(self, clock: float) -> Sequence[Option]:
         """The findings, each with its frame."""
         return [Option(text, "", name) for name, text in findings(self._info, clock)]
 
@@ -110,4 +110,4 @@ class FramesView(Container):
         """Show all details of the frame at the cursor."""
         row = self._rows.current
         if row is not None:
-            host.push_screen(FactsScreen(harmless(row.name), facts(row, self._info, clock)))
+            host.push_screen(FactsScreen(sanitize(row.name), facts(row, self._info, clock)))

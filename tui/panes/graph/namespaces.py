@@ -9,7 +9,7 @@ LINKS = (TOPIC, SERVICE, ACTION)
 """How the ids of items begin that stand between nodes."""
 SPACE = "namespace:"
 """Begins the id of a box that stands for all nodes of a namespace."""
-FEWEST = 2
+MIN_NODES = 2
 """Nodes that a namespace has at least to be worth a box."""
 
 
@@ -35,21 +35,21 @@ def outermost(nodes: Iterable[str], above: str = "") -> frozenset[str]:
         if deeper:
             space = f"{above}/{first}"
             counts[space] = counts.get(space, 0) + 1
-    found = frozenset(space for space, count in counts.items() if count >= FEWEST)
+    found = frozenset(space for space, count in counts.items() if count >= MIN_NODES)
     if len(found) == 1 and counts[space := next(iter(found))] == len(below):
         return outermost(below, space) or found
     return found
 
 
-def folds_of(nodes: Sequence[str], most: int) -> frozenset[str]:
+def folds_of(nodes: Sequence[str], maximum: int) -> frozenset[str]:
     """What is folded until a person says otherwise: with more than `most` nodes, the outermost namespaces."""
-    return outermost(nodes) if len(nodes) > most else frozenset()
+    return outermost(nodes) if len(nodes) > maximum else frozenset()
 
 
-def unfolded(folded: frozenset[str], space: str, nodes: Iterable[str], most: int) -> frozenset[str]:
+def unfolded(folded: frozenset[str], space: str, nodes: Iterable[str], maximum: int) -> frozenset[str]:
     """What is folded once a namespace is not: if it has more than `most` nodes, the namespaces in it."""
     inside = [each for each in nodes if each.startswith(f"{space}/")]
-    return folded - {space} | (outermost(inside, space) if len(inside) > most else frozenset[str]())
+    return folded - {space} | (outermost(inside, space) if len(inside) > maximum else frozenset[str]())
 
 
 def box_of(node: str, folded: Collection[str]) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from bot_console.tui.console.graph.connections import TOOL_NAMES, is_hidden
 from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo
-from bot_console.tui.format import counted, cut, harmless
+from bot_console.tui.format import counted, cut, sanitize
 from bot_console.tui.panes.graph.about import ends_of, node_of, summary
 from bot_console.tui.panes.graph.bundles import LINE
 from bot_console.tui.panes.graph.namespaces import SPACE, TOPIC
@@ -44,7 +44,7 @@ def summary_of(info: GraphInfo, found: Shown, item: str) -> str:
         return summary(info, item)
     source, _, target = item.removeprefix(LINE).partition(">")
     names = " ".join(each.partition(":")[2] for each in links)
-    return harmless(f"{source.removeprefix(SPACE)} → {target.removeprefix(SPACE)}  {names}")
+    return sanitize(f"{source.removeprefix(SPACE)} → {target.removeprefix(SPACE)}  {names}")
 
 
 def nothing_drawn(info: GraphInfo, found: Shown) -> str:
@@ -55,13 +55,13 @@ def nothing_drawn(info: GraphInfo, found: Shown) -> str:
 
 
 def item_notes(
-    snapshot: ConsoleSnapshot, found: Shown, item: str, rates: Mapping[str, str], width: int, most: int
+    snapshot: ConsoleSnapshot, found: Shown, item: str, rates: Mapping[str, str], width: int, maximum: int
 ) -> list[str]:
     """Everything about the ends of an item, in at most so many lines."""
     links = found.bundles.links.get(item)
     if links is None:
-        return _node_notes(snapshot, item, rates, width, most)
-    return _link_notes(snapshot.graph, links, rates, width, most)
+        return _node_notes(snapshot, item, rates, width, maximum)
+    return _link_notes(snapshot.graph, links, rates, width, maximum)
 
 
 def dead_ends(found: Shown, width: int) -> list[str]:
@@ -94,15 +94,15 @@ def _folded(names: Iterable[str]) -> list[tuple[str, int]]:
     for each in known:
         space = each.rpartition("/")[0]
         many = spaces[space] if space else 1
-        words[harmless(f"{space[1:]} ×{many}" if many > 1 else each.lstrip("/"))] = many
+        words[sanitize(f"{space[1:]} ×{many}" if many > 1 else each.lstrip("/"))] = many
     return sorted(words.items(), key=lambda each: (each[1] > 1, each[0]))
 
 
-def _node_notes(snapshot: ConsoleSnapshot, name: str, rates: Mapping[str, str], width: int, most: int) -> list[str]:
+def _node_notes(snapshot: ConsoleSnapshot, name: str, rates: Mapping[str, str], width: int, maximum: int) -> list[str]:
     """What a node sends and reads, and to and from whom, in at most so many lines; empty without room or node."""
     info = snapshot.graph
     node = node_of(info, name)
-    if node is None or most < 2:
+    if node is None or maximum < 2:
         return []
     tree = snapshot.parameters.get(name)
     processes = [each.label for each in snapshot.launch.processes if name in each.nodes]
@@ -114,11 +114,13 @@ def _node_notes(snapshot: ConsoleSnapshot, name: str, rates: Mapping[str, str], 
         *_ends(info, "sends", node.publishers, rates, width, publishing=True),
         *_ends(info, "reads", node.subscriptions, rates, width, publishing=False),
     ]
-    if len(lines) > most - 1:
+    if len(lines) > maximum - 1:
         lines = (
-            [*lines[: most - 2], f"{' ' * INDENT}{len(lines) - most + 2} more lines: press enter"] if most > 2 else []
+            [*lines[: maximum - 2], f"{' ' * INDENT}{len(lines) - maximum + 2} more lines: press enter"]
+            if maximum > 2
+            else []
         )
-    return [cut(harmless(each), width) for each in (head, *lines)]
+    return [cut(sanitize(each), width) for each in (head, *lines)]
 
 
 def _ends(
@@ -148,7 +150,7 @@ def _ends(
     return lines
 
 
-def _link_notes(info: GraphInfo, links: Iterable[str], rates: Mapping[str, str], width: int, most: int) -> list[str]:
+def _link_notes(info: GraphInfo, links: Iterable[str], rates: Mapping[str, str], width: int, maximum: int) -> list[str]:
     """The topics of a line with their ends, in at most so many lines."""
     lines: list[str] = []
     for link in links:
@@ -159,6 +161,6 @@ def _link_notes(info: GraphInfo, links: Iterable[str], rates: Mapping[str, str],
         publishers, subscribers = ends_of(info, name)
         rate = f" {rates[name]}" if rates.get(name) else ""
         lines.append(f"{name}{rate}{GAP}{' '.join(publishers)} → {' '.join(subscribers)}")
-    if len(lines) > most:
-        lines = [*lines[: most - 1], f"{len(lines) - most + 1} more"] if most > 0 else []
-    return [cut(harmless(each), width) for each in lines]
+    if len(lines) > maximum:
+        lines = [*lines[: maximum - 1], f"{len(lines) - maximum + 1} more"] if maximum > 0 else []
+    return [cut(sanitize(each), width) for each in lines]

@@ -13,7 +13,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.graph.connections import TOOL_NAMES
 from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.console.sights.model import Sights
+from bot_console.tui.console.sensors.model import Sensors
 from bot_console.tui.files.save_file import save_file
 from bot_console.tui.panes.graph.about import ends_of, node_of
 from bot_console.tui.panes.graph.details import (
@@ -44,7 +44,7 @@ from bot_console.tui.panes.graph.namespaces import (
 from bot_console.tui.panes.graph.notes import caption, dead_ends, item_notes, nothing_drawn, summary_of
 from bot_console.tui.panes.graph.rates import Rates
 from bot_console.tui.panes.graph.view import GraphView, Mode, Shown, shown
-from bot_console.tui.panes.graph.view_state import KEPT, ViewState, view_state_of
+from bot_console.tui.panes.graph.view_state import STATE_NAME, ViewState, view_state_of
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.diagram.chart.drawing import WIDE
 from bot_console.tui.widgets.diagram_view import LARGE, DiagramView
@@ -52,7 +52,7 @@ from bot_console.tui.widgets.prompt.filtered import Narrowed
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Line, Option
 from bot_console.tui.widgets.row_list import RowList
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.static_text import StaticText
 from rich.text import Text
 from textual.app import ComposeResult
 
@@ -91,25 +91,25 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._folds: frozenset[str] | None = None
         """Namespaces that a person has folded; None: as it seems best."""
         self._rates = Rates()
-        self._asking_by: Sights | None = None
+        self._asking_by: Sensors | None = None
         """Who finds out which nodes do not answer."""
 
     def on_mount(self) -> None:
         """Restore the view of the last run."""
-        left = view_state_of(self.state_store.get(KEPT))
+        left = view_state_of(self.state_store.get(STATE_NAME))
         self._view, self._folds = replace(left.view, hides=getattr(self.host, "graph_hides", TOOL_NAMES)), left.folds
         self._rates.wanted = left.rates
 
     def on_unmount(self) -> None:
         """Save the view."""
-        self.state_store.put(KEPT, ViewState(self._view, self._folds, self._rates.wanted).data)
+        self.state_store.put(STATE_NAME, ViewState(self._view, self._folds, self._rates.wanted).data)
 
     def compose(self) -> ComposeResult:
         """The picture, details of the selected item, and a prompt."""
         yield DiagramView()
         yield FramesView()
-        yield Words(id="graph-dead-ends")
-        yield Words(id="graph-status")
+        yield StaticText(id="graph-dead-ends")
+        yield StaticText(id="graph-status")
         yield Prompt(id="graph-prompt")
 
     @property
@@ -149,23 +149,23 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         for short in (False, True) if self._view.mode in (Mode.ACTIVE, Mode.ALL) else (False,):
             self._view = replace(self._view, short=short)
             self._shown = shown(info, self._view, self._rates.shown(self._measures))
-            self._tell_dead_ends()
+            self._report_dead_ends()
             faults = self._shown.bundles.faults or self._shown.faults
             self._picture.show(self._shown.content, self._shown.dead_ends, faults, self._shown.silent)
             if self._picture.excess <= 1.0 or len(self._shown.graph.items) > LARGE:
                 break
-        self._tell()
+        self._report()
 
     def tick(self) -> None:
         """Show rates if requested and the pane is visible; otherwise measure nothing."""
         self._ask_nodes()
         if self.has_parts:
-            self._frames.look(self.console.sights, self.clock(), seen=self.display)
+            self._frames.poll(self.console.sensors, self.clock(), seen=self.display)
             if self._frames.open:
-                self._tell()
+                self._report()
         if not self._measures or not self.display:
             self._rates.rest(self.console.traffic)
-        elif self._rates.look(self.console.traffic, self._shown.topics_drawn, self.clock()):
+        elif self._rates.poll(self.console.traffic, self._shown.topics_drawn, self.clock()):
             self._draw()
 
     @property
@@ -177,42 +177,42 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     def _ask_nodes(self) -> None:
         """Have nodes probed for liveness while the pane is visible."""
-        wanted = self.console.sights if self.display else None
+        wanted = self.console.sensors if self.display else None
         if wanted is not self._asking_by:  # a different one, too, after a reconnection
             self._asking_by = wanted
-            self.console.sights.look_at_nodes(wanted is not None)
+            self.console.sensors.watch_nodes(wanted is not None)
 
-    def let_go(self) -> None:
+    def detach(self) -> None:
         """Stop measuring and probing."""
         self.console.traffic.measure([], "graph")
-        self.console.sights.look_at_nodes(False)
-        self.console.sights.look_at_frames(False)
+        self.console.sensors.watch_nodes(False)
+        self.console.sensors.watch_frames(False)
 
     def on_diagram_view_resized(self) -> None:
         """Choose again what fits."""
         self._draw()
 
-    def _tell(self) -> None:
+    def _report(self) -> None:
         """Describe the selected item, and what is omitted."""
         if self._frames.open:
             self.caption(self._frames.caption)
-            self.query_one("#graph-status", Words).say(self._frames.summary)
+            self.query_one("#graph-status", StaticText).show_text(self._frames.summary)
             return
         info = self._info or GraphInfo()
         self.caption(caption(info, self._shown, self._view, self.words))
         text = summary_of(info, self._shown, self._picture.selected)
-        self.query_one("#graph-status", Words).say(text or self._problem or nothing_drawn(info, self._shown))
-        self._tell_more()
+        self.query_one("#graph-status", StaticText).show_text(text or self._problem or nothing_drawn(info, self._shown))
+        self._report_more()
 
-    def _tell_dead_ends(self) -> None:
+    def _report_dead_ends(self) -> None:
         """Count what has one end only; where it fits, name it."""
-        words = self.query_one("#graph-dead-ends", Words)
+        words = self.query_one("#graph-dead-ends", StaticText)
         lines = dead_ends(self._shown, max(1, self.content_size.width - 2))
         words.display = bool(lines) and not self._frames.open
         words.styles.height = max(1, len(lines))
-        words.say(Text("\n".join(lines)))
+        words.show_text(Text("\n".join(lines)))
 
-    def _tell_more(self) -> None:
+    def _report_more(self) -> None:
         """Describe the selected item in the rows that the drawing leaves free."""
         picture, rates = self._picture, self._rates.shown(self._measures)
         width, lines = picture.outer_size.width - 2, list[str]()
@@ -223,7 +223,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     def on_diagram_view_selected(self, event: DiagramView.Selected) -> None:
         """Describe the selected item."""
         event.stop()
-        self._tell()
+        self._report()
 
     def action_mode(self) -> None:
         """The next mode."""
@@ -293,7 +293,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     def action_findings(self) -> None:
         """List the findings."""
         if self._frames.open:
-            self._offer("What is odd about the frames", self._frames.odd(self.clock()), "Nothing is odd.")
+            self._offer("What is odd about the frames", self._frames.anomalies(self.clock()), "Nothing is odd.")
             return
         self._offer("What is odd", finding_options(self._info or GraphInfo()), "Nothing is odd.")
 
@@ -380,15 +380,15 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         frames = self._frames
         frames.toggle()
         self._picture.display = not frames.open
-        self._tell_dead_ends()
+        self._report_dead_ends()
         self.focus_target()
         self.tick()
-        self._tell()
+        self._report()
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Describe the frame at the cursor."""
         event.stop()
-        self._tell()
+        self._report()
 
     def action_export(self) -> None:
         """Ask for the file to export to."""

@@ -18,17 +18,17 @@ class Rates:
         self.wanted: bool | None = None
         """Whether a person wants rates; None: where there is room for them."""
         self.texts: Mapping[str, str] = {}
-        self._looked = 0.0
+        self._polled = 0.0
 
     def shown(self, on: bool) -> Mapping[str, str]:
         """The texts, or none."""
         return self.texts if on else {}
 
-    def look(self, traffic: Traffic, topics: Sequence[str], now: float) -> bool:
+    def poll(self, traffic: Traffic, topics: Sequence[str], now: float) -> bool:
         """Measure these topics, and read the rates every few seconds; returns whether any text has changed."""
-        if now - self._looked < RATE_POLL_S:
+        if now - self._polled < RATE_POLL_S:
             return False
-        self._looked = now
+        self._polled = now
         traffic.measure(topics, READER)
         known = traffic.measured()
         texts = {topic: coarse_rate(known[topic].rate) for topic in topics if topic in known}
@@ -37,6 +37,6 @@ class Rates:
 
     def rest(self, traffic: Traffic) -> None:
         """Measure nothing."""
-        if self._looked:
-            self._looked = 0.0
+        if self._polled:
+            self._polled = 0.0
             traffic.measure([], READER)

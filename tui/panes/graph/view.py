@@ -12,7 +12,7 @@ from bot_console.tui.console.graph.connections import TOOL_NAMES, connections, i
 from bot_console.tui.console.graph.qos import mismatched
 from bot_console.tui.console.model import GraphInfo, NodeInfo
 from bot_console.tui.console.query import Query
-from bot_console.tui.format import counted, harmless
+from bot_console.tui.format import counted, sanitize
 from bot_console.tui.panes.graph.bundles import Bundles, bundled
 from bot_console.tui.panes.graph.filtering import filtered
 from bot_console.tui.panes.graph.focus_history import Focus, around
@@ -21,7 +21,7 @@ from bot_console.tui.widgets.diagram.chart.model import Chart
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
 from bot_console.tui.widgets.diagram.listing import Listing
 
-LONGEST, SHORT = 40, 16
+MAX_LENGTH, SHORT = 40, 16
 
 
 class Mode(Enum):
@@ -170,7 +170,7 @@ def _listing(info: GraphInfo, names: set[str], ids: set[str], view: GraphView) -
     lines = {f"{kind}:{name}": text for kind, name, text in every if f"{kind}:{name}" in ids}
     alone = unconnected((each for each in nodes if each.name in ids), {each.partition(":")[::2] for each in lines})
     return Listing(
-        (*((each, harmless(text)) for each, text in lines.items()), *((each, harmless(each)) for each in alone))
+        (*((each, sanitize(text)) for each, text in lines.items()), *((each, sanitize(each)) for each in alone))
     )
 
 
@@ -216,12 +216,12 @@ class _Labels:
         return f"{text} {rate}" if rate else text
 
     def _name(self, name: str) -> str:
-        text = harmless(name)
+        text = sanitize(name)
         if self._whole:
             return text
         if self._short and self._tokens[_last(name)] == 1 and "/" in text[1:]:
             text = "…/" + text.rpartition("/")[2]
-        longest = SHORT if self._short else LONGEST
+        longest = SHORT if self._short else MAX_LENGTH
         return text if len(text) <= longest else text[: longest // 2] + "…" + text[-longest // 2 + 1 :]
 
 

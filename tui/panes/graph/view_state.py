@@ -8,7 +8,7 @@ from typing import Any, cast
 
 from bot_console.tui.panes.graph.view import GraphView, Mode
 
-KEPT = "graph"
+STATE_NAME = "graph"
 SWITCHES = ("debug", "dead_sinks", "leaves", "services")
 
 

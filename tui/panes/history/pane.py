@@ -12,22 +12,22 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import Change, ChangeSource, ConsoleSnapshot, JournalState, SetOutcome, Value
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.format import counted, harmless, value_text
-from bot_console.tui.panes.history.back import Return, returns, values_at
+from bot_console.tui.format import counted, sanitize, value_text
 from bot_console.tui.panes.history.export import FORMS, export
+from bot_console.tui.panes.history.revert import Return, returns, values_at
 from bot_console.tui.panes.history.rows import ChangeRows, command, day_text, details, words
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.text.refusals import of_many
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Confirmation
 from bot_console.tui.widgets.row_list import RowList
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.static_text import StaticText
 from rich.text import Text
 from textual.app import ComposeResult
 
 ALL = -(10**9)
 """A number before the first change of all runs."""
-MOST = 12
+MAX_NAMED_VALUES = 12
 """Values that a question names one by one."""
 
 
@@ -54,7 +54,7 @@ class HistoryPane(ListPane):
     def compose(self) -> ComposeResult:
         """The changes, what is known of the one at the cursor, a prompt."""
         yield ChangeRows()
-        yield Words(id="history-detail")
+        yield StaticText(id="history-detail")
         yield Prompt(id="history-prompt")
 
     @property
@@ -80,7 +80,7 @@ class HistoryPane(ListPane):
         shown = [each for each in reversed(self._every) if self._wanted(each)]
         self._list.exchange(shown)
         more = ("refused" if self._only_refused else "", self._journal.problem)
-        self.tell_filter(len(shown), len(self._every), *more)
+        self.report_filter(len(shown), len(self._every), *more)
         self._describe()
 
     def _wanted(self, change: Change) -> bool:
@@ -95,8 +95,8 @@ class HistoryPane(ListPane):
         elif self.words or self._only_refused:
             text = Text("Nothing matches. Escape shows all.", "dim")
         else:
-            text = Text(harmless(self._problem) or "No parameter was changed yet.", "dim")
-        self.query_one("#history-detail", Words).say(text)
+            text = Text(sanitize(self._problem) or "No parameter was changed yet.", "dim")
+        self.query_one("#history-detail", StaticText).show_text(text)
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Another change: tell of it, and look at its moment."""
@@ -160,9 +160,11 @@ class HistoryPane(ListPane):
         if not found:
             self.notify("; ".join(["The robot has these values already." if not missing else "", *missing]).strip("; "))
             return
-        lines = [self._line(each) for each in found[:MOST]]
-        lines += [f"... and {counted(len(found) - MOST, 'value')} more"] if len(found) > MOST else []
-        lines += [f"not set: {each}" for each in missing[:MOST]]
+        lines = [self._line(each) for each in found[:MAX_NAMED_VALUES]]
+        lines += (
+            [f"... and {counted(len(found) - MAX_NAMED_VALUES, 'value')} more"] if len(found) > MAX_NAMED_VALUES else []
+        )
+        lines += [f"not set: {each}" for each in missing[:MAX_NAMED_VALUES]]
         self.ask(Confirmation(question, lambda _: self._go(found), reasons="\n".join(lines)))
 
     def _line(self, each: Return) -> str:

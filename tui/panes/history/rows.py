@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from bot_console.tui.console.model import Change, ChangeSource, Kind, ParameterInfo, Value
 from bot_console.tui.console.query import Query
-from bot_console.tui.format import clock_text, command_of, cut, harmless, value_text
+from bot_console.tui.format import clock_text, command_of, cut, sanitize, value_text
 from bot_console.tui.widgets.item_list import ItemList
 from rich.segment import Segment
 from rich.style import Style
@@ -56,7 +56,7 @@ def day_text(stamp: int) -> str:
 
 def changed_text(change: Change) -> str:
     """From what to what."""
-    return f"{harmless(value_text(change.old))} → {harmless(value_text(change.new))}"
+    return f"{sanitize(value_text(change.old))} → {sanitize(value_text(change.new))}"
 
 
 def command(change: Change, value: Value) -> str:
@@ -70,11 +70,11 @@ def details(change: Change) -> Text:
     """All that is known of a change."""
     text = Text(no_wrap=False, overflow="fold")
     if not change.accepted:
-        text.append(f"✗ {harmless(value_text(change.new))} was refused: {harmless(change.reason)}\n", "bold")
+        text.append(f"✗ {sanitize(value_text(change.new))} was refused: {sanitize(change.reason)}\n", "bold")
     at = time.strftime("%Y-%m-%d ", time.localtime(change.stamp // 10**9)) + clock_text(change.stamp)
-    text.append(f"{harmless(change.node)} {harmless(change.name)}  {changed_text(change)}\n")
-    text.append(f"{at} · {harmless(who(change))}{' · an earlier run' if change.seq < 0 else ''}\n", "dim")
-    text.append(harmless(command(change, change.new)), "dim italic")
+    text.append(f"{sanitize(change.node)} {sanitize(change.name)}  {changed_text(change)}\n")
+    text.append(f"{at} · {sanitize(who(change))}{' · an earlier run' if change.seq < 0 else ''}\n", "dim")
+    text.append(sanitize(command(change, change.new)), "dim italic")
     return text
 
 
@@ -124,16 +124,16 @@ class ChangeRows(ItemList[Change]):
         dim = self._style("dim")
         of_node, of_name, of_values = self._widths(width)
         moment = day_text(change.stamp) if change.seq < 0 else clock_text(change.stamp)[:8]
-        node = harmless(change.node)
+        node = sanitize(change.node)
         node = cut("…" + node[1 - of_node :] if len(node) > of_node else node, of_node, pad=True)
         head = [Segment(f"{moment:<{MOMENT}}", dim)]
         if of_node:
             head.append(Segment(node + GAP, dim))
-        name = cut(harmless(change.name), of_name, pad=True)
+        name = cut(sanitize(change.name), of_name, pad=True)
         mark = " " if change.accepted else "✗"
         values = cut(changed_text(change), of_values, pad=True)
         refused = self._style("error")
-        tail = f"{harmless(change.reason)} ({harmless(who(change))})" if not change.accepted else harmless(who(change))
+        tail = f"{sanitize(change.reason)} ({sanitize(who(change))})" if not change.accepted else sanitize(who(change))
         return [
             *head,
             Segment(f"{mark} ", refused),

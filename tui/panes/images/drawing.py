@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from bot_console.tui.console.sights.model import Picture
+from bot_console.tui.console.sensors.model import Picture
 from bot_console.tui.widgets.picture import Line
 
 Pixels = npt.NDArray[np.uint8]
@@ -18,7 +18,7 @@ NOISE = 14
 """A pixel that differs by less than this in every colour is left as it is shown, so that noise costs nothing."""
 RAMP = " .:-=+*#%@"
 """Letters from black to white, for screens without colours or without half-blocks."""
-COLOUR, LETTER = 18, 3
+COLOUR, CHARACTER = 18, 3
 """Bytes of a change of one of the two colours of a cell, and of a half-block."""
 
 
@@ -48,7 +48,7 @@ def half_blocks(pixels: Pixels, width: int, height: int) -> list[Line]:
     return _in_the_middle(lines, pixels.shape[1], width, height)
 
 
-def letters(pixels: Pixels, width: int, height: int) -> list[Line]:
+def characters(pixels: Pixels, width: int, height: int) -> list[Line]:
     """Lines of letters, in the middle of so many cells."""
     light = pixels.astype(np.float32) @ np.array([0.299, 0.587, 0.114], np.float32)
     places = ((light[::2] + light[1::2]) / 2 / 256 * len(RAMP)).astype(int)
@@ -66,7 +66,7 @@ def cost(new: Pixels, shown: Pixels | None, *, coloured: bool) -> int:
     other = np.ones(new.shape[:2], bool)
     other[:, 1:] = (new[:, 1:] != new[:, :-1]).any(axis=2)
     grounds = other[::2].astype(int) + other[1::2].astype(int)
-    return int((cells * (LETTER + COLOUR * grounds)).sum())
+    return int((cells * (CHARACTER + COLOUR * grounds)).sum())
 
 
 def _cell(top: int, below: int) -> tuple[str, str]:

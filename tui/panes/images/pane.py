@@ -8,8 +8,8 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
-from bot_console.tui.console.sights.model import COMPRESSED, IMAGE
-from bot_console.tui.console.sights.model import Picture as Seen
+from bot_console.tui.console.sensors.model import COMPRESSED, IMAGE
+from bot_console.tui.console.sensors.model import Picture as Seen
 from bot_console.tui.format import cut
 from bot_console.tui.panes.images import drawing
 from bot_console.tui.panes.images.frame_limit import FrameLimit
@@ -17,7 +17,7 @@ from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Option
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
 from textual.events import Click
 
@@ -59,11 +59,11 @@ class ImagesPane(Pane):
         self._shown: drawing.Pixels | None = None
         self._drawn: object = None
         self._frame_limit = FrameLimit()
-        self._frozen = self._once = self._in_letters = False
+        self._frozen = self._once = self._as_characters = False
 
     def compose(self) -> ComposeResult:
         """A line on the picture, the picture, a prompt."""
-        yield Words(id="images-head")
+        yield StaticText(id="images-head")
         yield ImageView(id="images-view")
         yield Prompt(id="images-prompt")
 
@@ -80,10 +80,10 @@ class ImagesPane(Pane):
         self._graph, self._problem = snapshot.graph, snapshot.problem
         if not self._topic:
             self._topic = next(iter(self._topics()), "")
-            self._say_next()
-        self._look()
+            self._show_next()
+        self._poll()
 
-    def _say_next(self) -> None:
+    def _show_next(self) -> None:
         """Say what to do where there is nothing to see; cleared by the first topic."""
         width, height = self._view.size
         empty = not self._topic and not self._problem and height
@@ -96,14 +96,14 @@ class ImagesPane(Pane):
     def tick(self) -> None:
         """Draw what is new when its time has come; while hidden nothing is received."""
         if self.display:
-            self._look()
+            self._poll()
         elif self._asked[0]:
             self._ask_for("", 0, 0)
 
     def _ask_for(self, topic: str, columns: int, rows: int) -> None:
         if self._asked != (topic, columns, rows):
             self._asked = (topic, columns, rows)
-            self.console.sights.look_at(topic, columns, rows)
+            self.console.sensors.watch_image(topic, columns, rows)
 
     @property
     def _slow(self) -> bool:
@@ -112,25 +112,25 @@ class ImagesPane(Pane):
         return bool(gate is not None and gate.held_back)
 
     @property
-    def _letters(self) -> bool:
+    def _characters(self) -> bool:
         """Whether greys stand for colours."""
-        return self._in_letters or self.host.no_color or bool(getattr(self.host, "plain", False))
+        return self._as_characters or self.host.no_color or bool(getattr(self.host, "plain", False))
 
-    def _look(self) -> None:
+    def _poll(self) -> None:
         size = self._view.size
         if not size.area:
             return
         if self._topic:
             self._ask_for(self._topic, size.width, size.height * 2)
-        now, seen = self.clock(), self.console.sights.picture()
+        now, seen = self.clock(), self.console.sensors.picture()
         held = (self._frozen or self._slow) and not self._once
         if self._topic and seen.topic == self._topic and not held and (self._once or self._frame_limit.due(now)):
             self._draw(seen, now)
-        self._say()
+        self._show_text()
 
     def _draw(self, seen: Seen, now: float) -> None:
-        view, in_letters = self._view, self._letters
-        key = (seen, view.size, in_letters)
+        view, as_characters = self._view, self._characters
+        key = (seen, view.size, as_characters)
         if not seen.pixels or key == self._drawn:
             self._seen = seen
             if not seen.pixels:
@@ -139,11 +139,11 @@ class ImagesPane(Pane):
         self._once = False
         self._seen, self._drawn, before = seen, key, self._shown
         self._shown = drawing.steady(drawing.pixels_of(seen), before)
-        draw = drawing.letters if in_letters else drawing.half_blocks
-        self._frame_limit.drawn(now, drawing.cost(self._shown, before, coloured=not in_letters))
+        draw = drawing.characters if as_characters else drawing.half_blocks
+        self._frame_limit.drawn(now, drawing.cost(self._shown, before, coloured=not as_characters))
         view.set_lines(draw(self._shown, view.size.width, view.size.height))
 
-    def _say(self) -> None:
+    def _show_text(self) -> None:
         seen, topic = self._seen, self._topic
         if not topic:
             text = self._problem or NOTHING
@@ -152,12 +152,12 @@ class ImagesPane(Pane):
         elif not seen.count or seen.topic != topic:
             text = f"{topic}  no image yet"
         else:
-            parts = [topic, f"{seen.width}x{seen.height} {seen.encoding}", *([seen.said] if seen.said else [])]
+            parts = [topic, f"{seen.width}x{seen.height} {seen.encoding}", *([seen.message] if seen.message else [])]
             text = "  ".join([*parts, self._state()])
-        self.query_one("#images-head", Words).say(text)
+        self.query_one("#images-head", StaticText).show_text(text)
 
     def _state(self) -> str:
-        newer = self.console.sights.picture().count - self._seen.count
+        newer = self.console.sensors.picture().count - self._seen.count
         new = f", +{newer} new" if newer > 0 else ""
         if self._slow:
             return f"slow link: frozen{new}; space takes one picture"
@@ -173,9 +173,9 @@ class ImagesPane(Pane):
         event.stop()
         self._shown = self._drawn = None
         if not self._topic:
-            self._say_next()
+            self._show_next()
         if self.display:
-            self._look()
+            self._poll()
 
     def go_to(self, name: str) -> None:
         """Show a topic."""
@@ -185,7 +185,7 @@ class ImagesPane(Pane):
         self._topic, self._shown, self._drawn, self._seen = topic, None, None, Seen()
         self._frame_limit = FrameLimit(self._frame_limit.rate)
         self._view.set_lines(())
-        self._look()
+        self._poll()
 
     def action_topic(self) -> None:
         """Choose a topic."""
@@ -209,19 +209,19 @@ class ImagesPane(Pane):
             self._once = True
         else:
             self._frozen = not self._frozen
-        self._look()
+        self._poll()
 
     def action_letters(self) -> None:
         """Letters in the place of colours, or no more."""
-        self._in_letters = not self._in_letters
+        self._as_characters = not self._as_characters
         self._shown = None
         self._once = True
-        self._look()
+        self._poll()
 
     def action_rate(self, factor: float) -> None:
         """More pictures per second, or fewer."""
         self._frame_limit.change(factor)
-        self._say()
+        self._show_text()
 
     def action_copy(self) -> None:
         """Copy the `ros2` command that shows how often images come."""
@@ -230,6 +230,6 @@ class ImagesPane(Pane):
             self.host.copy_to_clipboard(text)
             self.notify(text, title="Copied")
 
-    def let_go(self) -> None:
+    def detach(self) -> None:
         """Receive nothing any more."""
-        self.console.sights.look_at("", 0, 0)
+        self.console.sensors.watch_image("", 0, 0)

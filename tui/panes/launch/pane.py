@@ -14,17 +14,17 @@ from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ConsoleSnapshot, LaunchEvent, LaunchInfo, ProcessInfo, ProcessState, Severity
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.format import clock_text, counted, cut, harmless
+from bot_console.tui.format import clock_text, counted, cut, sanitize
 from bot_console.tui.panes.launch.rows import ProcessRows, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
-from bot_console.tui.safety.stop_words import stops_of_ending
+from bot_console.tui.safety.stop_messages import stops_of_ending
 from bot_console.tui.screens.facts import FactsScreen
 from bot_console.tui.widgets.picture import Line, Picture
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Form, Option
 from bot_console.tui.widgets.row_list import RowList
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
 
 EVENTS = 4
@@ -58,7 +58,7 @@ class LaunchPane(ListPane):
     def compose(self) -> ComposeResult:
         """The tree, a line on the process at the cursor, the newest events."""
         yield ProcessRows()
-        yield Words(id="launch-status")
+        yield StaticText(id="launch-status")
         yield Picture(id="launch-events")
         yield Prompt(id="launch-prompt")
 
@@ -92,8 +92,8 @@ class LaunchPane(ListPane):
         info = self._info or LaunchInfo()
         there = tuple(each for each in info.processes if matches(each, self._query))
         self._list.exchange(rows(replace(info, processes=there), self._folded))
-        self.tell_filter(len(there), len(info.processes))
-        self._tell()
+        self.report_filter(len(there), len(info.processes))
+        self._report()
         self._show_events()
 
     def filter_is(self, words: str) -> None:
@@ -124,7 +124,7 @@ class LaunchPane(ListPane):
         if self.is_mounted:
             self._show_events()
 
-    def _tell(self) -> None:
+    def _report(self) -> None:
         info, row = self._info or LaunchInfo(), self._list.current
         if self._why_not and not info.processes:
             text = self._why_not
@@ -138,15 +138,15 @@ class LaunchPane(ListPane):
             text = f"{' / '.join(row.group)}  {counted(row.count, 'process').replace('processs', 'processes')}"
         else:
             text = row.process.problem or f"{row.process.label}  {' '.join(row.process.nodes)}"
-        status = self.query_one("#launch-status", Words)
-        status.say(text)
+        status = self.query_one("#launch-status", StaticText)
+        status.show_text(text)
         status.set_class(text == info.problem, "wrong")
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Tell of the process at the cursor, and no more of a launch that failed before."""
         event.stop()
         self._read = (self._info or LaunchInfo()).problem
-        self._tell()
+        self._report()
 
     def on_resize(self) -> None:
         """No events where there is little room."""
@@ -183,12 +183,12 @@ class LaunchPane(ListPane):
             options = [Option(event_text(each), value=seq) for seq, each in events.items()]
             return [each for each in options if typed.strip().lower() in each.title.lower()]
 
-        def look(seq: str) -> None:
+        def poll(seq: str) -> None:
             self.time_cursor.move(events[seq].stamp, self)
             self.time_moved(events[seq].stamp)
 
         hint = "words of an event; enter shows its moment in log, plot and world"
-        self.ask(Choice("Launch events", look, find=find, hint=hint, empty="Nothing of that kind has happened."))
+        self.ask(Choice("Launch events", poll, find=find, hint=hint, empty="Nothing of that kind has happened."))
 
     def action_do(self, verb: str) -> None:
         """Start, stop, restart or kill what is at the cursor."""
@@ -200,12 +200,12 @@ class LaunchPane(ListPane):
         if row.process is None:
             chosen = [each for each in chosen if not is_pointless(verb, each)]
             if not chosen:
-                self.notify(f"{harmless(row.group[-1])}: nothing to {verb}", severity="warning", markup=False)
+                self.notify(f"{sanitize(row.group[-1])}: nothing to {verb}", severity="warning", markup=False)
                 return
         held = [] if verb == "start" else stops_of_ending(self.console.snapshot(), chosen)
         if held or verb == "kill" or (row.process is None and verb != "start"):
             names = "\n".join([*held, *(each.label for each in chosen)])
-            of = f" of {harmless(row.group[-1])}" if row.process is None and row.group else ""
+            of = f" of {sanitize(row.group[-1])}" if row.process is None and row.group else ""
             question = f"{verb.capitalize()} {counted(len(chosen), 'process').replace('processs', 'processes')}{of}?"
             then = partial(self._do, verb, chosen)
             self.ask(Confirmation(question, lambda _: then(), partial(self._ended, verb, chosen), reasons=names))
@@ -228,7 +228,7 @@ class LaunchPane(ListPane):
     def _answered(self, done: Future[Answer]) -> None:
         answer = answer_of(done)
         if not answer.ok:
-            self.tell(answer)
+            self.report(answer)
 
     def action_open(self) -> None:
         """Choose a launch file, fill in its arguments, run it."""
@@ -308,7 +308,7 @@ def _belongs(process: ProcessInfo, group: tuple[str, ...]) -> bool:
 
 def event_text(event: LaunchEvent) -> str:
     """A launch event on one line."""
-    return f"{clock_text(event.stamp)} {harmless(event.text)}"
+    return f"{clock_text(event.stamp)} {sanitize(event.text)}"
 
 
 def facts(process: ProcessInfo, info: LaunchInfo) -> list[tuple[str, list[str]]]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
 from bot_console.tui.console.query import Query
-from bot_console.tui.format import cut, harmless
+from bot_console.tui.format import cut, sanitize
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment
@@ -107,7 +107,7 @@ class ProcessRows(ItemList[Row]):
             arrow = "▸" if row.folded else "▾"
             summary = f"  {row.running} of {row.count} running"
             return [
-                Segment(f"{indent}{arrow} {harmless(row.group[-1])}", self._style("head")),
+                Segment(f"{indent}{arrow} {sanitize(row.group[-1])}", self._style("head")),
                 Segment(summary, self._style("warn" if row.running < row.count else "dim")),
             ]
         return self._process(row.process, indent, width)
@@ -115,7 +115,7 @@ class ProcessRows(ItemList[Row]):
     def _process(self, process: ProcessInfo, indent: str, width: int) -> list[Segment]:
         glyph, style = STATES[process.state]
         head, names = f"{indent}{glyph}", self._names(width)
-        name = cut(f"{head} {harmless(process.label)}", names, pad=True)
+        name = cut(f"{head} {sanitize(process.label)}", names, pad=True)
         columns = [f"  {process.state.value:<10}", f"{process.pid or '':>8}"]
         columns.append(f"{f'↻{process.restarts}' if process.restarts else '':>5}")
         columns.append("" if process.exit_code is None else f"  exit {process.exit_code}")
@@ -125,13 +125,13 @@ class ProcessRows(ItemList[Row]):
             columns.append(f"  {process.memory} MB")
         nodes = "  " + " ".join(process.nodes) if width >= 90 and process.nodes else ""
         if process.problem and (process.exit_code is None or width >= 60):
-            columns.append(f"  {harmless(process.problem)}")
+            columns.append(f"  {sanitize(process.problem)}")
         plain = None if process.state is ProcessState.RUNNING else self._style(style)
         loud = [Segment(name[: len(head)], self._style(style)), Segment(name[len(head) :], plain)]
-        return [*loud, Segment("".join(columns), plain), Segment(harmless(nodes), self._style("dim"))]
+        return [*loud, Segment("".join(columns), plain), Segment(sanitize(nodes), self._style("dim"))]
 
     def _names(self, width: int) -> int:
         """Cells of the column of names: what the longest needs, where state and process id keep their room."""
         labels = ((each.depth, each.process.label) for each in self.rows if each.process is not None)
-        longest = max((2 * depth + 2 + cell_len(harmless(label)) for depth, label in labels), default=0)
+        longest = max((2 * depth + 2 + cell_len(sanitize(label)) for depth, label in labels), default=0)
         return max(14, min(longest, width - STATE_AND_PID))

@@ -58,7 +58,7 @@ class Filtering:
             "highlighted only" if self.only_highlighted else "",
             f"{counted(hidden, 'rule')} {'hides' if hidden == 1 else 'hide'}" if hidden else "",
         ]
-        told = [each for each in parts if each]
-        if self.off and told:
-            told = [f"filters off, t puts them back ({', '.join(told)})"]
-        return [*told, *(["folded"] if self.folded else [])]
+        reported = [each for each in parts if each]
+        if self.off and reported:
+            reported = [f"filters off, t puts them back ({', '.join(reported)})"]
+        return [*reported, *(["folded"] if self.folded else [])]

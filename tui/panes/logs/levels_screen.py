@@ -11,12 +11,12 @@ from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import GraphInfo, LoggerLevel, Severity
 from bot_console.tui.console.protocol import Console
-from bot_console.tui.format import LETTERS, cut, harmless
+from bot_console.tui.format import SEVERITY_CHARACTERS, cut, sanitize
 from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.item_list import ItemList
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.static_text import StaticText
 from rich.segment import Segment
 from rich.text import Text
 from textual.app import App, ComposeResult
@@ -36,10 +36,13 @@ class LevelRows(ItemList[LoggerLevel]):
     def row(self, index: int, width: int) -> list[Segment]:
         """The logger, and the levels; the one that is set stands in brackets."""
         level = self.rows[index]
-        marks = "".join(f"[{LETTERS[each]}]" if each is level.severity else f" {LETTERS[each]} " for each in LEVELS)
+        marks = "".join(
+            f"[{SEVERITY_CHARACTERS[each]}]" if each is level.severity else f" {SEVERITY_CHARACTERS[each]} "
+            for each in LEVELS
+        )
         wide = min(40, max(len(each.logger) for each in self.rows))
         set_here = f"{level.severity.name} and worse" if level.severity else "as its parent"
-        return [Segment(f" {cut(harmless(level.logger), wide, pad=True)}  {marks}  {set_here}")]
+        return [Segment(f" {cut(sanitize(level.logger), wide, pad=True)}  {marks}  {set_here}")]
 
 
 class LevelsScreen(DimmedScreen):
@@ -70,7 +73,7 @@ class LevelsScreen(DimmedScreen):
             box.border_title = Text("Levels of loggers")
             box.border_subtitle = HINT
             yield LevelRows()
-            yield Words(id="levels-state")
+            yield StaticText(id="levels-state")
 
     @property
     def _list(self) -> LevelRows:
@@ -79,15 +82,15 @@ class LevelsScreen(DimmedScreen):
     def on_mount(self) -> None:
         """Ask all nodes."""
         self._list.focus()
-        self._say("")
+        self._show_text("")
         for each in self._offering:
             self._ask(each)
 
-    def _say(self, what: str) -> None:
+    def _show_text(self, what: str) -> None:
         every = self._without + len(self._offering)
         without = f"{self._without} of {every} nodes offer no logger service (enable_logger_service=True)"
-        mend = without if self._without else ""
-        self.query_one("#levels-state", Words).say(what or mend)
+        hint = without if self._without else ""
+        self.query_one("#levels-state", StaticText).show_text(what or hint)
 
     def _ask(self, node: str) -> None:
         answer = self._of_robot.logger_levels(node)
@@ -98,7 +101,7 @@ class LevelsScreen(DimmedScreen):
             return
         error = done.exception()
         if error is not None:
-            self._say(str(error))
+            self._show_text(str(error))
             return
         self._found[node] = done.result()
         self._list.exchange([one for each in self._offering for one in self._found.get(each, ())])
@@ -113,5 +116,5 @@ class LevelsScreen(DimmedScreen):
     def _was_set(self, node: str, done: Future[Answer]) -> None:
         if self.is_mounted:
             answer = answer_of(done)
-            self._say(answer.text if answer.ok else f"not set: {answer.text}")
+            self._show_text(answer.text if answer.ok else f"not set: {answer.text}")
             self._ask(node)

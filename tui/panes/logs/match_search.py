@@ -32,11 +32,11 @@ class MatchSearch:
             self._which = which
         self._wanted = (at, step)
 
-    def look(self) -> int | None:
+    def poll(self) -> int | None:
         """The number of the line that was looked for; -1 where there is none, None while it is searched."""
         if self._wanted is None or self._view is None:
             return None
-        found = self._view.look()
+        found = self._view.poll()
         target = _target(found, *self._wanted)
         if target is not None:
             self._wanted = None
@@ -52,7 +52,7 @@ class MatchSearch:
         """Which match of how many was gone to; empty before the first."""
         if self._view is None or self._at < 0:
             return ""
-        found = self._view.look()
+        found = self._view.poll()
         more = "" if found.complete else "+"
         return f"match {found.numbers.place(self._at) + 1} of {len(found.numbers)}{more}"
 

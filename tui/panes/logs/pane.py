@@ -11,7 +11,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.log_protocol import LogFindings, LogSource, LogView
 from bot_console.tui.console.model import ConsoleSnapshot, LogFilter, LogState, Severity
 from bot_console.tui.files.save_file import save_file
-from bot_console.tui.format import LETTERS, harmless
+from bot_console.tui.format import SEVERITY_CHARACTERS, sanitize
 from bot_console.tui.panes.logs.filtering import Filtering
 from bot_console.tui.panes.logs.levels_screen import LevelsScreen
 from bot_console.tui.panes.logs.line_pane import LinePane
@@ -26,7 +26,7 @@ from bot_console.tui.widgets.prompt.common import wrong_filter, wrong_path
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Line
 from bot_console.tui.widgets.row_list import RowList
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
 
 
@@ -53,7 +53,7 @@ class LogsPane(LinePane):
         self._match_search = MatchSearch(self._view_of)
         self._sought_for = ""
         """What the search looks for, in words."""
-        self._looked_for: int | None = None
+        self._searched_for: int | None = None
         """The record that was gone to by what was looked for: to stand on it is to read, not to follow."""
         self._moment: int | None = None
         """The moment to go to as soon as its lines are there."""
@@ -64,7 +64,7 @@ class LogsPane(LinePane):
     def compose(self) -> ComposeResult:
         """The lines, what is filtered, a prompt."""
         yield LogRows(self._source, self._filtering.rules, self._names)
-        yield Words(id="log-status")
+        yield StaticText(id="log-status")
         yield Prompt(id="log-prompt")
 
     def on_mount(self) -> None:
@@ -84,20 +84,20 @@ class LogsPane(LinePane):
         """The lines take the keys."""
         self._list.focus()
 
-    def heed(self, snapshot: ConsoleSnapshot) -> None:
+    def observe(self, snapshot: ConsoleSnapshot) -> None:
         """Learn the names of nodes: one may leave before it is shown."""
         if self._names.learn(snapshot.graph) and self.has_parts:
             self._list.refresh()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Take in what is new in the log."""
-        self.heed(snapshot)
+        self.observe(snapshot)
         state = self._source.state if self._source.name else snapshot.logs
         if state is self._state:
             return
         self._state = state
         self._take_in()
-        self._tell()
+        self._report()
 
     def tick(self) -> None:
         """Take in what the search has found meanwhile, and what a file has more."""
@@ -108,13 +108,13 @@ class LogsPane(LinePane):
             state = self._source.state
             changed, self._state = state is not self._state, state
         if self._take_in() or self._go_on() or changed:
-            self._tell()
+            self._report()
 
     def _take_in(self) -> bool:
         """Show what was found; lines of the filter before stay until the search has something to show."""
         if self._view is None:
             self._view = self._source.view(self._filtering.which())
-        found = self._view.look()
+        found = self._view.poll()
         if found is self._found or not (len(found.numbers) or found.complete or found.problem):
             return False
         self._found = found
@@ -138,7 +138,7 @@ class LogsPane(LinePane):
             self._to_end()
         elif self._found is not None:
             self._to_moment(self._found)
-        self._tell()
+        self._report()
 
     def _to_moment(self, found: LogFindings) -> None:
         if self._moment is None or not len(found.numbers):
@@ -154,12 +154,12 @@ class LogsPane(LinePane):
         self._found = None
         self._take_in()
         self._list.refresh()
-        self._tell()
+        self._report()
 
-    def _tell(self) -> None:
+    def _report(self) -> None:
         """Say what is shown of how much, by severity."""
         problem = self._found.problem if self._found else ""
-        self.query_one("#log-status", Words).say(problem or self.status_text())
+        self.query_one("#log-status", StaticText).show_text(problem or self.status_text())
 
     def status_text(self) -> str:
         """The line below the log."""
@@ -171,29 +171,29 @@ class LogsPane(LinePane):
             parts.append("searching")
         if not self._following:
             parts.append("paused, f follows")
-        if self._looked_for is not None and self._sought_for:
+        if self._searched_for is not None and self._sought_for:
             parts.append(f"{self._match_search.text()} {self._sought_for}")
         parts += self._filtering.texts()
         if state.dropped:
             parts.append(f"{state.dropped} dropped")
-        parts += [f"{LETTERS[each]} {counts[each]}" for each in reversed(Severity) if counts.get(each)]
+        parts += [f"{SEVERITY_CHARACTERS[each]} {counts[each]}" for each in reversed(Severity) if counts.get(each)]
         return " · ".join(parts)
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Follow while the cursor is on the newest line."""
         event.stop()
         at_end = event.index >= self._list.row_count() - 1
-        following = at_end and self._list.number(event.index) != self._looked_for
+        following = at_end and self._list.number(event.index) != self._searched_for
         if following is not self._following:
             self._following = following
-            self._tell()
+            self._report()
 
     def action_follow(self) -> None:
         """Follow the newest line, or stop that."""
-        self._following, self._looked_for = not self._following, None
+        self._following, self._searched_for = not self._following, None
         if self._following:
             self._to_end()
-        self._tell()
+        self._report()
 
     def action_warnings(self) -> None:
         """Warnings and worse, or everything."""
@@ -240,7 +240,7 @@ class LogsPane(LinePane):
             self.time_moved(None)
             return
         self._filtering.everything()
-        self._looked_for = None
+        self._searched_for = None
         super().action_clear_filter()
 
     def action_alike(self, hide: bool) -> None:
@@ -273,9 +273,9 @@ class LogsPane(LinePane):
 
     def action_search(self) -> None:
         """Ask for words to go to; nothing is hidden."""
-        self.ask(Line("search", self._look_for, text=self._sought, check=wrong_filter))
+        self.ask(Line("search", self._search_for, text=self._sought, check=wrong_filter))
 
-    def _look_for(self, words: str) -> None:
+    def _search_for(self, words: str) -> None:
         """Go to the newest match where the newest line is followed, else to the next one."""
         if words:
             self._sought = words
@@ -297,18 +297,18 @@ class LogsPane(LinePane):
         self._sought_for = words or "errors"
         self._match_search.seek(self._filtering.narrowed_to(words, minimum), at, step)
         self._go_on()
-        self._tell()
+        self._report()
         return True
 
     def _go_on(self) -> bool:
         """Go to what was looked for, as soon as it is found."""
-        target = self._match_search.look()
+        target = self._match_search.poll()
         if target is None:
             return False
         if target < 0:
             self.notify(f"Nothing here matches {self._sought_for}", severity="warning")
         else:
-            self._looked_for, self._following, self._moment = target, False, None
+            self._searched_for, self._following, self._moment = target, False, None
             self._list.cursor = self._list.place(target)
         return True
 
@@ -329,10 +329,10 @@ class LogsPane(LinePane):
         """Show another log; the filter stays."""
         self._source.close()
         self._source = self._list.source = source
-        self.border_title = f"Logs of {harmless(Path(source.name).name)} · O goes back" if source.name else self.TITLE
+        self.border_title = f"Logs of {sanitize(Path(source.name).name)} · O goes back" if source.name else self.TITLE
         self._state, self._view, self._found = LogState(), None, None
         self._match_search.forget()
-        self._following, self._looked_for, self._moment = True, None, None
+        self._following, self._searched_for, self._moment = True, None, None
         self._list.show_nothing()
         self._state = source.state
         self._search()

@@ -10,7 +10,7 @@ from bot_console.tui.console.model import Change, LaunchEvent
 from bot_console.tui.format import value_text
 from bot_console.tui.widgets.prompt.question import Option
 
-MOST = 20
+MAX_EVENTS = 20
 HISTORY, LAUNCH = "history", "launch"
 
 
@@ -29,7 +29,7 @@ def preceding_events(stamp: int, changes: Iterable[Change], events: Iterable[Lau
         *(PrecedingEvent(each.stamp, _change_text(each), HISTORY) for each in changes if each.stamp <= stamp),
         *(PrecedingEvent(each.stamp, f"launch: {each.text}", LAUNCH) for each in events if each.stamp <= stamp),
     ]
-    return heapq.nlargest(MOST, known, key=lambda each: each.stamp)
+    return heapq.nlargest(MAX_EVENTS, known, key=lambda each: each.stamp)
 
 
 def options_of(found: Sequence[PrecedingEvent], stamp: int, typed: str) -> list[Option]:

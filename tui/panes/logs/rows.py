@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from bot_console.tui.console.log_protocol import LogNumbers, LogSource
 from bot_console.tui.console.model import LogRecord, Severity
-from bot_console.tui.format import LETTERS, clock_text, cut, harmless
+from bot_console.tui.format import SEVERITY_CHARACTERS, clock_text, cut, sanitize
 from bot_console.tui.panes.logs.names import NodeNames
 from bot_console.tui.panes.logs.rules import COLOURS, RuleBook
 from bot_console.tui.widgets.row_list import RowList
@@ -131,13 +131,14 @@ def line_text(
     """
     time = f"{clock_text(record.stamp)} " if width >= 70 else ""
     room = NODE if width < 110 else WIDE_NODE + max(0, min(MORE_NODE, (width - WITH_PLACE) // 2, longest - WIDE_NODE))
-    node = harmless(node)
+    node = sanitize(node)
     node = "…" + node[1 - room :] if len(node) > room else node
     place = f" {cut(_place(record), PLACE, pad=True)}" if width >= WITH_PLACE else ""
     times = f"x{count} " if count > 1 else ""
-    text = harmless(record.text[: 4 * width])
-    return f"{time}{LETTERS[record.severity]} {cut(node, room, pad=True)}{place}{MARK if marked else ' '}{times}{text}"
+    text = sanitize(record.text[: 4 * width])
+    level = SEVERITY_CHARACTERS[record.severity]
+    return f"{time}{level} {cut(node, room, pad=True)}{place}{MARK if marked else ' '}{times}{text}"
 
 
 def _place(record: LogRecord) -> str:
-    return f"{harmless(record.file.replace(chr(92), '/').rpartition('/')[2])}:{record.line}" if record.file else ""
+    return f"{sanitize(record.file.replace(chr(92), '/').rpartition('/')[2])}:{record.line}" if record.file else ""

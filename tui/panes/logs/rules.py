@@ -14,7 +14,7 @@ from bot_console.tui.files.store_file import read_store
 
 COLOURS = ("violet", "green", "blue", "lime", "orange", "red")
 HIDE, OFF = "hide", "off"
-LARGEST = 100_000
+MAX_FILE_BYTES = 100_000
 """Bytes of a file of rules; of a larger one nothing is read."""
 HEAD = f"""\
 # Rules of the log, one a line: `{HIDE}` or a colour ({", ".join(COLOURS)}), then the words of a filter.
@@ -64,7 +64,7 @@ class RuleBook:
     def read(self) -> None:
         """Read the file; what cannot be used is named in `problems`. Never raises."""
         try:
-            content = read_store(self.path, LARGEST)
+            content = read_store(self.path, MAX_FILE_BYTES)
         except FileNotFoundError:
             return
         except OSError as error:

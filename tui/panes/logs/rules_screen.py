@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.format import counted, harmless
+from bot_console.tui.format import counted, sanitize
 from bot_console.tui.panes.logs.rules import COLOURS, HIDE, Rule, RuleBook, turned
 from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
 from bot_console.tui.widgets.box import Box
@@ -15,7 +15,7 @@ from bot_console.tui.widgets.item_list import ItemList
 from bot_console.tui.widgets.prompt.common import wrong_filter
 from bot_console.tui.widgets.prompt.line import Prompt, asks
 from bot_console.tui.widgets.prompt.question import Line
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.static_text import StaticText
 from rich.segment import Segment
 from rich.text import Text
 from textual.app import ComposeResult
@@ -34,7 +34,7 @@ class RuleRows(ItemList[Rule]):
         rule = self.rows[index]
         name = f"log-rows--{rule.colour}" if rule.colour and rule.on else "row-list--dim"
         style = self.part_style(name) if not rule.on or rule.colour else None
-        return [Segment(f" {'●' if rule.on else '○'} {rule.colour or HIDE:<7} {harmless(rule.words)}", style)]
+        return [Segment(f" {'●' if rule.on else '○'} {rule.colour or HIDE:<7} {sanitize(rule.words)}", style)]
 
 
 class RulesScreen(DimmedScreen):
@@ -57,7 +57,7 @@ class RulesScreen(DimmedScreen):
             box.border_title = Text("Rules of the log")
             box.border_subtitle = HINT
             yield RuleRows(self._book.rules)
-            yield Words(id="rules-state")
+            yield StaticText(id="rules-state")
             yield Prompt(id="rules-prompt")
 
     @property
@@ -67,16 +67,16 @@ class RulesScreen(DimmedScreen):
     def on_mount(self) -> None:
         """The list takes the keys."""
         self._list.focus()
-        self._tell()
+        self._report()
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """No key of the list acts while words are typed."""
         return not asks(self) and super().check_action(action, parameters)
 
-    def _tell(self, problem: str = "") -> None:
+    def _report(self, problem: str = "") -> None:
         empty = "" if self._book.rules else "No rules: in the log x hides lines like one, + highlights them."
         count = f"{counted(len(self._book.rules), 'rule')}, kept in {self._book.path}"
-        self.query_one("#rules-state", Words).say(problem or empty or count)
+        self.query_one("#rules-state", StaticText).show_text(problem or empty or count)
 
     def _exchange(self, before: Rule | None, after: Rule | None) -> None:
         """Put a rule in the place of another; None: there is none."""
@@ -87,7 +87,7 @@ class RulesScreen(DimmedScreen):
         problem = self._book.change(rules)
         self._list.exchange(self._book.rules)
         self._changed()
-        self._tell(problem)
+        self._report(problem)
 
     def action_switch(self) -> None:
         """Switch the rule off, or on again."""
@@ -122,7 +122,7 @@ class RulesScreen(DimmedScreen):
             self._list.exchange(self._book.rules)
             self._list.action_end(1)
             self._changed()
-            self._tell(problem)
+            self._report(problem)
 
         self._ask("highlight lines with", "", add)
 

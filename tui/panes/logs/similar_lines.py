@@ -53,7 +53,7 @@ def _pattern(text: str) -> str:
 def _escaped(text: str) -> str:
     """A text as a regular expression without quotation marks, which end a word of the grammar."""
     safe = (
-        letter if letter.isalnum() or letter == " " or not letter.isascii() else f"\\x{ord(letter):02x}"
-        for letter in text
+        character if character.isalnum() or character == " " or not character.isascii() else f"\\x{ord(character):02x}"
+        for character in text
     )
     return "".join(safe)

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from bot_console.tui.console.model import Value
-from bot_console.tui.console.parameters.unit import unit_of
-from bot_console.tui.format import harmless, value_text
+from bot_console.tui.console.parameters.unit import unit_in_description
+from bot_console.tui.format import sanitize, value_text
 from bot_console.tui.panes.parameters.rows import Row
 from rich.cells import cell_len
 
@@ -39,7 +39,7 @@ class Measures:
 
     name: int = 0
     number: int = VALUE
-    most_names: int = 0
+    max_names: int = 0
     """The longest name but for a few; 0: that of all."""
 
 
@@ -75,13 +75,13 @@ def name_cells(row: Row) -> int:
 
 @lru_cache(maxsize=20_000)
 def _cells(name: str) -> int:
-    return cell_len(harmless(name))
+    return cell_len(sanitize(name))
 
 
 @lru_cache(maxsize=20_000, typed=True)
 def _number_cells(value: Value, description: str) -> int:
     """Cells of a value and its unit; thousands are asked for at each key of a filter, and few are new."""
-    unit = unit_of(description)
+    unit = unit_in_description(description)
     return cell_len(value_text(value)) + (cell_len(unit) + 1 if unit else 0)
 
 
@@ -90,7 +90,7 @@ def shown_value(row: Row) -> str:
     parameter = row.parameter
     if parameter is None:
         return ""
-    return harmless(value_text(parameter.value)) + (f" {parameter.unit}" if parameter.unit else "")
+    return sanitize(value_text(parameter.value)) + (f" {parameter.unit}" if parameter.unit else "")
 
 
 def name_column(row: Row, own: Columns, width: int) -> int:
@@ -103,7 +103,7 @@ def columns(need: Measures, width: int) -> Columns:
     room = width - MARKS
     name = max(1, min(need.name, room - GAP - VALUE))
     beside_bar = room - GAP - need.number - GAP - SHORTEST_BAR - END
-    if 0 < need.most_names <= beside_bar < name:
+    if 0 < need.max_names <= beside_bar < name:
         name = beside_bar
     left = room - name - GAP
     value = max(0, min(need.number, left))

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from bot_console.tui.console.model import ParameterInfo, SetOutcome, Value
 from bot_console.tui.console.parameters.lint import NO_DESCRIPTION, faults
-from bot_console.tui.console.parameters.safety import foretold
-from bot_console.tui.format import command_of, harmless, range_text, value_text
+from bot_console.tui.console.parameters.safety import risky_change
+from bot_console.tui.format import command_of, range_text, sanitize, value_text
 from bot_console.tui.text.refusals import in_detail
 from rich.text import Text
 
@@ -26,31 +26,31 @@ def details(
     text = Text(no_wrap=False, overflow="fold")
     if late is not None:
         text.append(
-            f"{harmless(value_text(late))} was sent, and {harmless(parameter.node)} has not answered yet\n", "bold"
+            f"{sanitize(value_text(late))} was sent, and {sanitize(parameter.node)} has not answered yet\n", "bold"
         )
     if refused is not None:
         text.append(f"{in_detail(refused)}\n", "bold")
     if staged is not None:
-        text.append(f"→ {harmless(value_text(staged))} is marked; a applies, x drops the mark\n", "bold")
-    text.append(harmless(parameter.description) or "No description.")
-    if risk := foretold(parameter):
+        text.append(f"→ {sanitize(value_text(staged))} is marked; a applies, x drops the mark\n", "bold")
+    text.append(sanitize(parameter.description) or "No description.")
+    if risk := risky_change(parameter):
         text.append(f"\n⚠ {risk}", "bold")
-    facts = [parameter.kind.word, range_text(parameter.range, parameter.kind), harmless(parameter.constraints)]
+    facts = [parameter.kind.word, range_text(parameter.range, parameter.kind), sanitize(parameter.constraints)]
     facts.append("read only" if parameter.read_only else "")
     facts.append(_default(parameter))
-    facts.append(harmless(parameter.origin))
+    facts.append(sanitize(parameter.origin))
     facts += marks
     facts += [each for each in faults(parameter) if each != NO_DESCRIPTION]
     text.append("\n" + " · ".join(each for each in facts if each), "dim")
-    text.append("\n" + harmless(command_of(parameter, parameter.value)), "dim italic")
+    text.append("\n" + sanitize(command_of(parameter, parameter.value)), "dim italic")
     return text
 
 
 def _default(parameter: ParameterInfo) -> str:
     """What was declared, and where; else the value first seen, where it is another one now."""
-    value = harmless(value_text(parameter.default))
+    value = sanitize(value_text(parameter.default))
     if parameter.declared_at:
-        return f"declared {value} in {harmless(short_place(parameter.declared_at))}"
+        return f"declared {value} in {sanitize(short_place(parameter.declared_at))}"
     return f"start value {value}" if parameter.changed else ""
 
 

@@ -13,12 +13,12 @@ from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.format import field_text, value_text
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.parameters import editing, tuning
+from bot_console.tui.panes.parameters.pending_sets import PendingSets
 from bot_console.tui.panes.parameters.staging import SETS, Key, Staging, by_node
 from bot_console.tui.panes.parameters.table import ParameterRows
-from bot_console.tui.panes.parameters.unanswered import Unanswered
 from bot_console.tui.screens.tuning.requests import NO_TUNER
 from bot_console.tui.text.refusals import of_many
-from bot_console.tui.tuning.dial import Dial, Setting, find_dials
+from bot_console.tui.tuning.tunable import Setting, Tunable, find_tunables
 from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Elements, Line
 
 
@@ -28,7 +28,7 @@ class EditPane(ListPane):
     def __init__(self, *args: object, **kwargs: object) -> None:
         super().__init__(*args, **kwargs)  # type: ignore[arg-type] -- handed on as they are
         self.staging = Staging()
-        self.unanswered = Unanswered()
+        self.unanswered = PendingSets()
         self.clock: Callable[[], float] = time.monotonic
 
     @property
@@ -83,7 +83,7 @@ class EditPane(ListPane):
                 partial(self._gone, parameter),
                 text=field_text(now),
                 check=partial(editing.wrong, parameter),
-                outlook=partial(_outlook, parameter),
+                preview=partial(_preview, parameter),
             )
         )
 
@@ -204,7 +204,7 @@ class EditPane(ListPane):
             self.redraw_marks()
         else:
             self.staging.marking = bool(self.staging.marked)
-            self._tell_refusal(done)
+            self._report_refusal(done)
 
     def action_compare(self) -> None:
         """Make set B of what is marked and send it; or swap the two sets."""
@@ -232,9 +232,9 @@ class EditPane(ListPane):
             self.staging.live = 1 - self.staging.live
             self.redraw_marks()
         else:
-            self._tell_refusal(done)
+            self._report_refusal(done)
 
-    def _tell_refusal(self, done: Future[tuple[SetOutcome, ...]]) -> None:
+    def _report_refusal(self, done: Future[tuple[SetOutcome, ...]]) -> None:
         refused = "" if done.exception() else of_many(done.result())
         if refused:
             self.notify(refused, severity="error")
@@ -246,45 +246,47 @@ class EditPane(ListPane):
             return
         parameter = self._at()
         trees = self.console.snapshot().parameters
-        known = [dial for tree in trees.values() for each in tree.parameters if (dial := tuning.dial_of(each))]
+        known = [tunable for tree in trees.values() for each in tree.parameters if (tunable := tuning.tunable_of(each))]
         keys = self.staging.marked or ({(parameter.node, parameter.name): None} if parameter else {})
-        dials = [each for each in known if (each.node, each.name) in keys]
-        if not dials:
+        tunables = [each for each in known if (each.node, each.name) in keys]
+        if not tunables:
             self.notify("Nothing to tune here: T is for a number or a boolean that can be set, or for marked ones.")
             return
         check = partial(tuning.wrong_ranges, known)
-        text = tuning.ranges_text(dials)
+        text = tuning.ranges_text(tunables)
         self.ask(Line("tune within", partial(self._ask_score, known), text=text, check=check))
 
-    def _ask_score(self, known: Sequence[Dial], text: str) -> None:
-        dials = find_dials(text.split(), [*known])
+    def _ask_score(self, known: Sequence[Tunable], text: str) -> None:
+        tunables = find_tunables(text.split(), [*known])
         find = partial(tuning.scores, self.console.plottable())
-        then = partial(self._ask_runs, dials)
+        then = partial(self._ask_runs, tunables)
         hint = "a score, or a formula such as mean_speed - 2*collisions"
         self.host.call_later(self.ask, Choice("Score: more is better", then, find=find, hint=hint))
 
-    def _ask_runs(self, dials: Sequence[Dial], score: str) -> None:
+    def _ask_runs(self, tunables: Sequence[Tunable], score: str) -> None:
         def wrong(text: str) -> str:
             try:
-                return tuning.question_of(dials, score, text, self.console.snapshot().parameters).problem()
+                return tuning.specification_of(tunables, score, text, self.console.snapshot().parameters).problem()
             except ValueError as error:
                 return str(error)
 
         if problem := wrong("60 60"):
             self.notify(problem, severity="error", markup=False)
             return
-        then = partial(self._tune, dials, score)
+        then = partial(self._tune, tunables, score)
         self.host.call_later(self.ask, Line("runs, and simulated s of each", then, text="60 60", check=wrong))
 
-    def _tune(self, dials: Sequence[Dial], score: str, text: str) -> None:
-        question = tuning.question_of(dials, score, text, self.console.snapshot().parameters)
-        wanted = self.TuningWanted(question, partial(self._take_tuned, dials))
+    def _tune(self, tunables: Sequence[Tunable], score: str, text: str) -> None:
+        question = tuning.specification_of(tunables, score, text, self.console.snapshot().parameters)
+        wanted = self.TuningWanted(question, partial(self._take_tuned, tunables))
         # When the prompt has given the keyboard back, so that the key bar is told before it is covered.
         self.call_after_refresh(self.post_message, wanted)
 
-    def _take_tuned(self, dials: Sequence[Dial], setting: Setting) -> None:
+    def _take_tuned(self, tunables: Sequence[Tunable], setting: Setting) -> None:
         """Send the values that a tuning has found; one undo takes them back."""
-        values: dict[Key, Value] = {(dial.node, dial.name): value for dial, value in zip(dials, setting, strict=True)}
+        values: dict[Key, Value] = {
+            (tunable.node, tunable.name): value for tunable, value in zip(tunables, setting, strict=True)
+        }
         self._asked_first("Take what was tuned?", values, partial(self._apply, values))
 
     def _asked_first(self, question: str, values: Mapping[Key, Value], then: partial[None]) -> None:
@@ -303,14 +305,14 @@ class EditPane(ListPane):
             then()
 
 
-def _outlook(parameter: ParameterInfo, text: str) -> str:
+def _preview(parameter: ParameterInfo, text: str) -> str:
     """What a typed text means where it is an expression, and what the change would take from safety."""
     value = editing.typed_value(text, parameter)
     plain = field_text(value)
     unit = f" {parameter.unit}" if parameter.unit else ""
-    said = f"= {plain}{unit}" if editing.is_number(value) and not _is_plain(text) else ""
+    message = f"= {plain}{unit}" if editing.is_number(value) and not _is_plain(text) else ""
     risk = takes_safety(parameter, parameter.value, value)
-    return "  ".join(each for each in (said, f"⚠ {risk}" if risk else "") if each)
+    return "  ".join(each for each in (message, f"⚠ {risk}" if risk else "") if each)
 
 
 def _is_plain(text: str) -> bool:

@@ -26,7 +26,7 @@ def typed_value(text: str, parameter: ParameterInfo) -> Value:
     try:
         return parse_value(text, parameter)
     except ValueError:
-        if parameter.kind not in NUMBERS or not any(letter.isdigit() for letter in text):
+        if parameter.kind not in NUMBERS or not any(character.isdigit() for character in text):
             raise
     return _calculated(text, parameter)
 

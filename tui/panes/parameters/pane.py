@@ -10,25 +10,25 @@ from pathlib import Path
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import BEGUN_ANEW, ConsoleSnapshot, Value, same
+from bot_console.tui.console.model import RESTARTED, ConsoleSnapshot, Value, same
 from bot_console.tui.console.query import parse
-from bot_console.tui.format import command_of, counted, harmless
+from bot_console.tui.format import command_of, counted, sanitize
 from bot_console.tui.panes.parameters.details import details
 from bot_console.tui.panes.parameters.edit_pane import EditPane
-from bot_console.tui.panes.parameters.memory import At, Left, left_of
 from bot_console.tui.panes.parameters.rows import Row, TreeRows, View, namesake, opened
 from bot_console.tui.panes.parameters.staging import Key
 from bot_console.tui.panes.parameters.table import ParameterRows
+from bot_console.tui.panes.parameters.view_state import At, Left, left_of
 from bot_console.tui.state_store import LAST_FILE
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Option
 from bot_console.tui.widgets.row_list import RowList
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.static_text import StaticText
 from rich.text import Text
 from textual.app import ComposeResult
 
-KEPT = "parameters"
-LEAST = 3
+STATE_NAME = "parameters"
+MIN_DETAIL_LINES = 3
 """Lines of detail that every parameter has: what it is for, its facts, its command."""
 
 FLASH = 1.0
@@ -70,7 +70,7 @@ class ParametersPane(EditPane):
 
     def on_mount(self) -> None:
         """Open, filter and select what was so at the end of the last run; a preselected node comes before that."""
-        left = left_of(self.state_store.get(KEPT))
+        left = left_of(self.state_store.get(STATE_NAME))
         if left is not None and not self._expected:
             self._left = left.at
             self.words, self._view = left.words, left.view
@@ -80,12 +80,12 @@ class ParametersPane(EditPane):
     def on_unmount(self) -> None:
         """Keep how the tree is left."""
         at = self._left or self._at_cursor
-        self.state_store.put(KEPT, Left(self.words, self._view, at).data)
+        self.state_store.put(STATE_NAME, Left(self.words, self._view, at).data)
 
     def compose(self) -> ComposeResult:
         """The tree, what is known of the parameter at the cursor, and a prompt."""
         yield self._table
-        yield Words(id="parameter-detail")
+        yield StaticText(id="parameter-detail")
         yield Prompt(id="parameter-prompt")
 
     def focus_target(self) -> None:
@@ -104,7 +104,7 @@ class ParametersPane(EditPane):
         """Learn which values are not saved, and which are not those of the start."""
         for each in self.console.changes(self._read):
             self._read = max(self._read, each.seq + 1)
-            if each.accepted and each.by == BEGUN_ANEW:
+            if each.accepted and each.by == RESTARTED:
                 self._starts[each.node, each.name] = each.new
             elif each.accepted:
                 self._starts.setdefault((each.node, each.name), each.old)
@@ -143,7 +143,7 @@ class ParametersPane(EditPane):
         """Draw what is marked and refused, and tell of it."""
         self._list.staged = self.staging.marked
         self._list.refresh()
-        self._tell_counts()
+        self._report_counts()
         self._describe()
 
     def go_to(self, name: str) -> None:
@@ -171,7 +171,7 @@ class ParametersPane(EditPane):
                     self._value_changed(before, after)
         shown.exchange(new, stay=self._chosen)
         self._go_to_left()
-        self._tell_counts()
+        self._report_counts()
         if self._expected:
             self._go_to_expected()
         self._describe()
@@ -183,12 +183,12 @@ class ParametersPane(EditPane):
             self._left, self._chosen = None, True
             self._list.cursor = found
 
-    def _tell_counts(self) -> None:
+    def _report_counts(self) -> None:
         found = sum(row.count for row in self._list.rows if row.depth == 0)  # each counts all that is below it
         staged = self.staging.caption()
         if self._view.filtering:
             every = self._tree.count(self._snapshot.parameters, self._view)
-            self.tell_filter(found, every, *(each for each in ("changed" * self._view.only_changed, staged) if each))
+            self.report_filter(found, every, *(each for each in ("changed" * self._view.only_changed, staged) if each))
         else:
             self.caption(staged)
 
@@ -210,13 +210,13 @@ class ParametersPane(EditPane):
 
     def _describe(self) -> None:
         """Say what is known, in as many lines as it needs."""
-        words, text = self.query_one("#parameter-detail", Words), self._details(self._list.current)
-        most = max(LEAST, self.size.height // SHARE)
-        need = len(text.wrap(self.host.console, max(1, words.size.width))) if words.size.width else LEAST
-        height = min(max(need, LEAST), most) + 1  # one is the line above
+        words, text = self.query_one("#parameter-detail", StaticText), self._details(self._list.current)
+        maximum = max(MIN_DETAIL_LINES, self.size.height // SHARE)
+        need = len(text.wrap(self.host.console, max(1, words.size.width))) if words.size.width else MIN_DETAIL_LINES
+        height = min(max(need, MIN_DETAIL_LINES), maximum) + 1  # one is the line above
         if words.styles.height is None or words.styles.height.value != height:
             words.styles.height = height
-        words.say(text)
+        words.show_text(text)
 
     def _details(self, row: Row | None) -> Text:
         if row is None:
@@ -224,9 +224,9 @@ class ParametersPane(EditPane):
                 return Text("Nothing matches. Press / to change the filter.", "dim")
             fixed = self._snapshot.capabilities.live
             waiting = f"No parameters; {fixed}." if fixed else "Waiting for nodes with parameters ..."
-            return Text(harmless(self._snapshot.problem) or waiting, "dim")
+            return Text(sanitize(self._snapshot.problem) or waiting, "dim")
         if row.parameter is None:
-            return Text(harmless(row.problem or f"{row.node}  {counted(row.count, 'parameter')}"), "dim")
+            return Text(sanitize(row.problem or f"{row.node}  {counted(row.count, 'parameter')}"), "dim")
         key = (row.node, row.parameter.name)
         marks = ["not saved"] if key in self._list.unsaved else []
         marks += ["changed since the start"] if key in self._list.moved else []
@@ -240,24 +240,24 @@ class ParametersPane(EditPane):
 
     def action_undo(self) -> None:
         """Undo the last change made here."""
-        self.tell_later(self.console.undo())
+        self.report_later(self.console.undo())
 
     def action_redo(self) -> None:
         """Redo."""
-        self.tell_later(self.console.redo())
+        self.report_later(self.console.redo())
 
     def filter_is(self, words: str) -> None:
         """Show the parameters that pass; the cursor goes to one that is called like the last word."""
-        self._look(replace(self._view, query=parse(words), folded_matches=frozenset()))
+        self._poll(replace(self._view, query=parse(words), folded_matches=frozenset()))
         at = namesake(self._list.rows, words.rpartition(" ")[2], self._list.cursor)
         if at is not None:
             self._list.cursor = at
 
     def action_toggle_changed(self) -> None:
         """Only what differs from its default, or all."""
-        self._look(replace(self._view, only_changed=not self._view.only_changed, folded_matches=frozenset()))
+        self._poll(replace(self._view, only_changed=not self._view.only_changed, folded_matches=frozenset()))
 
-    def _look(self, view: View) -> None:
+    def _poll(self, view: View) -> None:
         """Show something else; the parameter at the cursor, which a filter has found, is seen without it, too."""
         parameter = self._at()
         if parameter is not None and not view.filtering and self._view.filtering:

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from bot_console.tui.console.model import ChangeSource, ParameterInfo, SetOutcome, Value
 from bot_console.tui.console.parameters.origin import SET_BY
 from bot_console.tui.console.query import Query
-from bot_console.tui.format import cut, harmless, value_text
+from bot_console.tui.format import cut, sanitize, value_text
 from bot_console.tui.panes.parameters.columns import GAP, MARKS, Measures, columns, measured, name_column, shown_value
 from bot_console.tui.panes.parameters.rows import Row, matches
 from bot_console.tui.text.refusals import beside_row
@@ -89,17 +89,17 @@ class ParameterRows(ItemList[Row]):
         arrow, indent = "▸" if row.folded else "▾", "  " * row.depth
         if row.name:
             count = f"  {row.count}" if row.folded else ""
-            return [Segment(f"{indent}{arrow} {harmless(row.name)}{count}", self._style("dim"))]
-        head = Segment(f"{indent}{arrow} {harmless(row.title or row.node)}", self._style("head"))
+            return [Segment(f"{indent}{arrow} {sanitize(row.name)}{count}", self._style("dim"))]
+        head = Segment(f"{indent}{arrow} {sanitize(row.title or row.node)}", self._style("head"))
         if row.problem:
-            return [head, Segment(f"  {harmless(row.problem)}", self._style("warn"))]
+            return [head, Segment(f"  {sanitize(row.problem)}", self._style("warn"))]
         return [head, Segment(f"  {row.count}", self._style("dim"))]
 
     def _parameter(self, row: Row, parameter: ParameterInfo, width: int) -> list[Segment]:
         own = columns(self._measures, width)
         taken = name_column(row, own, width)
         over = taken - own.name
-        name = cut("  " * row.depth + harmless(row.name), taken, pad=True)
+        name = cut("  " * row.depth + sanitize(row.name), taken, pad=True)
         key = (parameter.node, parameter.name)
         mark = "".join(sign if here else " " for sign, here in self.signs(parameter))
         segments = [Segment(f"{mark}{name}{' ' * GAP}", self._style("strong" if parameter.changed else "plain"))]
@@ -109,14 +109,14 @@ class ParameterRows(ItemList[Row]):
         if refused or key in self.late:
             value = cut(value, min(own.value, left), pad=True)
             room = max(0, left - own.value - GAP)
-            late = f"… {harmless(value_text(self.late[key]))}: not answered yet" if key in self.late else ""
-            said = Segment(cut(late, room), self._style("warn"))
+            late = f"… {sanitize(value_text(self.late[key]))}: not answered yet" if key in self.late else ""
+            output = Segment(cut(late, room), self._style("warn"))
             if refused and not late:
-                said = Segment(cut(beside_row(refused), room), self._style("error"))
-            return [*segments, Segment(value + " " * GAP), said]
+                output = Segment(cut(beside_row(refused), room), self._style("error"))
+            return [*segments, Segment(value + " " * GAP), output]
         if key in self.staged:
             unit = f" {parameter.unit}" if parameter.unit else ""
-            text = f"{harmless(value_text(parameter.value))} → {harmless(value_text(self.staged[key]))}{unit}"
+            text = f"{sanitize(value_text(parameter.value))} → {sanitize(value_text(self.staged[key]))}{unit}"
             return [*segments, Segment(cut(text, left), self._style("good"))]
         slider = bar(parameter, own.bar) if own.bar and not over else ""
         tail = slider or ("read only" if parameter.read_only else "")
@@ -127,7 +127,7 @@ class ParameterRows(ItemList[Row]):
             used += segments[-1].cell_length
         start = own.value + GAP + own.bar + GAP - over
         if own.description and used <= start - GAP:
-            segments.append(Segment(" " * (start - used) + cut(harmless(parameter.description), own.description), dim))
+            segments.append(Segment(" " * (start - used) + cut(sanitize(parameter.description), own.description), dim))
         return segments
 
     def signs(self, parameter: ParameterInfo) -> tuple[tuple[str, bool], ...]:

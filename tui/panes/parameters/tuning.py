@@ -7,17 +7,17 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree
-from bot_console.tui.tuning.dial import Dial, find_dials
-from bot_console.tui.tuning.question import Question
 from bot_console.tui.tuning.score import FIGURES, READY, STATISTICS, parse_score
+from bot_console.tui.tuning.specification import TuningSpecification
+from bot_console.tui.tuning.tunable import Tunable, find_tunables
 from bot_console.tui.widgets.prompt.question import Option
 
 KINDS = {Kind.BOOL: "bool", Kind.INTEGER: "integer", Kind.DOUBLE: "double"}
-MOST = 50
+MAX_COMPLETIONS = 50
 """Completions that are offered at most."""
 
 
-def dial_of(parameter: ParameterInfo) -> Dial | None:
+def tunable_of(parameter: ParameterInfo) -> Tunable | None:
     """A parameter as what is tuned; None where it is no number or boolean, or cannot be set."""
     kind, value = KINDS.get(parameter.kind), parameter.value
     if kind is None or parameter.read_only or not isinstance(value, (bool, int, float)):
@@ -25,23 +25,23 @@ def dial_of(parameter: ParameterInfo) -> Dial | None:
     low, high = (parameter.range.low, parameter.range.high) if parameter.range else (-math.inf, math.inf)
     if kind == "bool":
         low, high = 0, 1
-    return Dial(parameter.node, parameter.name, kind, low, high, value, parameter.unit)
+    return Tunable(parameter.node, parameter.name, kind, low, high, value, parameter.unit)
 
 
-def ranges_text(dials: Sequence[Dial]) -> str:
+def ranges_text(tunables: Sequence[Tunable]) -> str:
     """Dials as they are typed, with their ranges where they have one."""
     return " ".join(
         each.label
         if each.kind == "bool" or not math.isfinite(each.low)
         else f"{each.label}={each.low:g}..{each.high:g}"
-        for each in dials
+        for each in tunables
     )
 
 
-def wrong_ranges(known: Sequence[Dial], text: str) -> str:
+def wrong_ranges(known: Sequence[Tunable], text: str) -> str:
     """What is wrong with typed ranges; empty when nothing is."""
     try:
-        find_dials(text.split(), [*known])
+        find_tunables(text.split(), [*known])
     except ValueError as error:
         return str(error)
     return ""
@@ -59,7 +59,7 @@ def scores(plottable: Sequence[str], typed: str) -> list[Option]:
             parse_score(typed)
             found.insert(0, Option(typed, "this formula"))
         except ValueError as error:
-            found += [*_completions(plottable, typed)[:MOST]] or [Option(typed, f"✗ {error}")]
+            found += [*_completions(plottable, typed)[:MAX_COMPLETIONS]] or [Option(typed, f"✗ {error}")]
     return found
 
 
@@ -88,10 +88,14 @@ def numbers(text: str) -> tuple[int, float]:
     raise ValueError("two numbers: runs, and simulated seconds of each, such as 60 60")
 
 
-def question_of(dials: Sequence[Dial], score: str, text: str, trees: Mapping[str, ParameterTree]) -> Question:
+def specification_of(
+    tunables: Sequence[Tunable], score: str, text: str, trees: Mapping[str, ParameterTree]
+) -> TuningSpecification:
     """The question for the system as it runs; raises `ValueError`."""
     runs, seconds = numbers(text)
-    return Question(tuple(dials), parse_score(score), runs=runs, duration=seconds, base=running_values(trees))
+    return TuningSpecification(
+        tuple(tunables), parse_score(score), runs=runs, duration=seconds, base=running_values(trees)
+    )
 
 
 def running_values(trees: Mapping[str, ParameterTree]) -> dict[str, dict[str, Any]]:

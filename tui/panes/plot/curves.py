@@ -11,9 +11,9 @@ from bot_console.tui.panes.plot.thresholds import Threshold
 from bot_console.tui.text.expression.tree import is_parameter
 
 Array = npt.NDArray[np.float64]
-MOST = 20_000
+MAX_SAMPLES = 20_000
 """Samples of one curve that are kept."""
-ROOM = MOST + MOST // 4
+ROOM = MAX_SAMPLES + MAX_SAMPLES // 4
 """Samples for which memory is taken at once: arrays that grow by a few samples at a time leave holes behind them."""
 
 
@@ -81,12 +81,12 @@ class Curve:
         self.cursor, self.problem = samples.cursor, samples.problem
         if len(samples.times):
             headers = samples.headers if len(samples.headers) else np.full(len(samples.times), np.nan)
-            self._add(np.array([samples.times, samples.values, headers], float)[:, -MOST:])
+            self._add(np.array([samples.times, samples.values, headers], float)[:, -MAX_SAMPLES:])
         return changed
 
     def _add(self, new: Array) -> None:
         """Add samples behind the last; what somebody holds of the earlier ones stays as it is."""
-        kept, count = min(len(self.times), MOST - new.shape[1]), new.shape[1]
+        kept, count = min(len(self.times), MAX_SAMPLES - new.shape[1]), new.shape[1]
         first = len(self.times) - kept
         if self._end + count > self._room.shape[1]:
             room = np.empty((3, ROOM))

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, JournalState
-from bot_console.tui.format import clock_text, harmless
+from bot_console.tui.format import clock_text, sanitize
 from bot_console.tui.opening import matching
 from bot_console.tui.panes.plot.parts import DEFAULTS, WINDOWS, Timeline
 from bot_console.tui.panes.plot.questions import PlotQuestions
@@ -20,7 +20,7 @@ from textual.app import ComposeResult
 
 FORMS = ("framed", "strips", "lines")
 
-LEAST_FRAME = 8
+MIN_FRAME_LINES = 8
 """Lines from which on a frame with axes leaves room for the trace."""
 
 SCORED = ("rise", "overshoot", "settling", "error")
@@ -54,7 +54,7 @@ class PlotPane(PlotQuestions):
         self._journal: JournalState | None = None
         self._graph: object = None
         self._parameters: object = None
-        self._beats = False
+        self._heartbeats = False
         """Whether there are beats; without them each snapshot is drawn."""
         self._wanted = self._undrawn = False
         """Whether something else than samples is to be drawn, and whether there are samples that were not drawn."""
@@ -87,7 +87,7 @@ class PlotPane(PlotQuestions):
             self._timeline.marks_of(changes)
             self._responses.read(changes)
             self._wanted = True
-        if self._wanted or not self._beats:
+        if self._wanted or not self._heartbeats:
             self.take_in(force=True)
 
     def _add_defaults(self) -> None:
@@ -129,7 +129,7 @@ class PlotPane(PlotQuestions):
 
     def tick(self) -> None:
         """Fetch new samples, and draw when the newest lies beyond what a dot holds, or no other comes after it."""
-        self._beats = True
+        self._heartbeats = True
         self.take_in(force=self._wanted)
 
     def take_in(self, *, force: bool = False) -> None:
@@ -150,7 +150,7 @@ class PlotPane(PlotQuestions):
         self._wanted = self._undrawn = False
         self._moment = self._timeline.moment(width)
         form = self._form
-        if form == "framed" and self.size.height < LEAST_FRAME + len(curves):
+        if form == "framed" and self.size.height < MIN_FRAME_LINES + len(curves):
             form = "strips"
         below = min(len(curves), 6) if form == "framed" else 0
         if legend.styles.height is None or legend.styles.height.value != below:
@@ -159,8 +159,8 @@ class PlotPane(PlotQuestions):
         if width < 16 or height < 2:
             return
         if not curves:
-            said = [((each.center(width), "dim"),) for each in wrap(self._nothing(), width)][:height]
-            picture.set_lines([()] * ((height - len(said)) // 2) + said)
+            message = [((each.center(width), "dim"),) for each in wrap(self._nothing(), width)][:height]
+            picture.set_lines([()] * ((height - len(message)) // 2) + message)
             return
         if self._responses.shown:
             picture.set_lines(self._responses.draw(curves, self._chosen, self._timeline.window, (width, height)))
@@ -178,7 +178,7 @@ class PlotPane(PlotQuestions):
     def _lines(self, width: int, height: int, form: str) -> Sequence[Line]:
         # NumPy is imported after the first frame: it is a third of the start-up time.
         from bot_console.tui.panes.plot import view as plot_view
-        from bot_console.tui.panes.plot.pictures import against, sparklines
+        from bot_console.tui.panes.plot.pictures import sparklines, xy_plot
 
         timeline = self._timeline
         axes = timeline.axes(width - plot_view.LABEL if form == "framed" else width)
@@ -188,12 +188,12 @@ class PlotPane(PlotQuestions):
             return sparklines.sparklines(timeline.curves, axes, width, height, self._chosen)
         base = next((each for each in timeline.curves if each.path == timeline.against), None)
         if base is not None and len(timeline.curves) > 1:
-            return against.against(base, timeline.curves, axes, width, height)
+            return xy_plot.against(base, timeline.curves, axes, width, height)
         return plot_view.framed(timeline.curves, timeline.marks, axes, width, height)
 
     def time_moved(self, stamp: int | None) -> None:
         """Show another moment, and what was changed then."""
-        self._timeline.look_at(stamp)
+        self._timeline.watch_image(stamp)
         if self.display and self.is_mounted:
             self.draw()
 
@@ -205,7 +205,7 @@ class PlotPane(PlotQuestions):
             return
         stamps = {self.console.plot_time(each.stamp): each.stamp for each in self.console.changes()}
         if (stamp := stamps.get(time)) is not None:
-            self._look_at(stamp)
+            self._inspect(stamp)
 
     def action_now(self) -> None:
         """Look at what is now again."""
@@ -264,7 +264,7 @@ class PlotPane(PlotQuestions):
     def _nothing(self) -> str:
         """Why there is no curve."""
         if self._expected:
-            return harmless(f"Waits for {self._waiting()}: the curve begins with the first message. a names another.")
+            return sanitize(f"Waits for {self._waiting()}: the curve begins with the first message. a names another.")
         return EMPTY
 
     def on_picture_resized(self, event: Picture.Resized) -> None:
@@ -294,21 +294,21 @@ class PlotPane(PlotQuestions):
     def action_cursor(self) -> None:
         """A cursor at the newest sample, or none again."""
         if self._timeline.cursor is None:
-            self._look_at(self._timeline.beside_cursor(0, self._across()))
+            self._inspect(self._timeline.beside_cursor(0, self._across()))
         else:
             self.action_now()
 
     def _across(self) -> int:
         return self.query_one("#plot-picture", Picture).size.width
 
-    def _look_at(self, stamp: int) -> None:
+    def _inspect(self, stamp: int) -> None:
         self.time_cursor.move(stamp, self)
         self.time_moved(stamp)
 
     def action_shift(self, step: int) -> None:
         """Move the cursor; where there is none the window, which pauses."""
         if self._timeline.cursor is not None:
-            self._look_at(self._timeline.beside_cursor(step, self._across()))
+            self._inspect(self._timeline.beside_cursor(step, self._across()))
             return
         if self._timeline.paused_at is None:
             self._timeline.pause()

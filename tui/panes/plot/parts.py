@@ -147,7 +147,7 @@ class Timeline:
             Mark(self._console.plot_time(each.stamp), not each.accepted, change_text(each)) for each in changes
         ]
 
-    def look_at(self, stamp: int | None) -> None:
+    def watch_image(self, stamp: int | None) -> None:
         """Hold the window so that it shows a moment (ns since the epoch); at None let it follow again."""
         if stamp is None:
             self.cursor = self.paused_at = None

@@ -134,7 +134,7 @@ class PlotQuestions(Pane):
     def action_keep(self) -> None:
         """Ask for a name for the curves that are shown."""
         if self.paths:
-            self.ask(Asked("keep these curves as", self._keep, check=plot_presets.wrong_name))
+            self.ask(Asked("keep these curves as", self._keep, check=plot_presets.preset_name_problem))
         else:
             self.notify("There are no curves to be kept.")
 
@@ -145,9 +145,9 @@ class PlotQuestions(Pane):
             preset = Preset(tuple(curves), timeline.window, self._limits_text(), timeline.against)
             path = plot_presets.keep_preset(name, preset)
         except NotSaved as error:
-            self.tell(Answer(False, f"not kept: {error}"))
+            self.report(Answer(False, f"not kept: {error}"))
         else:
-            self.tell(Answer(True, f"curves kept in {path}; p shows them again"))
+            self.report(Answer(True, f"curves kept in {path}; p shows them again"))
 
     def action_kept(self) -> None:
         """Ask which of the curves that were kept are to be shown."""
@@ -169,7 +169,7 @@ class PlotQuestions(Pane):
             limits = limits_of(preset.limits)
             thresholds = {each.curve: thresholds_of(each.thresholds) for each in preset.curves}
         except (NoPreset, ValueError) as error:
-            self.tell(Answer(False, str(error)))
+            self.report(Answer(False, str(error)))
             return
         self.action_remove_all()
         timeline.set_window(preset.window)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from bot_console.tui.console.model import Change
 from bot_console.tui.console.protocol import Console
-from bot_console.tui.format import harmless
+from bot_console.tui.format import sanitize
 from bot_console.tui.widgets.picture import Line
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ class Responses:
         """What is compared with what."""
         path = curves[chosen].path if chosen < len(curves) else ""
         parts = [f"responses of {path}", f"reference {self.reference}" if self.reference else "r sets the reference"]
-        return harmless(" · ".join([*parts, f"score {self.formula}" if self.formula else "s: a score"]))
+        return sanitize(" · ".join([*parts, f"score {self.formula}" if self.formula else "s: a score"]))
 
 
 def wrong_formula(text: str) -> str:

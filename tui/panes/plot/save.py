@@ -44,11 +44,11 @@ def picture(
 ) -> None:
     """Write what is seen as `.svg`, `.png` or `.html`, else as plain text; raises `NotSaved`."""
     if path.suffix in (".svg", ".png"):
-        from bot_console.tui.panes.plot.pictures import files
-        from bot_console.tui.panes.plot.pictures.sheet import sheet
+        from bot_console.tui.panes.plot.pictures import image_files
+        from bot_console.tui.panes.plot.pictures.vector_drawing import sheet
 
         page = sheet(curves, marks, axes, wall)
-        (files.write_svg if path.suffix == ".svg" else files.write_png)(path, page)
+        (image_files.write_svg if path.suffix == ".svg" else image_files.write_png)(path, page)
     else:
         _by_plotext(path, curves, axes)
 

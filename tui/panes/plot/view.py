@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from bot_console.tui.format import harmless
+from bot_console.tui.format import sanitize
 from bot_console.tui.panes.plot.curves import Curve, Reach, reach
 from bot_console.tui.panes.plot.thresholds import first_crossed
 from bot_console.tui.panes.plot.window_facts import window_facts
@@ -21,7 +21,7 @@ LABEL = 9
 WIDE = 130
 """Cells from which on the legend says more of each curve."""
 
-HUGE = 1e300
+MAX_VALUE = 1e300
 """Values beyond are drawn here, so that the difference of two values is always a number."""
 
 
@@ -130,12 +130,12 @@ def style_of(curve: Curve) -> str:
 def reach_of(curve: Curve, axes: Axes, across: int) -> Reach:
     """What of a curve is seen in so many cells."""
     times, values = curve.between(axes.start, axes.end)
-    return reach(times, values.clip(-HUGE, HUGE), axes.start, axes.end, across * 2)
+    return reach(times, values.clip(-MAX_VALUE, MAX_VALUE), axes.start, axes.end, across * 2)
 
 
 def limits_of_values(several: Sequence[npt.NDArray[np.float64]]) -> tuple[float, float]:
     """Limits that hold all values, at round numbers."""
-    return limits([Reach(each.clip(-HUGE, HUGE), each.clip(-HUGE, HUGE)) for each in several])
+    return limits([Reach(each.clip(-MAX_VALUE, MAX_VALUE), each.clip(-MAX_VALUE, MAX_VALUE)) for each in several])
 
 
 def limits(reaches: Sequence[Reach]) -> tuple[float, float]:
@@ -149,9 +149,9 @@ def limits(reaches: Sequence[Reach]) -> tuple[float, float]:
     return math.floor(low / step) * step, math.ceil(high / step) * step
 
 
-def tick_step(span: float, most: int) -> float:
+def tick_step(span: float, maximum: int) -> float:
     """The smallest of 1, 2 and 5 times a power of ten of which at most so many fit into a span."""
-    raw = span / max(1, most)
+    raw = span / max(1, maximum)
     if not (math.isfinite(raw) and raw > 0):
         return 1.0
     power = 10.0 ** math.floor(math.log10(raw))
@@ -229,11 +229,11 @@ def _time_axis(marks: Sequence[Mark], axes: Axes, across: int, beyond: Sequence[
 def legend(curve: Curve, axes: Axes, width: int, chosen: bool) -> Line:
     """Name, value at the cursor, else the newest one, and what the samples that are seen amount to."""
     start, style = ("▸ " if chosen else "  "), style_of(curve)
-    facts = "  " + (harmless(curve.problem) or (_facts(curve, axes, width) if width >= 60 else ""))
+    facts = "  " + (sanitize(curve.problem) or (_facts(curve, axes, width) if width >= 60 else ""))
     if curve.latest is None and not curve.problem:
         facts = "  waiting for the first sample"
     room = max(8, width - len(start) - 2 - 9 - len(facts))
-    path = harmless(curve.path) + ("  right axis" if curve.right else "")
+    path = sanitize(curve.path) + ("  right axis" if curve.right else "")
     name = path if len(path) <= room else "…" + path[-room + 1 :]
     over = first_crossed(curve.thresholds, _value(curve, axes))
     value = (f"{legend_value(curve, axes):>8} ", "error" if over else "strong")

@@ -17,22 +17,22 @@ from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.format import counted, value_text
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
-from bot_console.tui.panes.profiles.asking import Asking
-from bot_console.tui.panes.profiles.own import OwnProfiles
+from bot_console.tui.panes.profiles.dry_run import Asking
 from bot_console.tui.panes.profiles.presets import PresetMenu
 from bot_console.tui.panes.profiles.replacement import Replacement
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
-from bot_console.tui.safety.stop_words import stops_of_ending
+from bot_console.tui.panes.profiles.user_profiles import OwnProfiles
+from bot_console.tui.safety.stop_messages import stops_of_ending
 from bot_console.tui.state_store import LAST_FILE
 from bot_console.tui.widgets.prompt.common import wrong_path
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Confirmation, Line
 from bot_console.tui.widgets.row_list import RowList
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
 
 ADDRESSES = ("https://", "http://")
-MOST = 6
+MAX_VISIBLE_PROFILES = 6
 """Profiles that are seen at once."""
 HEAD, STATUS = 4, 3
 """Lines that what a profile is for, and what comes of it, take at most."""
@@ -57,10 +57,10 @@ class ProfilesPane(ListPane):
         self._snapshot = ConsoleSnapshot()
         self._differences: Sequence[ProfileDifference] = ()
         self._outcomes: dict[tuple[str, str], SetOutcome] = {}
-        self._told = ""
+        self._reported = ""
         self._held = False
         self._query = Query()
-        self._own = OwnProfiles(self.console, self._later, self.ask, self.tell)
+        self._own = OwnProfiles(self.console, self._later, self.ask, self.report)
         self._asking = Asking(self.console, self._later, self._compare)
 
     def _later(self, work: Callable[..., object], *given: object) -> None:
@@ -69,9 +69,9 @@ class ProfilesPane(ListPane):
     def compose(self) -> ComposeResult:
         """The profiles, the differences, a line that sums them up."""
         yield ProfileRows()
-        yield Words(id="profile-head")
+        yield StaticText(id="profile-head")
         yield DifferenceRows()
-        yield Words(id="profile-status")
+        yield StaticText(id="profile-status")
         yield Prompt(id="profile-prompt")
 
     @property
@@ -87,7 +87,7 @@ class ProfilesPane(ListPane):
         before, self._snapshot = self._snapshot, snapshot
         shown = self._list
         if self._take_in():
-            shown.styles.height = max(1, min(len(snapshot.profiles), MOST))
+            shown.styles.height = max(1, min(len(snapshot.profiles), MAX_VISIBLE_PROFILES))
         elif snapshot.parameters is before.parameters and snapshot.problem == before.problem:
             return
         self._compare()
@@ -96,7 +96,7 @@ class ProfilesPane(ListPane):
         """Show the profiles that pass the filter; whether these are others than before."""
         every = self._snapshot.profiles
         there = [each for each in every if self._query.matches(f"{each.name} {each.title} {each.world} {each.path}")]
-        self.tell_filter(len(there), len(every))
+        self.report_filter(len(there), len(every))
         return self._list.show(there, self._snapshot.active_profile, self._snapshot.profile_changes)
 
     def filter_is(self, words: str) -> None:
@@ -112,8 +112,8 @@ class ProfilesPane(ListPane):
             self._asking.ask(self._differences, self._snapshot)
         shown = self.query_one(DifferenceRows)
         shown.exchange(entries(self._differences, self._outcomes, self._asking, shown.size.width or self.size.width))
-        self.query_one("#profile-head", Words).say_whole(self._head(profile), HEAD)
-        self.query_one("#profile-status", Words).say_whole(self._told or self._summary(profile), STATUS)
+        self.query_one("#profile-head", StaticText).show_whole(self._head(profile), HEAD)
+        self.query_one("#profile-status", StaticText).show_whole(self._reported or self._summary(profile), STATUS)
 
     def on_resize(self) -> None:
         """Fold what is said anew."""
@@ -139,8 +139,10 @@ class ProfilesPane(ListPane):
         absent = self._absent(profile)
         if not self._differences:
             running = len(absent) < len({key for key, _ in profile.values})
-            said = "Nothing to change: the robot runs on these values." if running else "None of its nodes is running."
-            return f"{said} Not running: {', '.join(absent)}" if absent and running else said
+            message = (
+                "Nothing to change: the robot runs on these values." if running else "None of its nodes is running."
+            )
+            return f"{message} Not running: {', '.join(absent)}" if absent and running else message
         unknown = sum(each.unknown for each in self._differences)
         refused = sum(bool(each.refusal and not each.unknown) for each in self._differences)
         refusing = len(self._asking.refusals())
@@ -167,7 +169,7 @@ class ProfilesPane(ListPane):
 
     def action_again(self) -> None:
         """Forget the outcome and compare anew."""
-        self._outcomes, self._told, self._held = {}, "", False
+        self._outcomes, self._reported, self._held = {}, "", False
         self._compare()
 
     def action_scroll(self, step: int) -> None:
@@ -215,7 +217,7 @@ class ProfilesPane(ListPane):
         return "" if there else f"The profile {name} is not there any more; nothing was applied."
 
     def _apply(self, name: str, reset_world: bool) -> None:
-        self._told = f"applying {name} ..."
+        self._reported = f"applying {name} ..."
         # The list stays while its values change one by one, and shows in the end what became of each.
         self._held = True
         answer = self.console.apply_profile(name, reset_world=reset_world)
@@ -225,12 +227,12 @@ class ProfilesPane(ListPane):
     def _outcome(self, name: str, reset_world: bool, done: Future[tuple[SetOutcome, ...]]) -> None:
         error = done.exception()
         if error is not None:
-            self._told = f"{name} was not applied: {error}"
+            self._reported = f"{name} was not applied: {error}"
         else:
             outcomes = done.result()
             self._outcomes = {(each.node, each.name): each for each in outcomes}
-            self._told = outcome_text(name, outcomes, sum(each.unknown for each in self._differences))
-            self._told += "; the simulator was reset" if reset_world else ""
+            self._reported = outcome_text(name, outcomes, sum(each.unknown for each in self._differences))
+            self._reported += "; the simulator was reset" if reset_world else ""
         self._compare()
 
     def action_open_file(self) -> None:
@@ -241,7 +243,7 @@ class ProfilesPane(ListPane):
 
     def _open(self, place: str) -> None:
         if place.strip().lower().startswith(ADDRESSES):
-            self._told = f"fetching {place.strip()} ..."
+            self._reported = f"fetching {place.strip()} ..."
             self._compare()
             answer = self.console.fetch_profile(place.strip())
             answer.add_done_callback(lambda done: self.host.call_later(self._opened, answer_of(done)))
@@ -253,7 +255,7 @@ class ProfilesPane(ListPane):
 
     def _opened(self, answer: Answer) -> None:
         """Go to a profile that was taken in."""
-        self._told = ""
+        self._reported = ""
         self._compare()
         if not answer.ok:
             self.notify(answer.text, severity="error", markup=False)
@@ -283,7 +285,7 @@ class ProfilesPane(ListPane):
         PresetMenu(self.console, self.host.call_later, self.ask, self._preset_done).open(self._snapshot.graph)
 
     def _preset_done(self, answer: Answer) -> None:
-        self.tell(answer)
+        self.report(answer)
         self.action_again()
 
     def _ask_launch(self, profile: Profile) -> None:
@@ -311,14 +313,14 @@ class ProfilesPane(ListPane):
             return
         ended = (ProcessState.EXITED, ProcessState.CRASHED, ProcessState.ABANDONED)
         keys = [each.key for each in self._snapshot.launch.processes if each.state not in ended]
-        self._told = f"stopping {counted(len(keys), 'process').replace('processs', 'processes')} ..."
+        self._reported = f"stopping {counted(len(keys), 'process').replace('processs', 'processes')} ..."
         self._compare()
         Replacement(launcher, keys, profile, partial(self._later, self._replaced, profile)).begin()
 
     def _replaced(self, profile: Profile, answer: Answer) -> None:
         if answer.ok:
             self.console.apply_profile(profile.name)  # it has no values; the one of before is not in force any more
-        self._told = answer.text
+        self._reported = answer.text
         self._compare()
 
     def action_undo(self) -> None:
@@ -326,5 +328,5 @@ class ProfilesPane(ListPane):
         self.console.undo().add_done_callback(lambda done: self.host.call_later(self._undone, done))
 
     def _undone(self, done: Future[Answer]) -> None:
-        self.tell(answer_of(done))
+        self.report(answer_of(done))
         self.action_again()

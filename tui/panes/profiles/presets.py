@@ -10,7 +10,7 @@ from functools import partial
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.protocol import Console
-from bot_console.tui.format import harmless
+from bot_console.tui.format import sanitize
 from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Line, Option, Question
 
@@ -41,14 +41,14 @@ class PresetMenu:
     console: Console
     later: Callable[..., object]
     ask: Callable[[Question[str] | Question[None]], object]
-    tell: Callable[[Answer], object]
+    report: Callable[[Answer], object]
     _lists: dict[str, Answer] = field(default_factory=dict[str, Answer])
 
     def open(self, graph: GraphInfo) -> None:
         """Ask all of them; the menu opens when the last one has answered."""
         asked = keepers(graph)
         if not asked:
-            self.tell(Answer(False, NOBODY))
+            self.report(Answer(False, NOBODY))
         for each in asked:
             answer = self.console.call(f"{each}/list", LIST, {})
             answer.add_done_callback(partial(self._heard, asked, each))
@@ -62,7 +62,7 @@ class PresetMenu:
             return
         for each, listed in self._lists.items():
             if not listed.ok:
-                self.tell(Answer(False, f"{each}: {listed.text}"))
+                self.report(Answer(False, f"{each}: {listed.text}"))
         offers = self._offers()
         if offers:
             self.ask(
@@ -81,7 +81,7 @@ class PresetMenu:
 
         def offer(title: str, about: str, then: Callable[[], object]) -> None:
             key = str(len(offers))
-            offers[key] = Option(harmless(title), harmless(about), key), then
+            offers[key] = Option(sanitize(title), sanitize(about), key), then
 
         for keeper, name, title in kept:
             offer(f"apply {name}", f"{title}  {keeper}".strip(), partial(self._ask_apply, keeper, name))
@@ -105,7 +105,7 @@ class PresetMenu:
 
     def _change(self, keeper: str, verb: str, name: str) -> None:
         answer = self.console.call(f"{keeper}/{verb}", CHANGE, {"load_namespace": name.strip()})
-        answer.add_done_callback(lambda done: self.later(self.tell, answer_of(done)))
+        answer.add_done_callback(lambda done: self.later(self.report, answer_of(done)))
 
 
 def _unnamed(text: str) -> str:

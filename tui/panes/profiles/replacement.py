@@ -19,7 +19,7 @@ class Replacement:
     launcher: Launcher
     keys: Sequence[str]
     profile: Profile
-    tell: Callable[[Answer], object]
+    report: Callable[[Answer], object]
     _left: int = 0
     _problems: list[str] = field(default_factory=list[str])
     _lock: threading.Lock = field(default_factory=threading.Lock)
@@ -41,7 +41,7 @@ class Replacement:
                 self._problems.append(answer.text)
             last = self._left == 0
         if last and self._problems:
-            self.tell(Answer(False, f"{self.profile.name} was not launched: {'; '.join(self._problems)}"))
+            self.report(Answer(False, f"{self.profile.name} was not launched: {'; '.join(self._problems)}"))
         elif last:
             self._launch()
 
@@ -52,4 +52,4 @@ class Replacement:
         error = done.exception()
         answer = Answer(False, str(error)) if error else done.result()
         text = answer.text or self.profile.launch
-        self.tell(Answer(answer.ok, f"{self.profile.name}: {text}" if answer.ok else f"not launched: {text}"))
+        self.report(Answer(answer.ok, f"{self.profile.name}: {text}" if answer.ok else f"not launched: {text}"))

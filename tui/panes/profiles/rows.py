@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from textwrap import wrap
 
 from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome, Value
-from bot_console.tui.format import counted, cut, harmless, value_text
-from bot_console.tui.panes.profiles.asking import Asking
+from bot_console.tui.format import counted, cut, sanitize, value_text
+from bot_console.tui.panes.profiles.dry_run import Asking
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment
@@ -60,15 +60,15 @@ class ProfileRows(ItemList[Profile]):
         """Mark, name, title or problem."""
         profile = self.rows[index]
         mark = "●" if profile.name == self.active else " "
-        longest = max(cell_len(harmless(each.name)) for each in self.rows) + 4
+        longest = max(cell_len(sanitize(each.name)) for each in self.rows) + 4
         room = min(max(longest, NAME), max(NAME, width // 2))
-        name = cut(f"{mark} {harmless(profile.name)}", room - 2)
+        name = cut(f"{mark} {sanitize(profile.name)}", room - 2)
         style = self.part_style("row-list--warn" if profile.problem else "row-list--dim")
         changed = f"{self.changes} changed  " if self.changes and profile.name == self.active else ""
         return [
             Segment(name + " " * (room - cell_len(name))),
             Segment(changed, self.part_style("row-list--strong")),
-            Segment(harmless(profile.problem or profile.title), style),
+            Segment(sanitize(profile.problem or profile.title), style),
         ]
 
 
@@ -83,7 +83,7 @@ class Entry:
     difference: ProfileDifference | None = None
     outcome: SetOutcome | None = None
     reason: str = ""
-    said: tuple[str, str] = ("", "dim")
+    message: tuple[str, str] = ("", "dim")
 
 
 class DifferenceRows(ItemList[Entry]):
@@ -101,15 +101,15 @@ class DifferenceRows(ItemList[Entry]):
         if entry.reason:
             return [Segment(" " * REASON + entry.reason, self._style("error"))]
         if change is None:
-            said, style = entry.said
-            return [Segment(f"{harmless(entry.node)}  ", self._style("head")), Segment(said, self._style(style))]
-        longest = max(cell_len(harmless(each.difference.name)) for each in self.rows if each.difference) + 4
+            message, style = entry.message
+            return [Segment(f"{sanitize(entry.node)}  ", self._style("head")), Segment(message, self._style(style))]
+        longest = max(cell_len(sanitize(each.difference.name)) for each in self.rows if each.difference) + 4
         names = max(min(max(longest, NAMES), width - NOTE - 3 * VALUES), 12)
-        now = cut(harmless(value_text(change.now)), VALUES) if change.now is not None else "?"
-        then = cut(harmless(value_text(change.then)), 2 * VALUES)
+        now = cut(sanitize(value_text(change.now)), VALUES) if change.now is not None else "?"
+        then = cut(sanitize(value_text(change.then)), 2 * VALUES)
         note, style = _note(entry, change)
         return [
-            Segment(cut(f"  {harmless(change.name)}", names - 2, pad=True) + "  "),
+            Segment(cut(f"  {sanitize(change.name)}", names - 2, pad=True) + "  "),
             Segment(" " * (VALUES - cell_len(now)) + now + " → ", self._style("dim")),
             Segment(then + " " * (VALUES - cell_len(then)), self._style("strong")),
             Segment(f"  {note}", self._style(style)),
@@ -156,7 +156,7 @@ def entries(
     for each in sorted(differences, key=lambda one: (one.node, one.name)):
         if each.node != node:
             node = each.node
-            found.append(Entry(each.node, said=("", "dim") if outcomes else asking.words(each.node)))
+            found.append(Entry(each.node, message=("", "dim") if outcomes else asking.words(each.node)))
             found += _folded(each.node, refusals.get(each.node, ""), width)
         outcome = outcomes.get((each.node, each.name))
         found.append(Entry(each.node, each, outcome))
@@ -167,4 +167,4 @@ def entries(
 
 
 def _folded(node: str, reason: str, width: int) -> list[Entry]:
-    return [Entry(node, reason=line) for line in wrap(harmless(reason), max(20, width - REASON))]
+    return [Entry(node, reason=line) for line in wrap(sanitize(reason), max(20, width - REASON))]

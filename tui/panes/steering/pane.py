@@ -210,9 +210,9 @@ class SteeringPane(Pane):
 
     def on_unmount(self) -> None:
         """Zero on exit; a robot that was steered is left locked."""
-        self.let_go()
+        self.detach()
 
-    def let_go(self) -> None:
+    def detach(self) -> None:
         """Disarm, with a zero velocity; a robot that was steered is left locked."""
         if self.state.armed:
             self.state.disarm()

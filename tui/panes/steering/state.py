@@ -25,7 +25,7 @@ SILENT = "held the steering and fell silent"
 OWN_REASONS = (DEAD_MAN, LEFT, SILENT)
 """Why the robot stands after steering, until a person takes the steering again or hands it back."""
 
-MOST = 10.0
+MAX_LIMIT = 10.0
 """The greatest limit that can be typed, m/s and rad/s."""
 
 SPEED_PARAMETER, TURN_PARAMETER = "max_speed", "turn_rate"
@@ -43,7 +43,7 @@ class Steering:
     last_key: float = 0.0
     typed: tuple[float, float] | None = None
     """Limits that a person has typed, in place of those of the parameters."""
-    said_zero: bool = True
+    sent_zero: bool = True
     expired: bool = False
     """Whether the dead-man time has run out, and nobody has taken the steering since."""
 
@@ -60,11 +60,11 @@ class Steering:
     def zero(self) -> None:
         """Stand still; the zero is sent even when it was sent before."""
         self.linear = self.angular = 0.0
-        self.said_zero = False
+        self.sent_zero = False
 
     def zero_axis(self, axis: int, now: float) -> None:
         """Zero linear (0) or angular (1) velocity."""
-        self.last_key, self.expired, self.said_zero = now, False, False
+        self.last_key, self.expired, self.sent_zero = now, False, False
         if axis == 0:
             self.linear = 0.0
         else:
@@ -78,7 +78,7 @@ class Steering:
 
     def aim(self, linear: float | None, angular: float | None, now: float) -> None:
         """Take velocities that were pointed at; None leaves one as it is."""
-        self.last_key, self.expired, self.said_zero = now, False, False
+        self.last_key, self.expired, self.sent_zero = now, False, False
         if linear is not None:
             self.linear = round(max(-self.greatest[0], min(linear, self.greatest[0])), 3)
         if angular is not None:
@@ -100,9 +100,9 @@ class Steering:
         if self.armed and moving and now - self.last_key >= self.deadman:
             self.disarm()
             self.expired, moving = True, False
-        if not moving and self.said_zero:
+        if not moving and self.sent_zero:
             return None
-        self.said_zero = not moving
+        self.sent_zero = not moving
         return self.linear, self.angular
 
 
@@ -130,8 +130,8 @@ def parse_limits(text: str) -> tuple[float, float] | None:
     if len(words) != 2:
         raise ValueError("two numbers, such as 0.5 1.0, or nothing for the parameters'")
     speed, turn = (parse_number(each) for each in words)
-    if not (0 < speed <= MOST and 0 < turn <= MOST):
-        raise ValueError(f"each above 0 and at most {MOST:g}")
+    if not (0 < speed <= MAX_LIMIT and 0 < turn <= MAX_LIMIT):
+        raise ValueError(f"each above 0 and at most {MAX_LIMIT:g}")
     return speed, turn
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bot_console.tui.console.robot.robot_model import DriveInfo
-from bot_console.tui.format import harmless
+from bot_console.tui.format import sanitize
 from bot_console.tui.panes.steering.state import Steering, stands_after_steering
-from bot_console.tui.safety.stop_words import held_by, holder_is_gone, may_move
+from bot_console.tui.safety.stop_messages import held_by, holder_is_gone, may_move
 from bot_console.tui.widgets.picture import Line
 
 BAR = 10
@@ -42,7 +42,7 @@ def lines(
 
 
 def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
-    topic = harmless(drive.topic) or "no robot listens for commands"
+    topic = sanitize(drive.topic) or "no robot listens for commands"
     if len(drive.robots) > 1 and drive.robot in drive.robots:
         # Of one robot or of several: from a graph nobody can tell where two topics end.
         topic += f"  topic {drive.robots.index(drive.robot) + 1} of {len(drive.robots)}, r takes the next"
@@ -51,7 +51,7 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
     if drive.stopped and drive.nothing_to_stop:
         return ((" STOP ", "warn"), (f" nothing is here to stop: {topic}", ""))
     if drive.refused:
-        return _looked_on(drive, topic)
+        return _highlighted(drive, topic)
     if drive.stopped and not drive.lockable and stands_after_steering(drive):
         return ((" STANDS ", "warn"), (" by zeros, having no emergency stop: enter steers on, ! ends them", ""))
     if drive.stopped and not drive.stop_confirmed:
@@ -71,11 +71,11 @@ def _others(nodes: Sequence[str], topic: str) -> list[Line]:
     """That nobody chooses between the pane's commands and those of other nodes."""
     if not nodes:
         return []
-    who = f"{harmless(nodes[0])} and {len(nodes) - 1} more" if len(nodes) > 1 else harmless(nodes[0])
-    return [((f" {who} on {harmless(topic)} too: the robot obeys whoever was last", "warn"),)]
+    who = f"{sanitize(nodes[0])} and {len(nodes) - 1} more" if len(nodes) > 1 else sanitize(nodes[0])
+    return [((f" {who} on {sanitize(topic)} too: the robot obeys whoever was last", "warn"),)]
 
 
-def _looked_on(drive: DriveInfo, topic: str) -> Line:
+def _highlighted(drive: DriveInfo, topic: str) -> Line:
     """Where nothing may be steered or released: no key is named that would be refused."""
     if drive.stopped:
         return ((" ALL STOP ", "error"), (f" released elsewhere: held{held_by(drive)}", ""))
@@ -120,7 +120,7 @@ def _chain(drive: DriveInfo) -> list[Line]:
     stages = (("asked", drive.asked), ("limited", drive.limited), ("final", drive.final), ("actual", drive.actual))
     for word, velocity in stages:
         text = f"{velocity[0]:+7.2f} m/s {velocity[1]:+7.2f} rad/s" if velocity else "      unknown"
-        why = f"  by {harmless(drive.limited_by)}" if word == "limited" and drive.limited_by else ""
+        why = f"  by {sanitize(drive.limited_by)}" if word == "limited" and drive.limited_by else ""
         if velocity is not None or word in ("final", "actual"):
             rows.append(((f" {word:<{WORDS}}", "dim"), (text, "" if velocity else "dim"), (why, "warn")))
     return rows

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bot_console.tui.console.traffic import Field, LiveMessage
-from bot_console.tui.format import cut, harmless
+from bot_console.tui.format import cut, sanitize
 from bot_console.tui.widgets.row_list import RowList
 from rich.cells import cell_len
 from rich.segment import Segment
@@ -57,7 +57,7 @@ class MessageRows(RowList):
             return
         self.fields = fields
         before, self.lines = self.lines, unfolded(fields, self._shut, self._open)
-        names = max((2 * each.depth + cell_len(harmless(each.name)) + 2 for each in self.lines), default=0)
+        names = max((2 * each.depth + cell_len(sanitize(each.name)) + 2 for each in self.lines), default=0)
         widths = (names, len(self.lines))
         if widths != self._widths:
             self._widths = widths
@@ -89,14 +89,14 @@ class MessageRows(RowList):
         line = self.lines[index]
         names = min(self._widths[0] + 2, max(8, width // 2))
         arrow = "  " if not line.holds else "▸ " if is_closed(line, self._shut, self._open) else "▾ "
-        name = cut(f"{'  ' * line.depth}{arrow}{harmless(line.name)}", names, pad=True)
+        name = cut(f"{'  ' * line.depth}{arrow}{sanitize(line.name)}", names, pad=True)
         unit = line.unit if line.text else ""
-        value = cut(f"{harmless(line.text)}{' ' if unit else ''}{unit}", max(0, width - names))
+        value = cut(f"{sanitize(line.text)}{' ' if unit else ''}{unit}", max(0, width - names))
         segments = [Segment(name, self._style("dim") if line.depth and line.holds else None), Segment(value)]
         room = width - names - cell_len(value) - 2
         if line.type and room >= cell_len(line.type):
             segments.append(
-                Segment("  " + " " * (room - cell_len(line.type)) + harmless(line.type), self._style("dim"))
+                Segment("  " + " " * (room - cell_len(line.type)) + sanitize(line.type), self._style("dim"))
             )
         return segments
 

@@ -20,13 +20,13 @@ from bot_console.tui.text.figures import age_text, rate_text
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Fill, Option
 from bot_console.tui.widgets.row_list import RowList
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
 from textual.containers import Container
 
-PERIOD = 1.0
+MEASURE_POLL_S = 1.0
 """Seconds between two looks at what was measured."""
-MESSAGE_PERIOD = 0.25
+MESSAGE_POLL_S = 0.25
 """Seconds between two looks at the message that is open."""
 SIDE = 110
 """Cells from which list and message stand side by side."""
@@ -60,17 +60,17 @@ class TopicsPane(ListPane):
         """The topic whose message is open."""
         self._shown = LiveMessage()
         self._frozen = False
-        self._looked = self._looked_at_message = 0.0
+        self._polled = self._message_polled_at = 0.0
 
     def compose(self) -> ComposeResult:
         """Titles, the list and the message beside it, a line on what is at the cursor, a prompt."""
-        yield Words(id="topics-heading")
+        yield StaticText(id="topics-heading")
         with Container(id="topics-body"):
             yield TopicRows()
             with Container(id="topics-message"):
-                yield Words(id="message-state")
+                yield StaticText(id="message-state")
                 yield MessageRows()
-        yield Words(id="topics-status")
+        yield StaticText(id="topics-status")
         yield Prompt(id="topics-prompt")
 
     @property
@@ -104,7 +104,7 @@ class TopicsPane(ListPane):
         if snapshot.graph is not self._info or snapshot.problem != self._problem:
             self._info, self._problem = snapshot.graph, snapshot.problem
             self._arrange()
-        self._look(self.clock())
+        self._poll(self.clock())
 
     def _arrange(self) -> None:
         shown = self._list
@@ -113,27 +113,27 @@ class TopicsPane(ListPane):
         self._every = len(every)
         shown.exchange([each for each in every if matches(self._query, each)])
         self._head()
-        self._tell()
+        self._report()
 
     def _head(self) -> None:
         shown = self._list
         if shown.across:
-            self.query_one("#topics-heading", Words).say(heading(shown.columns(shown.across), self._kind))
+            self.query_one("#topics-heading", StaticText).show_text(heading(shown.columns(shown.across), self._kind))
 
     def tick(self) -> None:
         """Measure what is in view and show it; nothing of that while the pane is hidden."""
         if not self.display:
             if self._measuring:
                 self._measure([])
-            if self._looked_at_message:
-                self._looked_at_message = 0.0
+            if self._message_polled_at:
+                self._message_polled_at = 0.0
                 self.console.traffic.listen("")
             return
         now = self.clock()
-        if now - self._looked >= PERIOD:
-            self._look(now)
-        if self._topic and now - self._looked_at_message >= MESSAGE_PERIOD:
-            self._look_at_message(now)
+        if now - self._polled >= MEASURE_POLL_S:
+            self._poll(now)
+        if self._topic and now - self._message_polled_at >= MESSAGE_POLL_S:
+            self._poll_message(now)
 
     def go_to(self, name: str) -> None:
         """Put the cursor on a topic."""
@@ -145,7 +145,7 @@ class TopicsPane(ListPane):
         if name in names:
             self._list.cursor = names.index(name)
 
-    def let_go(self) -> None:
+    def detach(self) -> None:
         """Measure no more."""
         self._measure([])
         self.console.traffic.listen("")
@@ -155,9 +155,9 @@ class TopicsPane(ListPane):
             self._measuring = topics
             self.console.traffic.measure(topics, "topics")
 
-    def _look(self, now: float) -> None:
+    def _poll(self, now: float) -> None:
         """Show what was measured since the last look, and measure what is in view now."""
-        self._looked = now
+        self._polled = now
         shown, traffic = self._list, self.console.traffic
         self._measure(shown.in_view if self._kind is Kind.TOPICS and shown.display else [])
         if self._kind is Kind.TOPICS:
@@ -167,20 +167,20 @@ class TopicsPane(ListPane):
             if {n: g.active for n, g in goals.items()} != {n: g.active for n, g in shown.goals.items()}:
                 shown.refresh()
             shown.goals = goals
-        self._tell()
+        self._report()
 
-    def _look_at_message(self, now: float) -> None:
+    def _poll_message(self, now: float) -> None:
         """Show the newest message, or, while frozen, how many have come since."""
-        if not self._looked_at_message:
+        if not self._message_polled_at:
             self.console.traffic.listen(self._topic)
-        self._looked_at_message = now
+        self._message_polled_at = now
         heard = self.console.traffic.heard()
         if heard.topic != self._topic:
             heard = LiveMessage(self._topic)
         if not self._frozen and heard is not self._shown:
             self._shown = heard
             self._message.show_message(heard)
-        self.query_one("#message-state", Words).say(self._message_state(heard))
+        self.query_one("#message-state", StaticText).show_text(self._message_state(heard))
 
     def _message_state(self, heard: LiveMessage) -> str:
         if heard.problem:
@@ -193,10 +193,10 @@ class TopicsPane(ListPane):
         parts = [counted(heard.count, "message"), age_text(heard.age), f"{rate_text(rate)} Hz" if rate else ""]
         return f"{self._topic}  {', '.join(filter(None, parts))}"
 
-    def _tell(self) -> None:
+    def _report(self) -> None:
         """What is listed, and all about the row at the cursor."""
         shown, row = self._list, self._list.current
-        self.tell_filter(len(shown.rows), self._every, "hidden ones too" if self._hidden else "")
+        self.report_filter(len(shown.rows), self._every, "hidden ones too" if self._hidden else "")
         if row is not None:
             text = self._about(row)
         elif self._problem:
@@ -205,8 +205,8 @@ class TopicsPane(ListPane):
             text = "Nothing matches the filter; escape takes it away."
         else:
             text = f"No {self._kind.value} yet; m lists {_next(self._kind).value}."
-        status = self.query_one("#topics-status", Words)
-        status.say(text)
+        status = self.query_one("#topics-status", StaticText)
+        status.show_text(text)
 
     def _about(self, row: Row) -> str:
         traffic = self.console.traffic
@@ -224,7 +224,7 @@ class TopicsPane(ListPane):
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Tell of the row at the cursor."""
         event.stop()
-        self._tell()
+        self._report()
 
     def on_resize(self) -> None:
         """List and message side by side where there is room."""
@@ -235,7 +235,7 @@ class TopicsPane(ListPane):
         """Other rows are in view now."""
         self._head()
         if self.display:
-            self._look(self.clock())
+            self._poll(self.clock())
 
     def action_open(self) -> None:
         """Open the newest message of the topic, fold a line of it, or fill in a request or a goal."""
@@ -249,17 +249,17 @@ class TopicsPane(ListPane):
 
     def _open(self, topic: str) -> None:
         self._topic, self._frozen, self._shown = topic, False, LiveMessage()
-        self._looked_at_message = 0.0
+        self._message_polled_at = 0.0
         self._message.show_fields(())
         self._list.opened = topic
         self.add_class("opened")
-        self._look_at_message(self.clock())
+        self._poll_message(self.clock())
         self.focus_target()
         self.call_after_refresh(self._laid_out)
 
     def _close(self) -> None:
         self._topic = self._list.opened = ""
-        self._looked_at_message = 0.0
+        self._message_polled_at = 0.0
         self.console.traffic.listen("")
         self.remove_class("opened")
         self.focus_target()
@@ -281,7 +281,7 @@ class TopicsPane(ListPane):
         """Let the message stand still, or go on."""
         if self._topic:
             self._frozen = not self._frozen
-            self._look_at_message(self.clock())
+            self._poll_message(self.clock())
 
     def action_kind(self) -> None:
         """Topics, services, actions."""
@@ -292,7 +292,7 @@ class TopicsPane(ListPane):
         self.post_message(self.KeysChanged())
         self._list.set_reactive(RowList.cursor, 0)
         self._arrange()
-        self._look(self.clock())
+        self._poll(self.clock())
 
     def action_hidden(self) -> None:
         """Show hidden and built-in ones too, or no more."""
@@ -338,7 +338,7 @@ class TopicsPane(ListPane):
             return
         if self._kind is Kind.ACTIONS:
             answer = self.console.traffic.cancel(row.name)
-            self.tell(answer)
+            self.report(answer)
         elif row.name in self.console.traffic.repeated():
             self.console.traffic.stop(row.name)
             self.notify(f"{row.name}: nothing is published from here any more")

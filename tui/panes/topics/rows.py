@@ -55,7 +55,7 @@ class Row:
         return self.types[0] if self.types else ""
 
 
-class _Found:
+class _Endpoints:
     """What was found of one name."""
 
     def __init__(self) -> None:
@@ -67,20 +67,20 @@ class _Found:
 
 def rows(info: GraphInfo, kind: Kind, *, hidden: bool) -> list[Row]:
     """The rows of a kind, by name; hidden and built-in ones only where asked for."""
-    found: dict[str, _Found] = {}
+    found: dict[str, _Endpoints] = {}
     for node in info.nodes:
         gives, takes = _ends(node, kind)
         for ends, giving in ((gives, True), (takes, False)):
             for each in ends:
-                _take(found.setdefault(each.name, _Found()), node.name, each, giving)
+                _take(found.setdefault(each.name, _Endpoints()), node.name, each, giving)
     for each in {Kind.TOPICS: info.topics, Kind.SERVICES: info.services, Kind.ACTIONS: ()}[kind]:
-        one = found.setdefault(each.name, _Found())
+        one = found.setdefault(each.name, _Endpoints())
         one.types.update(dict.fromkeys(each.types))
     made = (_row(name, each, kind) for name, each in sorted(found.items()) if each.gives or each.takes or not each.own)
     return [row for row in made if hidden or not is_built_in(row.name, kind)]
 
 
-def _take(found: _Found, node: str, end: Endpoint, giving: bool) -> None:
+def _take(found: _Endpoints, node: str, end: Endpoint, giving: bool) -> None:
     if node.startswith(OWN):
         found.own = True
         return
@@ -101,14 +101,14 @@ def is_built_in(name: str, kind: Kind) -> bool:
     return "/_" in name or (kind is Kind.SERVICES and name.endswith(BUILT_IN))
 
 
-def _row(name: str, found: _Found, kind: Kind) -> Row:
+def _row(name: str, found: _Endpoints, kind: Kind) -> Row:
     offers = list(dict.fromkeys(qos for _, qos in found.gives if qos))
     qos = offers[0] + ("  +" if len(offers) > 1 else "") if offers else ""
     gives, takes = (tuple(node for node, _ in ends) for ends in (found.gives, found.takes))
     return Row(name, tuple(found.types), gives, takes, qos, _problem(found, kind))
 
 
-def _problem(found: _Found, kind: Kind) -> str:
+def _problem(found: _Endpoints, kind: Kind) -> str:
     if len(found.types) > 1:
         return f"different types, which do not hear each other: {', '.join(found.types)}"
     if kind is Kind.TOPICS:

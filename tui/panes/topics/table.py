@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from bot_console.tui.console.traffic import Goal, Measure, Repeated
-from bot_console.tui.format import cut, cut_name, harmless
+from bot_console.tui.format import cut, cut_name, sanitize
 from bot_console.tui.panes.topics.rows import Kind, Row
 from bot_console.tui.text.figures import age_text, amount_text, rate_text, span_text, steady
 from bot_console.tui.widgets.item_list import ItemList
@@ -40,7 +40,7 @@ class Columns:
 
 def columns(rows: Sequence[Row], kind: Kind, width: int) -> Columns:
     """Share a width: names first, then figures, types, and what else has room."""
-    longest = max((cell_len(harmless(each.name)) + 3 for each in rows), default=NAME)
+    longest = max((cell_len(sanitize(each.name)) + 3 for each in rows), default=NAME)
     figures = kind is Kind.TOPICS
     latency = figures and width >= 90
     amounts = figures and (width >= WIDE or longest <= width - ENDS - RATE - AMOUNT - AGE)
@@ -70,7 +70,7 @@ def heading(shown: Columns, kind: Kind) -> str:
 
 def _short(type_name: str) -> str:
     """A type without its middle: `sensor_msgs/LaserScan`."""
-    return harmless(type_name.replace("/msg/", "/").replace("/srv/", "/").replace("/action/", "/"))
+    return sanitize(type_name.replace("/msg/", "/").replace("/srv/", "/").replace("/action/", "/"))
 
 
 class TopicRows(ItemList[Row]):
@@ -144,7 +144,7 @@ class TopicRows(ItemList[Row]):
         segments = [
             Segment(mark, self._style("good")),
             Segment("!" if row.problem else " ", style),
-            Segment(cut_name(harmless(row.name), shown.name - 2, pad=True), self._style("head") if open_ else style),
+            Segment(cut_name(sanitize(row.name), shown.name - 2, pad=True), self._style("head") if open_ else style),
             Segment(f"{ends:>{ENDS}}", style or (self._style("dim") if not row.takes else None)),
         ]
         if shown.figures:
@@ -152,7 +152,7 @@ class TopicRows(ItemList[Row]):
         if shown.type:
             segments.append(Segment(cut("  " + _short(row.type), shown.type, pad=True), self._style("dim")))
         if shown.qos:
-            segments.append(Segment(cut("  " + harmless(row.qos), shown.qos), self._style("dim")))
+            segments.append(Segment(cut("  " + sanitize(row.qos), shown.qos), self._style("dim")))
         return segments
 
     def _style(self, name: str) -> Style:

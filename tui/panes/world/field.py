@@ -94,10 +94,10 @@ def _put(cells: list[list[Cell]], turtle: Turtle, width: int, height: int, *, wi
     row = top + min(max(int((1.0 - turtle.pose.y / SIDE) * down), 0), down - 1)
     cells[row][column] = (arrow(turtle.pose.heading), "robot")
     if with_name:
-        for at, letter in enumerate(turtle.name[: left + across - column - 1], column + 1):
+        for at, character in enumerate(turtle.name[: left + across - column - 1], column + 1):
             behind = cells[row][at][1].rpartition("on #")[2]
             light = sum(bytes.fromhex(behind)) > 3 * 128
-            cells[row][at] = (letter, f"bold #{'000000' if light else 'ffffff'} on #{behind}")
+            cells[row][at] = (character, f"bold #{'000000' if light else 'ffffff'} on #{behind}")
 
 
 def _line(cells: list[Cell]) -> Line:

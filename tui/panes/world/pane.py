@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.robot.robot_model import Pose, TurtleField, WorldInfo
-from bot_console.tui.format import clock_text, figure, harmless
+from bot_console.tui.format import clock_text, figure, sanitize
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.widgets.live_words import LiveWords
+from bot_console.tui.widgets.live_figures import LiveFigures
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.prompt.line import Prompt
 from rich.cells import cell_len
@@ -37,7 +37,7 @@ class WorldMap(Picture):
         self._world = WorldInfo()
         self._drawing: WorldDrawing | None = None
         self._field_drawing: FieldDrawing | None = None
-        self._told: object = None
+        self._reported: object = None
         """What the lines tell; None where they show something else."""
         self._age = -1
         self._field = ""
@@ -90,24 +90,24 @@ class WorldMap(Picture):
         if width < 4 or height < 2:
             return
         if self.field:
-            self._told = None
+            self._reported = None
             from bot_console.tui.panes.world.field import FieldDrawing
 
             self._field_drawing = self._field_drawing or FieldDrawing()
             self.set_lines(self._field_drawing.rows(self.field, width, height))
             return
         if replace(self._world, robot="", robots=()) == WorldInfo():
-            self._told = None
+            self._reported = None
             self.set_lines(())
             return
         # NumPy is imported after the first frame: it is a third of the start-up time.
-        from bot_console.tui.panes.world.view import WorldDrawing, following, scale_text, told_of
+        from bot_console.tui.panes.world.view import WorldDrawing, following, scale_text, visible_content
 
         self._drawing = self._drawing or WorldDrawing()
         window = following(self._world, width, height, self.zoom)
-        told = told_of(self._world, window, width, height)
-        if told != self._told:
-            self._told = told
+        reported = visible_content(self._world, window, width, height)
+        if reported != self._reported:
+            self._reported = reported
             self.set_lines(self._drawing.rows(self._world, window, width, height))
             self.scale = scale_text(window, width)
             self.scale_within = partial(scale_text, window, width)
@@ -139,7 +139,7 @@ class WorldPane(Pane):
     def compose(self) -> ComposeResult:
         """The map and a line of facts."""
         yield WorldMap()
-        yield LiveWords(id="world-facts")
+        yield LiveFigures(id="world-facts")
         yield Prompt(id="world-prompt")
 
     def focus_target(self) -> None:
@@ -158,7 +158,7 @@ class WorldPane(Pane):
     def tick(self) -> None:
         """Show the figures that have waited."""
         if self.display:
-            self.query_one(LiveWords).beat()
+            self.query_one(LiveFigures).heartbeat()
 
     def _draw(self, live: bool = False) -> None:
         world = self._world or WorldInfo()
@@ -193,18 +193,18 @@ class WorldPane(Pane):
             near = "free" if world.nearest is None else f"{figure(world.nearest)} m"
             where = f"x {pose.x:6.1f}  y {pose.y:6.1f}" if pose else "pose unknown"
             speed = f"SILENT for {world.silent_s} s" if world.silent_s else f"{figure(world.speed, '+')} m/s"
-            whose = f"{harmless(world.robot)}  " if len(world.robots) > 1 else ""
+            whose = f"{sanitize(world.robot)}  " if len(world.robots) > 1 else ""
             where = f"{whose}{where}"
             text = f"{where}  {speed}  nearest {near}  "
-            width = self.query_one(LiveWords).content_size.width
+            width = self.query_one(LiveFigures).content_size.width
             room = width - cell_len(text + more)
             text += (drawn.scale if len(drawn.scale) <= room or not width else drawn.scale_within(room)) + more
             stamp = self.time_cursor.stamp
             if stamp is not None:
                 known = f"{where}  " if self._then else "where the robot was then is not known  "
                 text = f"◆ {clock_text(stamp)}  {known}{drawn.scale}{more}"
-        facts = self.query_one(LiveWords)
-        (facts.say_live if live else facts.say_now)(text)
+        facts = self.query_one(LiveFigures)
+        (facts.show_live if live else facts.show_now)(text)
 
     def action_next_place(self) -> None:
         """The next robot, or a field of turtles."""

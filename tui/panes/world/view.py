@@ -63,9 +63,9 @@ class WorldDrawing:
                 canvas.points(*_dots(np.asarray(points, float), window, width, height))
         layers = [hits.codes(), trail.codes(), walls.codes()]
         rows = layered(layers, ("warn", "accent", ""), width, height)
-        for (column, row), letter, style in _letters(world, window, width, height):
+        for (column, row), character, style in _characters(world, window, width, height):
             if 0 <= row < height and 0 <= column < width:
-                rows[row] = _written(rows[row], column, letter, style)
+                rows[row] = _written(rows[row], column, character, style)
         return [tuple(row) for row in rows]
 
     def _wall_dots(self, grid: GridMap, window: Window, width: int, height: int) -> npt.NDArray[np.bool_]:
@@ -102,34 +102,34 @@ def _dots(
     return np.floor(x), np.floor(y)
 
 
-def _written(pieces: list[Piece], column: int, letter: str, style: str) -> list[Piece]:
+def _written(pieces: list[Piece], column: int, character: str, style: str) -> list[Piece]:
     """A row with one letter put over what stands there."""
     result: list[Piece] = []
     at = 0
     for text, name in pieces:
         inside = column - at
         if 0 <= inside < len(text):
-            result += [(text[:inside], name), (letter, style), (text[inside + 1 :], name)]
+            result += [(text[:inside], name), (character, style), (text[inside + 1 :], name)]
         else:
             result.append((text, name))
         at += len(text)
     return [each for each in result if each[0]]
 
 
-def told_of(world: WorldInfo, window: Window, width: int, height: int) -> object:
+def visible_content(world: WorldInfo, window: Window, width: int, height: int) -> object:
     """What a drawing tells; worlds of which it tells the same look the same, though the robot has moved a little."""
-    return world.map, world.hits, world.trail, window, width, height, _letters(world, window, width, height)
+    return world.map, world.hits, world.trail, window, width, height, _characters(world, window, width, height)
 
 
-def _letters(world: WorldInfo, window: Window, width: int, height: int) -> list[tuple[tuple[int, int], str, str]]:
+def _characters(world: WorldInfo, window: Window, width: int, height: int) -> list[tuple[tuple[int, int], str, str]]:
     """Letters with column and row of their cells."""
-    letters: list[tuple[tuple[int, int], str, str]] = []
+    characters: list[tuple[tuple[int, int], str, str]] = []
     if world.goal is not None:
-        letters.append((_cell(*world.goal, window, width, height), "✚", "good"))
+        characters.append((_cell(*world.goal, window, width, height), "✚", "good"))
     if world.pose is not None:
         pose = world.pose
-        letters.append((_cell(pose.x, pose.y, window, width, height), arrow(pose.heading), "robot"))
-    return letters
+        characters.append((_cell(pose.x, pose.y, window, width, height), arrow(pose.heading), "robot"))
+    return characters
 
 
 def _cell(x: float, y: float, window: Window, width: int, height: int) -> tuple[int, int]:

@@ -10,22 +10,22 @@ import numpy as np
 from bot_console.tui import keymap
 from bot_console.tui.format import counted, cut, value_text
 from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
-from bot_console.tui.tuning.dial import Setting
-from bot_console.tui.tuning.question import Question
-from bot_console.tui.tuning.study import Judged, Progress
+from bot_console.tui.tuning.job import Progress, SettingResult
+from bot_console.tui.tuning.specification import TuningSpecification
+from bot_console.tui.tuning.tunable import Setting
 from bot_console.tui.tuning.tuner import Tuning
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.braille import BrailleCanvas
 from bot_console.tui.widgets.prompt.line import Prompt, asks
 from bot_console.tui.widgets.prompt.question import Line
 from bot_console.tui.widgets.row_list import RowList
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.static_text import StaticText
 from rich.segment import Segment
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType
 
-LOOKS = 4.0
+POLLS_PER_S = 4.0
 """Times a second that progress is looked at."""
 CURVE = 5
 """Lines of the curve."""
@@ -37,11 +37,11 @@ HINT = "enter takes this setting · S saves it as a profile · esc closes"
 class SettingRows(RowList):
     """One setting per line, best first."""
 
-    def __init__(self, question: Question) -> None:
+    def __init__(self, specification: TuningSpecification) -> None:
         super().__init__()
-        self._question = question
-        self.rows: tuple[Judged, ...] = ()
-        self.first: Judged | None = None
+        self._specification = specification
+        self.rows: tuple[SettingResult, ...] = ()
+        self.first: SettingResult | None = None
         """How it was before."""
 
     def row_count(self) -> int:
@@ -69,11 +69,11 @@ class SettingRows(RowList):
     @property
     def column(self) -> int:
         """The column width of the values in cells: that of the longest name, within limits."""
-        return min(18, max(6, *(len(each.name) for each in self._question.dials)))
+        return min(18, max(6, *(len(each.name) for each in self._specification.tunables)))
 
     def head(self) -> str:
         """The column headings."""
-        names = (f"{cut(each.name, self.column):>{self.column}}  " for each in self._question.dials)
+        names = (f"{cut(each.name, self.column):>{self.column}}  " for each in self._specification.tunables)
         return f"{'score':>9}  " + "".join(names)
 
 
@@ -88,10 +88,10 @@ class TuningScreen(DimmedScreen):
     TuningScreen #tuning-curve { height: 5; color: $primary; }
     """
 
-    def __init__(self, question: Question, tuning: Tuning, take: Callable[[Setting], None]) -> None:
+    def __init__(self, specification: TuningSpecification, tuning: Tuning, take: Callable[[Setting], None]) -> None:
         """`take` is called with the setting chosen for the running system."""
         super().__init__()
-        self._question = question
+        self._specification = specification
         self._tuning = tuning
         self._take = take
         self._progress: Progress | None = None
@@ -100,15 +100,15 @@ class TuningScreen(DimmedScreen):
 
     def compose(self) -> ComposeResult:
         """Progress, curve, table, state, and a line for a name."""
-        names = ", ".join(each.name for each in self._question.dials)
+        names = ", ".join(each.name for each in self._specification.tunables)
         with Box() as box:
-            box.border_title = Text(f"Tune {names} for {self._question.score.text}")
+            box.border_title = Text(f"Tune {names} for {self._specification.score.text}")
             box.border_subtitle = HINT
-            yield Words(id="tuning-progress")
-            yield Words(id="tuning-curve")
-            yield Words(id="tuning-head")
-            yield SettingRows(self._question)
-            yield Words(id="tuning-state")
+            yield StaticText(id="tuning-progress")
+            yield StaticText(id="tuning-curve")
+            yield StaticText(id="tuning-head")
+            yield SettingRows(self._specification)
+            yield StaticText(id="tuning-state")
             yield Prompt(id="tuning-prompt")
 
     @property
@@ -118,15 +118,15 @@ class TuningScreen(DimmedScreen):
     def on_mount(self) -> None:
         """Focus the table."""
         self._list.focus()
-        self.query_one("#tuning-head", Words).say(self._list.head())
-        self.set_interval(1.0 / LOOKS, self.look)
-        self.call_after_refresh(self.look)
+        self.query_one("#tuning-head", StaticText).show_text(self._list.head())
+        self.set_interval(1.0 / POLLS_PER_S, self.poll)
+        self.call_after_refresh(self.poll)
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Disable the keys of the table while a name is typed."""
         return not asks(self) and super().check_action(action, parameters)
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Show the progress, if it has changed."""
         progress = self._tuning.progress
         if progress is self._progress:
@@ -139,15 +139,15 @@ class TuningScreen(DimmedScreen):
         shown.rows_changed()
         if chosen is not None:
             shown.cursor = next((index for index, each in enumerate(shown.rows) if each.setting == chosen), 0)
-        self.query_one("#tuning-progress", Words).say(progress_text(progress))
-        curve = self.query_one("#tuning-curve", Words)
-        curve.say(Text("\n".join(curve_lines(progress.rows, max(10, curve.size.width), CURVE))))
-        self._say()
+        self.query_one("#tuning-progress", StaticText).show_text(progress_text(progress))
+        curve = self.query_one("#tuning-curve", StaticText)
+        curve.show_text(Text("\n".join(curve_lines(progress.rows, max(10, curve.size.width), CURVE))))
+        self._show_text()
 
-    def _say(self, text: str = "") -> None:
+    def _show_text(self, text: str = "") -> None:
         progress = self._progress
         self._leaving = False
-        self.query_one("#tuning-state", Words).say(text or (verdict(progress) if progress else ""))
+        self.query_one("#tuning-state", StaticText).show_text(text or (verdict(progress) if progress else ""))
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Keep the cursor on a row that the user has chosen when better ones arrive."""
@@ -155,7 +155,7 @@ class TuningScreen(DimmedScreen):
         self._moved = event.index != 0
 
     @property
-    def _chosen(self) -> Judged | None:
+    def _chosen(self) -> SettingResult | None:
         shown = self._list
         return shown.rows[shown.cursor] if shown.cursor < len(shown.rows) else None
 
@@ -163,9 +163,9 @@ class TuningScreen(DimmedScreen):
         """Apply the setting at the cursor to the running system."""
         chosen = self._chosen
         if chosen is None:
-            self._say("Nothing is known yet.")
+            self._show_text("Nothing is known yet.")
         elif chosen.problem:
-            self._say(f"This setting has failed: {chosen.problem}")
+            self._show_text(f"This setting has failed: {chosen.problem}")
         else:
             self._tuning.stop()
             self.dismiss()
@@ -175,11 +175,11 @@ class TuningScreen(DimmedScreen):
         """Ask for a name and save the setting at the cursor as a profile."""
         chosen = self._chosen
         if chosen is None:
-            self._say("Nothing is known yet.")
+            self._show_text("Nothing is known yet.")
             return
 
         def save(name: str) -> None:
-            self._say(self._tuning.save(name.strip(), chosen.setting).text)
+            self._show_text(self._tuning.save(name.strip(), chosen.setting).text)
 
         self.query_one(Prompt).ask(Line("save as profile", save, text="tuned"))
 
@@ -189,7 +189,7 @@ class TuningScreen(DimmedScreen):
             self._tuning.stop()
             self.dismiss()
             return
-        self._say("The runs go on: esc again ends them. T with the same answers goes on where they were.")
+        self._show_text("The runs go on: esc again ends them. T with the same answers goes on where they were.")
         self._leaving = True
 
 
@@ -227,7 +227,7 @@ def verdict(progress: Progress) -> str:
     return text
 
 
-def curve_lines(rows: Sequence[Judged], width: int, height: int) -> list[str]:
+def curve_lines(rows: Sequence[SettingResult], width: int, height: int) -> list[str]:
     """The scores of the settings in order as dots, and the best so far as a line."""
     canvas = BrailleCanvas(width, height)
     scores = np.array([each.score for each in rows], float)

@@ -23,10 +23,10 @@ class TuningRequests(App[None]):
         """Start a tuning, and show it over the panes."""
         event.stop()
         tuner = self.tuner
-        problem = tuner.problem(event.question) if tuner else NO_TUNER
+        problem = tuner.problem(event.specification) if tuner else NO_TUNER
         if tuner is None or problem:
             self.notify(problem, severity="warning", markup=False)
         else:
             from bot_console.tui.screens.tuning.progress import TuningScreen
 
-            self.push_screen(TuningScreen(event.question, tuner.begin(event.question), event.take))
+            self.push_screen(TuningScreen(event.specification, tuner.begin(event.specification), event.take))

@@ -14,7 +14,7 @@ from bot_console.tui.text.expression.tree import Number as Typed
 
 Number: TypeAlias = "int | float"
 
-LARGEST = 400
+MAX_BITS = 400
 """Bits that a whole number may have, so that no typing error keeps the console busy."""
 
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+")
@@ -81,7 +81,7 @@ def _both(operator: str, left: Number, right: Number) -> Number:
     if operator != "**":
         return _TWO[operator](left, right)
     if isinstance(left, int) and isinstance(right, int) and right >= 0:
-        if left.bit_length() * right > LARGEST:
+        if left.bit_length() * right > MAX_BITS:
             raise ValueError("the number is too large")
         return left**right
     result: complex | float = float(left) ** float(right)
@@ -91,6 +91,6 @@ def _both(operator: str, left: Number, right: Number) -> Number:
 
 
 def _small(value: Number) -> Number:
-    if isinstance(value, int) and value.bit_length() > LARGEST:
+    if isinstance(value, int) and value.bit_length() > MAX_BITS:
         raise ValueError("the number is too large")
     return value

@@ -8,12 +8,12 @@ from typing import NoReturn
 from bot_console.tui.format import cut
 from bot_console.tui.text.expression.tree import OF_ARRAYS, Call, Minus, Name, Number, Path, Span, Tree, Two
 
-LONGEST = 400
+MAX_CHARACTERS = 400
 """Letters of an expression at most."""
-DEEPEST = 40
+MAX_DEPTH = 40
 """Brackets, signs and powers within each other at most, so that no input exhausts the stack."""
 
-SECONDS = {"s": 1.0, "ms": 0.001, "min": 60.0}
+TIME_UNITS_S = {"s": 1.0, "ms": 0.001, "min": 60.0}
 """Units of a length of time."""
 
 NUMBER = re.compile(r"0[xX][0-9a-fA-F_]+|0[bB][01_]+|0[oO][0-7_]+|(?:\d[\d_]*\.?[\d_]*|\.\d[\d_]*)(?:[eE][+-]?\d+)?")
@@ -29,8 +29,8 @@ _RANKS = {"+": 1, "-": 1, "*": 2, "/": 2, "//": 2, "%": 2}
 
 def parse(text: str, *, paths: bool = False) -> Tree:
     """The tree of an expression; raises `ValueError` with what is wrong and where. Paths are read where asked for."""
-    if len(text) > LONGEST:
-        raise ValueError(f"an expression of more than {LONGEST} letters")
+    if len(text) > MAX_CHARACTERS:
+        raise ValueError(f"an expression of more than {MAX_CHARACTERS} letters")
     return Reader(text, paths).whole()
 
 
@@ -84,8 +84,8 @@ class Reader:
 
     def _sign(self) -> Tree:
         self._depth += 1
-        if self._depth > DEEPEST:
-            raise ValueError(f"more than {DEEPEST} brackets or signs within each other")
+        if self._depth > MAX_DEPTH:
+            raise ValueError(f"more than {MAX_DEPTH} brackets or signs within each other")
         sign = self.rest()[:1]
         if sign in ("+", "-"):
             self._at += 1
@@ -127,8 +127,8 @@ class Reader:
             raise ValueError(f"'{cut(text, 20)}' is too large") from None
         begin = self._at
         unit = self.take(NAME) if self._paths else ""
-        if unit in SECONDS:
-            return Span(float(value) * SECONDS[unit])
+        if unit in TIME_UNITS_S:
+            return Span(float(value) * TIME_UNITS_S[unit])
         self._at = begin
         return Number(value)
 

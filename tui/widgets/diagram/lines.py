@@ -8,7 +8,7 @@ from bot_console.tui.widgets.diagram.layering import Edge
 
 UP, DOWN, LEFT, RIGHT = 1, 2, 4, 8
 
-LETTERS = {
+CHARACTERS = {
     UP | DOWN: "│",
     LEFT | RIGHT: "─",
     UP | RIGHT: "╰",
@@ -29,7 +29,7 @@ CROSSING = "┼"
 TURNED = {UP: LEFT, DOWN: RIGHT, LEFT: UP, RIGHT: DOWN}
 TURNS = tuple(sum(turned for stroke, turned in TURNED.items() if strokes & stroke) for strokes in range(16))
 """Strokes with rows and columns exchanged."""
-BY_STROKES = tuple(LETTERS.get(strokes, " ") for strokes in range(16))
+BY_STROKES = tuple(CHARACTERS.get(strokes, " ") for strokes in range(16))
 CROSSED = 16
 """Instead of strokes: lines of two items meet here."""
 HEAD = 32
@@ -149,14 +149,14 @@ class Lines:
         if not cells:
             return
         special = {CROSSED: CROSSING, HEAD: "▼" if self._downward else "▶", HEAD_BACK: "◀"}
-        start, letters, belongs = 0, list[str](), frozenset[Edge]()
+        start, characters, belongs = 0, list[str](), frozenset[Edge]()
         for x in sorted(cells):
             _, strokes, edges = cells[x]
-            if letters and (x != start + len(letters) or (edges is not belongs and edges != belongs)):
-                yield start, "".join(letters), belongs
-                letters = []
-            if not letters:
+            if characters and (x != start + len(characters) or (edges is not belongs and edges != belongs)):
+                yield start, "".join(characters), belongs
+                characters = []
+            if not characters:
                 start, belongs = x, edges
-            letters.append(BY_STROKES[strokes] if strokes < CROSSED else special[strokes])
-        if letters:
-            yield start, "".join(letters), belongs
+            characters.append(BY_STROKES[strokes] if strokes < CROSSED else special[strokes])
+        if characters:
+            yield start, "".join(characters), belongs

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from bot_console.tui.widgets.diagram.drawing import Place
 
 EMPTY, LINK, BOX, CHOSEN = " ", "·", "▪", "●"
-LARGEST = (30, 9)
+MAX_CELLS = (30, 9)
 """Cells of the map at most."""
 SHARE = 4
 """It takes a quarter of the window's width and height at most."""
-SMALLEST = (8, 3)
+MIN_CELLS = (8, 3)
 
 
 @dataclass(frozen=True)
@@ -29,9 +29,9 @@ def map_size(width: int, height: int, window: Window) -> tuple[int, int]:
     """Columns and lines of the map of a picture of a size in a window; (0, 0) where it is not needed or has no room."""
     if width <= window.width and height <= window.height:
         return 0, 0
-    columns, lines = min(LARGEST[0], window.width // SHARE), min(LARGEST[1], window.height // SHARE)
-    columns, lines = min(columns, max(SMALLEST[0], width // 4)), min(lines, max(SMALLEST[1], height // 2))
-    return (columns, lines) if columns >= SMALLEST[0] and lines >= SMALLEST[1] else (0, 0)
+    columns, lines = min(MAX_CELLS[0], window.width // SHARE), min(MAX_CELLS[1], window.height // SHARE)
+    columns, lines = min(columns, max(MIN_CELLS[0], width // 4)), min(lines, max(MIN_CELLS[1], height // 2))
+    return (columns, lines) if columns >= MIN_CELLS[0] and lines >= MIN_CELLS[1] else (0, 0)
 
 
 def map_lines(places: Mapping[str, Place], extent: tuple[int, int], size: tuple[int, int], selected: str) -> list[str]:
@@ -40,10 +40,10 @@ def map_lines(places: Mapping[str, Place], extent: tuple[int, int], size: tuple[
     cells = [[EMPTY] * columns for _ in range(lines)]
     order = (EMPTY, LINK, BOX, CHOSEN)
     for item, place in places.items():
-        letter = CHOSEN if item == selected else BOX if place.boxed else LINK
+        character = CHOSEN if item == selected else BOX if place.boxed else LINK
         x = min(columns - 1, (place.x + place.width // 2) * columns // max(1, extent[0]))
         y = min(lines - 1, (place.y + place.height // 2) * lines // max(1, extent[1]))
-        cells[y][x] = max(cells[y][x], letter, key=order.index)
+        cells[y][x] = max(cells[y][x], character, key=order.index)
     return ["".join(each) for each in cells]
 
 

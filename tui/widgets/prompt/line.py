@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.format import harmless
-from bot_console.tui.widgets.prompt.question import Asker, Line
+from bot_console.tui.format import sanitize
+from bot_console.tui.widgets.prompt.question import Line, Requester
 from rich.cells import cell_len
 from textual.binding import BindingType
 from textual.containers import Horizontal
@@ -31,7 +31,7 @@ class _Completing(Suggester):
         return self._complete(value) or None
 
 
-class Prompt(Asker[str], Horizontal):
+class Prompt(Requester[str], Horizontal):
     """A label, a text field, and an error message; made when first used.
 
     Every pane has a prompt, but few are ever used: their parts would be a third of all widgets mounted at the start.
@@ -62,7 +62,7 @@ class Prompt(Asker[str], Horizontal):
         if not self.children:
             self._make()
         self._question = self._line = line
-        self._label.update(harmless(line.label))
+        self._label.update(sanitize(line.label))
         field = self._field
         suggestions = line.suggestions
         if line.complete is not None:
@@ -80,8 +80,8 @@ class Prompt(Asker[str], Horizontal):
 
     def _complain(self, text: str) -> str:
         wrong = self._line.check(text) if self._line else ""
-        said = wrong or (self._line.outlook(text) if self._line else "")
-        self._wrong.update(harmless(said))
+        message = wrong or (self._line.preview(text) if self._line else "")
+        self._wrong.update(sanitize(message))
         self._wrong.styles.max_width = self._room_beside(text)
         return wrong
 
@@ -124,7 +124,7 @@ class Prompt(Asker[str], Horizontal):
             self.screen.set_focus(self._before)
         self._before = None
 
-    def tell(self, why: str) -> None:
+    def report(self, why: str) -> None:
         """Notify the user why the prompt closes."""
         self.notify(why, severity="warning", markup=False)
 

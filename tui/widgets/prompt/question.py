@@ -47,7 +47,7 @@ class Line(Question[str]):
     check: Callable[[str], str] = _all_well
     """What is wrong with a text, in words; empty when nothing is."""
 
-    outlook: Callable[[str], str] = _all_well
+    preview: Callable[[str], str] = _all_well
     """What will come of a text that has nothing wrong with it; said beside the field before it is taken."""
 
     typed: Callable[[str], object] = _nothing
@@ -121,7 +121,7 @@ class Fill(Question[None]):
     """What sends it."""
 
 
-class Asker(Generic[A]):
+class Requester(Generic[A]):
     """Shows a question, which ends exactly once: answered, given up, or closed because its subject is gone."""
 
     _question: Question[A] | None = None
@@ -130,7 +130,7 @@ class Asker(Generic[A]):
         """Remove the question from the screen."""
         raise NotImplementedError
 
-    def tell(self, why: str) -> None:
+    def report(self, why: str) -> None:
         """Notify the user why the question closes by itself."""
         raise NotImplementedError
 
@@ -141,7 +141,7 @@ class Asker(Generic[A]):
 
     def answer(self, answer: A) -> None:
         """Close, and pass the answer on."""
-        if self.look() and self._question is not None:
+        if self.poll() and self._question is not None:
             question, self._question = self._question, None
             self.close()
             question.then(answer)
@@ -153,10 +153,10 @@ class Asker(Generic[A]):
             self.close()
             question.given_up()
 
-    def look(self) -> bool:
+    def poll(self) -> bool:
         """Whether the question still makes sense; if its subject is gone, close and notify the user."""
         why = self._question.gone() if self._question else ""
         if why:
             self.give_up()
-            self.tell(why)
+            self.report(why)
         return not why

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 from bot_console.tui.console.command_line import Stream
-from bot_console.tui.format import harmless
+from bot_console.tui.format import sanitize
 from rich.text import Text
 from textual.events import Click
 from textual.message import Message
@@ -54,16 +54,16 @@ class StreamPanel(Static):
         """Set the title: line and state; `number` distinguishes it from other panels, 0 if there are none."""
         named = self.line.removeprefix("ros2 ") if number else self.line
         title = f"{number} {named}" if number else f"{named} · {self.state} · {key} closes"
-        self.border_title = Text(harmless(title))  # Textual parses a str as markup, but brackets in a line are literal
+        self.border_title = Text(sanitize(title))  # Textual parses a str as markup, but brackets in a line are literal
         # Next to other panels there is no room for both in the title.
         self.border_subtitle = f"{self.state} · {key} closes one" if number else ""
 
-    def look(self, rows: int) -> None:
+    def poll(self, rows: int) -> None:
         """Show the newest lines that fit in a number of rows."""
         lines = self._stream.lines()
         if lines is not self._shown or rows != self._rows:
             self._shown, self._rows = lines, rows
-            self.update(Text("\n".join(harmless(each) for each in lines[-max(1, rows - BORDER) :])))
+            self.update(Text("\n".join(sanitize(each) for each in lines[-max(1, rows - BORDER) :])))
 
     def stop(self) -> None:
         """End the stream."""

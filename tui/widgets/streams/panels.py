@@ -20,7 +20,7 @@ TALLEST, LOWEST = 8, 5
 """Rows of a panel, its border counted."""
 NOT_PANES = 3
 """Rows of the terminal that are tabs, status line and key bar; of the rest the panes keep half."""
-MOST = 6
+MAX_STREAMS = 6
 """Lines that may go on, in a terminal of any size."""
 
 
@@ -34,7 +34,7 @@ def _down(size: Size) -> int:
 
 def room(size: Size) -> int:
     """The number of panels that fit in a terminal of a size."""
-    return min(MOST, _across(size) * (_down(size) // LOWEST))
+    return min(MAX_STREAMS, _across(size) * (_down(size) // LOWEST))
 
 
 class StreamPanels(Container):
@@ -69,7 +69,7 @@ class StreamPanels(Container):
         has = room(self._terminal)
         if len(self._panels) < has:
             return ""
-        larger = "" if has >= MOST else ", a larger terminal has more room"
+        larger = "" if has >= MAX_STREAMS else ", a larger terminal has more room"
         return f"no room: {len(self._panels)} run below the panes already; {self._key} ends one{larger}"
 
     def begin(self, line: str, stream: Stream) -> None:
@@ -81,7 +81,7 @@ class StreamPanels(Container):
         panel = StreamPanel(line, stream)
         self._panels.append(panel)
         self.mount(panel)
-        self.look()
+        self.poll()
 
     def end(self, panel: StreamPanel) -> None:
         """End a stream, and take its panel away."""
@@ -89,16 +89,16 @@ class StreamPanels(Container):
             self._panels.remove(panel)
             panel.stop()
             panel.remove()
-            self.look()
+            self.poll()
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Show new lines, after a layout if the terminal's size or the panels have changed."""
         now = (self._terminal, *((each, each.state) for each in self._panels))
         if now != self._laid_out:
             self._laid_out = now
             self._lay_out(self._terminal)
         for each in self._panels:
-            each.look(self._rows)
+            each.poll(self._rows)
 
     def _lay_out(self, size: Size) -> None:
         self.set_class(bool(self._panels), "open")

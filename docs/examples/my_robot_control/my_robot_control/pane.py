@@ -39,9 +39,9 @@ class MyRobotControl(Vertical):
         answer = self.system.set_parameters(NODE, {"max_speed": SLOW if stop else FAST})
         word = "Stopped" if stop else "Running"
         # The answer comes in another thread than the one that draws.
-        answer.add_done_callback(lambda done: self.app.call_later(self._tell, word, done))
+        answer.add_done_callback(lambda done: self.app.call_later(self._report, word, done))
 
-    def _tell(self, word: str, done: Future[tuple[SetOutcome, ...]]) -> None:
+    def _report(self, word: str, done: Future[tuple[SetOutcome, ...]]) -> None:
         error = done.exception()
         refused = [] if error else [each.reason for each in done.result() if each.reason]
         self._status.update(f"Robot Status: {word}" + (f" ({error or refused[0]})" if error or refused else ""))

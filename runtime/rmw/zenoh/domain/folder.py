@@ -15,9 +15,9 @@ from bot_console.runtime.rmw.zenoh.domain import loopback
 BASE_VARIABLE = "BOT_CONSOLE_SOCKET_DIR"
 """Environment variable that names another base folder: for tests, or to run several systems side by side."""
 
-LONGEST_PATH = 107 if sys.platform == "linux" else 103
+MAX_PATH_BYTES = 107 if sys.platform == "linux" else 103
 """Maximum length of a Unix socket's path in bytes; connecting to a longer one fails silently."""
-LONGEST_NAME = len("4194304.01234567")
+MAX_NAME_BYTES = len("4194304.01234567")
 """Length of a socket's name in bytes: a process id of the most digits, and the first 8 digits of a session's id."""
 
 
@@ -41,11 +41,11 @@ def domain_folder(domain: int) -> str:
     """
     base = base_folder()
     folder = os.path.join(base, str(domain))
-    room = LONGEST_PATH - LONGEST_NAME - 1
+    room = MAX_PATH_BYTES - MAX_NAME_BYTES - 1
     length = len(os.fsencode(folder))
     if length > room and not loopback.is_chosen():
-        told = f"the path {folder} has {length} bytes, and with more than {room} no socket can be made in it"
-        raise FolderRefusedError(f"{told}: set {BASE_VARIABLE} to a shorter folder")
+        reported = f"the path {folder} has {length} bytes, and with more than {room} no socket can be made in it"
+        raise FolderRefusedError(f"{reported}: set {BASE_VARIABLE} to a shorter folder")
     _private_folder(base)
     _private_folder(folder)
     return folder

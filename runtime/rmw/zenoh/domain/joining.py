@@ -10,18 +10,18 @@ from collections.abc import Generator
 from bot_console.runtime.rmw.zenoh.domain.file_lock import FOLDER_HOLDS_LOCKS, open_lock, try_lock
 from bot_console.runtime.rmw.zenoh.domain.sockets import is_stopped, live_sockets
 
-PATIENCE = 0.2
+LOCK_TIMEOUT_S = 0.2
 """Timeout of one attempt to get the lock, in s; after it the holder of the lock is checked."""
 
-LONGEST_HOLD = 2.0
+MAX_HOLD_S = 2.0
 """A holder of the lock that has used no processor time for so long, in s, is considered hung."""
 
-LONGEST_WAIT = 10.0
+MAX_WAIT_S = 10.0
 """A process continues without the lock if the same process has held it for so long, in s, or if for so long no holder
 could be found. Joining takes 10 ms, and several times that on a busy machine.
 """
 
-POLL, LONGEST_POLL = 0.003, 0.02
+POLL, MAX_POLL_S = 0.003, 0.02
 """Interval between attempts to get the lock, in s, at first and at most: fifty waiting processes would otherwise keep
 the holder from the processor.
 """
@@ -37,7 +37,7 @@ def folder_lock(folder: str) -> Generator[None]:
     handle = _opened(folder)
     try:
         behind = _Behind()
-        while not _taken(handle, PATIENCE) and not behind.hangs(_holder(handle)):
+        while not _taken(handle, LOCK_TIMEOUT_S) and not behind.hangs(_holder(handle)):
             pass
         yield
     finally:
@@ -60,9 +60,9 @@ class _Behind:
         if (holder, used) != (self._holder, self._used):
             self._idle_since = now
         self._holder, self._used = holder, used
-        if holder is not None and (is_stopped(holder) or now - self._idle_since >= LONGEST_HOLD):
+        if holder is not None and (is_stopped(holder) or now - self._idle_since >= MAX_HOLD_S):
             return True
-        return now - self._since >= LONGEST_WAIT
+        return now - self._since >= MAX_WAIT_S
 
 
 def remove_dead(folder: str) -> None:
@@ -83,16 +83,16 @@ def _opened(folder: str) -> int:
     return open_lock(os.path.join(folder, "joining.lock"))
 
 
-def _taken(handle: int, patience: float) -> bool:
+def _taken(handle: int, timeout_s: float) -> bool:
     """Try to get the lock for up to `patience` (s); return whether it was acquired."""
-    deadline, pause = time.monotonic() + patience, POLL
+    deadline, pause = time.monotonic() + timeout_s, POLL
     while True:
         if try_lock(handle):
             return True
         if time.monotonic() >= deadline:
             return False
         time.sleep(pause)
-        pause = min(pause * 1.3, LONGEST_POLL)
+        pause = min(pause * 1.3, MAX_POLL_S)
 
 
 def _time_used(pid: int | None) -> int:

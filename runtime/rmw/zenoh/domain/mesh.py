@@ -8,16 +8,16 @@ from collections.abc import Callable, Generator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.rmw.zenoh.domain import loopback
-from bot_console.runtime.rmw.zenoh.domain.attendance import await_answers
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 from bot_console.runtime.rmw.zenoh.domain.joining import folder_lock, remove_dead
+from bot_console.runtime.rmw.zenoh.domain.roll_call import await_answers
 from bot_console.runtime.rmw.zenoh.domain.sockets import live_sockets, own_socket, sockets
 from bot_console.runtime.rmw.zenoh.domain.watch import Watch
-from bot_console.runtime.rmw.zenoh.session import ATTENDANCE, Session, SessionError
+from bot_console.runtime.rmw.zenoh.session import ROLL_CALL_KEY, Session, SessionError
 from bot_console.runtime.rmw.zenoh.settings import SCHEME, Serving, session_settings
 
 if TYPE_CHECKING:
-    from bot_console.runtime.rmw.zenoh.network.stopped import StoppedTokens
+    from bot_console.runtime.rmw.zenoh.network.frozen_processes import StoppedTokens
 
 
 SETTLING = 5.0
@@ -39,12 +39,12 @@ class MeshSession(Session):
         self._watch: Watch | None = None
         self._tokens: StoppedTokens | None = None
         self._port: loopback.OpenPort | None = None
-        with self._door() as folder:
+        with self._socket_path() as folder:
             self._join(folder)
-        self.declare_token(ATTENDANCE + self.zid[:8])
+        self.declare_token(ROLL_CALL_KEY + self.zid[:8])
 
     @contextlib.contextmanager
-    def _door(self) -> Generator[str]:
+    def _socket_path(self) -> Generator[str]:
         folder = domain_folder(self.domain)
         with folder_lock(folder):
             yield folder
@@ -102,19 +102,19 @@ class MeshSession(Session):
             self._watch = Watch(self)
             self._watch.begin()
         if self._serving and not self._tokens:
-            from bot_console.runtime.rmw.zenoh.network.stopped import StoppedTokens
+            from bot_console.runtime.rmw.zenoh.network.frozen_processes import StoppedTokens
 
             self._tokens = StoppedTokens(self, self.stopped)
 
     def rejoin(self, needed: Callable[[str], bool]) -> None:
         """Reopen the session if it is `needed` (called with the folder's lock held), and declare everything again."""
-        with self._door() as folder:
+        with self._socket_path() as folder:
             if not needed(folder):
                 return
         # Closed without the folder's lock: this takes seconds next to a frozen process, and may hang in a process whose
         # program has closed our file descriptors.
         try:
-            is_open = self._reopen(self._join_anew)
+            is_open = self._reopen(self._rejoin)
             if is_open:
                 await_answers(self, SETTLING)
         finally:
@@ -125,8 +125,8 @@ class MeshSession(Session):
         else:
             self._take_out()
 
-    def _join_anew(self) -> None:
-        with self._door() as folder:
+    def _rejoin(self) -> None:
+        with self._socket_path() as folder:
             self._join(folder)
 
     def links_directly(self) -> bool:
@@ -147,13 +147,13 @@ class MeshSession(Session):
 
     def close(self) -> None:
         """Leave the mesh and discard all declarations; does nothing if it has already been left."""
-        self._look_no_more()
+        self._stop_polling()
         super().close()
         self._take_out()
 
     def leave(self) -> None:
         """Remove the socket from the folder, for a process that exits at once without waiting for `close`."""
-        self._look_no_more()
+        self._stop_polling()
         self._take_out()
 
     def _take_out(self) -> None:
@@ -163,7 +163,7 @@ class MeshSession(Session):
         if self._watch:  # a long-lived process: nodes that it started may have died
             remove_dead(os.path.dirname(self.socket.path))
 
-    def _look_no_more(self) -> None:
+    def _stop_polling(self) -> None:
         for each in (self._watch, self._tokens):
             if each:
                 each.end()

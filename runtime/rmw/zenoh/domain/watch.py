@@ -18,17 +18,17 @@ from typing import Protocol
 
 from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, is_stopped, live_sockets, sockets
 
-PERIOD = 1.0
+SOCKET_POLL_S = 1.0
 """How often the own socket is checked, in s."""
 
-LOOK = 5.0
+PROCESSES_POLL_S = 5.0
 """How often the other processes are checked at most, in s.
 
 Many that start together are then looked at and asked once: when each of fifty did so once a second while the others
 were starting, that was a fifth of what all of them cost.
 """
 
-GRACE = 15.0
+LINK_TIMEOUT_S = 15.0
 """How long another process may have no link, or a link without any answer, before that counts as a fault, in s: links
 are made in the background.
 
@@ -36,7 +36,7 @@ Of two processes the one with the higher id waits twice as long, so that only on
 doubles its wait after every reopening, up to `LONGEST_GRACE`.
 """
 
-LONGEST_GRACE = 8.0
+MAX_TIMEOUT_FACTOR = 8.0
 """The largest factor of the grace period on a machine that is not busy."""
 
 BUSY = 4.0
@@ -44,15 +44,15 @@ BUSY = 4.0
 down with it. A session that is reopened in vain would make all others busy, too.
 """
 
-MOST_TRIES = 3
+MAX_REOPENS = 3
 """How often a session is reopened because of one other process; after that a process that never answers, for whatever
 reason, is left alone.
 """
 
-PATIENCE = 1.0
+ANSWER_TIMEOUT_S = 1.0
 """Timeout for an answer, in s; a running process takes 5 ms."""
 
-PATIENCE_AT_LAST = 10.0
+LAST_ANSWER_TIMEOUT_S = 10.0
 """The same timeout before the session is reopened because a process does not answer, in s."""
 
 
@@ -86,16 +86,16 @@ class Watch:
         self._session = session
         self._clock = clock
         self._ended = threading.Event()
-        self._looked_at: tuple[int, int] | None = None
-        self._next_look = 0.0
+        self._last_poll: tuple[int, int] | None = None
+        self._next_poll = 0.0
         self._is_calm = False
         self._cut: set[str] = set()
         self._answered: set[Identity] = set()
         self._since: dict[Identity, float] = {}
-        self._next_question, self._pause = 0.0, PERIOD
+        self._next_question, self._pause = 0.0, SOCKET_POLL_S
         self._lost: set[Identity] = set()
         self._tries: dict[str, int] = {}
-        self._opened_anew = 0
+        self._reopened = 0
         session.watch_links(self._link_changed)
 
     def begin(self) -> None:
@@ -112,7 +112,7 @@ class Watch:
             self._cut.add(zid[:8])
 
     def _run(self) -> None:
-        while not self._ended.wait(PERIOD):
+        while not self._ended.wait(SOCKET_POLL_S):
             with contextlib.suppress(OSError, RuntimeError):  # for example if the folder is refused for now: retried
                 if self.has_lost_its_place():
                     self._session.rejoin(self._still_lost)
@@ -126,12 +126,12 @@ class Watch:
         except FileNotFoundError:
             return True
         now = self._clock()
-        if now < self._next_look:
+        if now < self._next_poll:
             return False
-        before, self._looked_at = self._looked_at, (state.st_ino, state.st_mtime_ns)
-        if self._is_calm and not self._cut and self._looked_at == before:
+        before, self._last_poll = self._last_poll, (state.st_ino, state.st_mtime_ns)
+        if self._is_calm and not self._cut and self._last_poll == before:
             return False
-        self._next_look = now + LOOK
+        self._next_poll = now + PROCESSES_POLL_S
         found = sockets(os.path.dirname(own.path))
         without = self._without_link(found)
         self._since = {each: self._since.get(each, now) for each in self._running(without)}
@@ -146,14 +146,14 @@ class Watch:
         return bool(self._lost)
 
     def _grace(self, other: Identity) -> float:
-        times = min(2.0**self._opened_anew, LONGEST_GRACE)
-        return GRACE * times * (2.0 if other[0] < self._session.zid[:8] else 1.0)
+        times = min(2.0**self._reopened, MAX_TIMEOUT_FACTOR)
+        return LINK_TIMEOUT_S * times * (2.0 if other[0] < self._session.zid[:8] else 1.0)
 
     def _is_to_ask(self, now: float) -> bool:
         """Whether to query the processes that are not yet overdue; the intervals get longer."""
         if not self._since:
-            self._pause = PERIOD
-        if now < self._next_question or not any(now - since >= PERIOD for since in self._since.values()):
+            self._pause = SOCKET_POLL_S
+        if now < self._next_question or not any(now - since >= SOCKET_POLL_S for since in self._since.values()):
             return False
         self._next_question, self._pause = now + self._pause, self._pause * 2
         return True
@@ -164,7 +164,7 @@ class Watch:
         asked = {zid for zid, _ in self._since if zid in linked}
         if asked:
             who = "*" if len(asked) > 1 else min(asked)  # by a single one, fifty others need not answer
-            answered = self._session.attendance(who, PATIENCE_AT_LAST if due else PATIENCE)
+            answered = self._session.attendance(who, LAST_ANSWER_TIMEOUT_S if due else ANSWER_TIMEOUT_S)
             self._answered |= {each for each in self._since if each[0] in answered}
 
     def _still_lost(self, folder: str) -> bool:
@@ -175,10 +175,10 @@ class Watch:
         lost = self._running(self._without_link(live)) & self._lost
         for zid, _ in lost:
             self._tries[zid] = self._tries.get(zid, 0) + 1
-        self._opened_anew += bool(lost)
+        self._reopened += bool(lost)
         self._answered.clear()
         self._since.clear()
-        self._next_look = 0.0
+        self._next_poll = 0.0
         self._is_calm = False
         return bool(lost) or self._session.socket not in live
 
@@ -193,7 +193,7 @@ class Watch:
     def _running(self, found: list[Socket]) -> set[Identity]:
         """The processes that are not frozen, and for which the session has not been reopened too often."""
         running = {identity(each) for each in found if not is_stopped(each.pid)}
-        return {each for each in running if self._tries.get(each[0], 0) < MOST_TRIES}
+        return {each for each in running if self._tries.get(each[0], 0) < MAX_REOPENS}
 
 
 Identity = tuple[str, int]

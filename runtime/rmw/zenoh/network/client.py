@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from bot_console.runtime.rmw.zenoh.link_probe import LinkProbe, LinkState
-from bot_console.runtime.rmw.zenoh.network.reach import Tls, why_unreachable
-from bot_console.runtime.rmw.zenoh.network.stopped import StoppedBehind
-from bot_console.runtime.rmw.zenoh.session import ATTENDANCE, Session, SessionError, SettingsError
+from bot_console.runtime.rmw.zenoh.network.frozen_processes import StoppedBehind
+from bot_console.runtime.rmw.zenoh.network.reachability import Tls, why_unreachable
+from bot_console.runtime.rmw.zenoh.session import ROLL_CALL_KEY, Session, SessionError, SettingsError
 
 CONFIG_VARIABLE = "ZENOH_SESSION_CONFIG_URI"
 """Environment variable that names the session's configuration file, as in rmw_zenoh."""
@@ -30,7 +30,7 @@ class Way:
     """A Zenoh configuration file; the other fields take precedence over it."""
     override: tuple[tuple[str, str], ...] = ()
     """Settings (path, JSON5) that override everything else."""
-    patience: float = 5.0
+    timeout_s: float = 5.0
     """Timeout of the first connection, in seconds; reconnecting is retried for ever."""
 
     def __str__(self) -> str:
@@ -54,7 +54,7 @@ def with_environment(way: Way) -> Way:
 def client_settings(zid: str, way: Way) -> dict[str, Any]:
     """Return a client's settings. It drops at once what a full link cannot take: nothing here waits for a network."""
     connect: dict[str, Any] = {
-        "timeout_ms": round(way.patience * 1000),
+        "timeout_ms": round(way.timeout_s * 1000),
         "exit_on_failure": True,
         "retry": {"period_init_ms": 250, "period_max_ms": 1000, "period_increase_factor": 2},
     }
@@ -75,7 +75,7 @@ def client_settings(zid: str, way: Way) -> dict[str, Any]:
 class NetworkSession(Session):
     """A client of a router; it reconnects by itself when the router or the link comes back."""
 
-    patience = 3.0
+    timeout_s = 3.0
 
     def __init__(self, domain: int, way: Way) -> None:
         super().__init__(domain)
@@ -86,7 +86,7 @@ class NetworkSession(Session):
             raise
         except SessionError as error:
             raise SessionError(why_unreachable(way.endpoints, way.tls) or str(error)) from None
-        self.declare_token(ATTENDANCE + self.zid[:8])
+        self.declare_token(ROLL_CALL_KEY + self.zid[:8])
         self._probe: LinkProbe | None = None
         self._stopped: StoppedBehind | None = None
 

@@ -14,7 +14,7 @@ DEFAULT_DEPTH = 42
 ENDLESS = 2**63 - 1
 """The longest duration (ns), which means no limit."""
 NANO = 1_000_000_000
-LARGEST = 2**63 - 1
+MAX_INT64 = 2**63 - 1
 _M = TypeVar("_M", bound=IntEnum)
 
 
@@ -144,7 +144,7 @@ def _parts(field: str, count: int, text: str) -> list[str]:
 def _number(part: str, default: int, text: str) -> int:
     if not part:
         return default
-    if not (part.isascii() and part.isdecimal() and len(part) <= 20 and int(part) <= LARGEST):
+    if not (part.isascii() and part.isdecimal() and len(part) <= 20 and int(part) <= MAX_INT64):
         raise FormatError(f"no number: {part!r} in the quality of service {text!r}")
     return int(part)
 

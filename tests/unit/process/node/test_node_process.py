@@ -272,13 +272,13 @@ def test_kill_leaves_the_graph_first_then_ends(start):
 
 
 def test_what_does_not_unwind_is_abandoned_and_its_line_named(start, monkeypatch):
-    monkeypatch.setattr(node_process_module, "KILL_GRACE_S", 0.01)
-    told = threading.Event()
+    monkeypatch.setattr(node_process_module, "KILL_TIMEOUT_S", 0.01)
+    reported = threading.Event()
     notices = []
 
     def hook(process, text):
         notices.append((process.name, text))
-        told.set()
+        reported.set()
 
     stubborn_lock = threading.Lock()
     stubborn_lock.acquire()
@@ -294,7 +294,7 @@ def test_what_does_not_unwind_is_abandoned_and_its_line_named(start, monkeypatch
         started.until_printed("ready")
         started.process.kill()
         assert started.end() == -9
-        assert told.wait(LONG)
+        assert reported.wait(LONG)
     finally:
         remove()
         stubborn_lock.release()

@@ -44,7 +44,7 @@ def test_a_finalizer_may_take_a_lock_that_its_thread_is_just_taking() -> None:
 
 
 def test_a_condition_gives_all_levels_back_and_takes_them_again() -> None:
-    said: list[str] = []
+    message: list[str] = []
     with stepped() as clock:
 
         def run() -> None:
@@ -52,19 +52,19 @@ def test_a_condition_gives_all_levels_back_and_takes_them_again() -> None:
 
             def other() -> None:
                 with condition:
-                    said.append("other")
+                    message.append("other")
                     condition.notify()
 
             with condition, condition:
                 threading.Thread(target=other).start()
                 condition.wait()
-                said.append("woken")
-            said.append("done")
+                message.append("woken")
+            message.append("done")
 
         process = NodeProcess("n", clock)
         process.start(run)
         assert process.wait(5.0) == 0
-    assert said == ["other", "woken", "done"]
+    assert message == ["other", "woken", "done"]
 
 
 def test_only_the_owner_gives_it_back() -> None:

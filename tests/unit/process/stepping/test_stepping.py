@@ -7,7 +7,7 @@ import threading
 import time
 
 from bot_console.runtime.process import MAIN, NodeProcess, RealTime, current, stepped
-from bot_console.runtime.process.stepping.baton import INSTANT_WAITS, POLL_NS
+from bot_console.runtime.process.stepping.scheduler import INSTANT_WAITS, POLL_NS
 from bot_console.runtime.process.stepping.stepped_time import DEFAULT_START_NS, FREE_READS
 from bot_console.runtime.process.virtual.install import uninstall_virtual_process
 from ticking import ticker
@@ -43,11 +43,11 @@ def test_same_time_means_order_of_creation(clock):
 
 def test_order_of_becoming_ready(clock):
     order = []
-    doors = {name: clock.wakeup() for name in "abc"}
+    addresses = {name: clock.wakeup() for name in "abc"}
 
     def wait_at(name):
         def run():
-            doors[name].wait()
+            addresses[name].wait()
             order.append(name)
 
         return run
@@ -56,30 +56,30 @@ def test_order_of_becoming_ready(clock):
         NodeProcess(name, clock).start(wait_at(name))
     clock.run_for(0)
     for name in "cab":
-        doors[name].set()
+        addresses[name].set()
     assert order == []
     clock.run_for(0)
     assert order == list("cab")
 
 
-def test_a_wait_tells_whether_it_was_set_or_timed_out(clock):
+def test_a_wait_reports_whether_it_was_set_or_timed_out(clock):
     results = []
-    door = clock.wakeup()
+    address = clock.wakeup()
 
     def target():
-        results.append((door.wait(SECOND), current().clock.steady_ns()))
-        results.append((door.wait(5 * SECOND), current().clock.steady_ns()))
-        door.clear()
-        results.append((door.wait(6 * SECOND), door.is_set()))
+        results.append((address.wait(SECOND), current().clock.steady_ns()))
+        results.append((address.wait(5 * SECOND), current().clock.steady_ns()))
+        address.clear()
+        results.append((address.wait(6 * SECOND), address.is_set()))
 
     NodeProcess("n", clock).start(target)
     clock.run_for(3.0)
-    door.set()
+    address.set()
     clock.run_for(10.0)
     assert results == [(False, SECOND), (True, 3 * SECOND), (False, False)]
 
 
-def test_the_time_module_tells_virtual_time_in_nodes(clock):
+def test_the_time_module_reports_virtual_time_in_nodes(clock):
     seen = []
 
     def target():
@@ -123,9 +123,9 @@ def test_polls_move_time(clock):
     polls = []
 
     def target():
-        door = current().clock.wakeup()
+        address = current().clock.wakeup()
         while time.monotonic_ns() < 100 * POLL_NS:
-            door.wait(time.monotonic_ns())
+            address.wait(time.monotonic_ns())
             polls.append(1)
         time.sleep(0)
 
@@ -147,7 +147,7 @@ def test_a_loop_that_reads_the_clock_ends(clock):
 
 
 def test_nodes_that_keep_each_other_awake_do_not_stop_time(clock):
-    doors = clock.wakeup(), clock.wakeup()
+    addresses = clock.wakeup(), clock.wakeup()
     turns = []
 
     def player(mine, other):
@@ -160,9 +160,9 @@ def test_nodes_that_keep_each_other_awake_do_not_stop_time(clock):
 
         return run
 
-    NodeProcess("a", clock).start(player(*doors))
-    NodeProcess("b", clock).start(player(*reversed(doors)))
-    doors[0].set()
+    NodeProcess("a", clock).start(player(*addresses))
+    NodeProcess("b", clock).start(player(*reversed(addresses)))
+    addresses[0].set()
     clock.run_for(POLL_NS * 1e-9 * 100)
     assert len(turns) > INSTANT_WAITS // 2
 
@@ -201,19 +201,19 @@ def test_starting_processes_from_a_node(clock):
 
 
 def test_many_timers_leave_no_heap(clock):
-    door = clock.wakeup()
+    address = clock.wakeup()
 
     def target():
         for number in range(10_000):
-            door.wait(SECOND * 1000 + number)
-            door.clear()
+            address.wait(SECOND * 1000 + number)
+            address.clear()
 
     def waker():
         for _ in range(10_000):
-            door.set()
+            address.set()
             time.sleep(0.001)
 
     NodeProcess("n", clock).start(target)
     NodeProcess("w", clock).start(waker)
     clock.run_for(9.0)
-    assert len(clock._baton._deadlines) < 200
+    assert len(clock._scheduler._deadlines) < 200

@@ -72,14 +72,14 @@ def test_threads_and_pools_and_conditions_of_a_node(clock):
 def test_outside_threads_may_wake_and_wait():
     woken = []
     with stepped(virtual_main=False) as clock:
-        door, answer = clock.wakeup(), clock.wakeup()
+        address, answer = clock.wakeup(), clock.wakeup()
 
         def node():
-            door.wait()
+            address.wait()
             answer.set()
 
         def outside():
-            door.set()
+            address.set()
             woken.append(answer.wait())
 
         NodeProcess("n", clock).start(node)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from bot_console.runtime.process import real
 from bot_console.runtime.process.watch import main_watch
-from bot_console.runtime.process.watch.main_watch import PERIOD_S, TOLD_S, MainWatch
+from bot_console.runtime.process.watch.main_watch import PERIOD_S, REPORT_S, MainWatch
 from bot_console.runtime.process.watch.processor_time import wanted_seconds
 
 
@@ -20,7 +20,7 @@ class Time:
         self.now = self.ran = 100.0
         self.waited = 0.0
         self.next: Callable[[], None] = lambda: None
-        self.told: list[str] = []
+        self.reported: list[str] = []
         patch.setattr(real, "monotonic", lambda: self.now)
         patch.setattr(real, "later", self._later)
         patch.setattr(main_watch, "ran_and_waited", lambda task: (self.ran, self.waited))
@@ -29,14 +29,14 @@ class Time:
         assert seconds == PERIOD_S
         self.next = action
 
-    def looks(self, count: int, share: float, waited: float = 0.0) -> int:
+    def polls(self, count: int, share: float, waited: float = 0.0) -> int:
         """So many looks, while it ran, or waited for a processor, these shares of the time; how often one told."""
         for _ in range(count):
             self.now += PERIOD_S
             self.ran += share * PERIOD_S
             self.waited += waited * PERIOD_S
             self.next()
-        return len(self.told)
+        return len(self.reported)
 
 
 @pytest.fixture
@@ -44,44 +44,44 @@ def time(monkeypatch: pytest.MonkeyPatch) -> Time:
     return Time(monkeypatch)
 
 
-LOOKS = round(TOLD_S / PERIOD_S)
+POLLS = round(REPORT_S / PERIOD_S)
 
 
-def test_who_never_waits_is_told_after_a_second_and_once_until_it_has_waited(time: Time) -> None:
-    MainWatch(time.told.append).begin()
-    assert time.looks(LOOKS - 1, 1.0) == 0
-    assert time.looks(5, 1.0) == 1
-    assert time.told[0].startswith("has computed for 1 s without waiting, in ")
-    assert Path(__file__).name in time.told[0]
-    assert time.looks(1, 0.5) == 1 and time.looks(LOOKS, 1.0) == 2
+def test_who_never_waits_is_reported_after_a_second_and_once_until_it_has_waited(time: Time) -> None:
+    MainWatch(time.reported.append).begin()
+    assert time.polls(POLLS - 1, 1.0) == 0
+    assert time.polls(5, 1.0) == 1
+    assert time.reported[0].startswith("has computed for 1 s without waiting, in ")
+    assert Path(__file__).name in time.reported[0]
+    assert time.polls(1, 0.5) == 1 and time.polls(POLLS, 1.0) == 2
 
 
 def test_waiting_for_a_busy_processor_is_no_wait_and_no_computing(time: Time) -> None:
-    MainWatch(time.told.append).begin()
-    assert time.looks(4 * LOOKS - 1, 0.25, waited=0.75) == 0
-    assert time.looks(2, 0.25, waited=0.75) == 1
+    MainWatch(time.reported.append).begin()
+    assert time.polls(4 * POLLS - 1, 0.25, waited=0.75) == 0
+    assert time.polls(2, 0.25, waited=0.75) == 1
 
 
 def test_an_import_that_takes_long_is_no_hogging(time: Time, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(main_watch.frames, "is_importing", lambda ident: True)
-    MainWatch(time.told.append).begin()
-    assert time.looks(10 * LOOKS, 1.0) == 0
+    MainWatch(time.reported.append).begin()
+    assert time.polls(10 * POLLS, 1.0) == 0
 
 
-def test_who_waits_now_and_then_is_not_told(time: Time) -> None:
-    MainWatch(time.told.append).begin()
-    assert time.looks(50, 0.8) == 0
+def test_who_waits_now_and_then_is_not_reported(time: Time) -> None:
+    MainWatch(time.reported.append).begin()
+    assert time.polls(50, 0.8) == 0
 
 
-def test_nobody_looks_where_the_system_does_not_tell(time: Time, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nobody_looks_where_the_system_does_not_report(time: Time, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(main_watch, "ran_and_waited", lambda task: None)
-    MainWatch(time.told.append).begin()
+    MainWatch(time.reported.append).begin()
     time.next()
-    assert time.told == []
+    assert time.reported == []
 
 
 @pytest.mark.skipif(not os.path.exists("/proc/self/schedstat"), reason="needs /proc")
-def test_the_system_tells_what_this_thread_has_wanted() -> None:
+def test_the_system_reports_what_this_thread_has_wanted() -> None:
     before = wanted_seconds("self") or 0.0
     sum(range(300_000))
     assert (wanted_seconds("self") or 0.0) > before > 0.0

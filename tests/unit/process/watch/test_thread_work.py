@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from bot_console.runtime.process.watch import thread_work
-from bot_console.runtime.process.watch.thread_work import IMPORTING, LOOKS_PER_STALL, PATIENT, ThreadWork
+from bot_console.runtime.process.watch.thread_work import CHECKS_PER_STALL, IMPORTING, MAX_BLOCKED_CHECKS, ThreadWork
 
 FUTEX = "futex_do_wait"
 
@@ -16,12 +16,12 @@ class Machine:
         self.state, self.seconds, self.switches, self.place = "S", 0.0, 0, FUTEX
         self.importing = False
         self.children = {}
-        patch.setattr(thread_work, "state_and_seconds", self.told)
+        patch.setattr(thread_work, "state_and_seconds", self.reported)
         patch.setattr(thread_work, "_read", self.read)
         patch.setattr(thread_work.frames, "is_importing", lambda ident: self.importing)
         self.work = ThreadWork(7, 7)
 
-    def told(self, task):
+    def reported(self, task):
         return self.children.get(task, (self.state, self.seconds))
 
     def read(self, path):
@@ -29,9 +29,9 @@ class Machine:
             return " ".join(self.children) if "/7/" in path else ""
         return self.place if path.endswith("wchan") else f"x\nvoluntary_ctxt_switches:{self.switches}"
 
-    def look(self, times, *, seconds=0.0, switches=0):
+    def poll(self, times, *, seconds=0.0, switches=0):
         for _ in range(times):
-            self.work.look()
+            self.work.poll()
             self.seconds += seconds
             self.switches += switches
         return self.work
@@ -45,34 +45,34 @@ def machine(monkeypatch):
 @pytest.mark.parametrize("state", ["R", "D"])
 def test_a_thread_that_gets_no_processor_or_no_disk_is_not_blocked(machine, state):
     machine.state = state
-    work = machine.look(1000)
+    work = machine.poll(1000)
     assert not work.is_blocked() and not work.is_busy(1.0)
 
 
 def test_one_that_waits_for_the_interpreter_wakes_and_is_not_blocked(machine):
-    assert not machine.look(1000, switches=50).is_blocked()
+    assert not machine.poll(1000, switches=50).is_blocked()
 
 
 def test_a_lock_that_never_comes_blocks(machine):
-    assert not machine.look(LOOKS_PER_STALL).is_blocked()
-    assert machine.look(1).is_blocked()
+    assert not machine.poll(CHECKS_PER_STALL).is_blocked()
+    assert machine.poll(1).is_blocked()
 
 
 def test_a_thread_that_wakes_to_poll_a_device_is_blocked(machine):
     machine.place = "do_select"
-    assert machine.look(LOOKS_PER_STALL, switches=2).is_blocked()
+    assert machine.poll(CHECKS_PER_STALL, switches=2).is_blocked()
 
 
 def test_where_the_system_hides_the_place_only_sleep_without_waking_counts(machine):
     machine.place = "0"
-    assert not machine.look(1000, switches=2).is_blocked()
-    assert machine.look(LOOKS_PER_STALL + 1).is_blocked()
+    assert not machine.poll(1000, switches=2).is_blocked()
+    assert machine.poll(CHECKS_PER_STALL + 1).is_blocked()
 
 
 def test_an_import_from_a_slow_disk_gets_much_longer(machine):
     machine.place, machine.importing = "request_wait_answer", True
-    assert not machine.look(LOOKS_PER_STALL * PATIENT).is_blocked()
-    assert machine.look(1).is_blocked()
+    assert not machine.poll(CHECKS_PER_STALL * MAX_BLOCKED_CHECKS).is_blocked()
+    assert machine.poll(1).is_blocked()
 
 
 def test_a_child_process_that_gets_on_is_worth_waiting_for(machine):
@@ -80,31 +80,31 @@ def test_a_child_process_that_gets_on_is_worth_waiting_for(machine):
     machine.children = {"99": ("S", 0.0)}
     for _ in range(100):
         machine.children["99"] = ("S", machine.children["99"][1] + 0.01)
-        assert not machine.look(1).is_blocked()
+        assert not machine.poll(1).is_blocked()
     machine.children["99"] = ("R", machine.children["99"][1])
-    assert not machine.look(100).is_blocked()
+    assert not machine.poll(100).is_blocked()
     machine.children["99"] = ("S", machine.children["99"][1])
-    assert machine.look(LOOKS_PER_STALL + 1).is_blocked()
+    assert machine.poll(CHECKS_PER_STALL + 1).is_blocked()
 
 
-def test_computing_is_told_from_importing(machine):
+def test_computing_is_reported_from_importing(machine):
     machine.state = "R"
-    assert not machine.look(10, seconds=1.0).is_busy(1.0)
-    assert machine.look(1).is_busy(1.0)
-    assert not machine.work.is_busy(1.0, patience=2)
+    assert not machine.poll(10, seconds=1.0).is_busy(1.0)
+    assert machine.poll(1).is_busy(1.0)
+    assert not machine.work.is_busy(1.0, timeout_s=2)
     other = machine.work = ThreadWork(7, 7)
     machine.importing = True
-    assert not machine.look(IMPORTING, seconds=1.0).is_busy(1.0)
-    assert machine.look(1).is_busy(1.0) and other is machine.work
+    assert not machine.poll(IMPORTING, seconds=1.0).is_busy(1.0)
+    assert machine.poll(1).is_busy(1.0) and other is machine.work
 
 
-def test_a_system_that_tells_nothing_gets_the_longest_patience(monkeypatch):
+def test_a_system_that_reports_nothing_gets_the_longest_timeout(monkeypatch):
     monkeypatch.setattr(thread_work, "state_and_seconds", lambda task: None)
     monkeypatch.setattr(thread_work.time, "process_time", lambda: 1.0)
     work = ThreadWork(7, 7)
-    for _ in range(LOOKS_PER_STALL * PATIENT):
-        work.look()
+    for _ in range(CHECKS_PER_STALL * MAX_BLOCKED_CHECKS):
+        work.poll()
     assert not work.is_blocked()
-    for _ in range(LOOKS_PER_STALL * PATIENT):
-        work.look()
+    for _ in range(CHECKS_PER_STALL * MAX_BLOCKED_CHECKS):
+        work.poll()
     assert work.is_blocked()

@@ -21,14 +21,14 @@ def test_a_busy_loop_is_named_once(start, monkeypatch):
     monkeypatch.setattr(busy_watch_module, "BUSY_SHARE", 0.0)
     monkeypatch.setattr(busy_watch_module, "TOLD_S", 0.02)
     monkeypatch.setattr(busy_watch_module, "busy_watch", BusyWatch())
-    told = threading.Event()
+    reported = threading.Event()
     notices = []
     stop = []
 
     def hook(process, text):
         if process.name == "hog":  # others that the worker has may be busy as well
             notices.append((process.name, text))
-            told.set()
+            reported.set()
 
     def target():
         while not stop:
@@ -36,7 +36,7 @@ def test_a_busy_loop_is_named_once(start, monkeypatch):
 
     remove = on_notice(hook)
     started = start(target, name="hog")
-    assert told.wait(LONG)
+    assert reported.wait(LONG)
     stop.append(True)
     started.end()
     remove()

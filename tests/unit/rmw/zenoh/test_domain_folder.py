@@ -9,7 +9,7 @@ import sys
 
 import pytest
 from bot_console.runtime.rmw.zenoh.domain.folder import (
-    LONGEST_PATH,
+    MAX_PATH_BYTES,
     FolderRefusedError,
     base_folder,
     domain_folder,
@@ -20,7 +20,7 @@ from bot_console.runtime.rmw.zenoh.domain.sockets import own_socket
 NOBODY = 65534
 
 
-def test_it_is_named_after_the_user_in_the_temporary_folder_whatever_tmpdir_says(monkeypatch):
+def test_it_is_named_after_the_user_in_the_temporary_folder_whatever_tmpdir_reports(monkeypatch):
     monkeypatch.delenv("BOT_CONSOLE_SOCKET_DIR")
     monkeypatch.setenv("TMPDIR", "/var")
     assert base_folder() == f"/tmp/bot-console-{os.geteuid()}"
@@ -36,7 +36,7 @@ def test_it_is_made_for_the_user_alone_one_per_domain(socket_folder):
         assert stat.S_IMODE(os.stat(path).st_mode) == 0o700
 
 
-def test_one_that_is_open_to_others_is_refused_with_the_command_that_mends_it(socket_folder):
+def test_one_that_is_open_to_others_is_refused_with_the_command_that_fixes_it(socket_folder):
     domain_folder(0)
     os.chmod(socket_folder, 0o755)
     with pytest.raises(FolderRefusedError) as refused:
@@ -59,26 +59,26 @@ def test_a_link_and_a_file_in_its_place_are_refused(socket_folder, tmp_path):
     os.unlink(socket_folder)
 
 
-def test_a_folder_that_cannot_be_made_is_told(monkeypatch):
+def test_a_folder_that_cannot_be_made_is_reported(monkeypatch):
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", "/proc/nowhere/at/all")
     with pytest.raises(FolderRefusedError, match="cannot make the folder /proc/nowhere/at/all"):
         domain_folder(0)
 
 
 def test_a_folder_in_which_paths_would_be_too_long_is_refused_before_it_is_made(monkeypatch, socket_folder):
-    monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", socket_folder.ljust(LONGEST_PATH, "x"))
+    monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", socket_folder.ljust(MAX_PATH_BYTES, "x"))
     with pytest.raises(FolderRefusedError, match="set BOT_CONSOLE_SOCKET_DIR to a shorter folder"):
         open_session(0)
-    assert not os.path.exists(socket_folder.ljust(LONGEST_PATH, "x"))
+    assert not os.path.exists(socket_folder.ljust(MAX_PATH_BYTES, "x"))
 
 
 def test_the_longest_folder_that_is_taken_holds_every_socket(monkeypatch, tmp_path):
     monkeypatch.setattr("bot_console.runtime.rmw.zenoh.domain.sockets.getpid", lambda: 4194304)
     monkeypatch.setattr("bot_console.runtime.rmw.zenoh.domain.folder._private_folder", lambda path: None)
     length = len(os.fsencode(own_socket("", "0" * 32).path))
-    base = "/".ljust(LONGEST_PATH - length - len("/0/"), "x")
+    base = "/".ljust(MAX_PATH_BYTES - length - len("/0/"), "x")
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", base)
-    assert len(os.fsencode(own_socket(domain_folder(0), "0" * 32).path)) == LONGEST_PATH
+    assert len(os.fsencode(own_socket(domain_folder(0), "0" * 32).path)) == MAX_PATH_BYTES
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"{base}x")
     with pytest.raises(FolderRefusedError):
         domain_folder(0)

@@ -43,8 +43,8 @@ def test_hashes_of_types():
 def test_a_captured_token_is_read_and_written_again(token, depth, reliability):
     read = parse_token(token)
     assert (read.kind, read.qos.depth, read.qos.reliability) == ("MP", depth, reliability)
-    told = read.topic, read.type_name, read.type_hash, encode_qos(read.qos)
-    assert entity_token(0, read.node, read.number, "MP", *told) == token
+    reported = read.topic, read.type_name, read.type_hash, encode_qos(read.qos)
+    assert entity_token(0, read.node, read.number, "MP", *reported) == token
 
 
 def test_the_attachment_of_the_captured_talker():
@@ -55,7 +55,7 @@ def test_the_attachment_of_the_captured_talker():
 
 
 @pytest.mark.parametrize("size", [0, 1, 52, SEALED, SEALED + 1, 1_000_000])
-def test_ours_begins_with_the_bytes_of_rmw_zenoh_and_tells_whether_the_end_of_a_payload_is_its_own(size):
+def test_ours_begins_with_the_bytes_of_rmw_zenoh_and_reports_whether_the_end_of_a_payload_is_its_own(size):
     attachment = unpack(ATTACHMENT)
     payload = bytes(size)
     data = pack(*attachment, payload)
@@ -109,7 +109,7 @@ def test_a_part_that_later_releases_append_is_accepted():
     assert parse_token(SCAN + "/backends:cpu").qos == parse_token(SCAN).qos
 
 
-def test_a_sender_that_is_too_old_is_told_from_garbage():
+def test_a_sender_that_is_too_old_is_reported_from_garbage():
     old = b"\x0fsequence_number" + bytes(40)
     with pytest.raises(FormatError, match="too old"):
         unpack(old)

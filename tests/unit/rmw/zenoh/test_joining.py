@@ -11,14 +11,14 @@ from collections.abc import Iterator
 from bot_console.runtime.rmw.zenoh.domain import joining
 from bot_console.runtime.rmw.zenoh.domain.joining import folder_lock
 
-PATIENCE = 20.0
+TIMEOUT_S = 20.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 
 def test_one_that_hangs_with_the_lock_stops_nobody_from_joining(tmp_path, monkeypatch):
-    monkeypatch.setattr(joining, "PATIENCE", 0.01)
-    monkeypatch.setattr(joining, "LONGEST_HOLD", 0.05)
-    monkeypatch.setattr(joining, "LONGEST_WAIT", 0.05)
+    monkeypatch.setattr(joining, "LOCK_TIMEOUT_S", 0.01)
+    monkeypatch.setattr(joining, "MAX_HOLD_S", 0.05)
+    monkeypatch.setattr(joining, "MAX_WAIT_S", 0.05)
     handle = os.open(tmp_path, os.O_RDONLY)
     fcntl.flock(handle, fcntl.LOCK_EX)
     joined = threading.Event()
@@ -28,7 +28,7 @@ def test_one_that_hangs_with_the_lock_stops_nobody_from_joining(tmp_path, monkey
             joined.set()
 
     threading.Thread(target=join, daemon=True).start()
-    assert joined.wait(PATIENCE)
+    assert joined.wait(TIMEOUT_S)
     os.close(handle)
 
 
@@ -39,7 +39,7 @@ class Queue:
         self.tries, self.now = 0, 0.0
         self.used: Iterator[int] = itertools.repeat(0)
 
-        def taken(handle, patience):
+        def taken(handle, timeout_s):
             self.now += seconds
             self.tries += 1
             return self.tries == got
@@ -60,29 +60,29 @@ STOPPED = 99
 
 
 def test_a_long_queue_is_waited_for_while_each_holds_it_only_shortly(tmp_path, monkeypatch):
-    queue = Queue(monkeypatch, itertools.count(1), 0.9 * joining.LONGEST_HOLD)
+    queue = Queue(monkeypatch, itertools.count(1), 0.9 * joining.MAX_HOLD_S)
     assert queue.waited_for(tmp_path) == 50
 
 
 def test_a_lock_that_is_free_at_a_look_was_passed_on(tmp_path, monkeypatch):
     holders = itertools.chain.from_iterable((each, None) for each in range(1, 1000))
-    assert Queue(monkeypatch, holders, 0.9 * joining.LONGEST_HOLD).waited_for(tmp_path) == 50
+    assert Queue(monkeypatch, holders, 0.9 * joining.MAX_HOLD_S).waited_for(tmp_path) == 50
 
 
 def test_one_that_gets_no_processor_time_hangs(tmp_path, monkeypatch):
     queue = Queue(monkeypatch, itertools.repeat(7), 0.5)
-    assert queue.waited_for(tmp_path) == 1 + joining.LONGEST_HOLD / 0.5
+    assert queue.waited_for(tmp_path) == 1 + joining.MAX_HOLD_S / 0.5
 
 
 def test_one_that_works_slowly_is_waited_for_longer(tmp_path, monkeypatch):
     queue = Queue(monkeypatch, itertools.repeat(7), 0.5)
     queue.used = itertools.count()
-    assert queue.waited_for(tmp_path) == 1 + joining.LONGEST_WAIT / 0.5
+    assert queue.waited_for(tmp_path) == 1 + joining.MAX_WAIT_S / 0.5
 
 
 def test_where_nobody_is_seen_with_the_lock_there_is_an_end(tmp_path, monkeypatch):
     queue = Queue(monkeypatch, itertools.repeat(None), 0.5)
-    assert queue.waited_for(tmp_path) == joining.LONGEST_WAIT / 0.5
+    assert queue.waited_for(tmp_path) == joining.MAX_WAIT_S / 0.5
 
 
 def test_a_frozen_one_is_not_waited_for(tmp_path, monkeypatch):

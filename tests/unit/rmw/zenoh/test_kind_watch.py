@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any, cast
 
 import pytest
-from bot_console.runtime.rmw.zenoh import seen as looking
-from bot_console.runtime.rmw.zenoh.declared import TokenSeen, TokenWatch
+from bot_console.runtime.rmw.zenoh import graph_cache as watching
+from bot_console.runtime.rmw.zenoh.declarations import TokenCallback, TokenWatch
 from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
+from bot_console.runtime.rmw.zenoh.graph_cache import Watches
 from bot_console.runtime.rmw.zenoh.kind_watch import KindWatch
-from bot_console.runtime.rmw.zenoh.seen import Watches
 from bot_console.runtime.rmw.zenoh.wire.tokens import (
     Token,
     TokenNode,
@@ -28,7 +28,7 @@ def token(topic: str, number: int = 1, kind: Any = "MP") -> str:
     return entity_token(0, node, number, kind, topic, "a/msg/B", "RIHS01_0", "::,10:,:,:,,")
 
 
-class Told:
+class Reported:
     """A session whose tokens the test tells, to each watch by its key."""
 
     zid, domain = "cd", 0
@@ -36,7 +36,7 @@ class Told:
     def __init__(self) -> None:
         self.watches: dict[str, TokenWatch] = {}
 
-    def watch_tokens(self, key: str, seen: TokenSeen, *, apart: bool = False) -> TokenWatch:
+    def watch_tokens(self, key: str, seen: TokenCallback, *, apart: bool = False) -> TokenWatch:
         self.watches[key] = TokenWatch(cast("Any", self), lambda session: None, seen)
         return self.watches[key]
 
@@ -45,62 +45,62 @@ class Told:
 
 
 @pytest.fixture
-def session() -> Told:
-    return Told()
+def session() -> Reported:
+    return Reported()
 
 
 @pytest.fixture
-def watch(session: Told) -> KindWatch:
+def watch(session: Reported) -> KindWatch:
     return KindWatch(cast("Any", session), "MP")
 
 
 @pytest.fixture
-def tell(session: Told, watch: KindWatch) -> Any:
+def report(session: Reported, watch: KindWatch) -> Any:
     return session.watches[tokens_of_kind(0, "MP")].saw
 
 
-def hears(heard: Heard) -> TokenSeen:
+def hears(heard: Heard) -> TokenCallback:
     return lambda key, came: heard.append((key, came))
 
 
-def test_who_looks_hears_what_is_there_comes_and_goes_of_that_topic_alone(watch, tell):
+def test_who_looks_hears_what_is_there_comes_and_goes_of_that_topic_alone(watch, report):
     there, later, other = token("/a/b"), token("/a/b", 2), token("/a")
-    tell(there, True)
-    tell(other, True)
+    report(there, True)
+    report(other, True)
     heard: Heard = []
-    watch.look("/a/b", hears(heard))
-    tell(later, True)
-    tell(other, False)
-    tell(there, False)
+    watch.poll("/a/b", hears(heard))
+    report(later, True)
+    report(other, False)
+    report(there, False)
     assert heard == [(there, True), (later, True), (there, False)]
     assert watch.known() == [later]
 
 
-def test_who_looks_no_more_hears_nothing_and_who_looks_again_hears_what_is_there(watch, tell):
+def test_who_looks_no_more_hears_nothing_and_who_looks_again_hears_what_is_there(watch, report):
     heard: Heard = []
-    first = watch.look("/t", hears([]))
-    tell(token("/t"), True)
-    again = watch.look("/t", hears(heard))
+    first = watch.poll("/t", hears([]))
+    report(token("/t"), True)
+    again = watch.poll("/t", hears(heard))
     first.undeclare()  # late: somebody else looks already
-    tell(token("/t", 2), True)
+    report(token("/t", 2), True)
     again.undeclare()
-    tell(token("/t"), False)
+    report(token("/t"), False)
     assert heard == [(token("/t"), True), (token("/t", 2), True)]
 
 
-def test_nothing_is_kept_of_what_has_gone_and_nobody_looks_at(watch, tell):
-    look = watch.look("/looked_at", hears([]))
+def test_nothing_is_kept_of_what_has_gone_and_nobody_looks_at(watch, report):
+    poll = watch.poll("/watched", hears([]))
     for came in (True, False):
-        tell(token("/t"), came)
-        tell(token("/looked_at"), came)
-    tell("@ros2_lv/0/ab/0/1/MP", True)  # no token of the format
-    assert list(watch._rows) == ["%looked_at"]
-    look.undeclare()
+        report(token("/t"), came)
+        report(token("/watched"), came)
+    report("@ros2_lv/0/ab/0/1/MP", True)  # no token of the format
+    assert list(watch._rows) == ["%watched"]
+    poll.undeclare()
     assert not watch._rows
 
 
 def test_few_are_watched_singly_and_more_by_their_kind(session, monkeypatch):
-    monkeypatch.setattr(looking, "SINGLE", 2)
+    monkeypatch.setattr(watching, "SINGLE", 2)
     watches = Watches(cast("Any", session))
     heard: list[Token] = []
 
@@ -127,7 +127,7 @@ def test_few_are_watched_singly_and_more_by_their_kind(session, monkeypatch):
 
 
 def test_in_a_mesh_all_listeners_hear_of_what_is_there_comes_and_goes(socket_folder, monkeypatch):
-    monkeypatch.setattr(looking, "SINGLE", 1)
+    monkeypatch.setattr(watching, "SINGLE", 1)
     holder, watcher = open_session(0), open_session(0)
     topics = [f"/t{each}" for each in range(4)]
     names = {each: token(each).replace("/ab/", f"/{holder.zid}/") for each in topics}

@@ -44,7 +44,7 @@ def test_one_that_leaves_takes_the_sockets_of_the_dead_along(socket_folder):
         assert every_pair_talks([leaving, killed])
         killed.end()
         assert len(sockets_of(socket_folder)) == 2
-        leaving.tell("exit")
+        leaving.report("exit")
         assert leaving.read()
     assert sockets_of(socket_folder) == set()
 
@@ -67,7 +67,7 @@ def test_beside_a_frozen_process_others_join_talk_and_leave(socket_folder):
         with members(1) as [late]:
             assert every_pair_talks([one, late])
             for each in (one, late):
-                each.tell("exit")
+                each.report("exit")
                 assert float(each.read()) < 5.0  # the library's own settings: 10 s
         assert time.monotonic() - began < 30.0
 
@@ -93,7 +93,7 @@ def test_a_process_whose_socket_was_taken_away_is_found_again(socket_folder):
 
 @pytest.mark.soak
 @pytest.mark.timeout(300)
-def test_links_that_were_given_up_in_the_middle_of_their_opening_are_mended():
+def test_links_that_were_given_up_in_the_middle_of_their_opening_are_repaired():
     with members(10, "hasty") as present:
         ids = {each.zid for each in present}
         assert eventually(lambda: all(each.ask("answer") >= ids - {each.zid} for each in present))

@@ -12,7 +12,7 @@ import pytest
 from bot_console.runtime.process import on_notice
 from bot_console.runtime.rmw.zenoh.link_probe import LinkProbe
 from bot_console.runtime.rmw.zenoh.network.client import Way, client_settings, open_network_session, with_environment
-from bot_console.runtime.rmw.zenoh.network.reach import Tls, place_of
+from bot_console.runtime.rmw.zenoh.network.reachability import Tls, place_of
 from bot_console.runtime.rmw.zenoh.network.router import Router, router_settings
 from bot_console.runtime.rmw.zenoh.session import SessionError
 from bot_console.runtime.rmw.zenoh.settings import Serving, session_settings
@@ -21,7 +21,7 @@ from bot_console.runtime.rmw.zenoh.wire.tokens import TokenNode, node_token
 from processes.certificates import make_certificates
 from processes.ports import free_port
 
-PATIENCE = 20.0
+TIMEOUT_S = 20.0
 STEP = 0.125
 
 
@@ -49,22 +49,22 @@ def refusal(way: Way) -> str:
 def test_both_sides_show_their_certificates(secure, files):
     own, _ = files
     session = open_network_session(0, Way((secure,), Tls(own.ca, own.certificate, own.key)))
-    assert session.attendance(session.zid[:8], PATIENCE) == {session.zid[:8]}
+    assert session.attendance(session.zid[:8], TIMEOUT_S) == {session.zid[:8]}
     session.close()
 
 
-def test_a_router_of_another_authority_is_refused_and_that_is_said(secure, files):
+def test_a_router_of_another_authority_is_refused_and_that_is_reported(secure, files):
     _, stranger = files
     tls = Tls(stranger.ca, stranger.certificate, stranger.key)
-    assert "the router's certificate is refused" in refusal(Way((secure,), tls, patience=0.3))
+    assert "the router's certificate is refused" in refusal(Way((secure,), tls, timeout_s=0.3))
 
 
-def test_a_client_without_or_with_a_wrong_certificate_is_refused_and_that_is_said(secure, files):
+def test_a_client_without_or_with_a_wrong_certificate_is_refused_and_that_is_reported(secure, files):
     own, stranger = files
-    assert "--tls-certificate" in refusal(Way((secure,), Tls(own.ca), patience=0.3))
+    assert "--tls-certificate" in refusal(Way((secure,), Tls(own.ca), timeout_s=0.3))
     wrong = Tls(own.ca, stranger.certificate, stranger.key)
-    told = refusal(Way((secure,), wrong, patience=0.3))
-    assert stranger.certificate in told and "X.509 version 3" in told and "--tls-certificate" not in told
+    reported = refusal(Way((secure,), wrong, timeout_s=0.3))
+    assert stranger.certificate in reported and "X.509 version 3" in reported and "--tls-certificate" not in reported
 
 
 def test_a_certificate_that_zenoh_takes_is_not_blamed_by_a_python_that_is_stricter(secure, files, monkeypatch):
@@ -77,26 +77,26 @@ def test_a_certificate_that_zenoh_takes_is_not_blamed_by_a_python_that_is_strict
         return context
 
     monkeypatch.setattr(ssl, "create_default_context", strict)
-    assert "--tls-certificate" in refusal(Way((secure,), Tls(own.ca), patience=0.3))
+    assert "--tls-certificate" in refusal(Way((secure,), Tls(own.ca), timeout_s=0.3))
 
 
 def test_files_that_cannot_be_used_are_named(secure, files, tmp_path):
     own, _ = files
     text = tmp_path / "text"
     text.write_text("hello")
-    assert f"{text} is no PEM file" in refusal(Way((secure,), Tls(str(text)), patience=0.3))
-    assert "cannot read /nowhere" in refusal(Way((secure,), Tls("/nowhere"), patience=0.3))
-    assert "go together" in refusal(Way((secure,), Tls(own.ca, own.certificate), patience=0.3))
+    assert f"{text} is no PEM file" in refusal(Way((secure,), Tls(str(text)), timeout_s=0.3))
+    assert "cannot read /nowhere" in refusal(Way((secure,), Tls("/nowhere"), timeout_s=0.3))
+    assert "go together" in refusal(Way((secure,), Tls(own.ca, own.certificate), timeout_s=0.3))
 
 
-def test_where_nobody_listens_it_is_said_what_to_start():
-    assert "rmw_zenohd" in refusal(Way((f"tcp/127.0.0.1:{free_port()}",), patience=0.3))
-    assert "no host of the name" in refusal(Way(("tcp/no-such-robot.invalid:7447",), patience=0.3))
-    assert "no host of the name" in refusal(Way((f"tcp/{'a' * 64}:7447",), patience=0.3))
+def test_where_nobody_listens_it_is_reported_what_to_start():
+    assert "rmw_zenohd" in refusal(Way((f"tcp/127.0.0.1:{free_port()}",), timeout_s=0.3))
+    assert "no host of the name" in refusal(Way(("tcp/no-such-robot.invalid:7447",), timeout_s=0.3))
+    assert "no host of the name" in refusal(Way((f"tcp/{'a' * 64}:7447",), timeout_s=0.3))
 
 
 @pytest.mark.parametrize("text", ["robot", "robot:7447", "tcp/robot", "tcp/:7447", "tcp/robot:70000", "tcp/robot:x"])
-def test_what_is_no_endpoint_is_told_with_an_example(text):
+def test_what_is_no_endpoint_is_reported_with_an_example(text):
     with pytest.raises(ValueError, match="tcp/robot:7447"):
         place_of(text)
 
@@ -112,38 +112,38 @@ def test_the_variables_of_rmw_zenoh_are_honoured(monkeypatch, tmp_path):
     file.write_text("{ mode: 'peer', connect: { endpoints: ['tcp/127.0.0.1:1'] } }  // as for a node")
     monkeypatch.setenv("ZENOH_SESSION_CONFIG_URI", str(file))
     monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", f'connect/endpoints=["tcp/127.0.0.1:{port}"];connect/timeout_ms=3000')
-    session = open_network_session(0, with_environment(Way(patience=0.3)))
-    assert session.attendance(session.zid[:8], PATIENCE)
+    session = open_network_session(0, with_environment(Way(timeout_s=0.3)))
+    assert session.attendance(session.zid[:8], TIMEOUT_S)
     session.close()
     router.close()
 
 
 @pytest.mark.parametrize(
-    ("name", "value", "told"),
+    ("name", "value", "reported"),
     [
         ("ZENOH_SESSION_CONFIG_URI", "/nowhere.json5", "there is no file /nowhere.json5"),
         ("ZENOH_CONFIG_OVERRIDE", "connect", "path=value"),
         ("ZENOH_CONFIG_OVERRIDE", "mode=", "path=value"),
     ],
 )
-def test_variables_that_mean_nothing_are_refused(monkeypatch, name, value, told):
+def test_variables_that_mean_nothing_are_refused(monkeypatch, name, value, reported):
     monkeypatch.setenv(name, value)
-    with pytest.raises(SessionError, match=told):
+    with pytest.raises(SessionError, match=reported):
         with_environment(Way(("tcp/robot:7447",)))
 
 
-def test_what_is_no_token_is_ignored_and_the_first_is_told():
+def test_what_is_no_token_is_ignored_and_the_first_is_reported():
     serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
-    router, way, told = Router(serving), Way(serving.endpoints), []
+    router, way, reported = Router(serving), Way(serving.endpoints), []
     robot, client = open_network_session(0, way), open_network_session(0, way)
     robot.declare_token(node_token(0, TokenNode(robot.zid, 0, "", "/", "robot")))
     for each in ("XX/%/%/robot", "NN/%"):
         robot.declare_token(f"@ros2_lv/0/{robot.zid}/1/2/{each}")
-    forget = on_notice(lambda process, text: told.append(text))
+    forget = on_notice(lambda process, text: reported.append(text))
     graph = WholeGraph(client, lambda node: None)
     forget()
     assert [each.name for each in graph.tables.nodes()] == ["robot"]
-    assert len(told) == 1 and "is not of the format of rmw_zenoh" in told[0]
+    assert len(reported) == 1 and "is not of the format of rmw_zenoh" in reported[0]
     for each in (client, robot, router):
         each.close()
 
@@ -152,7 +152,7 @@ def test_a_setting_that_zenoh_does_not_know_is_refused():
     assert "does not take" in refusal(Way(("tcp/127.0.0.1:1",), override=(("mode", "'boss'"),)))
 
 
-def test_a_client_listens_nowhere_and_looks_for_nobody():
+def test_a_client_listens_nowhere_and_searches_for_nobody():
     settings = client_settings("1" * 32, Way(("tcp/robot:7447",)))
     assert settings["mode"] == "client" and settings["listen"] == {"endpoints": []}
     assert not settings["scouting"]["multicast"]["enabled"] and not settings["scouting"]["gossip"]["enabled"]
@@ -169,10 +169,10 @@ def test_a_router_that_comes_back_is_found_again_and_what_was_declared_works():
     lost, back = threading.Event(), threading.Event()
     one.watch_links(lambda zid, on: (back if on and lost.is_set() else lost).set() if not on or lost.is_set() else None)
     router.close()
-    assert lost.wait(PATIENCE)
+    assert lost.wait(TIMEOUT_S)
     router = Router(serving)
-    assert back.wait(PATIENCE)
-    for _ in range(round(PATIENCE / 0.05)):
+    assert back.wait(TIMEOUT_S)
+    for _ in range(round(TIMEOUT_S / 0.05)):
         publisher.put(b"again", b"")
         if heard.wait(0.05):
             break
@@ -212,7 +212,7 @@ def test_the_access_list_of_the_documentation_keeps_guests_from_moving_and_chang
 
         robot.declare_queryable(f"0/{service}/t", answer)
     publishers = [guest.declare_publisher(f"0/{topic}/t") for topic in ("cmd_vel", "ns/cmd_vel", "scan")]
-    for _ in range(round(PATIENCE / 0.02)):
+    for _ in range(round(TIMEOUT_S / 0.02)):
         for each in publishers:
             each.put(b"", b"")
         if heard.count("scan") >= 3:
@@ -221,13 +221,13 @@ def test_the_access_list_of_the_documentation_keeps_guests_from_moving_and_chang
     for service in ("n/set_parameters", "n/get_parameters"):
         done = threading.Event()
         guest.declare_querier(f"0/{service}/t", 2.0).get(b"", b"", lambda *reply: None, done.set)
-        assert done.wait(PATIENCE)
+        assert done.wait(TIMEOUT_S)
     assert set(heard) == {"scan"} and asked == ["n/get_parameters"]
     for each in (robot, guest, router):
         each.close()
 
 
-def test_a_taken_port_is_told():
+def test_a_taken_port_is_reported():
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
@@ -257,7 +257,7 @@ class Link:
             for asked, answer in self.asked:
                 if delay is not None and self.now - asked >= delay:
                     answer.append(True)
-            self.probe.look()
+            self.probe.poll()
 
     @property
     def silent(self) -> float:
@@ -272,7 +272,7 @@ class Link:
 @pytest.fixture
 def link():
     link = Link()
-    link.probe.look()
+    link.probe.poll()
     return link
 
 

@@ -7,7 +7,7 @@ from bot_console.runtime.process import on_notice
 from bot_console.runtime.rmw.zenoh import sender as module
 from bot_console.runtime.rmw.zenoh.sender import Sender
 
-PATIENCE = 20.0
+TIMEOUT_S = 20.0
 
 
 class Slow:
@@ -20,7 +20,7 @@ class Slow:
 
     def put_surely(self, payload, attachment):
         self.reached.set()
-        assert self.free.wait(PATIENCE)
+        assert self.free.wait(TIMEOUT_S)
         self.sent.append(payload)
 
     def undeclare(self):
@@ -36,7 +36,7 @@ class Stepwise:
 
     def put_surely(self, payload, attachment):
         self.reached.release()
-        assert self.free.acquire(timeout=PATIENCE)
+        assert self.free.acquire(timeout=TIMEOUT_S)
 
 
 class Awaited(threading.Event):
@@ -56,30 +56,30 @@ class Awaited(threading.Event):
 def sender():
     made = Sender()
     yield made
-    made.end(PATIENCE)
+    made.end(TIMEOUT_S)
 
 
 def test_nobody_waits_and_the_order_is_kept(sender):
     publisher = Slow()
     for each in (b"1", b"2", b"3"):
         assert sender.send(publisher, "/t", each, b"a")
-    assert publisher.reached.wait(PATIENCE)
+    assert publisher.reached.wait(TIMEOUT_S)
     sender.undeclare(publisher)
     assert publisher.sent == []
     publisher.free.set()
-    assert sender.end(PATIENCE)
+    assert sender.end(TIMEOUT_S)
     assert publisher.sent == [b"1", b"2", b"3", "undeclared"]
 
 
-def test_without_room_a_message_is_dropped_and_told(sender, monkeypatch):
+def test_without_room_a_message_is_dropped_and_reported(sender, monkeypatch):
     monkeypatch.setattr(module, "ROOM", 10)
-    said, publisher = [], Slow()
-    forget = on_notice(lambda process, text: said.append(text))
+    message, publisher = [], Slow()
+    forget = on_notice(lambda process, text: message.append(text))
     sender.send(publisher, "/full", b"first", b"a")
-    assert publisher.reached.wait(PATIENCE)
+    assert publisher.reached.wait(TIMEOUT_S)
     assert [sender.send(publisher, "/full", b"12345678", b"a") for _ in range(2)] == [True, False]
     forget()
-    assert "'/full' were dropped" in said[0]
+    assert "'/full' were dropped" in message[0]
     publisher.free.set()
 
 
@@ -102,31 +102,31 @@ def test_the_thread_that_had_nothing_left_is_woken(sender):
     for number in range(200):
         publisher.reached.clear()
         sender.send(publisher, "/t", b"%d" % number, b"a")
-        assert publisher.reached.wait(PATIENCE)
-    assert sender.end(PATIENCE)
+        assert publisher.reached.wait(TIMEOUT_S)
+    assert sender.end(TIMEOUT_S)
     assert publisher.sent == [b"%d" % number for number in range(200)]
 
 
 def test_a_publisher_whose_last_message_is_being_sent_is_taken_back_after_it(sender):
     publisher = Slow()
     sender.send(publisher, "/t", b"1", b"a")
-    assert publisher.reached.wait(PATIENCE)
+    assert publisher.reached.wait(TIMEOUT_S)
     sender.undeclare(publisher)
     assert publisher.sent == []
     publisher.free.set()
-    assert sender.end(PATIENCE)
+    assert sender.end(TIMEOUT_S)
     assert publisher.sent == [b"1", "undeclared"]
 
 
 @pytest.mark.parametrize("limit, value, count", [("MANY", 4, 4), ("MUCH", 8, 5)])
 def test_whoever_publishes_a_burst_lets_the_thread_send_it(sender, monkeypatch, limit, value, count):
     monkeypatch.setattr(module, limit, value)
-    monkeypatch.setattr(module, "LET_SEND", PATIENCE)
+    monkeypatch.setattr(module, "LET_SEND", TIMEOUT_S)
     publisher = Slow()
     sender._emptied = Awaited(publisher.free.set)
     for _ in range(count - 1):
         sender.send(publisher, "/t", b"12", b"a")
-        assert publisher.reached.wait(PATIENCE)  # what is being sent is no byte that waits
+        assert publisher.reached.wait(TIMEOUT_S)  # what is being sent is no byte that waits
     assert publisher.sent == []
     sender.send(publisher, "/t", b"12", b"a")
     assert publisher.sent == [b"12"] * count
@@ -143,7 +143,7 @@ def test_beside_a_full_link_it_lets_the_thread_send_once_until_nothing_waits(sen
             assert sender.send(publisher, "/t", b"1", b"a")
         assert waits == ["once"] * burst
         sender._emptied.on_wait = publisher.free.set
-        assert sender._is_emptied(PATIENCE)
+        assert sender._is_emptied(TIMEOUT_S)
 
 
 def test_beyond_half_of_the_room_it_lets_the_thread_send_again_where_that_gets_on(sender, monkeypatch):
@@ -153,12 +153,12 @@ def test_beyond_half_of_the_room_it_lets_the_thread_send_again_where_that_gets_o
     waits, publisher = [], Stepwise()
     sender._emptied = Awaited(lambda: waits.append("once"))
     sender.send(publisher, "/t", b"12", b"a")
-    assert publisher.reached.acquire(timeout=PATIENCE)
+    assert publisher.reached.acquire(timeout=TIMEOUT_S)
     for _ in range(6):
         assert sender.send(publisher, "/t", b"12", b"a")
     assert waits == ["once"]
     publisher.free.release()
-    assert publisher.reached.acquire(timeout=PATIENCE)
+    assert publisher.reached.acquire(timeout=TIMEOUT_S)
     for _ in range(2):
         assert sender.send(publisher, "/t", b"12", b"a")
     assert waits == ["once"] * 2

@@ -14,7 +14,7 @@ from rclpy.serialization import serialize_message
 
 GID = bytes(range(16))
 NAME, TYPE = "/add", "example_interfaces/srv/AddTwoInts"
-TOLD = "it is not what was sent: the link to its sender was cut while it was written"
+REPORTED = "it is not what was sent: the link to its sender was cut while it was written"
 SESSION = SimpleNamespace(declare_queryable=lambda key, asked: None)
 
 
@@ -40,7 +40,7 @@ def test_a_request_that_was_cut_is_not_served(notices):
     cut = Request(spoilt(sent), pack(1, 5, GID, sent))
     served.asked(cut)
     assert cut.dropped and not service.queue
-    assert notices == [f"a request to '/add' was dropped: {TOLD}"]
+    assert notices == [f"a request to '/add' was dropped: {REPORTED}"]
     served.asked(Request(sent, pack(2, 5, GID, sent)))
     ((_, number, request),) = service.queue
     assert (number, request.a, request.b) == (2, 1, 2)
@@ -52,7 +52,7 @@ def test_a_response_that_was_cut_is_not_believed(notices):
     sent = serialize_message(AddTwoInts.Response(sum=3))
     asking._replied(spoilt(sent), pack(1, 5, GID, sent))
     assert not client.queue
-    assert notices == [f"a response of '/add' was dropped: {TOLD}"]
+    assert notices == [f"a response of '/add' was dropped: {REPORTED}"]
     asking._replied(sent, pack(1, 5, GID, sent))
     ((number, response),) = client.queue
     assert (number, response.sum) == (1, 3)
@@ -65,7 +65,7 @@ def server(zid):
 class Links:
     """A session with the links and processes of others, as far as they are known."""
 
-    is_told_truly = Session.is_told_truly
+    is_reported_truly = Session.is_reported_truly
 
     def __init__(self):
         self.ids, self.pids = {"a", "b"}, {"a": os.getpid(), "b": None}

@@ -7,7 +7,7 @@ import pytest
 from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
 from bot_console.runtime.rmw.zenoh.session import Session
 
-PATIENCE = 20.0
+TIMEOUT_S = 20.0
 
 
 @pytest.fixture
@@ -15,7 +15,7 @@ def pair(socket_folder):
     one, two = open_session(0), open_session(0)
     linked = threading.Event()
     two.watch_links(lambda zid, on: linked.set())
-    assert linked.wait(PATIENCE)
+    assert linked.wait(TIMEOUT_S)
     yield one, two
     one.close()
     two.close()
@@ -24,14 +24,14 @@ def pair(socket_folder):
 def ask(session: Session, key: str, payload: bytes) -> list[tuple[bytes, bytes | None]]:
     replies: list[tuple[bytes, bytes | None]] = []
     done = threading.Event()
-    querier = session.declare_querier(key, PATIENCE)
+    querier = session.declare_querier(key, TIMEOUT_S)
     querier.get(payload, b"ask", lambda *reply: replies.append(reply), done.set)
-    assert done.wait(PATIENCE)
+    assert done.wait(TIMEOUT_S)
     return replies
 
 
 def tokens(session: Session, key: str) -> set[str]:
-    found, answered = session.collect_tokens(key, PATIENCE)
+    found, answered = session.collect_tokens(key, TIMEOUT_S)
     assert answered
     return set(found)
 
@@ -41,7 +41,7 @@ def shown(one: Session, two: Session, key: str) -> threading.Event:
     came, went = threading.Event(), threading.Event()
     two.watch_tokens(key, lambda _, there: (came if there else went).set())
     one.declare_token(key)
-    assert came.wait(PATIENCE)
+    assert came.wait(TIMEOUT_S)
     return went
 
 
@@ -64,7 +64,7 @@ def test_a_late_subscriber_gets_what_was_kept(pair):
             newest.set()
 
     two.declare_subscriber("t", received, history=2)
-    assert newest.wait(PATIENCE)
+    assert newest.wait(TIMEOUT_S)
     assert got[-2:] == [(b"2", b"a"), (b"3", b"a")]
 
 
@@ -84,7 +84,7 @@ def test_tokens_are_seen_until_their_session_ends(pair):
     went = shown(one, two, "k/1")
     assert tokens(two, "k/**") == {"k/1"}
     one.close()
-    assert went.wait(PATIENCE)
+    assert went.wait(TIMEOUT_S)
 
 
 def test_a_session_that_ends_takes_its_socket_away(pair, socket_folder):
@@ -96,7 +96,7 @@ def test_a_session_that_ends_takes_its_socket_away(pair, socket_folder):
     assert os.listdir(os.path.join(socket_folder, "0")) == []
 
 
-def test_a_session_is_opened_anew_though_its_close_took_zenoh_too_long(pair) -> None:
+def test_a_session_is_reopened_though_its_close_took_zenoh_too_long(pair) -> None:
     one, two = pair
     old = one._zenoh
 
@@ -109,12 +109,12 @@ def test_a_session_is_opened_anew_though_its_close_took_zenoh_too_long(pair) -> 
     one.rejoin(lambda folder: True)
     linked = threading.Event()
     one.watch_links(lambda zid, on: linked.set())
-    assert linked.wait(PATIENCE) and one.linked() == {two.zid}
+    assert linked.wait(TIMEOUT_S) and one.linked() == {two.zid}
 
 
 def test_the_tokens_of_others_are_collected(pair):
     one, two = pair
     shown(one, two, "token/1")
-    assert two.collect_tokens("token/*", PATIENCE) == (["token/1"], True)
+    assert two.collect_tokens("token/*", TIMEOUT_S) == (["token/1"], True)
     two.close()
-    assert two.collect_tokens("token/*", PATIENCE) == ([], False)
+    assert two.collect_tokens("token/*", TIMEOUT_S) == ([], False)

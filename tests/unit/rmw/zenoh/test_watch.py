@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 import pytest
 from bot_console.runtime.rmw.zenoh.domain import watch as watching
 from bot_console.runtime.rmw.zenoh.domain.sockets import Socket
-from bot_console.runtime.rmw.zenoh.domain.watch import GRACE, MOST_TRIES, Watch
+from bot_console.runtime.rmw.zenoh.domain.watch import LINK_TIMEOUT_S, MAX_REOPENS, Watch
 
 OWN, OTHER, THIRD = "aaaaaaaa", "bbbbbbbb", "cccccccc"
 LOWER = "99999999"
@@ -71,7 +71,7 @@ class Bench:
         self.session.links.add(zid)
         (self.session.answering.add if answers else self.session.answering.discard)(zid)
 
-    def opened_anew(self, seconds: float) -> int:
+    def reopened(self, seconds: float) -> int:
         """How often the session would be opened anew in this time, with a look each second."""
         times = 0
         for _ in range(int(seconds)):
@@ -94,7 +94,7 @@ def bench(tmp_path, monkeypatch) -> Iterator[Bench]:
 def test_a_link_that_answers_is_asked_once_and_left_alone(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=True)
-    assert bench.opened_anew(1000) == 0
+    assert bench.reopened(1000) == 0
     assert bench.session.asked == [OTHER]
 
 
@@ -102,128 +102,128 @@ def test_those_that_start_within_seconds_are_asked_together_and_a_later_one_alon
     for number in range(4):
         bench.appear(10 + number, f"{number}" * 8)
         bench.links(f"{number}" * 8, answers=True)
-        assert bench.opened_anew(1) == 0
-    bench.opened_anew(100)
+        assert bench.reopened(1) == 0
+    bench.reopened(100)
     assert bench.session.asked == ["*"]
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=True)
-    bench.opened_anew(100)
+    bench.reopened(100)
     assert bench.session.asked == ["*", OTHER]
 
 
 def test_one_that_is_gone_at_once_is_not_asked(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=True)
-    bench.opened_anew(1)
+    bench.reopened(1)
     os.unlink(os.path.join(bench.folder, f"2.{OTHER}"))
-    bench.opened_anew(100)
+    bench.reopened(100)
     assert bench.session.asked == []
 
 
-def test_a_link_that_carries_nothing_is_mended_after_the_grace(bench: Bench) -> None:
+def test_a_link_that_carries_nothing_is_repaired_after_the_grace(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=False)
-    assert bench.opened_anew(GRACE) == 0
-    assert bench.opened_anew(1) == 1
+    assert bench.reopened(LINK_TIMEOUT_S) == 0
+    assert bench.reopened(1) == 1
     bench.links(OTHER, answers=True)
-    assert bench.opened_anew(1000) == 0
+    assert bench.reopened(1000) == 0
 
 
-def test_one_without_a_link_is_mended_too(bench: Bench) -> None:
+def test_one_without_a_link_is_repaired_too(bench: Bench) -> None:
     bench.appear(2, OTHER)
-    assert (bench.opened_anew(GRACE), bench.opened_anew(1)) == (0, 1)
+    assert (bench.reopened(LINK_TIMEOUT_S), bench.reopened(1)) == (0, 1)
 
 
-def test_of_a_pair_one_is_opened_anew_before_the_other(bench: Bench) -> None:
+def test_of_a_pair_one_is_reopened_before_the_other(bench: Bench) -> None:
     bench.appear(2, LOWER)
     bench.links(LOWER, answers=False)
-    assert (bench.opened_anew(2 * GRACE), bench.opened_anew(1)) == (0, 1)
+    assert (bench.reopened(2 * LINK_TIMEOUT_S), bench.reopened(1)) == (0, 1)
 
 
 def test_on_a_busy_machine_the_grace_is_longer(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=False)
     bench.slowness = 10.0
-    assert (bench.opened_anew(10 * GRACE), bench.opened_anew(1)) == (0, 1)
+    assert (bench.reopened(10 * LINK_TIMEOUT_S), bench.reopened(1)) == (0, 1)
 
 
-def test_each_time_that_it_was_opened_anew_the_grace_is_longer(bench: Bench) -> None:
+def test_each_time_that_it_was_reopened_the_grace_is_longer(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=False)
-    assert bench.opened_anew(GRACE + 1) == 1
+    assert bench.reopened(LINK_TIMEOUT_S + 1) == 1
     bench.links(OTHER, answers=True)
     bench.appear(3, THIRD)
     bench.links(THIRD, answers=False)
-    assert (bench.opened_anew(2 * GRACE), bench.opened_anew(1)) == (0, 1)
+    assert (bench.reopened(2 * LINK_TIMEOUT_S), bench.reopened(1)) == (0, 1)
 
 
-def test_the_machine_says_how_busy_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_machine_reports_how_busy_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "cpu_count", lambda: 2)
     for load, expected in ((0.1, 1.0), (7.0, 1.0), (80.0, 10.0)):
         monkeypatch.setattr(os, "getloadavg", lambda load=load: (load, 0.0, 0.0))
         assert watching.slowness() == expected
 
 
-def test_one_that_never_answers_counts_as_the_same_when_it_opens_its_session_anew(bench: Bench) -> None:
+def test_one_that_never_answers_counts_as_the_same_when_it_reopens_its_session(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=False)
     times = 0
     for _ in range(10):
-        times += bench.opened_anew(20 * GRACE)
+        times += bench.reopened(20 * LINK_TIMEOUT_S)
         bench.replace(2, OTHER)
-    assert times == MOST_TRIES
+    assert times == MAX_REOPENS
 
 
 def test_one_that_answers_late_is_left_alone(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=False)
-    assert bench.opened_anew(GRACE) == 0
+    assert bench.reopened(LINK_TIMEOUT_S) == 0
     bench.links(OTHER, answers=True)
-    assert bench.opened_anew(1000) == 0
+    assert bench.reopened(1000) == 0
 
 
 def test_a_frozen_one_is_left_alone_and_has_its_grace_when_it_runs_again(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=False)
-    assert bench.opened_anew(GRACE - 1) == 0
+    assert bench.reopened(LINK_TIMEOUT_S - 1) == 0
     bench.stopped.add(2)
-    assert bench.opened_anew(1000) == 0
+    assert bench.reopened(1000) == 0
     bench.stopped.clear()
-    assert bench.opened_anew(GRACE) == 0
-    assert bench.opened_anew(2) == 1
+    assert bench.reopened(LINK_TIMEOUT_S) == 0
+    assert bench.reopened(2) == 1
 
 
 def test_one_that_never_answers_costs_few_sessions(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=False)
-    assert bench.opened_anew(4000) == MOST_TRIES
+    assert bench.reopened(4000) == MAX_REOPENS
     bench.appear(3, THIRD)
     bench.links(THIRD, answers=True)
-    assert bench.opened_anew(1000) == 0
+    assert bench.reopened(1000) == 0
 
 
 def test_a_link_that_was_cut_and_made_again_is_asked_again(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=True)
-    assert bench.opened_anew(100) == 0
+    assert bench.reopened(100) == 0
     bench.session.changed(OTHER + "1" * 24, False)
     bench.links(OTHER, answers=False)
-    assert bench.opened_anew(GRACE + 1) == 1
+    assert bench.reopened(LINK_TIMEOUT_S + 1) == 1
 
 
 def test_another_session_in_the_same_place_is_asked_again(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=True)
-    assert bench.opened_anew(100) == 0
+    assert bench.reopened(100) == 0
     bench.replace(2, OTHER)
     bench.links(OTHER, answers=False)
-    assert bench.opened_anew(GRACE + 1) == 1
+    assert bench.reopened(LINK_TIMEOUT_S + 1) == 1
 
 
-def test_who_is_mended_by_the_other_meanwhile_does_nothing(bench: Bench) -> None:
+def test_who_is_repaired_by_the_other_meanwhile_does_nothing(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=False)
-    bench.opened_anew(GRACE)
+    bench.reopened(LINK_TIMEOUT_S)
     bench.now += 1
     assert bench.watch.has_lost_its_place()
     bench.replace(2, OTHER)
@@ -231,7 +231,7 @@ def test_who_is_mended_by_the_other_meanwhile_does_nothing(bench: Bench) -> None
 
 
 def test_a_socket_that_was_taken_away_is_missed_at_once(bench: Bench) -> None:
-    assert bench.opened_anew(10) == 0
+    assert bench.reopened(10) == 0
     os.unlink(bench.session.socket.path)
     assert bench.watch.has_lost_its_place()
 
@@ -239,5 +239,5 @@ def test_a_socket_that_was_taken_away_is_missed_at_once(bench: Bench) -> None:
 def test_one_that_was_killed_is_taken_for_lost_by_nobody(bench: Bench) -> None:
     bench.appear(2, OTHER)
     os.close(bench._locks.pop(os.path.join(bench.folder, f"2.{OTHER}")))
-    assert bench.opened_anew(100) == 0
+    assert bench.reopened(100) == 0
     assert not os.path.exists(os.path.join(bench.folder, f"2.{OTHER}"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.cli import main as program
-from bot_console.tui.cli import show
+from bot_console.tui.cli import screen
 
 
 @pytest.mark.parametrize("place", sorted({*program._COMMANDS.values(), *program._ROS2.values()}))
@@ -27,6 +27,6 @@ def test_a_program_of_rqt_brings_no_robot_unless_it_is_asked_for(
     shown: list[str] = []
     monkeypatch.setattr(program, "others_take_part", lambda: False)
     monkeypatch.setattr(program, "_attach", lambda words: shown.append("attached") or 0)
-    monkeypatch.setattr(show, "run", lambda options: shown.append("own") or 0)
+    monkeypatch.setattr(screen, "run", lambda options: shown.append("own") or 0)
     assert program.main(line.split()) == 0
     assert shown == ["attached" if attached else "own"]

@@ -8,8 +8,8 @@ PROGRAM = """
 import os, sys
 from bot_console.tui.cli.foreground.descriptors import captured_descriptors
 
-told = []
-with captured_descriptors(lambda severity, label, text: told.append((label, text))):
+reported = []
+with captured_descriptors(lambda severity, label, text: reported.append((label, text))):
     os.write(2, b"a warning of a library\\nhalf")
     os.write(2, b" a line\\n\\n")
     os.system("echo from a child")
@@ -17,18 +17,18 @@ with captured_descriptors(lambda severity, label, text: told.append((label, text
     sys.__stdout__.write("<out>")
     print("is a screen:", os.isatty(sys.__stdout__.fileno()), file=sys.__stdout__)
 os.write(2, b"<after>")
-print(told)
+print(reported)
 """
 
 
-def test_lines_are_told_and_only_the_screens_words_go_to_the_screen() -> None:
+def test_lines_are_reported_and_only_the_screens_words_go_to_the_screen() -> None:
     done = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, timeout=60, check=True)
     assert done.stderr == "<screen><after>"
-    out, told = done.stdout.split("\n", 1)
+    out, reported = done.stdout.split("\n", 1)
     assert out == "<out>is a screen: False"
-    lines = [text for _, text in eval(told)]
+    lines = [text for _, text in eval(reported)]
     assert sorted(lines) == ["a warning of a library", "from a child", "half a line"]
-    assert {label for label, _ in eval(told)} == {"stderr"}
+    assert {label for label, _ in eval(reported)} == {"stderr"}
 
 
 def test_a_notice_of_the_runtime_does_not_go_to_the_screen() -> None:

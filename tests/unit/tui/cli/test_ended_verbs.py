@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 import rclpy
-from bot_console.runtime.terse import told
+from bot_console.runtime.exit_messages import run_and_report
 from bot_console.tui.cli.main import main
 from bot_console.tui.cli.system import reached_stop
 from bot_console.tui.cli.verbs import background
@@ -33,11 +33,11 @@ def domain(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize(("end", "code"), [(terminated, 143), (interrupted, 130)])
 @pytest.mark.parametrize("verb", ["stop", "release"])
-def test_one_that_looks_for_a_robot_says_that_none_has_answered(
+def test_one_that_searches_for_a_robot_reports_that_none_has_answered(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], verb: str, end: Callable[[], None], code: int
 ) -> None:
     monkeypatch.setattr(reached_stop.ReachedStop, "follow", end)
-    assert told(lambda: main([verb])) == code
+    assert run_and_report(lambda: main([verb])) == code
     assert capsys.readouterr().err == UNHEARD.format(verb)
 
 
@@ -60,5 +60,5 @@ def test_status_ends_without_a_word(
     monkeypatch.setattr(background, "_known", lambda: None)
     monkeypatch.setattr(background, "robot_there", lambda: ["/simulator"])
     monkeypatch.setattr(reached_stop.ReachedStop, "follow", end)
-    assert told(lambda: main(["status"])) == code
+    assert run_and_report(lambda: main(["status"])) == code
     assert capsys.readouterr().err == ""

@@ -8,7 +8,7 @@ import threading
 
 from bot_console.tui.cli.foreground.ending_signals import ended_by_signals
 
-PATIENCE = 20.0
+TIMEOUT_S = 20.0
 
 
 def test_a_signal_amid_what_ending_needs_does_not_hang_and_another_one_neither() -> None:
@@ -25,7 +25,7 @@ def test_a_signal_amid_what_ending_needs_does_not_hang_and_another_one_neither()
             os.kill(os.getpid(), signal.SIGTERM)
             os.kill(os.getpid(), signal.SIGHUP)
             assert not ended
-        assert both.wait(PATIENCE)
+        assert both.wait(TIMEOUT_S)
     assert ended == [signal.SIGTERM, signal.SIGHUP]
 
 
@@ -43,5 +43,5 @@ def test_one_that_comes_after_the_app_has_ended_does_no_harm() -> None:
     with ended_by_signals(end):
         ending = next(each for each in threading.enumerate() if each.name == "ending")
         os.kill(os.getpid(), signal.SIGTERM)
-        ending.join(PATIENCE)
+        ending.join(TIMEOUT_S)
         assert not ending.is_alive()

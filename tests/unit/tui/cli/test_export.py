@@ -100,7 +100,7 @@ def _performed(context: LaunchContext, text: Any) -> str:
     return perform_substitutions(context, normalize_to_list_of_substitutions(text))
 
 
-def test_where_nothing_can_be_written_it_says_so_in_one_line(
+def test_where_nothing_can_be_written_it_reports_it_in_one_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "file").write_text("mine")

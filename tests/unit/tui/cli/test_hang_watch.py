@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from bot_console.tui.cli.foreground.hang_watch import DEAF, FILE, STANDS_S, HangWatch, hang_watch
+from bot_console.tui.cli.foreground.hang_watch import FILE, HANG_AFTER_S, MAX_MISSED_HEARTBEATS, HangWatch, hang_watch
 
 HERE = "in test_"
 
@@ -26,10 +26,10 @@ class Clock:
 
 @pytest.fixture
 def kept(tmp_path: Path) -> Iterator[tuple[HangWatch, Clock, list[str], Path]]:
-    clock, told, path = Clock(), list[str](), tmp_path / FILE
+    clock, reported, path = Clock(), list[str](), tmp_path / FILE
     with path.open("ab") as file:
-        watch = HangWatch(path, file.fileno(), told.append, clock)
-        yield watch, clock, told, path
+        watch = HangWatch(path, file.fileno(), reported.append, clock)
+        yield watch, clock, reported, path
         watch.rest()
 
 
@@ -44,17 +44,17 @@ def test_a_signal_has_them_written_with_how_the_screen_is(tmp_path: Path) -> Non
 
 def test_who_does_nothing_for_long_is_found_in_the_file_once(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
     watch, clock, _, path = kept
-    watch.beat()
-    clock.now += STANDS_S - 1
-    watch.look()
+    watch.heartbeat()
+    clock.now += HANG_AFTER_S - 1
+    watch.poll()
     assert path.read_text() == ""
     for _ in range(2):
-        clock.now += STANDS_S
-        watch.look()
+        clock.now += HANG_AFTER_S
+        watch.poll()
     assert path.read_text().count("Current thread") == 1 and HERE in path.read_text()
-    watch.beat()
-    clock.now += STANDS_S
-    watch.look()
+    watch.heartbeat()
+    clock.now += HANG_AFTER_S
+    watch.poll()
     assert path.read_text().count("Current thread") == 2
 
 
@@ -75,26 +75,26 @@ with hang_watch(Path({str(tmp_path)!r}), str, print):
     assert process.returncode == -signal.SIGABRT and "Fatal Python error" in text and 'File "<string>"' in text
 
 
-def test_that_it_stood_is_told_when_it_goes_on(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
-    watch, clock, told, path = kept
-    watch.beat()
-    clock.now += STANDS_S - 1
-    watch.beat()
-    assert told == []
-    clock.now += STANDS_S
-    watch.beat()
-    [line] = told
+def test_that_it_stood_is_reported_when_it_goes_on(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
+    watch, clock, reported, path = kept
+    watch.heartbeat()
+    clock.now += HANG_AFTER_S - 1
+    watch.heartbeat()
+    assert reported == []
+    clock.now += HANG_AFTER_S
+    watch.heartbeat()
+    [line] = reported
     assert "stood for 15 s" in line and str(path) in line
     assert "stood for 15 s" in path.read_text()
 
 
 def test_a_rest_is_no_standstill(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
-    watch, clock, told, _ = kept
-    watch.beat()
+    watch, clock, reported, _ = kept
+    watch.heartbeat()
     watch.rest()
-    clock.now += 10 * STANDS_S
-    watch.beat()
-    assert told == []
+    clock.now += 10 * HANG_AFTER_S
+    watch.heartbeat()
+    assert reported == []
 
 
 def test_a_place_that_cannot_be_written_is_no_reason_to_have_no_console(tmp_path: Path) -> None:
@@ -129,7 +129,7 @@ class App:
 def test_an_app_that_stands_while_its_loop_runs_is_found_with_what_it_waits_for(
     kept: tuple[HangWatch, Clock, list[str], Path], held: bool
 ) -> None:
-    watch, _, told, path = kept
+    watch, _, reported, path = kept
     app = App()
 
     async def waits() -> None:
@@ -138,13 +138,13 @@ def test_an_app_that_stands_while_its_loop_runs_is_found_with_what_it_waits_for(
     async def stand() -> None:
         waiting = asyncio.create_task(waits(), name="message pump App()")
         await asyncio.sleep(0)
-        for _ in range(3 * DEAF):
-            watch.heed(app)
+        for _ in range(3 * MAX_MISSED_HEARTBEATS):
+            watch.observe(app)
             app.deal()
-        assert (path.read_text(), told) == ("", []), "one that answers"
+        assert (path.read_text(), reported) == ("", []), "one that answers"
         app.holds_frames = held
-        for _ in range(2 * DEAF):
-            watch.heed(app)
+        for _ in range(2 * MAX_MISSED_HEARTBEATS):
+            watch.observe(app)
             if held:
                 app.deal()
         waiting.cancel()
@@ -155,5 +155,5 @@ def test_an_app_that_stands_while_its_loop_runs_is_found_with_what_it_waits_for(
     assert text.count("message pump App():") == 1 and "in waits\n" in text and "locks.py" in text
     app.holds_frames = False
     app.deal()
-    [line] = told
+    [line] = reported
     assert "did nothing for 30 s" in line and str(path) in line

@@ -23,13 +23,13 @@ def word(monkeypatch: pytest.MonkeyPatch) -> Iterator[Publisher]:
     context.try_shutdown()
 
 
-def test_a_robot_that_says_nothing_is_not_taken_for_one_that_nobody_holds(word: Publisher) -> None:
+def test_a_robot_that_reports_nothing_is_not_taken_for_one_that_nobody_holds(word: Publisher) -> None:
     assert stop.holders(to_hear=0.0) is None
     word.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="false")]))
     assert stop.holders() == []
 
 
-def test_it_is_said_when_the_robot_does_not_answer(
+def test_it_is_reported_when_the_robot_does_not_answer(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(stop, "holders", lambda: None)

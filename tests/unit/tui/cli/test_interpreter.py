@@ -6,7 +6,7 @@ import gc
 import sys
 
 import pytest
-from bot_console.tui.cli import main, show
+from bot_console.tui.cli import main, screen
 from bot_console.tui.cli.interpreter import (
     SWITCH_INTERVAL,
     collect_from_now_on,
@@ -15,7 +15,7 @@ from bot_console.tui.cli.interpreter import (
 )
 
 
-def test_no_garbage_is_looked_for_until_all_is_there_and_none_among_that() -> None:
+def test_no_garbage_is_searched_for_until_all_is_there_and_none_among_that() -> None:
     class There:
         pass
 
@@ -56,7 +56,7 @@ def test_a_console_is_started_without_the_collector(monkeypatch: pytest.MonkeyPa
         seen.append(gc.isenabled())
         return 0
 
-    monkeypatch.setattr(show, "run", run)
+    monkeypatch.setattr(screen, "run", run)
     assert main.main([]) == 0 and seen == [False] and gc.isenabled()
 
 

@@ -13,7 +13,7 @@ from bot_console.tui.cli.interruptible_wait import wait_interruptibly
 if os.name == "nt":
     pytest.skip("signals are handed to no threads there", allow_module_level=True)
 
-PATIENCE = 20.0
+TIMEOUT_S = 20.0
 
 
 @pytest.fixture
@@ -45,11 +45,11 @@ def test_a_signal_that_another_thread_got_ends_the_waiting(elsewhere: None) -> N
     over = Waited()
     before = signal.signal(signal.SIGUSR1, lambda number, frame: over.set())
     try:
-        assert wait_interruptibly(over, PATIENCE)
+        assert wait_interruptibly(over, TIMEOUT_S)
     finally:
         signal.signal(signal.SIGUSR1, before)
 
 
-def test_it_waits_no_longer_than_said() -> None:
+def test_it_waits_no_longer_than_the_timeout() -> None:
     assert not wait_interruptibly(threading.Event(), 0.0)
     assert not wait_interruptibly(threading.Event(), 0.01)

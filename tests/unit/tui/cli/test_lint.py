@@ -10,7 +10,7 @@ import pytest
 from bot_console.tui.cli.lint.run import files_of, lint_files, run
 from bot_console.tui.console.model import Kind, ParameterInfo
 from bot_console.tui.console.parameters.lint import faults
-from bot_console.tui.console.parameters.unit import unit_of
+from bot_console.tui.console.parameters.unit import unit_in_description
 
 NODE = """\
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
@@ -106,18 +106,18 @@ def test_a_callback_that_can_refuse_is_no_fault(tmp_path: Path) -> None:
 
 def test_words_json_and_exit_codes(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run([str(package / "robot.py")]) == 1
-    said = capsys.readouterr()
-    assert "robot.py:7: speed: float as int; write the default with a point" in said.out and "7 found" in said.err
+    message = capsys.readouterr()
+    assert "robot.py:7: speed: float as int; write the default with a point" in message.out and "7 found" in message.err
     assert run([str(package), "--json"]) == 1
     rows = json.loads(capsys.readouterr().out)
-    assert {"place", "line", "fault", "subject", "mend"} == set(rows[0]) and len(rows) == 9
+    assert {"place", "line", "fault", "subject", "hint", "mend"} == set(rows[0]) and len(rows) == 9
     (package / "good.yaml").write_text("/**:\n  ros__parameters:\n    gain: 1.0\n")
     assert run([str(package / "good.yaml")]) == 0
     assert run(["no_such_package_anywhere"]) == 2
 
 
 @pytest.mark.parametrize(
-    ("text", "line", "subject", "mend"),
+    ("text", "line", "subject", "hint"),
     [
         ("robot:\n  ros_parameters:\n    speed: 2.0\n", 2, "Cannot have a value", "has one underscore"),
         ("robot:\n  speed: 2.0\n", 2, "Cannot have a value", "below it ros__parameters"),
@@ -126,13 +126,13 @@ def test_words_json_and_exit_codes(package: Path, capsys: pytest.CaptureFixture[
     ],
 )
 def test_a_file_that_ros_refuses_is_found_with_the_reason(
-    tmp_path: Path, text: str, line: int, subject: str, mend: str
+    tmp_path: Path, text: str, line: int, subject: str, hint: str
 ) -> None:
     path = tmp_path / "params.yaml"
     path.write_text(text)
     (found,) = lint_files([path], path)
     assert (found.line, found.fault) == (line, "refused")
-    assert subject in found.subject and mend in found.mend
+    assert subject in found.subject and hint in found.hint
 
 
 def test_a_file_of_something_else_is_no_parameter_file_unless_a_person_names_it(tmp_path: Path) -> None:
@@ -154,7 +154,7 @@ def test_a_unit_stands_in_either_brackets(tmp_path: Path, unit: str) -> None:
     path = tmp_path / "node.py"
     path.write_text(NODE.replace("How far it sees", f"How far it sees {unit}"))
     assert [each.subject for each in lint_files([path]) if each.fault == "no unit"] == []
-    assert unit_of(f"How far it sees {unit}") == "m"
+    assert unit_in_description(f"How far it sees {unit}") == "m"
 
 
 def test_a_ratio_needs_no_unit_in_source_nor_in_what_runs(tmp_path: Path) -> None:

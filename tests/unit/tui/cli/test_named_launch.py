@@ -46,7 +46,7 @@ def test_a_path_stays_a_path(package: Path) -> None:
 
 
 @pytest.mark.parametrize("words", [["nopkg", "x.launch.py"], ["mine", "y.launch.py"], ["mine"], ["./no", "x"]])
-def test_what_is_not_there_is_told_as_launch_tells_it(
+def test_what_is_not_there_is_reported_as_by_launch(
     package: Path, tmp_path: Path, words: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     problem = found("--workspace", str(tmp_path / "ws"), "--launch", *words)[1]

@@ -5,9 +5,9 @@ from __future__ import annotations
 import tracemalloc
 from types import SimpleNamespace
 
-from bot_console.tui.cli.headless.observer import PROBE_PERIOD, Observer
+from bot_console.tui.cli.headless.observer import PROBE_PERIOD_S, Observer
 
-PERIOD = round(PROBE_PERIOD * 1e9)
+PERIOD = round(PROBE_PERIOD_S * 1e9)
 
 
 def observed(late):
@@ -19,7 +19,7 @@ def observed(late):
     return observer
 
 
-def test_the_lateness_of_a_timer_is_told():
+def test_the_lateness_of_a_timer_is_reported():
     observer = observed([0] * 98 + [1_234_567, 5_000_000])
     for _ in range(100):
         observer._probe()

@@ -8,9 +8,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from bot_console.runtime import terse
+from bot_console.runtime import exit_messages
 from bot_console.tui.cli.foreground import once_per_shell
-from bot_console.tui.cli.foreground.once_per_shell import FOLDER, tell_once
+from bot_console.tui.cli.foreground.once_per_shell import FOLDER, report_once
 
 
 @pytest.fixture(autouse=True)
@@ -18,45 +18,45 @@ def marks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The folder of the marks, in a terminal that a person reads."""
     base = tmp_path / "sockets"
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", str(base))
-    monkeypatch.setattr(terse, "is_read", lambda: True)
+    monkeypatch.setattr(exit_messages, "is_read", lambda: True)
     return base / FOLDER
 
 
-def said(capsys: pytest.CaptureFixture[str], text: str) -> str:
-    tell_once(text)
+def message(capsys: pytest.CaptureFixture[str], text: str) -> str:
+    report_once(text)
     return capsys.readouterr().err
 
 
 def test_the_same_text_is_printed_once(capsys: pytest.CaptureFixture[str]) -> None:
-    assert [said(capsys, each) for each in ("one", "one", "two", "one")] == ["one\n", "", "two\n", ""]
+    assert [message(capsys, each) for each in ("one", "one", "two", "one")] == ["one\n", "", "two\n", ""]
 
 
-def test_another_session_is_told_again_though_it_has_the_same_id(
+def test_another_session_is_reported_again_though_it_has_the_same_id(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert said(capsys, "one")
+    assert message(capsys, "one")
     monkeypatch.setattr(once_per_shell, "_start", lambda pid: "1")
-    assert said(capsys, "one") == "one\n"
+    assert message(capsys, "one") == "one\n"
 
 
 def test_where_nobody_reads_it_is_printed_each_time_and_leaves_nothing(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, marks: Path
 ) -> None:
-    monkeypatch.setattr(terse, "is_read", lambda: False)
-    assert [said(capsys, "one") for _ in range(2)] == ["one\n"] * 2
+    monkeypatch.setattr(exit_messages, "is_read", lambda: False)
+    assert [message(capsys, "one") for _ in range(2)] == ["one\n"] * 2
     assert not marks.exists()
 
 
 def test_marks_of_ended_shells_are_removed(capsys: pytest.CaptureFixture[str], marks: Path) -> None:
-    said(capsys, "one")
+    message(capsys, "one")
     ended = subprocess.Popen([sys.executable, "-c", ""])
     ended.wait()
     (marks / f"{ended.pid}.5.abc").touch()
-    said(capsys, "two")
+    message(capsys, "two")
     assert {each.name.partition(".")[0] for each in marks.iterdir()} == {str(os.getsid(0))}
 
 
 def test_where_nothing_can_be_remembered_it_is_printed(capsys: pytest.CaptureFixture[str], marks: Path) -> None:
     marks.parent.mkdir(mode=0o755)
     marks.parent.chmod(0o755)  # open to others: refused
-    assert [said(capsys, "one") for _ in range(2)] == ["one\n"] * 2
+    assert [message(capsys, "one") for _ in range(2)] == ["one\n"] * 2

@@ -20,14 +20,14 @@ print(resource.getrlimit(resource.RLIMIT_NOFILE)[0])
 
 
 @pytest.mark.parametrize(
-    ("soft", "hard", "said", "now"),
+    ("soft", "hard", "message", "now"),
     [
         (300, 300, "", "300"),
         (64, 300, "", "256"),
         (64, 200, "bot-console needs 256 open files, and at most 200 are allowed here: see `ulimit -Hn`", "64"),
     ],
 )
-def test_a_low_limit(soft: int, hard: int, said: str, now: str) -> None:
+def test_a_low_limit(soft: int, hard: int, message: str, now: str) -> None:
     program = PROGRAM.format(soft=soft, hard=hard)
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
-    assert done.stdout.split("\n")[:2] == [said, now]
+    assert done.stdout.split("\n")[:2] == [message, now]

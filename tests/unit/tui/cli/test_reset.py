@@ -50,15 +50,15 @@ def test_the_robot_is_locked_first_then_parameters_then_the_simulator(robot: Rob
         ("call", "/reset"),
     ], "a service that only has the name of a reset is not called, what is read only is not set"
     assert robot.current.drive.stopped, "it stays locked"
-    said = capsys.readouterr().out
-    assert "/robot_navigator max_speed: 1.0 -> 2.0" in said and "bot-console release lets it go" in said
+    message = capsys.readouterr().out
+    assert "/robot_navigator max_speed: 1.0 -> 2.0" in message and "bot-console release lets it go" in message
 
 
 def test_a_refusal_leaves_all_parameters_and_is_an_exit_code(robot: Robot, capsys: Any) -> None:
     robot.refusals[NAVIGATOR, "max_speed"] = "not while driving"
     assert reset._reset(robot, dry=False) == 1
-    said = capsys.readouterr().err
-    assert "not while driving" in said and "no parameter was put back" in said
+    message = capsys.readouterr().err
+    assert "not while driving" in message and "no parameter was put back" in message
     assert robot.current.drive.stopped
 
 
@@ -67,7 +67,7 @@ def test_a_dry_run_changes_nothing(robot: Robot, capsys: Any) -> None:
     assert robot.asked == [] and "max_speed: 1.0 -> 2.0" in capsys.readouterr().out
 
 
-def test_nodes_that_have_not_told_how_they_began_are_named() -> None:
+def test_nodes_that_have_not_reported_how_they_began_are_named() -> None:
     snapshot = live()[0].current
     moved, untold = reset.differing(snapshot, {(NAVIGATOR, "max_speed"): 1.0})
     assert (moved, untold) == ({}, [SIMULATOR])

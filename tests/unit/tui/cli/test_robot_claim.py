@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 from bot_console.runtime.rmw.zenoh.domain.file_lock import try_lock
-from bot_console.tui.cli import robot_claim, show
+from bot_console.tui.cli import robot_claim, screen
 from bot_console.tui.cli.arguments import parse
 from bot_console.tui.cli.headless import run as headless
 from bot_console.tui.cli.robot_claim import NAME, RobotClaim
@@ -24,29 +24,29 @@ def at_once(monkeypatch):
 def test_the_second_waits_until_the_robot_of_the_first_is_seen(tmp_path):
     first, second = RobotClaim(tmp_path), RobotClaim(tmp_path)
     assert first.held and not second.held
-    looks, told = iter([[], [], ["/simulator"]]), []
-    assert first.seen(lambda: [], lambda: told.append(1)) == [] and not told, "there is nothing to wait for"
-    assert second.seen(lambda: next(looks), lambda: told.append(1)) == ["/simulator"] and not second.held
-    assert told == [1], "who waits is told so, once"
+    polls, reported = iter([[], [], ["/simulator"]]), []
+    assert first.seen(lambda: [], lambda: reported.append(1)) == [] and not reported, "there is nothing to wait for"
+    assert second.seen(lambda: next(polls), lambda: reported.append(1)) == ["/simulator"] and not second.held
+    assert reported == [1], "who waits is told so, once"
     first.release(), first.release(), second.release()
 
 
 def test_what_the_first_gives_up_the_second_has(tmp_path):
     first, second = RobotClaim(tmp_path), RobotClaim(tmp_path)
-    looks = []
+    polls = []
 
-    def look():
-        looks.append(1)
-        if len(looks) == 3:
+    def poll():
+        polls.append(1)
+        if len(polls) == 3:
             first.release()
         return []
 
-    assert second.seen(look, list) == [] and second.held
+    assert second.seen(poll, list) == [] and second.held
     assert not RobotClaim(tmp_path).held
 
 
 def test_a_claim_without_a_robot_is_not_waited_for_without_end(tmp_path, monkeypatch):
-    monkeypatch.setattr(robot_claim, "PATIENCE", 0.0)
+    monkeypatch.setattr(robot_claim, "ROBOT_START_TIMEOUT_S", 0.0)
     first, second = RobotClaim(tmp_path), RobotClaim(tmp_path)
     assert second.seen(lambda: [], list) == [] and not second.held
     first.release()
@@ -119,11 +119,15 @@ def test_up_hands_its_claim_to_the_system(up):
 
 
 def test_up_beside_a_console_that_starts_a_robot_starts_none(up, tmp_path, monkeypatch, capsys):
-    first, looks = RobotClaim(tmp_path), iter([[], ["/simulator"]])
-    monkeypatch.setattr(background, "robot_there", lambda: next(looks))
+    first, polls = RobotClaim(tmp_path), iter([[], ["/simulator"]])
+    monkeypatch.setattr(background, "robot_there", lambda: next(polls))
     assert background.up([]) == 1 and not up
-    told = capsys.readouterr().err
-    assert "Another bot-console is starting a robot" in told and "a robot runs already" in told and "/simulator" in told
+    reported = capsys.readouterr().err
+    assert (
+        "Another bot-console is starting a robot" in reported
+        and "a robot runs already" in reported
+        and "/simulator" in reported
+    )
     first.release()
 
 
@@ -132,21 +136,21 @@ def test_nodes_that_only_have_our_names_are_not_called_a_robot(program, up, tmp_
     apart = []
     for name, value in {
         "take_part": lambda: "", "robot_claim": lambda: RobotClaim(tmp_path), "robot_there": list,
-        "run_apart": lambda: apart.append(1),
+        "run_in_worker": lambda: apart.append(1),
     }.items():  # fmt: skip
         monkeypatch.setattr(headless, name, value)
     monkeypatch.setattr(domain, "same_names_there", lambda arguments: ["/sensor_handler"])
     background.up([]) if program == "up" else headless._meet_others(parse(["--headless"]))
-    told = capsys.readouterr().err
-    assert told.startswith("nodes named as our robot's run already") and "/sensor_handler" in told and not up
+    reported = capsys.readouterr().err
+    assert reported.startswith("nodes named as our robot's run already") and "/sensor_handler" in reported and not up
     assert bool(apart) == (program == "--headless") and RobotClaim(tmp_path).held
 
 
 def test_a_headless_robot_beside_a_console_that_starts_one_runs_apart(tmp_path, monkeypatch, capsys):
-    first, looks, apart = RobotClaim(tmp_path), iter([[], ["/simulator"]]), []
+    first, polls, apart = RobotClaim(tmp_path), iter([[], ["/simulator"]]), []
     for name, value in {
-        "take_part": lambda: "", "robot_claim": lambda: RobotClaim(tmp_path), "robot_there": lambda: next(looks),
-        "run_apart": lambda: apart.append(1),
+        "take_part": lambda: "", "robot_claim": lambda: RobotClaim(tmp_path), "robot_there": lambda: next(polls),
+        "run_in_worker": lambda: apart.append(1),
     }.items():  # fmt: skip
         monkeypatch.setattr(headless, name, value)
     headless._meet_others(parse(["--headless"]))
@@ -156,7 +160,7 @@ def test_a_headless_robot_beside_a_console_that_starts_one_runs_apart(tmp_path, 
 
 def test_a_console_that_starts_beside_another_shows_the_robot_of_that_one(tmp_path, monkeypatch, capsys):
     first, shown = RobotClaim(tmp_path), []
-    looks = iter([[], ["/simulator"]])
+    polls = iter([[], ["/simulator"]])
 
     class Shown:
         def __init__(self, options, connect):
@@ -167,12 +171,12 @@ def test_a_console_that_starts_beside_another_shows_the_robot_of_that_one(tmp_pa
 
     for name, value in {
         "Session": Shown, "_prepare": lambda options: None, "_refusal": lambda: "", "why_alone": lambda: "",
-        "is_in_range": lambda: True, "others_take_part": lambda: False, "robot_there": lambda: next(looks),
+        "is_in_range": lambda: True, "others_take_part": lambda: False, "robot_there": lambda: next(polls),
         "robot_claim": lambda: RobotClaim(tmp_path),
     }.items():  # fmt: skip
-        monkeypatch.setattr(show, name, value)
+        monkeypatch.setattr(screen, name, value)
     monkeypatch.setattr("builtins.input", lambda question: "y")
-    assert show.run(parse([])) == 0 and shown[0].attach
+    assert screen.run(parse([])) == 0 and shown[0].attach
     assert "Another bot-console is starting a robot" in capsys.readouterr().err
     first.release()
     assert RobotClaim(tmp_path).held, "who attached claims nothing"

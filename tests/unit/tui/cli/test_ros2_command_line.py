@@ -17,21 +17,21 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.connection.read_only import ReadOnlyLauncher
 
-PATIENCE = 30.0
+TIMEOUT_S = 30.0
 
 
 @pytest.mark.parametrize("line", ["ros2 interface show std_msgs/msg/String", "interface show std_msgs/msg/String"])
 def test_a_line_gives_what_it_printed(line):
-    assert "string data" in Ros2CommandLine().run(line).result(PATIENCE)
+    assert "string data" in Ros2CommandLine().run(line).result(TIMEOUT_S)
 
 
 def test_a_refusal_is_printed_too():
-    assert "invalid choice" in Ros2CommandLine().run("ros2 nosuch").result(PATIENCE)
+    assert "invalid choice" in Ros2CommandLine().run("ros2 nosuch").result(TIMEOUT_S)
 
 
 def test_colcon_has_nothing_to_do_and_names_the_packages_that_are_not_there():
     line = "colcon build --symlink-install --packages-select bot_console_robot typo --event-handlers log-"
-    unknown, answer = Ros2CommandLine().run(line).result(PATIENCE).splitlines()
+    unknown, answer = Ros2CommandLine().run(line).result(TIMEOUT_S).splitlines()
     assert unknown == "ignoring unknown package 'typo' in --packages-select"
     assert answer.startswith("Nothing has to be built")
 
@@ -47,9 +47,9 @@ def test_colcon_names_the_packages_that_could_not_be_built(tmp_path, monkeypatch
     assert answers(["build", "--packages-select", "good"])[0].startswith("Nothing has to be built")
 
 
-def test_a_quotation_mark_without_its_twin_is_told():
+def test_a_quotation_mark_without_its_twin_is_reported():
     with pytest.raises(ValueError, match="quotation"):
-        Ros2CommandLine().run("ros2 topic pub 'x").result(PATIENCE)
+        Ros2CommandLine().run("ros2 topic pub 'x").result(TIMEOUT_S)
 
 
 class Launches(ReadOnlyLauncher):
@@ -75,14 +75,14 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_what_is_run_or_launched_goes_to_the_launcher(folder: Path) -> None:
     launches = Launches(Answer(True, ""))
     lines = Ros2CommandLine(launches)
-    assert "stands in the Launch pane" in lines.run("ros2 run node.py --ros-args -p 'a:=b c'").result(PATIENCE)
-    assert "x.launch.py runs" in lines.run("launch x.launch.py a:=1").result(PATIENCE)
+    assert "stands in the Launch pane" in lines.run("ros2 run node.py --ros-args -p 'a:=b c'").result(TIMEOUT_S)
+    assert "x.launch.py runs" in lines.run("launch x.launch.py a:=1").result(TIMEOUT_S)
     assert launches.launched == [
         (str(PROGRAM_LAUNCH), {"program": str(folder / "node.py"), "words": "--ros-args -p 'a:=b c'"}),
         (str(folder / "x.launch.py"), {"a": "1"}),
     ]
     with pytest.raises(ValueError, match="why"):
-        Ros2CommandLine(Launches(Answer(False, "why"))).run("run node.py").result(PATIENCE)
+        Ros2CommandLine(Launches(Answer(False, "why"))).run("run node.py").result(TIMEOUT_S)
 
 
 @pytest.mark.parametrize(
@@ -96,10 +96,10 @@ def test_what_is_run_or_launched_goes_to_the_launcher(folder: Path) -> None:
         ("launch x.launch.py wrong", "malformed launch argument"),
     ],
 )
-def test_what_cannot_be_started_is_told(folder: Path, line: str, problem: str) -> None:
+def test_what_cannot_be_started_is_reported(folder: Path, line: str, problem: str) -> None:
     launches = Launches(Answer(True, ""))
     with pytest.raises(ValueError, match=problem):
-        Ros2CommandLine(launches).run(line).result(PATIENCE)
+        Ros2CommandLine(launches).run(line).result(TIMEOUT_S)
     assert launches.launched == []
 
 
@@ -109,13 +109,13 @@ def test_lines_that_start_nothing_are_run_as_ever(folder: Path, line: str) -> No
 
 
 def until(condition: Any) -> None:
-    deadline = time.monotonic() + PATIENCE
+    deadline = time.monotonic() + TIMEOUT_S
     while not condition():
         assert time.monotonic() < deadline
         threading.Event().wait(0.01)
 
 
-def test_a_line_that_goes_on_is_read_while_it_runs_and_ends_when_it_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_line_that_goes_on_is_read_while_it_runs_and_ends_when_requested(monkeypatch: pytest.MonkeyPatch) -> None:
     import rclpy
     from std_msgs.msg import String
 

@@ -54,14 +54,14 @@ def test_scripts_and_other_programs_find_ros2(name: str, home: Path):
 
 
 @pytest.mark.parametrize("name", SHELLS)
-def test_the_commands_of_the_page_are_there_and_the_distribution_is_told(name: str, home: Path):
+def test_the_commands_of_the_page_are_there_and_the_distribution_is_reported(name: str, home: Path):
     names = ["rqt", "rqt_console", "rqt_graph", "rqt_plot", "rqt_reconfigure", "rqt_robot_steering", "ros2", "colcon"]
     found = shell(name, home, "\n".join(f"command -v {each}" for each in names) + "\necho $ROS_DISTRO")
     assert [os.path.basename(line) for line in found.split()] == [*names, "jazzy"]
 
 
 @pytest.mark.parametrize("name", SHELLS)
-def test_colcon_says_that_nothing_has_to_be_built(name: str, home: Path):
+def test_colcon_reports_that_nothing_has_to_be_built(name: str, home: Path):
     assert shell(name, home, f"cd {home}; colcon build").startswith("Nothing has to be built or sourced: ")
 
 

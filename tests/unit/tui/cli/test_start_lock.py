@@ -18,7 +18,7 @@ from bot_console.tui.cli.verbs import background
 if os.name == "nt":
     pytest.skip("a process has other signals there", allow_module_level=True)
 
-PATIENCE = 20.0
+TIMEOUT_S = 20.0
 
 
 def test_the_second_start_waits_for_the_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -27,19 +27,19 @@ def test_the_second_start_waits_for_the_first(tmp_path: Path, monkeypatch: pytes
     monkeypatch.setattr(module, "SIGNALS", [])  # which only a main thread may hold back
 
     def second() -> None:
-        with start_lock(lock, PATIENCE) as got:
+        with start_lock(lock, TIMEOUT_S) as got:
             seen.append(f"second {got}")
 
-    with start_lock(lock, PATIENCE) as got:
+    with start_lock(lock, TIMEOUT_S) as got:
         other = threading.Thread(target=second)
         other.start()
-        assert waits.wait(PATIENCE)
+        assert waits.wait(TIMEOUT_S)
         seen.append(f"first {got}")
-    other.join(PATIENCE)
+    other.join(TIMEOUT_S)
     assert seen == ["first True", "second True"]
 
 
-def test_one_that_never_ends_is_waited_for_no_longer_than_said(tmp_path: Path) -> None:
+def test_one_that_never_ends_is_waited_for_no_longer_than_the_timeout(tmp_path: Path) -> None:
     with start_lock(tmp_path / "lock", 0.0), start_lock(tmp_path / "lock", 0.0) as got:
         assert not got
 
@@ -63,7 +63,7 @@ def started(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[object]:
     return calls
 
 
-def test_one_that_began_while_we_looked_is_not_doubled(
+def test_one_that_began_during_the_search_is_not_doubled(
     started: list[object], monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def begins_meanwhile() -> list[str]:
@@ -94,15 +94,15 @@ def test_a_signal_amid_the_start_waits_until_the_system_is_written_down(
     assert signal.signal(signal.SIGUSR1, before) is signal.default_int_handler
 
 
-def test_an_interrupt_while_it_starts_says_how_to_end_it(
+def test_an_interrupt_while_it_starts_reports_how_to_end_it(
     started: list[object], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def looks() -> list[str]:
+    def polls() -> list[str]:
         if started:
             raise KeyboardInterrupt
         return []
 
-    monkeypatch.setattr(background, "robot_there", looks)
+    monkeypatch.setattr(background, "robot_there", polls)
     with pytest.raises(KeyboardInterrupt):
         background.up([])
     assert "it goes on starting: process" in capsys.readouterr().err
@@ -120,8 +120,8 @@ def test_one_that_does_not_come_up_in_time_is_not_called_running(
     monkeypatch.setattr(background, "robot_there", list)
     monkeypatch.setattr(background, "_runs", lambda pid: False)
     assert background.up(words) == 1
-    said = capsys.readouterr()
-    assert said.err.startswith(what) and f"process {os.getpid()}" in said.err and not said.out
+    message = capsys.readouterr()
+    assert message.err.startswith(what) and f"process {os.getpid()}" in message.err and not message.out
 
 
 def test_one_that_nobody_could_reach_is_not_started(

@@ -8,24 +8,24 @@ from pathlib import Path
 import pytest
 from bot_console.runtime.process import on_notice
 from bot_console.tui.cli.system import system_log
-from bot_console.tui.cli.system.system_log import KEPT_PARTS, KEPT_SYSTEMS, SystemLog, new_log
+from bot_console.tui.cli.system.system_log import MAX_OLD_FILES, MAX_SYSTEMS, SystemLog, new_log
 
 
 def test_lines_of_loggers_and_prints_in_files_that_take_turns(tmp_path: Path) -> None:
     path = tmp_path / "a.log"
-    log = SystemLog(path, most_bytes=200)
+    log = SystemLog(path, max_bytes=200)
     log.logged(1_700_000_000_123_456_789, 30, "talker", "100 % \udcff", ("", "", 0))
     log.printed(20, "talker-1", "up")
     log.close()
     first, second = path.read_text(encoding="utf-8").splitlines()
     assert first == "[WARN] [1700000000.123457] [talker]: 100 % \\udcff"
     assert second.startswith("[INFO] [") and second.endswith("] [talker-1]: up")
-    log = SystemLog(path, most_bytes=200)
+    log = SystemLog(path, max_bytes=200)
     for number in range(100):
         log.printed(20, "n", f"line {number}")
     log.close()
     files = sorted(each.name for each in tmp_path.iterdir())
-    assert files == ["a.log", *(f"a.log.{part}" for part in range(1, KEPT_PARTS + 1))]
+    assert files == ["a.log", *(f"a.log.{part}" for part in range(1, MAX_OLD_FILES + 1))]
     assert all(each.stat().st_size <= 200 for each in tmp_path.iterdir())
     assert "line 99" in path.read_text(encoding="utf-8")
 
@@ -33,28 +33,28 @@ def test_lines_of_loggers_and_prints_in_files_that_take_turns(tmp_path: Path) ->
 def test_logs_of_old_systems_go_with_all_their_parts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(system_log, "state_folder", lambda: tmp_path)
     folder = new_log(1).parent
-    for number in range(KEPT_SYSTEMS + 2):
+    for number in range(MAX_SYSTEMS + 2):
         for name in (f"{number}.log", f"{number}.log.1"):
             (folder / name).write_text("x")
             os.utime(folder / name, (number, number))
     new_log(2)
     kept = {each.name for each in folder.iterdir()}
-    assert kept == {f"{number}.log{part}" for number in range(3, KEPT_SYSTEMS + 2) for part in ("", ".1")}
+    assert kept == {f"{number}.log{part}" for number in range(3, MAX_SYSTEMS + 2) for part in ("", ".1")}
 
 
-def test_one_that_cannot_be_written_says_so_once_and_never_by_itself(
+def test_one_that_cannot_be_written_reports_it_once_and_never_by_itself(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    log, told = SystemLog(tmp_path / "a.log"), list[str]()
+    log, reported = SystemLog(tmp_path / "a.log"), list[str]()
     (tmp_path / "a.log").mkdir()
 
     def notice(process: object, text: str) -> None:
-        told.append(text)
+        reported.append(text)
         log.printed(30, "bot-console", text)
 
     forget = on_notice(notice)
     for number in range(3):
         log.printed(20, "talker", f"line {number}")
     forget()
-    assert told == [f"log files are not complete: {tmp_path} cannot be written (Is a directory)"]
+    assert reported == [f"log files are not complete: {tmp_path} cannot be written (Is a directory)"]
     assert capsys.readouterr().err == ""

@@ -8,8 +8,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from bot_console.runtime.terse import told
-from bot_console.tui.cli import show
+from bot_console.runtime.exit_messages import run_and_report
+from bot_console.tui.cli import screen
 from bot_console.tui.cli.arguments import parse
 from bot_console.tui.cli.main import main
 from bot_console.tui.cli.verbs import background
@@ -36,19 +36,19 @@ def deleted_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_console_needs_no_home(no_home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     logs: list[Path] = []
-    monkeypatch.setattr(show, "start_host", lambda words, log: logs.append(log))
-    show._host(parse([]))
+    monkeypatch.setattr(screen, "start_host", lambda words, log: logs.append(log))
+    screen._host(parse([]))
     assert logs == [Path(os.devnull)]
 
 
-def test_a_background_system_says_where_its_log_would_go(
+def test_a_background_system_reports_where_its_log_would_go(
     no_home: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(background, "take_part", lambda: "")
     monkeypatch.setattr(background, "robot_there", list)
     assert background.up([]) == 1
-    said = capsys.readouterr().err
-    assert said.startswith(f"not started: the log cannot be kept in {no_home}/state: ") and OVERRIDE in said
+    message = capsys.readouterr().err
+    assert message.startswith(f"not started: the log cannot be kept in {no_home}/state: ") and OVERRIDE in message
 
 
 @pytest.mark.parametrize(
@@ -57,11 +57,11 @@ def test_a_background_system_says_where_its_log_would_go(
      ["node", "list"], ["--headless"], ["--headless", "--fast"], ["graph"], ["reset"], ["lint", "running"]],
     ids=" ".join,
 )  # fmt: skip
-def test_a_domain_that_is_no_number_is_told_in_one_line(
+def test_a_domain_that_is_no_number_is_reported_in_one_line(
     words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", "x")
-    assert told(lambda: main(words)) != 0
+    assert run_and_report(lambda: main(words)) != 0
     (line,) = capsys.readouterr().err.splitlines()
     assert "ROS_DOMAIN_ID is 'x', not a number" in line
 
@@ -75,11 +75,11 @@ LONG = "a" * 300
      ["pkg", "create", LONG], ["launch_test", LONG]],
     ids=lambda words: " ".join(words[:-1]),
 )  # fmt: skip
-def test_a_name_too_long_for_a_file_is_told_in_one_line(
+def test_a_name_too_long_for_a_file_is_reported_in_one_line(
     words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    assert told(lambda: main(words)) == 1
+    assert run_and_report(lambda: main(words)) == 1
     (line,) = [each for each in capsys.readouterr().err.splitlines() if "too long" in each]
     assert "'" + "a" * 30 in line.replace("./", "") and len(line) < 200
 
@@ -92,11 +92,11 @@ def test_a_launch_file_with_too_long_a_name_is_no_file() -> None:
 def test_a_run_in_a_deleted_folder_is_refused_in_one_line(
     words: list[str], deleted_folder: None, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert told(lambda: main(words)) == 1
+    assert run_and_report(lambda: main(words)) == 1
     assert capsys.readouterr().err.endswith(MOVED)
 
 
-def test_an_export_from_a_deleted_folder_says_so(deleted_folder: None, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_export_from_a_deleted_folder_reports_it(deleted_folder: None, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         main(["export", "x"])
     assert capsys.readouterr().err == f"not exported: {MOVED}"
@@ -109,7 +109,7 @@ def test_an_empty_name_is_no_launch_file(capsys: pytest.CaptureFixture[str]) -> 
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "reported"),
     [
         (["--launch", __file__, "more"], "malformed launch argument 'more', expected format '<name>:=<value>'"),
         (["--launch", "package", "x.launch.py", "more"], "malformed launch argument 'more', expected"),
@@ -117,12 +117,12 @@ def test_an_empty_name_is_no_launch_file(capsys: pytest.CaptureFixture[str]) -> 
         (["--launch", "package", "x.launch.py", "--profile", "outdoor"], "give either a profile or --launch"),
     ],
 )
-def test_words_behind_launch_are_told_what_they_are_not(
-    capsys: pytest.CaptureFixture[str], words: list[str], told: str
+def test_words_behind_launch_are_reported_as_unknown(
+    capsys: pytest.CaptureFixture[str], words: list[str], reported: str
 ) -> None:
     with pytest.raises(SystemExit):
         parse(words)
-    assert told in capsys.readouterr().err
+    assert reported in capsys.readouterr().err
 
 
 def test_an_empty_name_is_no_profile(capsys: pytest.CaptureFixture[str]) -> None:
@@ -138,7 +138,7 @@ def test_an_empty_name_is_no_script_of_a_check(capsys: pytest.CaptureFixture[str
 
 
 @pytest.mark.parametrize("words", [[], ["attach"], ["--profile", "indoor"]])
-def test_a_system_without_terminals_of_this_kind_is_told_where_the_console_runs(
+def test_a_system_without_terminals_of_this_kind_is_reported_where_the_console_runs(
     words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setitem(sys.modules, "termios", None)
@@ -166,13 +166,13 @@ def test_an_empty_name_is_no_bag(words: list[str], capsys: pytest.CaptureFixture
     ],
     ids=repr,
 )
-def test_a_limit_of_this_process_is_told_in_one_line(
+def test_a_limit_of_this_process_is_reported_in_one_line(
     error: Exception, word: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def run() -> int:
         raise error
 
-    assert told(run) == 1
+    assert run_and_report(run) == 1
     (line,) = capsys.readouterr().err.splitlines()
     assert word in line
 
@@ -182,4 +182,4 @@ def test_other_errors_are_raised_as_they_are() -> None:
         raise RuntimeError("a mistake")
 
     with pytest.raises(RuntimeError, match="a mistake"):
-        told(run)
+        run_and_report(run)

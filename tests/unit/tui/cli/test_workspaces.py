@@ -5,15 +5,15 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import pytest
-from bot_console.runtime.workspace.own import NAME
+from bot_console.runtime.workspace.builtin_package import NAME
 from bot_console.tui.cli.system import workspaces
 
 
-def test_a_package_of_our_name_is_told(monkeypatch, capsys, tmp_path):
+def test_a_package_of_our_name_is_reported(monkeypatch, capsys, tmp_path):
     own = SimpleNamespace(folder=tmp_path)
     monkeypatch.setattr(workspaces, "workspace", lambda: SimpleNamespace(packages={NAME: own}))
     monkeypatch.setattr(workspaces, "is_own", lambda found: False)
-    workspaces.tell_whose(NAME)
+    workspaces.report_workspace(NAME)
     assert f"package '{NAME}' is the one in {tmp_path}" in capsys.readouterr().err
 
 
@@ -25,7 +25,7 @@ def test_for_another_name_no_folder_is_searched(named, monkeypatch):
             pytest.fail("packages were looked for")
 
     monkeypatch.setattr(workspaces, "workspace", Unsearched)
-    workspaces.tell_whose(named)
+    workspaces.report_workspace(named)
 
 
 def test_launch_files_of_ones_own_packages_stand_before_those_that_come_along(monkeypatch):

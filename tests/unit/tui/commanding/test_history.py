@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from bot_console.tui.commanding.history import MOST, LineHistory
+from bot_console.tui.commanding.history import MAX_LINES, LineHistory
 
 
 def filled(path: Path, *lines: str) -> LineHistory:
@@ -43,6 +43,6 @@ def test_what_cannot_be_kept_is_known_until_the_end(tmp_path: Path) -> None:
 
 
 def test_only_so_many_are_kept(tmp_path: Path) -> None:
-    (tmp_path / "lines").write_text("".join(f"line {number}\n" for number in range(2 * MOST)))
+    (tmp_path / "lines").write_text("".join(f"line {number}\n" for number in range(2 * MAX_LINES)))
     history = filled(tmp_path / "lines", "new")
-    assert len(history.lines()) == MOST and history.lines()[-1] == "new"
+    assert len(history.lines()) == MAX_LINES and history.lines()[-1] == "new"

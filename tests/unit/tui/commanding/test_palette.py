@@ -80,7 +80,7 @@ def test_titles_and_whole_words_come_first(typed: str, first: str) -> None:
     assert found(typed)[0] == first
 
 
-def test_scattered_letters_are_left_out_where_words_match() -> None:
+def test_scattered_characters_are_left_out_where_words_match() -> None:
     assert "parameters.edit" not in found("load") and found("diagnstics")
 
 

@@ -18,13 +18,13 @@ class Screen:
     """Keeps what it was told; knows two layouts."""
 
     def __init__(self) -> None:
-        self.told: list[str] = []
+        self.reported: list[str] = []
 
     def notify(self, message: str, **_: Any) -> None:
-        self.told.append(message)
+        self.reported.append(message)
 
     def push_screen(self, screen: Any) -> None:
-        self.told.append(type(screen).__name__)
+        self.reported.append(type(screen).__name__)
 
     def call_later(self, callback: Any, *args: Any) -> None:
         callback(*args)
@@ -36,7 +36,7 @@ class Screen:
         return "no room" if [*words] == ["topic", "hz", "/full"] else ""
 
     def show_bag(self, folder: str) -> None:
-        self.told.append(f"shown: {folder}")
+        self.reported.append(f"shown: {folder}")
 
 
 def failed(why: str) -> Future[str]:
@@ -53,7 +53,7 @@ def runner() -> tuple[LineRunner, Any, FakeCommandLine]:
 
 
 @pytest.mark.parametrize(
-    ("text", "mend"),
+    ("text", "hint"),
     [
         ("set", "write it as: set NODE PARAMETER VALUE"),
         ("set /robot max_speed 1", "there is no node /robot with parameters"),
@@ -72,8 +72,8 @@ def runner() -> tuple[LineRunner, Any, FakeCommandLine]:
         ("topic echo 'x", "a quotation mark has no twin"),
     ],
 )
-def test_what_is_wrong_says_what_to_type(text: str, mend: str) -> None:
-    assert mend in runner()[0].wrong(text)
+def test_what_is_wrong_reports_what_to_type(text: str, hint: str) -> None:
+    assert hint in runner()[0].wrong(text)
 
 
 @pytest.mark.parametrize(
@@ -84,9 +84,9 @@ def test_what_may_be_right_is_run(text: str) -> None:
 
 
 @pytest.mark.parametrize("begin", ["set", "param set", "ros2 param set"])
-def test_what_a_value_takes_from_safety_is_said_before_enter(begin: str) -> None:
-    assert runner()[0].outlook(f"{begin} /robot_navigator max_speed 4.0").startswith("⚠")
-    assert not runner()[0].outlook(f"{begin} /robot_navigator max_speed 0.5").startswith("⚠")
+def test_what_a_value_takes_from_safety_is_reported_before_enter(begin: str) -> None:
+    assert runner()[0].preview(f"{begin} /robot_navigator max_speed 4.0").startswith("⚠")
+    assert not runner()[0].preview(f"{begin} /robot_navigator max_speed 0.5").startswith("⚠")
 
 
 def test_a_recording_is_begun_once_and_ended() -> None:
@@ -95,13 +95,13 @@ def test_a_recording_is_begun_once_and_ended() -> None:
     lines.run("record bags/mine")
     lines.run("record other")
     lines.run("record stop")
-    assert screen.told[0] == "Nothing is recorded; record begins it."
-    assert "bags/mine is being recorded; record stop ends it." in screen.told
+    assert screen.reported[0] == "Nothing is recorded; record begins it."
+    assert "bags/mine is being recorded; record stop ends it." in screen.reported
     assert lines.wrong("record a b") == "write it as: record [FOLDER] | record stop"
 
 
 @pytest.mark.parametrize(
-    ("line", "printed", "told"),
+    ("line", "printed", "reported"),
     [
         ("ros2 run node.py", done("node.py runs: see Launch\n"), "node.py runs: see Launch"),
         ("launch none x.launch.py", failed("there is no package none"), "there is no package none"),
@@ -109,16 +109,18 @@ def test_a_recording_is_begun_once_and_ended() -> None:
         ("param get /a b", done("Integer value is: 1\n"), "OutputScreen"),
     ],
 )
-def test_what_is_started_is_told_in_a_corner_and_takes_no_keys(line: str, printed: Future[str], told: str) -> None:
+def test_what_is_started_is_reported_in_a_corner_and_takes_no_keys(
+    line: str, printed: Future[str], reported: str
+) -> None:
     run, screen, lines = runner()
     lines.commands = lambda: ("run", "launch", "param")
     lines.run = lambda _: printed
     run.run(line)
-    assert screen.told == [told]
+    assert screen.reported == [reported]
 
 
 def test_a_bag_is_opened_where_it_is(tmp_path: Path) -> None:
     lines, screen, _ = runner()
     lines.run(f"bag open '{tmp_path}'")
     lines.run("bag open /no/such/bag")
-    assert screen.told == [f"shown: {tmp_path}", "there is no bag /no/such/bag"]
+    assert screen.reported == [f"shown: {tmp_path}", "there is no bag /no/such/bag"]

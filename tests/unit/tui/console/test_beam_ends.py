@@ -17,7 +17,7 @@ SCAN = LaserScan(
 )
 
 
-def test_ends_lie_around_the_pose_and_are_worked_out_when_they_are_looked_at():
+def test_ends_lie_around_the_pose_and_are_worked_out_when_they_are_inspected():
     ends = BeamEnds(SCAN, Pose(1.0, 2.0, math.pi / 2))
     assert ends.nearest == 1.0 and len(ends) == 3 and bool(ends)
     assert "points" not in vars(ends), "nobody has looked"

@@ -1,7 +1,7 @@
 """How long the console waits for an answer."""
 
 import pytest
-from bot_console.tui.console.calls import LOOKS, PATIENCE, Calls, NoAnswer
+from bot_console.tui.console.calls import ANSWER_TIMEOUT_S, MIN_POLLS, Calls, NoAnswer
 from rclpy.task import Future
 from std_srvs.srv import Trigger
 
@@ -31,12 +31,12 @@ class StubNode:
         pass
 
 
-def test_time_in_which_the_console_itself_stood_still_takes_no_patience():
+def test_time_in_which_the_console_itself_stood_still_takes_no_timeout():
     node = StubNode()
     asking = Calls(node, None).ask(Trigger, "/wait", Trigger.Request())
     asking.send(None)
-    assert node.period * LOOKS == PATIENCE
-    for _ in range(LOOKS - 1):
+    assert node.period * MIN_POLLS == ANSWER_TIMEOUT_S
+    for _ in range(MIN_POLLS - 1):
         node.fire()  # each may come as late as it likes
         assert not node.answer.done()
     node.fire()
@@ -44,7 +44,7 @@ def test_time_in_which_the_console_itself_stood_still_takes_no_patience():
         asking.send(None)
 
 
-def test_a_server_that_went_away_is_told_without_waiting_for_the_rest_of_the_time():
+def test_a_server_that_went_away_is_reported_without_waiting_for_the_rest_of_the_time():
     node = StubNode()
     asking = Calls(node, None).ask(Trigger, "/home", Trigger.Request(), 30.0)
     asking.send(None)

@@ -8,7 +8,7 @@ from bot_console.tui.console.connection import linked_console
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.graph.watch import GraphWatch
 from rclpy.context import Context
-from rigs import PATIENCE, until
+from rigs import TIMEOUT_S, until
 from std_srvs.srv import Trigger
 
 _domains = itertools.count(8000)
@@ -44,8 +44,8 @@ def console(domain):
 def test_before_it_has_begun_everything_is_refused_and_nothing_is_known(console):
     assert console.snapshot().graph.nodes == ()
     assert console.snapshot() is console.snapshot()
-    assert "still connecting" in console.undo().result(PATIENCE).text
-    assert "still connecting" in console.set_parameters("/n", {"a": 1}).result(PATIENCE)[0].reason
+    assert "still connecting" in console.undo().result(TIMEOUT_S).text
+    assert "still connecting" in console.set_parameters("/n", {"a": 1}).result(TIMEOUT_S)[0].reason
     assert not console.watch("/t/data").ok
     console.drive(1.0, 0.0)
     console.all_stop()
@@ -54,41 +54,41 @@ def test_before_it_has_begun_everything_is_refused_and_nothing_is_known(console)
 
 def test_whoever_waits_when_it_is_closed_gets_an_answer(console, idle):
     console.start()
-    assert console.wait_ready(PATIENCE)
+    assert console.wait_ready(TIMEOUT_S)
     waiting = console.call("/wait", "std_srvs/srv/Trigger", {})
     console.close()
-    answer = waiting.result(PATIENCE)
+    answer = waiting.result(TIMEOUT_S)
     assert (answer.ok, answer.text) == (False, "the console has closed")
 
 
-def test_a_link_that_breaks_says_where_and_refuses_from_then_on(console, idle, monkeypatch):
+def test_a_link_that_breaks_reports_where_and_refuses_from_then_on(console, idle, monkeypatch):
     console.start()
-    assert console.wait_ready(PATIENCE)
+    assert console.wait_ready(TIMEOUT_S)
     waiting = console.call("/wait", "std_srvs/srv/Trigger", {})
-    assert not console.call("/nowhere", "std_srvs/srv/Trigger", {}).result(PATIENCE).ok, "so the one before is sent"
+    assert not console.call("/nowhere", "std_srvs/srv/Trigger", {}).result(TIMEOUT_S).ok, "so the one before is sent"
 
     def broken(self):
         raise RuntimeError("the graph is gone")
 
-    monkeypatch.setattr(GraphWatch, "look", broken)
+    monkeypatch.setattr(GraphWatch, "poll", broken)
     until(lambda: console.snapshot().problem, "the problem")
     assert "the graph is gone" in console.snapshot().problem
     assert "test_connection.py" in console.snapshot().problem
-    assert "the graph is gone" in waiting.result(PATIENCE).text
-    assert "the graph is gone" in console.undo().result(PATIENCE).text
+    assert "the graph is gone" in waiting.result(TIMEOUT_S).text
+    assert "the graph is gone" in console.undo().result(TIMEOUT_S).text
 
 
 def test_closing_before_it_has_connected_leaves_no_thread(console):
     console._closed = True  # as if `close` came while the thread is still importing
     console.start()
-    console._thread.join(PATIENCE)
+    console._thread.join(TIMEOUT_S)
     assert not console._thread.is_alive()
 
 
 def test_a_stop_that_is_asked_for_before_it_has_begun_is_sent_as_soon_as_it_is_linked(console):
     console.all_stop(True, "at the first key")
     console.start()
-    assert console.wait_ready(PATIENCE)
+    assert console.wait_ready(TIMEOUT_S)
     assert console.snapshot().drive.stopped_here
     assert console.snapshot().drive.stop_reason == "at the first key"
 
@@ -97,5 +97,5 @@ def test_a_stop_that_was_taken_back_before_it_has_begun_is_not_sent(console):
     console.all_stop(True)
     console.all_stop(False)
     console.start()
-    assert console.wait_ready(PATIENCE)
+    assert console.wait_ready(TIMEOUT_S)
     assert not console.snapshot().drive.stopped

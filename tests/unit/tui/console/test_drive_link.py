@@ -46,9 +46,9 @@ class Bench:
         for topic in topics:
             self.robot.create_subscription(Twist, topic, self._listener(topic), 10)
         self.link = DriveLink(self.console)
-        told = (Endpoint("/diagnostics", ("diagnostic_msgs/msg/DiagnosticArray",)),) if arbiter else ()
+        reported = (Endpoint("/diagnostics", ("diagnostic_msgs/msg/DiagnosticArray",)),) if arbiter else ()
         listened = tuple(Endpoint(topic, (TWIST,)) for topic in topics)
-        self.link.follow(GraphInfo(nodes=(NodeInfo("/robot", subscriptions=listened, publishers=told),)))
+        self.link.follow(GraphInfo(nodes=(NodeInfo("/robot", subscriptions=listened, publishers=reported),)))
 
     def _listener(self, topic):
         return lambda message: self.got.append((topic, message.linear.x))
@@ -116,7 +116,7 @@ def test_a_velocity_that_is_no_number_is_refused(bench, value):
     assert bench.got == []
 
 
-def test_the_arbiters_reason_is_told():
+def test_the_arbiters_reason_is_reported():
     bench = Bench("/cmd_vel", arbiter=True)
     publisher = bench.robot.create_publisher(DiagnosticArray, "/diagnostics", 10)
     values = {"limited_by": "warning_distance", "final.linear": "0.2", "final.angular": "0"}
@@ -128,7 +128,7 @@ def test_the_arbiters_reason_is_told():
     assert (info.limited_by, info.asked, info.limited) == ("warning_distance", (0.8, 0.0), (0.2, 0.0))
 
 
-def test_silence_is_told(bench, monkeypatch):
+def test_silence_is_reported(bench, monkeypatch):
     other = bench.robot.create_publisher(Twist, "/cmd_vel", 10)
     other.publish(Twist())
     bench.settle()
@@ -183,7 +183,7 @@ def test_a_stop_that_its_lock_did_not_live_to_acknowledge_goes_on_as_zeros_until
 def test_a_stop_goes_on_as_zeros_until_its_lock_acknowledges_it():
     bench = Bench("/cmd_vel", "/cmd_vel_teleop")
     topic, kind = "/emergency_stop/arbiter", "diagnostic_msgs/msg/DiagnosticStatus"
-    says = bench.robot.create_publisher(DiagnosticStatus, topic, QoSProfile(depth=1, durability=LATCHED))
+    message_of = bench.robot.create_publisher(DiagnosticStatus, topic, QoSProfile(depth=1, durability=LATCHED))
     arbiter = NodeInfo("/arbiter", publishers=(Endpoint(topic, (kind,)),))
     bench.link.follow(GraphInfo(nodes=(*_listening("/cmd_vel", "/cmd_vel_teleop").nodes, arbiter)))
     bench.link.stop(True, "ALL STOP")
@@ -193,7 +193,7 @@ def test_a_stop_goes_on_as_zeros_until_its_lock_acknowledges_it():
         bench.link._repeat()
         bench.settle()
         assert sorted(bench.got) == [("/cmd_vel", 0.0), ("/cmd_vel_teleop", 0.0)]
-    says.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="true")]))
+    message_of.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="true")]))
     bench.settle()
     bench.got.clear()
     bench.link._repeat()
@@ -262,7 +262,7 @@ def test_a_topic_of_another_name_is_driven_only_when_it_is_chosen():
     assert set(bench.got[1:]) == {("/elsewhere/velocity", 0.0)}
 
 
-def test_a_robot_that_was_only_looked_at_hears_nothing_when_the_console_leaves():
+def test_a_robot_that_was_only_inspected_hears_nothing_when_the_console_leaves():
     bench = Bench("/cmd_vel")
     bench.link.close()
     bench.settle()

@@ -15,7 +15,7 @@ from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-from rigs import PATIENCE, until
+from rigs import TIMEOUT_S, until
 
 _domains = itertools.count(8200)
 
@@ -36,11 +36,11 @@ def console(monkeypatch: pytest.MonkeyPatch) -> Iterator[RosConsole]:
     spinning.start()
     made = RosConsole()
     made.start()
-    assert made.wait_ready(PATIENCE)
+    assert made.wait_ready(TIMEOUT_S)
     yield made
     made.close()
     executor.shutdown()
-    spinning.join(PATIENCE)
+    spinning.join(TIMEOUT_S)
     node.destroy_node()
     context.try_shutdown()
 
@@ -49,14 +49,14 @@ def test_a_stop_and_its_release_are_acknowledged_while_a_look_at_the_graph_takes
     console: RosConsole, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     until(lambda: console.snapshot().drive.lockable, "the lock")
-    looking, over = threading.Event(), threading.Event()
+    watching, over = threading.Event(), threading.Event()
 
-    def look(self: GraphWatch) -> None:
-        looking.set()
-        over.wait(PATIENCE)
+    def poll(self: GraphWatch) -> None:
+        watching.set()
+        over.wait(TIMEOUT_S)
 
-    monkeypatch.setattr(GraphWatch, "look", look)
-    assert looking.wait(PATIENCE)
+    monkeypatch.setattr(GraphWatch, "poll", poll)
+    assert watching.wait(TIMEOUT_S)
     try:
         console.all_stop()
         until(lambda: console.snapshot().drive.stop_confirmed, "the acknowledgement")

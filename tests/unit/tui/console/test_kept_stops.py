@@ -168,7 +168,7 @@ def test_a_lock_that_no_longer_reports_confirms_nothing(rig: StopRig, monkeypatc
     assert anna.info.confirmed
 
 
-def test_a_console_that_lost_all_locks_says_that_its_stop_is_not_confirmed_and_gives_it_to_those_that_come(
+def test_a_console_that_lost_all_locks_reports_that_its_stop_is_not_confirmed_and_gives_it_to_those_that_come(
     rig: StopRig,
 ) -> None:
     rig.stop_file = ""

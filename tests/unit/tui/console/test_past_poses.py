@@ -1,6 +1,6 @@
 """Where the robot was, by moment."""
 
-from bot_console.tui.console.robot.past_poses import APART, PastPoses
+from bot_console.tui.console.robot.past_poses import MAX_GAP, PastPoses
 from bot_console.tui.console.robot.robot_model import Pose
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Pose as Message
@@ -12,8 +12,8 @@ def test_the_pose_of_a_moment_is_the_newest_one_before_it_and_the_oldest_fall_ou
     past = PastPoses(capacity=4)
     assert past.at(START) is None
     for step in range(6):
-        past.add(START + step * APART, Message(position=Point(x=float(step), y=1.0)))
-        past.add(START + step * APART + 1, Message(position=Point(x=99.0)))
-    assert past.at(START + 5 * APART) == Pose(5.0, 1.0, 0.0) == past.at(START + 9 * APART)
-    assert past.at(START + 3 * APART - 1) == Pose(2.0, 1.0, 0.0)
-    assert past.at(START + 2 * APART - 1) is None, "no longer known"
+        past.add(START + step * MAX_GAP, Message(position=Point(x=float(step), y=1.0)))
+        past.add(START + step * MAX_GAP + 1, Message(position=Point(x=99.0)))
+    assert past.at(START + 5 * MAX_GAP) == Pose(5.0, 1.0, 0.0) == past.at(START + 9 * MAX_GAP)
+    assert past.at(START + 3 * MAX_GAP - 1) == Pose(2.0, 1.0, 0.0)
+    assert past.at(START + 2 * MAX_GAP - 1) is None, "no longer known"

@@ -9,7 +9,7 @@ from bot_console.tui.cli.live.vitals import SystemVitals
 from bot_console.tui.console.launch.vitals import FROZEN, HANGS, Usage
 
 
-class Told:
+class Reported:
     """Vitals that a test sets."""
 
     def __init__(self) -> None:
@@ -39,66 +39,66 @@ class Told:
 
 
 def test_a_share_over_each_second() -> None:
-    told = Told()
-    usage = Usage(told, 0.0)
-    told.seconds = 0.5
-    usage.look(0.9)
+    reported = Reported()
+    usage = Usage(reported, 0.0)
+    reported.seconds = 0.5
+    usage.poll(0.9)
     assert (usage.share, usage.memory) == (None, None)
-    usage.look(1.0)
+    usage.poll(1.0)
     assert (usage.share, usage.memory) == (0.5, 20)
-    told.seconds, told.bytes = 3.5, 1_231_000_000
-    usage.look(3.0)
+    reported.seconds, reported.bytes = 3.5, 1_231_000_000
+    usage.poll(3.0)
     assert (usage.share, usage.memory) == (1.5, 1230)
 
 
 def test_how_long_it_has_not_waited() -> None:
-    told = Told()
-    usage = Usage(told, 0.0)
+    reported = Reported()
+    usage = Usage(reported, 0.0)
     for second, used in enumerate((0.95, 1.9, 2.0, 3.0), 1):
-        told.seconds = used
-        usage.look(float(second))
+        reported.seconds = used
+        usage.poll(float(second))
     assert usage.busy_s == 1.0
 
 
 def test_one_that_gets_little_of_a_busy_processor_has_not_waited_either() -> None:
-    told = Told()
-    told.wanted = 5.0
-    usage = Usage(told, 0.0)
+    reported = Reported()
+    reported.wanted = 5.0
+    usage = Usage(reported, 0.0)
     for second, wanted in enumerate((6.0, 7.0, 7.2, 8.2), 1):
-        told.seconds, told.wanted = 0.1 * second, wanted
-        usage.look(float(second))
+        reported.seconds, reported.wanted = 0.1 * second, wanted
+        usage.poll(float(second))
     assert (usage.share, usage.busy_s) == (0.1, 1.0)
 
 
 def test_a_frozen_one_is_seen_within_half_a_second() -> None:
-    told = Told()
-    usage = Usage(told, 0.0)
-    told.stopped = True
-    usage.look(0.4)
+    reported = Reported()
+    usage = Usage(reported, 0.0)
+    reported.stopped = True
+    usage.poll(0.4)
     assert not usage.stands
-    usage.look(0.5)
+    usage.poll(0.5)
     assert usage.stands == FROZEN
-    told.stopped = False
-    usage.look(1.0)
+    reported.stopped = False
+    usage.poll(1.0)
     assert not usage.stands
 
 
 def test_one_whose_lock_is_held_is_seen_with_the_line() -> None:
-    told = Told()
-    usage = Usage(told, 0.0)
-    told.held = "holds.py:12, in tick"
-    usage.look(0.5)
+    reported = Reported()
+    usage = Usage(reported, 0.0)
+    reported.held = "holds.py:12, in tick"
+    usage.poll(0.5)
     assert usage.stands.startswith(f"{HANGS} holds.py:12, in tick")
-    told.held = ""
-    usage.look(1.0)
+    reported.held = ""
+    usage.poll(1.0)
     assert not usage.stands
 
 
-def test_what_nobody_tells_is_not_known() -> None:
-    told = Told()
-    usage = Usage(told, 0.0)
-    told.seconds = told.bytes = None
-    usage.look(1.0)
+def test_what_nobody_reports_is_not_known() -> None:
+    reported = Reported()
+    usage = Usage(reported, 0.0)
+    reported.seconds = reported.bytes = None
+    usage.poll(1.0)
     assert (usage.share, usage.memory, usage.busy_s) == (None, None, 0.0)
 
 

@@ -19,8 +19,8 @@ def fake() -> FakeConsole:
 
 
 def test_it_reads_what_there_is_and_changes_nothing(fake: FakeConsole) -> None:
-    told: list[str] = []
-    console = ReadOnlyConsole(fake, told.append)
+    reported: list[str] = []
+    console = ReadOnlyConsole(fake, reported.append)
     assert console.snapshot() is console.snapshot() and console.snapshot().graph is fake.snapshot().graph
     assert console.snapshot().drive.refused == console.snapshot().capabilities.change == WHY
     fake.change(problem="another snapshot")
@@ -43,13 +43,13 @@ def test_it_reads_what_there_is_and_changes_nothing(fake: FakeConsole) -> None:
 
 
 def test_anybody_may_stop_the_robot_but_not_release_it(fake: FakeConsole) -> None:
-    told: list[str] = []
-    console = ReadOnlyConsole(fake, told.append)
+    reported: list[str] = []
+    console = ReadOnlyConsole(fake, reported.append)
     console.all_stop(True)
     assert fake.snapshot().drive.stopped
     console.all_stop(False)
     console.release(["another"])
-    assert fake.snapshot().drive.stopped and len(told) == 2 and WHY in told[0]
+    assert fake.snapshot().drive.stopped and len(reported) == 2 and WHY in reported[0]
     assert fake.asked == [("all_stop", True)]
 
 

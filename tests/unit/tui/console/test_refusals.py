@@ -18,7 +18,7 @@ CASES = [
 
 
 @pytest.mark.parametrize(("limits", "value"), CASES)
-def test_a_step_is_judged_as_rclpy_does(limits: Range, value: float) -> None:
+def test_a_step_is_rounded_as_in_rclpy(limits: Range, value: float) -> None:
     integer = limits is INTEGERS
     kind = Kind.INTEGER if integer else Kind.DOUBLE
     descriptor = ParameterDescriptor(type=int(kind))
@@ -26,8 +26,8 @@ def test_a_step_is_judged_as_rclpy_does(limits: Range, value: float) -> None:
         descriptor.integer_range = [IntegerRange(from_value=1, to_value=10, step=4)]
     else:
         descriptor.floating_point_range = [FloatingPointRange(from_value=0.1, to_value=2.0, step=0.1)]
-    said = rclpy_refusal(
+    message = rclpy_refusal(
         Parameter("speed", value=value), descriptor, check_read_only=True, declared=True, tolerance=Node.PARAM_REL_TOL
     )
     who, why = refusal(ParameterInfo("/n", "speed", kind, value, range=limits), value)
-    assert (who, bool(why)) == (("descriptor", True) if said else ("", False))
+    assert (who, bool(why)) == (("descriptor", True) if message else ("", False))

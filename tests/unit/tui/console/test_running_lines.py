@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.running_lines import KEPT, RunningLine
+from bot_console.tui.console.running_lines import MAX_LINES, RunningLine
 
 
 def test_pieces_become_lines_and_only_the_last_are_kept() -> None:
@@ -18,4 +18,4 @@ def test_pieces_become_lines_and_only_the_last_are_kept() -> None:
     line.end()
     assert line.lines() == ("a", "bc", "d") and line.ended
     line.append("".join(f"{number}\n" for number in range(1000)))
-    assert len(line.lines()) == KEPT and line.lines()[-1] == "999"
+    assert len(line.lines()) == MAX_LINES and line.lines()[-1] == "999"

@@ -16,7 +16,7 @@ from bot_console.tui.console.logs.rosout import RosoutWatch
 from bot_console.tui.console.model import ChangeSource, LogFilter
 from bot_console.tui.console.parameters.history import History
 from bot_console.tui.console.parameters.journal import Journal
-from bot_console.tui.console.parameters.shelf import Shelf
+from bot_console.tui.console.parameters.profile_store import ProfileStore
 from bot_console.tui.console.robot.drive_link import DriveLink
 from bot_console.tui.console.robot.drive_node import DriveNode
 from bot_console.tui.widgets.status_bar import status_text
@@ -26,7 +26,7 @@ from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-from rigs import PATIENCE, until
+from rigs import TIMEOUT_S, until
 
 _domains = itertools.count(8400)
 
@@ -49,7 +49,7 @@ class Base:
 
     def close(self) -> None:
         self._executor.shutdown()
-        self._thread.join(PATIENCE)
+        self._thread.join(TIMEOUT_S)
         self.node.destroy_node()
         self.context.try_shutdown()
 
@@ -82,7 +82,7 @@ PARTS: dict[str, tuple[object, str]] = {
     "the profiles": (RosConsole, "_shelf"),
     "the log": (RosoutWatch, "__init__"),
     "the warnings about the graph": (GraphWarnings, "follow"),
-    "the profiles, later": (Shelf, "look_if_changed"),
+    "the profiles, later": (ProfileStore, "reload_if_changed"),
     "everything shown": (linked_console.LinkedConsole, "__init__"),
 }
 
@@ -93,7 +93,7 @@ def test_a_stop_reaches_the_robot_whatever_else_fails(
 ) -> None:
     monkeypatch.setattr(owner, name, broken)
     console.start()
-    console.wait_ready(PATIENCE)
+    console.wait_ready(TIMEOUT_S)
     console.all_stop(True, "a foot under the wheel")
     until(base.held, "the lock")
     until(lambda: console.snapshot().drive.stop_confirmed, "the acknowledgement")
@@ -103,17 +103,17 @@ def test_a_stop_reaches_the_robot_whatever_else_fails(
 
 
 @pytest.mark.parametrize("part", ["the history", "reading the history", "the profiles"])
-def test_a_console_is_linked_without_a_store_that_fails_and_says_so_once(
+def test_a_console_is_linked_without_a_store_that_fails_and_reports_it_once(
     part: str, base: Base, console: RosConsole, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     owner, name = PARTS[part]
     monkeypatch.setattr(owner, name, broken)
     console.start()
-    assert console.wait_ready(PATIENCE)
+    assert console.wait_ready(TIMEOUT_S)
     until(lambda: console.snapshot().graph.nodes, "the graph")
     assert console.snapshot().problem == ""
-    said = [console.log(each) for each in console.matching_logs(LogFilter(), 0)]
-    assert sum("whatever it is" in each.text for each in said if each) == 1
+    message = [console.log(each) for each in console.matching_logs(LogFilter(), 0)]
+    assert sum("whatever it is" in each.text for each in message if each) == 1
 
 
 def test_a_history_with_an_unreadable_row_is_reported_once_and_ends_nothing(
@@ -127,42 +127,42 @@ def test_a_history_with_an_unreadable_row_is_reported_once_and_ends_nothing(
         link.execute("UPDATE changes SET new = CAST(x'ff' AS TEXT) WHERE number = 1")
     link.close()
     console.start()
-    assert console.wait_ready(PATIENCE)
+    assert console.wait_ready(TIMEOUT_S)
     assert [each.new for each in console.changes(-10)] == [2]
-    said = [console.log(each) for each in console.matching_logs(LogFilter(), 0)]
-    assert sum("1 row of the history cannot be read" in each.text for each in said if each) == 1
+    message = [console.log(each) for each in console.matching_logs(LogFilter(), 0)]
+    assert sum("1 row of the history cannot be read" in each.text for each in message if each) == 1
 
 
-def test_a_fault_in_what_the_robot_tells_is_reported_once_and_the_link_goes_on(
+def test_a_fault_in_what_the_robot_reports_is_reported_once_and_the_link_goes_on(
     base: Base, console: RosConsole, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(DriveLink, "_told", broken)
+    monkeypatch.setattr(DriveLink, "_reported", broken)
     console.start()
-    assert console.wait_ready(PATIENCE)
+    assert console.wait_ready(TIMEOUT_S)
     verdicts = base.node.create_publisher(DiagnosticArray, "/diagnostics", 10)
     until(lambda: verdicts.publish(DiagnosticArray()) or console.snapshot().logs.end, "the report")
     for _ in range(3):
         verdicts.publish(DiagnosticArray())
     console.all_stop()
     until(base.held, "the lock")
-    said = [console.log(each) for each in console.matching_logs(LogFilter(), 0)]
-    assert sum("whatever it is" in each.text for each in said if each) == 1
+    message = [console.log(each) for each in console.matching_logs(LogFilter(), 0)]
+    assert sum("whatever it is" in each.text for each in message if each) == 1
 
 
 @pytest.mark.parametrize(
-    ("fails", "says"),
+    ("fails", "message_of"),
     [(False, "STOP NOT SENT: the console still connects"), (True, "STOP NOT SENT: this console has no link")],
 )
-def test_a_stop_that_reaches_nobody_says_so_at_once(
-    fails: bool, says: str, base: Base, console: RosConsole, monkeypatch: pytest.MonkeyPatch
+def test_a_stop_that_reaches_nobody_reports_it_at_once(
+    fails: bool, message_of: str, base: Base, console: RosConsole, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert status_text(console.snapshot()).startswith("no robot yet")
     if fails:
         monkeypatch.setattr(DriveNode, "__init__", broken)
         console.start()
-        console.wait_ready(PATIENCE)
+        console.wait_ready(TIMEOUT_S)
     console.all_stop()
-    assert status_text(console.snapshot()).startswith(says)
+    assert status_text(console.snapshot()).startswith(message_of)
     assert console.snapshot().drive.stopped_here
     console.all_stop(False)
     assert "STOP" not in status_text(console.snapshot())
@@ -174,9 +174,9 @@ def test_closing_while_only_the_stop_is_linked_leaves_no_thread(
     monkeypatch.setattr(linked_console.LinkedConsole, "__init__", broken)
     before = set(threading.enumerate())
     console.start()
-    console.wait_ready(PATIENCE)
+    console.wait_ready(TIMEOUT_S)
     console.close()
     for each in set(threading.enumerate()) - before:
         if each.name.startswith("bot-console"):
-            each.join(PATIENCE)
+            each.join(TIMEOUT_S)
             assert not each.is_alive()

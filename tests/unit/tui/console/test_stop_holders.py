@@ -32,7 +32,7 @@ def test_a_process_that_has_ended_is_gone(ended: int) -> None:
     assert stop.who == f"bot-console of {user()} (gone)" and stop.reason == "because"
 
 
-def test_of_others_nothing_is_said(ended: int) -> None:
+def test_of_others_nothing_is_reported(ended: int) -> None:
     assert not gone(f"bot-console of {user()} (pid {os.getpid()})")
     assert not gone(f"bot-console of {user()} (pid {ended})", here=True)
     assert not gone(f"bot-console of ben@not-{platform.node()} (pid {ended})")

@@ -13,7 +13,7 @@ from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from rclpy.serialization import deserialize_message, serialize_message
 from stop_rig import StopRig
 
-PATIENCE = 60.0
+TIMEOUT_S = 60.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 
@@ -32,7 +32,7 @@ def rig() -> Iterator[Rig]:
     made.close()
 
 
-def test_it_is_held_when_every_lock_has_said_so(rig: Rig) -> None:
+def test_it_is_held_when_every_lock_has_confirmed(rig: Rig) -> None:
     arbiter, base = rig.lock("safety_monitor"), rig.lock("simulator")
     rig.settle()
     assert (rig.link.info.stopped, rig.link.info.locks) == (False, 2)
@@ -127,7 +127,7 @@ def test_two_hold_it_and_each_takes_back_what_is_theirs(rig: Rig) -> None:
     assert not (lock.lock.held or rig.link.info.stopped)
 
 
-def test_a_lock_that_tells_no_more_than_that_it_is_locked_acknowledges_everybody(rig: Rig) -> None:
+def test_a_lock_that_reports_no_more_than_that_it_is_locked_acknowledges_everybody(rig: Rig) -> None:
     publisher = rig.node("plain").create_publisher(DiagnosticStatus, "emergency_stop/plain", LATCHED)
     publisher.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="false")]))
     rig.settle()
@@ -153,7 +153,7 @@ def test_a_stop_is_repeated_until_a_lock_that_came_late_has_heard_it(rig: Rig) -
     assert base.lock.held and rig.link.info.confirmed
 
 
-def test_a_lock_that_says_nothing_readable_confirms_nothing(rig: Rig) -> None:
+def test_a_lock_that_reports_nothing_readable_confirms_nothing(rig: Rig) -> None:
     rig.node("odd").create_publisher(DiagnosticStatus, "emergency_stop/odd", LATCHED).publish(DiagnosticStatus())
     rig.settle()
     rig.link.stop("now")
@@ -179,8 +179,8 @@ def test_who_waits_for_the_stop_goes_on_with_the_last_acknowledgement_and_not_be
     rig.link.stop("bot-console was quit")
     assert not rig.link.await_held(0.0), "nobody has acknowledged it"
     held: list[bool] = []
-    waiting = threading.Thread(target=lambda: held.append(rig.link.await_held(PATIENCE)))
+    waiting = threading.Thread(target=lambda: held.append(rig.link.await_held(TIMEOUT_S)))
     waiting.start()
     rig.settle()
-    waiting.join(PATIENCE)
+    waiting.join(TIMEOUT_S)
     assert held == [True]

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, NodeInfo
-from bot_console.tui.console.robot.drive_link import HOLD_PERIOD, DriveLink
+from bot_console.tui.console.robot.drive_link import HOLD_PERIOD_S, DriveLink
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 from bot_console.tui.console.robot.stop_link import LATCHED
 from bot_console.tui.console.robot.stop_means import means as means_module
@@ -137,8 +137,8 @@ class Bench:
             self.executor.spin_once(timeout_sec=0)
 
     def pass_time(self, seconds: float) -> None:
-        for _ in range(round(seconds / HOLD_PERIOD)):
-            self.clock += HOLD_PERIOD
+        for _ in range(round(seconds / HOLD_PERIOD_S)):
+            self.clock += HOLD_PERIOD_S
             self.link._repeat()
             self.settle()
 
@@ -173,7 +173,7 @@ def test_a_means_holds_by_its_own_word_and_a_release_undoes_it(bench: Bench, ent
     bench.link.stop(True, "ALL STOP")
     assert not bench.info.stop_confirmed and "THE ROBOT MAY MOVE" in bench.status
     bench.settle()
-    bench.pass_time(HOLD_PERIOD)
+    bench.pass_time(HOLD_PERIOD_S)
     assert bench.robot.stands and bench.info.stop_confirmed
     assert bench.status.startswith(f"ALL STOP held by {next(iter(entry))} /") and "MAY MOVE" not in bench.status
     held = len(bench.robot.calls)
@@ -221,9 +221,9 @@ def test_zeros_go_out_at_once_and_the_next_means_does_not_wait_for_the_last(benc
     bench.link.stop(True, "ALL STOP")
     bench.settle()
     assert bench.robot.velocities[:1] == [0.0] and "MAY MOVE, trigger /one has not answered yet" in bench.status
-    bench.pass_time(NEXT_AFTER_S - HOLD_PERIOD)
+    bench.pass_time(NEXT_AFTER_S - HOLD_PERIOD_S)
     assert "trigger /one" in bench.status
-    bench.pass_time(HOLD_PERIOD)
+    bench.pass_time(HOLD_PERIOD_S)
     assert "trigger /two has not answered yet" in bench.status
     bench.pass_time(NEXT_AFTER_S)
     assert bench.robot.calls == ["stop"] and bench.info.held_by_means == "trigger /base/stop"
@@ -314,7 +314,7 @@ def test_a_node_that_was_not_active_is_not_activated_by_a_release(bench: Bench) 
     assert bench.robot.stands and bench.robot.calls == [4]
 
 
-def test_what_cannot_be_released_is_said(bench: Bench) -> None:
+def test_what_cannot_be_released_is_reported(bench: Bench) -> None:
     bench.robot.offer({"trigger": "/base/stop"})
     bench.link_with({"trigger": "/base/stop"})
     bench.link.stop(True, "ALL STOP")

@@ -31,7 +31,7 @@ class Watched:
         """Spin until a condition holds; the test's own time limit ends what never comes."""
         while not done():  # type: ignore[operator]
             self.executor.spin_once(timeout_sec=0.1)
-            self.graph.look()
+            self.graph.poll()
 
 
 @pytest.fixture
@@ -60,10 +60,10 @@ def test_turtles_and_what_they_draw(watched: Watched) -> None:
     watched.spin_until(lambda: not world.info.fields)
 
 
-def test_a_turtlesim_that_tells_only_poses(watched: Watched) -> None:
+def test_a_turtlesim_that_reports_only_poses(watched: Watched) -> None:
     other = Node("sim", namespace="/lab")
     poses = other.create_publisher(Pose, "turtle9/pose", 1)
-    watched.graph.look()
+    watched.graph.poll()
     for x in (1.0, 1.05, 2.0):
         poses.publish(Pose(x=x, y=3.0, theta=0.5, linear_velocity=1.0))
         before = watched.world.info

@@ -132,7 +132,7 @@ class Robots:
         for _ in range(30):
             self.executor.spin_once(timeout_sec=0)
 
-    def say(self, space: str, speed: float, limited_by: str) -> None:
+    def show_text(self, space: str, speed: float, limited_by: str) -> None:
         message = Odometry()
         message.twist.twist.linear.x = speed
         self.odometry[space].publish(message)
@@ -158,8 +158,8 @@ def robots() -> Iterator[Robots]:
 
 def test_figures_and_verdicts_follow_the_steered_robot(robots: Robots) -> None:
     def both_say() -> None:
-        robots.say("", 0.25, "warning_distance")
-        robots.say("/robot2", 0.75, "no fresh scan")
+        robots.show_text("", 0.25, "warning_distance")
+        robots.show_text("/robot2", 0.75, "no fresh scan")
 
     both_say()
     assert (robots.info.robot, robots.info.actual, robots.info.limited_by) == ("/", (0.25, 0.0), "warning_distance")
@@ -175,14 +175,14 @@ def test_figures_and_verdicts_follow_the_steered_robot(robots: Robots) -> None:
 
 
 def test_figures_of_the_robot_before_are_not_shown_until_the_view_has_followed(robots: Robots) -> None:
-    robots.say("", 0.25, "")
+    robots.show_text("", 0.25, "")
     robots.drive.choose("/robot2")
     assert (robots.info.robot, robots.info.actual, robots.info.silent_s) == ("/robot2", None, 0)
 
 
 def test_a_robot_that_leaves_is_silent_and_its_figures_are_not_given_to_the_next(robots: Robots) -> None:
     robots.follow("/robot2")
-    robots.say("/robot2", 0.75, "")
+    robots.show_text("/robot2", 0.75, "")
     robots.follow()
     robots.clock += 5.0
     assert robots.world.info.silent_s == 5
@@ -198,7 +198,7 @@ def test_a_stop_reaches_every_robot_whichever_is_steered(robots: Robots) -> None
 
 
 def test_a_verdict_expires_when_its_arbiter_is_silent(robots: Robots) -> None:
-    robots.say("", 0.4, "emergency_stop_distance")
+    robots.show_text("", 0.4, "emergency_stop_distance")
     robots.clock += VERDICT_LIFETIME_S
     assert (robots.info.asked, robots.info.limited_by) == ((0.4, 0.0), "emergency_stop_distance")
     robots.clock += 0.1

@@ -32,20 +32,20 @@ def test_a_robot_that_has_gone_silent_has_no_actual_speed():
     message = Odometry()
     message.twist.twist.linear.x = 0.9
 
-    def said() -> str:
+    def output() -> str:
         odometry.publish(message)
         for _ in range(5):
             executor.spin_once(timeout_sec=0)
         return drive_text(drive.info(world.info))
 
     try:
-        assert said() == "actual +0.9 m/s"
+        assert output() == "actual +0.9 m/s"
         clock[0] += 0.9
         assert drive_text(drive.info(world.info)) == "actual +0.9 m/s"
         clock[0] += 4.2
         assert world.info.silent_s == 5 and world.info is world.info
         assert drive_text(drive.info(world.info)) == "the robot is SILENT for 5 s"
-        assert said() == "actual +0.9 m/s"
+        assert output() == "actual +0.9 m/s"
     finally:
         console.destroy_node()
         robot.destroy_node()

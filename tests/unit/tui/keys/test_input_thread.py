@@ -14,7 +14,7 @@ import pytest
 from bot_console.tui.keys import input_thread
 from bot_console.tui.keys.input_thread import Ending, Unwatched, take_keys
 
-PATIENCE = 20.0
+TIMEOUT_S = 20.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 
@@ -46,13 +46,13 @@ class Rig:
         before = len(self.events)
         os.write(self.master, data)
         for _ in range(count):
-            assert self.came.acquire(timeout=PATIENCE)
+            assert self.came.acquire(timeout=TIMEOUT_S)
         return [each.key for each in self.events[before:]]
 
     def end(self) -> bool:
         """As a driver ends it; whether it has ended."""
         self.driver.exit_event.set()
-        self.thread.join(PATIENCE)
+        self.thread.join(TIMEOUT_S)
         self.driver.exit_event.clear()
         return not self.thread.is_alive()
 
@@ -65,7 +65,7 @@ class Rig:
 
 @pytest.fixture
 def rig(monkeypatch: pytest.MonkeyPatch) -> Iterator[Rig]:
-    monkeypatch.setattr(input_thread, "LOOK", 10 * PATIENCE)  # who waits for the next look never ends
+    monkeypatch.setattr(input_thread, "ESCAPE_TIMEOUT_S", 10 * TIMEOUT_S)  # who waits for the next look never ends
     rig = Rig()
     yield rig
     rig.end()
@@ -82,14 +82,14 @@ def test_esc_and_what_is_typed_right_after_it_are_two_keys(rig: Rig, key: str) -
     assert rig.types(f"\x1b{key}".encode(), 2) == ["escape", *alone]
 
 
-def test_a_letter_after_esc_may_have_had_alt_and_keys_of_several_bytes_stay_whole(rig: Rig) -> None:
+def test_a_character_after_esc_may_have_had_alt_and_keys_of_several_bytes_stay_whole(rig: Rig) -> None:
     assert rig.types(b"\x1bq\x1b1", 2) == ["alt+q", "alt+1"] and rig.types(b"\x1bQx", 2) == ["alt+shift+q", "x"]
     assert rig.types(b"\x1b[A\x1bOP\x1b[1;3A\x1b\x7f\x1bb", 5) == ["up", "f1", "alt+up", "ctrl+w", "ctrl+left"]
 
 
 def test_it_ends_at_once_and_can_begin_again(rig: Rig) -> None:
-    for letter in "ab":
-        assert rig.types(letter.encode()) == [letter]
+    for character in "ab":
+        assert rig.types(character.encode()) == [character]
         assert rig.end()
         rig.start()
 
@@ -98,7 +98,7 @@ def test_it_ends_with_its_terminal_and_does_not_turn_round_for_good(rig: Rig) ->
     assert rig.types(b"x") == ["x"]
     os.close(rig.master)
     rig.gone = True
-    rig.thread.join(PATIENCE)
+    rig.thread.join(TIMEOUT_S)
     assert not rig.thread.is_alive()
 
 
@@ -108,7 +108,7 @@ def test_bytes_that_are_no_text_end_nothing(rig: Rig) -> None:
 
 
 def test_it_goes_on_when_a_program_has_closed_its_descriptors(rig: Rig, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(input_thread, "LOOK", 0.01)
+    monkeypatch.setattr(input_thread, "ESCAPE_TIMEOUT_S", 0.01)
     rig.types(b"a")
     ending = rig.driver.exit_event
     for each in list(ending._ends):
@@ -121,9 +121,9 @@ def test_an_end_before_the_beginning_is_one() -> None:
     ending = Ending()
     ending.set()
     reading, writing = os.pipe()
-    assert not ending.readable(reading, PATIENCE)
+    assert not ending.readable(reading, TIMEOUT_S)
     ending.clear()
     os.write(writing, b"x")
-    assert ending.readable(reading, PATIENCE) and not ending.is_set()
+    assert ending.readable(reading, TIMEOUT_S) and not ending.is_set()
     for each in (reading, writing):
         os.close(each)

@@ -125,7 +125,7 @@ def test_a_border_is_moved_where_it_lies() -> None:
 
 
 @pytest.mark.parametrize(
-    ("data", "says"),
+    ("data", "message_of"),
     [
         (None, "not nothing"),
         (3, "not a int"),
@@ -139,8 +139,8 @@ def test_a_border_is_moved_where_it_lies() -> None:
         ({"below": ["a", "a"]}, "a stands twice"),
     ],
 )
-def test_what_is_no_layout_is_refused_with_the_reason(data: object, says: str) -> None:
-    with pytest.raises(NoLayout, match=says.replace("'", "['\"]")):
+def test_what_is_no_layout_is_refused_with_the_reason(data: object, message_of: str) -> None:
+    with pytest.raises(NoLayout, match=message_of.replace("'", "['\"]")):
         tree_of(data, ("a", "b"))
 
 

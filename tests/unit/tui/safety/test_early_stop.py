@@ -40,18 +40,18 @@ class Rig:
         """Let the time pass in which a key may have its turn."""
         assert self.early.due is not None
         self.now = self.early.due
-        self.early.look()
+        self.early.poll()
 
 
 def test_key_with_nothing_before_it_has_its_turn_and_holds_nothing_early() -> None:
     rig = Rig()
     event = rig.press()
-    rig.early.look()
+    rig.early.poll()
     assert rig.early.due == TURN_TIMEOUT_S and not rig.asked
     assert rig.early.has_acted(event) and rig.asked == ["stop"] and rig.early.due is None
 
 
-def test_key_with_nothing_before_it_is_a_letter_in_a_text_field() -> None:
+def test_key_with_nothing_before_it_is_a_character_in_a_text_field() -> None:
     rig = Rig()
     rig.typing = True
     assert not rig.early.has_acted(rig.press()) and not rig.asked
@@ -138,7 +138,7 @@ def with_own_key(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("with_own_key")
-def test_key_that_is_no_letter_stops_in_a_text_field_too() -> None:
+def test_key_that_is_no_character_stops_in_a_text_field_too() -> None:
     remap({"app.stop": "f9"})
     rig = Rig()
     rig.typing = True

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from bot_console.tui.cli.appearance import appearance_of
 from bot_console.tui.cli.arguments import attach_parser, parse, parse_attach
-from bot_console.tui.cli.look import look_of
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.layout.arrangement import Arrangement
 from bot_console.tui.layout.named import BUILT_IN
@@ -43,11 +43,13 @@ def test_a_broken_file_is_named_and_the_others_are_there() -> None:
     (folder / "worse.yaml").write_text("layout: [")
     (folder / "list.yaml").write_text("- 1")
     assert set(store.layouts()) == {"mine"}
-    told = "\n".join(store.problems)
-    assert "there is no pane 'nothing'" in told and "worse.yaml: line 2" in told and "a line `layout:`" in told
+    reported = "\n".join(store.problems)
+    assert (
+        "there is no pane 'nothing'" in reported and "worse.yaml: line 2" in reported and "a line `layout:`" in reported
+    )
 
 
-def test_every_layout_that_comes_along_fits_where_it_says() -> None:
+def test_every_layout_that_comes_along_fits_where_it_reports() -> None:
     for name, layout in BUILT_IN.items():
         assert Arrangement(name=name).tree(120, 40) == layout.tree, name
     assert Arrangement().tree(200, 60) == BUILT_IN["overview"].wide
@@ -57,11 +59,11 @@ def test_every_layout_that_comes_along_fits_where_it_says() -> None:
 def test_the_command_line_goes_before_the_settings() -> None:
     config_folder().mkdir(parents=True)
     (config_folder() / "settings.yaml").write_text("layout: tuning\ntheme: light\nglyphs: plain\n")
-    assert look_of(parse([])).arrangement.name == "tuning"
-    look = look_of(parse(["--layout", "watching", "--theme", "dark", "--no-plain"]))
-    assert (look.arrangement.name, look.theme, look.plain) == ("watching", "dark", False)
-    assert look_of(parse_attach(["--layout", "watching"], attach_parser())[0]).arrangement.name == "watching"
-    wrong = look_of(parse(["--layout", "none"]))
+    assert appearance_of(parse([])).arrangement.name == "tuning"
+    poll = appearance_of(parse(["--layout", "watching", "--theme", "dark", "--no-plain"]))
+    assert (poll.arrangement.name, poll.theme, poll.plain) == ("watching", "dark", False)
+    assert appearance_of(parse_attach(["--layout", "watching"], attach_parser())[0]).arrangement.name == "watching"
+    wrong = appearance_of(parse(["--layout", "none"]))
     assert wrong.arrangement.name == "overview" and "there is no layout 'none'" in wrong.notes[0]
 
 
@@ -71,13 +73,13 @@ def test_the_command_line_goes_before_the_settings() -> None:
 def test_a_perspective_of_rqt(tmp_path: Path, line: list[str]) -> None:
     path = tmp_path / "my.perspective"
     path.write_text(PERSPECTIVE)
-    look = look_of(parse([each.format(path) for each in line]))
-    assert look.arrangement.tree(120, 40) == beside("graph", "logs") and look.arrangement.name == "my"
-    assert look.notes == ("rqt_bag of the perspective has no pane here",)
+    poll = appearance_of(parse([each.format(path) for each in line]))
+    assert poll.arrangement.tree(120, 40) == beside("graph", "logs") and poll.arrangement.name == "my"
+    assert poll.notes == ("rqt_bag of the perspective has no pane here",)
 
 
 def test_a_layout_file_as_perspective_and_one_that_is_missing(tmp_path: Path) -> None:
     file = FileLayouts(PANES).save("mine", TREE)
-    assert look_of(parse(["--perspective-file", file])).arrangement.tree(120, 40) == TREE
-    look = look_of(parse(["--perspective-file", str(tmp_path / "none")]))
-    assert look.arrangement.name == "overview" and "No such file" in look.notes[0]
+    assert appearance_of(parse(["--perspective-file", file])).arrangement.tree(120, 40) == TREE
+    poll = appearance_of(parse(["--perspective-file", str(tmp_path / "none")]))
+    assert poll.arrangement.name == "overview" and "No such file" in poll.notes[0]

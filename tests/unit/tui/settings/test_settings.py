@@ -46,7 +46,7 @@ def test_what_the_graph_hides_can_be_chosen(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "message_of"),
     [
         ("theme: pink", "theme: 'pink' is none of dark"),
         ("theme: 3", "theme: is a word"),
@@ -67,9 +67,9 @@ def test_what_the_graph_hides_can_be_chosen(tmp_path: Path) -> None:
         (f"keys: {{app.quit: 0x{'f' * 5000}}}", "a whole number has thousands of digits"),
     ],
 )
-def test_what_is_wrong_is_named_and_the_rest_is_taken(tmp_path: Path, text: str, says: str) -> None:
+def test_what_is_wrong_is_named_and_the_rest_is_taken(tmp_path: Path, text: str, message_of: str) -> None:
     found = read_settings(written(tmp_path, text))
-    assert len(found.problems) == 1 and says in found.problems[0], found.problems
+    assert len(found.problems) == 1 and message_of in found.problems[0], found.problems
     assert found.theme == "dark"
 
 

@@ -25,8 +25,8 @@ ACTING = ("Cc", "Cf", "Cs")
 def test_nothing_that_acts_on_a_terminal_is_left_of_a_text(text: str, plain: bool) -> None:
     for given_text in (text, f"before {text} behind"):
         cells = cells_of([Segment(given_text)], ColorSystem.TRUECOLOR, plain)
-        assert not [each for each in "".join(cells.letters) if unicodedata.category(each) in ACTING]
-        assert len(cells.letters) == len(cells.styles)
+        assert not [each for each in "".join(cells.characters) if unicodedata.category(each) in ACTING]
+        assert len(cells.characters) == len(cells.styles)
 
 
 @given(st.text(max_size=30))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 
-from bot_console.tui.terminal.clipboard import LARGEST, osc52, within
+from bot_console.tui.terminal.clipboard import MAX_BYTES, osc52, within
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -17,7 +17,7 @@ def test_any_text_comes_whole_and_harmless(text: str) -> None:
     assert base64.b64decode(inside) == text.encode("utf-8", "replace")
 
 
-def test_a_long_text_is_cut_between_letters() -> None:
-    kept = within("ä" * LARGEST)
-    assert kept == "ä" * (LARGEST // 2) and within("x" + "ä" * LARGEST) == "x" + "ä" * (LARGEST // 2 - 1)
+def test_a_long_text_is_cut_between_characters() -> None:
+    kept = within("ä" * MAX_BYTES)
+    assert kept == "ä" * (MAX_BYTES // 2) and within("x" + "ä" * MAX_BYTES) == "x" + "ä" * (MAX_BYTES // 2 - 1)
     assert len(osc52(kept)) < 74_994

@@ -34,11 +34,11 @@ def write(terminal: TextIO, text: str) -> SimpleNamespace:
 
 
 def test_a_stalled_terminal_is_left(terminal: tuple[int, TextIO], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(closing, "GRACE", 0.05)
+    monkeypatch.setattr(closing, "FLUSH_TIMEOUT_S", 0.05)
     far, file = terminal
     before = signal.getsignal(signal.SIGURG)
     driver = write(file, MORE_THAN_FITS)
-    with closing.let_go(driver):
+    with closing.closing_terminal(driver):
         driver._writer_thread.stop()
     assert not driver._writer_thread.is_alive()
     assert signal.getsignal(signal.SIGURG) == before
@@ -61,12 +61,12 @@ def test_a_terminal_that_takes_everything_gets_everything(terminal: tuple[int, T
     reader = threading.Thread(target=read)
     reader.start()
     driver = write(file, MORE_THAN_FITS)
-    with closing.let_go(driver):
+    with closing.closing_terminal(driver):
         driver._writer_thread.stop()
     reader.join()
     assert bytes(taken) == MORE_THAN_FITS.encode()
 
 
 def test_a_driver_without_a_writer_is_just_closed() -> None:
-    with closing.let_go(SimpleNamespace()):
+    with closing.closing_terminal(SimpleNamespace()):
         pass

@@ -8,7 +8,7 @@ from collections.abc import Awaitable, Callable
 from typing import Any
 
 import pytest
-from bot_console.tui.terminal.gate import AnswerGate
+from bot_console.tui.terminal.frame_pacing import AnswerGate
 from bot_console.tui.terminal.output import QUESTION, SparingApp
 from emulator import Emulator
 from textual import events
@@ -23,7 +23,7 @@ from textual.widgets import Static
 WIDTH, HEIGHT = 40, 8
 
 
-class Door(AnswerGate):
+class HostListener(AnswerGate):
     """A gate that is opened and closed by hand."""
 
     closed = False
@@ -63,7 +63,7 @@ class Panes(SparingApp):
     def __init__(self) -> None:
         super().__init__()
         self.driver_class = Wire
-        self.gate: Door = Door()
+        self.gate: HostListener = HostListener()
         self.terminal = Emulator(WIDTH, HEIGHT)
         self.frames: list[str] = []
 

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from bot_console.tui.terminal import restorer_process
 
-PATIENCE = 60.0
+TIMEOUT_S = 60.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 
@@ -30,7 +30,7 @@ def test_it_goes_as_soon_as_the_terminal_is_right_again(monkeypatch: pytest.Monk
             [restorer] = started
             assert restorer.poll() is None
             watch.has_ended()
-            assert restorer.wait(PATIENCE) == 0, "while this program still has things to do"
+            assert restorer.wait(TIMEOUT_S) == 0, "while this program still has things to do"
     finally:
         os.close(master)
         os.close(slave)

@@ -11,7 +11,7 @@ import tty
 from bot_console.tui.terminal.terminal_file import TerminalFile
 from textual.drivers._writer_thread import MAX_QUEUED_WRITES, WriterThread
 
-PATIENCE = 60.0
+TIMEOUT_S = 60.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 
@@ -53,7 +53,7 @@ def test_a_terminal_that_somebody_has_made_not_to_block_gets_all_of_it() -> None
         writer.write(text)
         read = b""
         while len(read) < len(text):
-            assert select.select([far], [], [], PATIENCE)[0], "nothing more comes"
+            assert select.select([far], [], [], TIMEOUT_S)[0], "nothing more comes"
             read += os.read(far, 65536)
         writer.stop()
     assert read == text.encode() and not lasting.gone

@@ -48,7 +48,7 @@ def test_what_is_no_formula_is_refused(text: str) -> None:
         parse_score(text)
 
 
-def test_a_name_that_is_neither_score_nor_figure_is_told_what_there_is() -> None:
+def test_a_name_that_is_neither_score_nor_figure_lists_the_valid_names() -> None:
     with pytest.raises(ValueError, match="there are swift, steady, roomy"):
         parse_score("fastest")
 

@@ -6,25 +6,25 @@ import math
 from collections.abc import Callable
 
 import pytest
-from bot_console.tui.tuning.dial import Dial, Setting
-from bot_console.tui.tuning.search import SEARCHES, Tried, grid_levels, next_settings
+from bot_console.tui.tuning.search import SEARCHES, TriedSetting, grid_levels, next_settings
+from bot_console.tui.tuning.tunable import Setting, Tunable
 from hypothesis import given
 from hypothesis import strategies as st
 
-X = Dial("/a", "x", "double", 0.0, 1.0, 0.9)
-Y = Dial("/a", "y", "double", -2.0, 2.0, 1.9)
-N = Dial("/a", "n", "integer", 0, 3, 0)
-B = Dial("/a", "b", "bool", 0, 1, True)
+X = Tunable("/a", "x", "double", 0.0, 1.0, 0.9)
+Y = Tunable("/a", "y", "double", -2.0, 2.0, 1.9)
+N = Tunable("/a", "n", "integer", 0, 3, 0)
+B = Tunable("/a", "b", "bool", 0, 1, True)
 
 
 def hill(setting: Setting) -> float:
     return -math.dist((setting[0], setting[1] / 4), (0.3, 0.1))
 
 
-def searched(search: str, dials: tuple[Dial, ...], budget: int, seed: int, score: Callable[[Setting], float]):
-    tried: list[Tried] = []
-    while settings := next_settings(search, dials, budget, seed, tried):
-        tried += [Tried(each, score(each)) for each in settings]
+def searched(search: str, tunables: tuple[Tunable, ...], budget: int, seed: int, score: Callable[[Setting], float]):
+    tried: list[TriedSetting] = []
+    while settings := next_settings(search, tunables, budget, seed, tried):
+        tried += [TriedSetting(each, score(each)) for each in settings]
     return tried
 
 
@@ -34,18 +34,18 @@ def searched(search: str, dials: tuple[Dial, ...], budget: int, seed: int, score
     st.integers(2, 40),
     st.integers(0, 5),
 )
-def test_a_search_keeps_to_budget_and_ranges_and_tries_nothing_twice(search, dials, budget, seed) -> None:
+def test_a_search_keeps_to_budget_and_ranges_and_tries_nothing_twice(search, tunables, budget, seed) -> None:
     def score(setting: Setting) -> float:
         return math.fsum(map(float, setting))
 
-    tried = searched(search, tuple(dials), budget, seed, score)
+    tried = searched(search, tuple(tunables), budget, seed, score)
     settings = [each.setting for each in tried]
     assert 1 <= len(settings) <= budget
     assert len(set(settings)) == len(settings)
-    assert settings[0] == tuple(each.now for each in dials)
+    assert settings[0] == tuple(each.now for each in tunables)
     for setting in settings:
-        assert all(dial.low <= value <= dial.high for dial, value in zip(dials, setting, strict=True))
-    assert searched(search, tuple(dials), budget, seed, score) == tried
+        assert all(tunable.low <= value <= tunable.high for tunable, value in zip(tunables, setting, strict=True))
+    assert searched(search, tuple(tunables), budget, seed, score) == tried
 
 
 def test_another_seed_tries_other_settings() -> None:
@@ -64,10 +64,11 @@ def test_the_adaptive_search_goes_on_after_settings_that_failed() -> None:
 
 
 @pytest.mark.parametrize(
-    ("dials", "budget", "levels"), [((X, Y), 9, [3, 3]), ((X, Y), 11, [4, 2]), ((X, B), 60, [30, 2]), ((N,), 60, [4])]
+    ("tunables", "budget", "levels"),
+    [((X, Y), 9, [3, 3]), ((X, Y), 11, [4, 2]), ((X, B), 60, [30, 2]), ((N,), 60, [4])],
 )
-def test_a_grid_has_as_many_levels_as_the_budget_allows(dials, budget, levels) -> None:
-    found = grid_levels(dials, budget)
+def test_a_grid_has_as_many_levels_as_the_budget_allows(tunables, budget, levels) -> None:
+    found = grid_levels(tunables, budget)
     assert math.prod(found) <= budget
     assert found == levels or math.prod(found) >= math.prod(levels)
 

@@ -23,11 +23,11 @@ def pieces_by_cell(layers, styles, across):
         for x in range(across):
             code = int(np.bitwise_or.reduce([each[x] for each in cells]))
             own = next((name for name, each in zip(styles, cells, strict=True) if each[x]), None)
-            letter = chr(0x2800 + code) if code else " "
+            character = chr(0x2800 + code) if code else " "
             if not pieces or (own is not None and pieces[-1][1] not in (None, own)):
-                pieces.append([letter, own])
+                pieces.append([character, own])
             else:
-                pieces[-1] = [pieces[-1][0] + letter, pieces[-1][1] if own is None else own]
+                pieces[-1] = [pieces[-1][0] + character, pieces[-1][1] if own is None else own]
         rows.append([(text, name or "") for text, name in pieces])
     return rows
 

@@ -25,19 +25,19 @@ def test_only_errors_that_were_not_acknowledged_are_counted() -> None:
     assert "error" not in status_text(snapshot, acknowledged=3)
 
 
-def test_a_stop_where_no_robot_is_says_that_nothing_is_there_to_stop() -> None:
+def test_a_stop_where_no_robot_is_reports_that_nothing_is_there_to_stop() -> None:
     nobody = DriveInfo(stopped=True, stopped_here=True)
     assert "nothing is here to stop" in status_text(ConsoleSnapshot(drive=nobody))
     for robot in (DriveInfo(stopped=True, topic="/cmd_vel"), DriveInfo(stopped=True, lockable=True)):
         assert "STOP SENT, NOT CONFIRMED" in status_text(ConsoleSnapshot(drive=robot))
 
 
-def test_a_console_that_only_looks_on_promises_no_release() -> None:
+def test_a_console_that_is_read_only_promises_no_release() -> None:
     held = DriveInfo(stopped=True, stop_confirmed=True, lockable=True, stopped_here=True, refused="it only looks on")
     assert "released elsewhere" in status_text(ConsoleSnapshot(drive=held))
     assert "! releases" in status_text(ConsoleSnapshot(drive=replace(held, refused="")))
 
 
-def test_a_robot_that_has_told_nothing_yet_is_one() -> None:
+def test_a_robot_that_has_reported_nothing_yet_is_one() -> None:
     assert status_text(ConsoleSnapshot()) == "no robot yet"
     assert status_text(ConsoleSnapshot(drive=DriveInfo(topic="/a/cmd_vel"))) == "no command and no odometry yet"

@@ -80,11 +80,11 @@ class Player:
                 if stopped.wait(step):
                     return
                 if self._clock is not None:
-                    self._clock.tell(first + int((time.monotonic() - begun) * 1e9 * self._how.rate))
+                    self._clock.report(first + int((time.monotonic() - begun) * 1e9 * self._how.rate))
             if stopped.is_set():
                 return
             if self._clock is not None:
-                self._clock.tell(entry.received)
+                self._clock.report(entry.received)
             self._publishers[entry.topic].publish(entry.data)
             self.published += 1
 
@@ -102,13 +102,13 @@ class Clock:
         self._message = Message
         self._publisher = node.create_publisher(Message, "/clock", 10)
         self.period = 1.0 / rate
-        self._told = 0
+        self._reported = 0
 
-    def tell(self, stamp: int) -> None:
+    def report(self, stamp: int) -> None:
         """Publish a time (ns), unless one was published less than a period before it."""
-        if 0 <= stamp - self._told < self.period * 1e9:
+        if 0 <= stamp - self._reported < self.period * 1e9:
             return
-        self._told = stamp
+        self._reported = stamp
         message = self._message()
         message.clock.sec, message.clock.nanosec = divmod(stamp, 10**9)
         self._publisher.publish(message)

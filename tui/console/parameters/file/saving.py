@@ -26,8 +26,8 @@ class Saved:
 
     def text(self, path: Path) -> str:
         """A summary in words."""
-        told = f"{self.count} parameter{'' if self.count == 1 else 's'} saved to {path}"
-        return told + "".join(f"; left out: {each}" for each in self.left_out)
+        reported = f"{self.count} parameter{'' if self.count == 1 else 's'} saved to {path}"
+        return reported + "".join(f"; left out: {each}" for each in self.left_out)
 
 
 def save(

@@ -94,9 +94,9 @@ def split(text: str) -> list[str]:
     """Several expressions, apart by commas outside of brackets."""
     parts: list[str] = []
     depth = begin = 0
-    for at, letter in enumerate(text):
-        depth += (letter in "([") - (letter in ")]")
-        if letter == "," and depth == 0:
+    for at, character in enumerate(text):
+        depth += (character in "([") - (character in ")]")
+        if character == "," and depth == 0:
             parts.append(text[begin:at])
             begin = at + 1
     return [each.strip() for each in (*parts, text[begin:]) if each.strip()]
@@ -122,9 +122,9 @@ def _check_call(call: Call) -> None:
         if name in OVER_TIME:
             raise ValueError(f"write {name}(a path, 1 s), or {name} of an array such as {name}(/scan/ranges)")
         raise ValueError(f"'{name}' is none of derivative, {', '.join((*PLAIN, *OVER_TIME))}")
-    least, most, _ = PLAIN[name]
-    if not least <= len(given) <= most:
-        raise ValueError(f"{name} takes {least if least == most else f'{least} or more'}, not {len(given)}")
+    least, maximum, _ = PLAIN[name]
+    if not least <= len(given) <= maximum:
+        raise ValueError(f"{name} takes {least if least == maximum else f'{least} or more'}, not {len(given)}")
 
 
 def _reach_back(tree: Tree) -> tuple[float, int]:

@@ -10,7 +10,7 @@ from bot_console.tui.text.expression.tree import is_parameter
 from bot_console.tui.widgets.prompt.question import Option
 from textual.fuzzy import Matcher
 
-MOST = 200
+MAX_SUGGESTIONS = 200
 """Options at most; who wants another one types more of it."""
 
 PATH = re.compile(r"(/\w+)+(/|:)\w[\w.\[\]]*")
@@ -21,7 +21,7 @@ def suggested(known: Sequence[str], typed: str) -> list[Option]:
     """The options for a text, the best first. `known` has fields before elements and what is made of arrays."""
     text = typed.strip()
     if not text:
-        return [Option(each, _about(each)) for each in known[:MOST]]
+        return [Option(each, _about(each)) for each in known[:MAX_SUGGESTIONS]]
     if text in known:
         return [
             Option(text, _about(text)),
@@ -55,15 +55,15 @@ def _to_come(text: str, found: Sequence[Option]) -> list[Option]:
 
 
 def _best(known: Sequence[str], typed: str) -> list[str]:
-    letters = set(typed.lower()) - {" "}
-    some = [each for each in known if letters <= set(each.lower())]
+    characters = set(typed.lower()) - {" "}
+    some = [each for each in known if characters <= set(each.lower())]
     matcher = Matcher(typed)
     scores = {each: matcher.match(each) for each in some}
     places = {each: place for place, each in enumerate(some)}
     best = sorted(
         (each for each in some if scores[each] > 0), key=lambda each: (_rank(each), -scores[each], places[each])
     )
-    return best[:MOST]
+    return best[:MAX_SUGGESTIONS]
 
 
 def _rank(path: str) -> int:

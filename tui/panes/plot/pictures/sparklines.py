@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from bot_console.tui.format import cut, harmless
+from bot_console.tui.format import cut, sanitize
 from bot_console.tui.panes.plot.curves import Curve
 from bot_console.tui.panes.plot.view import Axes, canvas, legend_value, limits, reach_of, short_number, style_of
 from bot_console.tui.panes.plot.window_facts import WindowFacts, window_facts
@@ -13,15 +13,17 @@ from bot_console.tui.widgets.picture import Line
 
 FIGURES = 9
 """Cells of one figure."""
-LEAST_TRACE = 12
+MIN_TRACE_COLUMNS = 12
 
 
 def sparklines(curves: Sequence[Curve], axes: Axes, width: int, height: int, chosen: int) -> list[Line]:
     """A heading and a line for each curve that there is room for, the chosen one among them."""
     columns = ["value", "rate", "min", "max"]
-    while len(columns) > 1 and width < 24 + FIGURES * len(columns) + LEAST_TRACE:
+    while len(columns) > 1 and width < 24 + FIGURES * len(columns) + MIN_TRACE_COLUMNS:
         columns.pop()
-    name = max(12, min(48, max(len(each.path) for each in curves) + 3, width - FIGURES * len(columns) - LEAST_TRACE))
+    name = max(
+        12, min(48, max(len(each.path) for each in curves) + 3, width - FIGURES * len(columns) - MIN_TRACE_COLUMNS)
+    )
     across = max(4, width - name - FIGURES * len(columns) - 1)
     heading = " " * name + "".join(f"{each:>{FIGURES}}" for each in columns)
     rows = max(1, height - 1)
@@ -34,7 +36,7 @@ def sparklines(curves: Sequence[Curve], axes: Axes, width: int, height: int, cho
         trace = layered([canvas(seen, *limits([seen]), across, 1)], [style_of(curve)], across, 1)[0]
         mark = "▸ " if at == chosen else "  "
         text = "".join(f"{figures[each]:>{FIGURES}}" for each in columns)
-        lines.append(((mark, "strong"), (cut(harmless(curve.path), name - 3, pad=True) + " ", style_of(curve)),
+        lines.append(((mark, "strong"), (cut(sanitize(curve.path), name - 3, pad=True) + " ", style_of(curve)),
                       (text, "strong" if at == chosen else ""), (" ", ""), *trace))  # fmt: skip
     return lines
 

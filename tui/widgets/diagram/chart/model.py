@@ -39,11 +39,11 @@ class ChartLink:
     target: str
     words: tuple[str, ...]
 
-    def label(self, most: int) -> str:
+    def label(self, maximum: int) -> str:
         """At most so many words, and the number of those left out."""
-        if len(self.words) <= most:
+        if len(self.words) <= maximum:
             return "  ".join(self.words)
-        return "  ".join((*self.words[:most], f"+{len(self.words) - most}"))
+        return "  ".join((*self.words[:maximum], f"+{len(self.words) - maximum}"))
 
 
 @dataclass(frozen=True)

@@ -4,18 +4,24 @@ import sys
 from pathlib import Path
 
 import pytest
-from bot_console.tui.cli.attach.console_needs import LENT, MESSAGES, LentPackages, lend_missing, missing_messages
+from bot_console.tui.cli.attach.console_needs import (
+    BUNDLED_PACKAGE,
+    MESSAGES,
+    LentPackages,
+    missing_messages,
+    provide_missing,
+)
 
 
 def test_plain_python_packages_are_lent_behind_the_machines_own_and_nothing_else_is(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(sys, "meta_path", [*sys.meta_path])
-    lend_missing()
-    lend_missing()
+    provide_missing()
+    provide_missing()
     finder = sys.meta_path[-1]
     assert isinstance(finder, LentPackages) and not isinstance(sys.meta_path[-2], LentPackages)
-    for name in LENT:
+    for name in BUNDLED_PACKAGE:
         spec = finder.find_spec(name, None)
         assert spec is not None and spec.origin is not None and Path(spec.origin).is_file()
         assert spec.submodule_search_locations == [str(Path(spec.origin).parent)]
@@ -33,6 +39,6 @@ def test_message_packages_that_are_not_there_are_named_with_what_installs_them(
     for each in ("nav_msgs", "diagnostic_msgs"):
         (tmp_path / each / "__init__.py").unlink()
         (tmp_path / each).rmdir()
-    said = missing_messages([str(tmp_path)])
-    assert "lacks diagnostic_msgs, nav_msgs," in said
-    assert "ros-jazzy-diagnostic-msgs ros-jazzy-nav-msgs" in said
+    message = missing_messages([str(tmp_path)])
+    assert "lacks diagnostic_msgs, nav_msgs," in message
+    assert "ros-jazzy-diagnostic-msgs ros-jazzy-nav-msgs" in message

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from bot_console.tui.cli.attach.launch_files import LaunchFiles, launch_files
 
-PATIENCE = 10.0
+TIMEOUT_S = 10.0
 
 
 def test_all_spellings_are_found_and_nothing_else(tmp_path: Path, monkeypatch) -> None:
@@ -34,14 +34,14 @@ def test_without_a_prefix_there_are_none(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 def test_who_asks_waits_for_the_first_look_alone() -> None:
-    go_on, looks = threading.Semaphore(1), []
+    go_on, polls = threading.Semaphore(1), []
 
-    def look() -> tuple[str, ...]:
-        assert go_on.acquire(timeout=PATIENCE)
-        looks.append(str(len(looks)))
-        return tuple(looks)
+    def poll() -> tuple[str, ...]:
+        assert go_on.acquire(timeout=TIMEOUT_S)
+        polls.append(str(len(polls)))
+        return tuple(polls)
 
-    files = LaunchFiles(look)
+    files = LaunchFiles(poll)
     assert files.now() == ("0",)  # and a second look begins, which has to wait
     assert files.now() == ("0",) == files.now()
     go_on.release()

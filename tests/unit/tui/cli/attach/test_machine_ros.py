@@ -45,7 +45,7 @@ def test_an_rclpy_on_the_path_is_found_whether_it_has_an_extension_for_this_pyth
         ("37m", "3.7", ("needs 3.10 or newer", "attach --connect")),
     ],
 )
-def test_one_for_another_python_says_which_and_what_to_do(
+def test_one_for_another_python_reports_which_and_what_to_do(
     tmp_path: Path, tag: str, python: str, parts: Sequence[str]
 ) -> None:
     package = make_rclpy(tmp_path, f".cpython-{tag}-x86_64-linux-gnu.so")
@@ -112,5 +112,5 @@ def test_a_person_is_asked(answer: str, ros_chosen: bool, code: int) -> None:
     assert len(asked) == 1
 
 
-def test_no_ros_at_all_says_what_to_source() -> None:
+def test_no_ros_at_all_reports_what_to_source() -> None:
     assert choose(ros=True, embedded=False, system_there=False, find=lambda: None).text == NO_ROS

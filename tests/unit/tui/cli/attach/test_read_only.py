@@ -13,7 +13,7 @@ from bot_console.tui.console.connection.ros_console import RosConsole
 
 @pytest.mark.parametrize("words", [[], ["--pane", "logs"]])
 def test_the_option_reaches_the_session(words: list[str]) -> None:
-    assert parse(["--read-only", *words]).look.read_only and not parse(words).look.read_only
+    assert parse(["--read-only", *words]).appearance.read_only and not parse(words).appearance.read_only
 
 
 @pytest.mark.parametrize("read_only", [False, True])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from bot_console.tui.cli.check.run import line_of, report, summary
+from bot_console.tui.cli.check.run import report, step_line, summary
 from bot_console.tui.cli.check.runner import Runner
 from bot_console.tui.cli.check.script import read
 from fakes.console import FakeConsole
@@ -83,7 +83,7 @@ def test_what_is_so_passes(system: System, line: str) -> None:
         ("expect-log re:( within 1 s", "regular expression"),
     ],
 )
-def test_what_is_not_so_says_what_is(system: System, line: str, why: str) -> None:
+def test_what_is_not_so_reports_what_is(system: System, line: str, why: str) -> None:
     assert why in system.why(line)
 
 
@@ -100,8 +100,8 @@ def test_what_comes_in_time_passes_and_what_comes_too_late_does_not(system: Syst
 def test_the_report_names_lines_and_reasons(system: System) -> None:
     steps = read(f"wait 1 s\nset {NAVIGATOR} max_speed 99\nwait 1 s")
     outcomes = [system.runner.run(each) for each in steps[:2]]
-    assert line_of(outcomes[0]) == "ok      1  wait 1 s"
-    assert line_of(outcomes[1]).startswith(f"FAIL    2  set {NAVIGATOR} max_speed 99\n           refused by")
+    assert step_line(outcomes[0]) == "ok      1  wait 1 s"
+    assert step_line(outcomes[1]).startswith(f"FAIL    2  set {NAVIGATOR} max_speed 99\n           refused by")
     assert summary(steps, outcomes) == "1 of 3 steps as expected, 1 not, 1 not done"
     found = report("a.txt", steps, outcomes)
     assert (found["passed"], found["failed"], found["not_done"]) == (1, 1, 1)

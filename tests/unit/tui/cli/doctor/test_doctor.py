@@ -8,12 +8,12 @@ import sys
 
 import pytest
 from bot_console.tui.cli import doctor
-from bot_console.tui.cli.doctor.finding import Finding, Level, exit_code
+from bot_console.tui.cli.doctor.finding import DoctorFinding, Level, exit_code
 from bot_console.tui.cli.doctor.machine import domain_finding, python_finding, sockets_findings
 from bot_console.tui.cli.doctor.nodes import base_finding, pair_findings, type_findings
 from bot_console.tui.cli.doctor.system import link_finding
-from bot_console.tui.cli.doctor.terminal import colours_finding, letters_finding, size_finding
-from bot_console.tui.cli.doctor.terminal import link_finding as terminal_link
+from bot_console.tui.cli.doctor.terminal import characters_finding, colours_finding, size_finding
+from bot_console.tui.cli.doctor.terminal import terminal_link_finding as terminal_link
 from geometry_msgs.msg import Twist
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -40,8 +40,8 @@ def node(monkeypatch):
     [
         (size_finding(120, 40), Level.OK),
         (size_finding(50, 20), Level.FAIL),
-        (letters_finding("UTF-8"), Level.OK),
-        (letters_finding("ANSI_X3.4-1968"), Level.WARN),
+        (characters_finding("UTF-8"), Level.OK),
+        (characters_finding("ANSI_X3.4-1968"), Level.WARN),
         (colours_finding({"TERM": "xterm-256color"}), Level.OK),
         (colours_finding({"TERM": "vt100"}), Level.WARN),
         (colours_finding({}), Level.WARN),
@@ -60,13 +60,13 @@ def node(monkeypatch):
         (link_finding("tcp/robot:7447", None), Level.FAIL),
     ],
 )
-def test_what_is_wrong_has_a_mend(finding: Finding, level: Level) -> None:
+def test_what_is_wrong_has_a_hint(finding: DoctorFinding, level: Level) -> None:
     assert finding.level is level
-    assert bool(finding.mend) == (level in (Level.WARN, Level.FAIL))
+    assert bool(finding.hint) == (level in (Level.WARN, Level.FAIL))
     assert exit_code([finding]) == (level is Level.FAIL)
 
 
-def test_a_terminal_is_not_called_faster_than_can_be_told() -> None:
+def test_a_terminal_is_not_called_faster_than_can_be_reported() -> None:
     assert terminal_link(0.02, 1.5e6).text == "answers after 20 ms, takes 1,500 kB/s"
     assert terminal_link(0.02, 1.6e8).text == "answers after 20 ms, takes more than 3,000 kB/s"
 
@@ -78,18 +78,18 @@ def test_sockets_left_over_are_counted(socket_folder: str) -> None:
     assert any("1 of programs that were killed" in each.text for each in sockets_findings())
     os.chmod(socket_folder, 0o755)
     (refused,) = sockets_findings()
-    assert refused.level is Level.FAIL and "chmod 700" in refused.mend
+    assert refused.level is Level.FAIL and "chmod 700" in refused.hint
 
 
 def test_a_base_without_a_time_out_is_warned_of_and_one_with_is_not(node) -> None:
     assert base_finding(node).level is Level.NOTE
     node.create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
     found = base_finding(node)
-    assert found.level is Level.WARN and "/base" in found.text and "cmd_vel_timeout" in found.mend
+    assert found.level is Level.WARN and "/base" in found.text and "cmd_vel_timeout" in found.hint
 
 
 @pytest.mark.parametrize(
-    ("name", "value", "level", "told"),
+    ("name", "value", "level", "reported"),
     [
         ("cmd_vel_timeout", 0.5, Level.OK, "/base cmd_vel_timeout 0.5: look that it is short"),
         ("command_timeout", 1, Level.OK, "/base command_timeout 1: look that it is short"),
@@ -99,7 +99,9 @@ def test_a_base_without_a_time_out_is_warned_of_and_one_with_is_not(node) -> Non
         ("bond_timeout", 4.0, Level.WARN, "none is seen in /base"),
     ],
 )
-def test_the_names_of_time_outs_are_known_and_their_values_told(node, monkeypatch, name, value, level, told) -> None:
+def test_the_names_of_time_outs_are_known_and_their_values_reported(
+    node, monkeypatch, name, value, level, reported
+) -> None:
     executor = SingleThreadedExecutor(context=node.context)
     executor.add_node(node)
 
@@ -111,21 +113,21 @@ def test_the_names_of_time_outs_are_known_and_their_values_told(node, monkeypatc
     node.create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
     node.declare_parameter(name, value)
     found = base_finding(node)
-    assert found.level is level and found.text.startswith(told)
+    assert found.level is level and found.text.startswith(reported)
 
 
-def test_pairs_that_do_not_match_are_told_and_types_are_known(node) -> None:
+def test_pairs_that_do_not_match_are_reported_and_types_are_known(node) -> None:
     assert [each.level for each in pair_findings(node)] == [Level.OK]
     weak = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
     node.create_publisher(String, "/words", weak)
     node.create_subscription(String, "/words", lambda message: None, 10)
     (found,) = pair_findings(node)
     assert found.level is Level.WARN and found.text.startswith("/words: /base hears nothing of /base")
-    assert found.mend == "change the QoS of one of them"
+    assert found.hint == "change the QoS of one of them"
     assert [each.level for each in type_findings(node)] == [Level.OK]
 
 
-def test_a_topic_of_two_types_is_told_as_such_and_not_as_one_of_another_definition(node) -> None:
+def test_a_topic_of_two_types_is_reported_as_such_and_not_as_one_of_another_definition(node) -> None:
     node.create_publisher(String, "/words", 1)
     node.create_subscription(Twist, "/words", lambda message: None, 1)
     (found,) = pair_findings(node)
@@ -138,7 +140,7 @@ def run(*words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(line, capture_output=True, text=True, timeout=100, check=False)
 
 
-def test_a_ros_that_does_not_start_says_so(tmp_path, monkeypatch) -> None:
+def test_a_ros_that_does_not_start_reports_it(tmp_path, monkeypatch) -> None:
     (tmp_path / "rclpy").mkdir()
     (tmp_path / "rclpy" / "__init__.py").write_text("raise ImportError('librcl.so: cannot open shared object file')")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
@@ -152,7 +154,7 @@ def test_as_json_for_scripts() -> None:
     found = json.loads(done.stdout)
     assert done.returncode == 0 and not done.stderr
     assert {"terminal", "python", "ros", "domain", "sockets", "graph"} == {each["about"] for each in found}
-    assert set(found[0]) == {"level", "about", "text", "mend"}
+    assert set(found[0]) == {"level", "about", "text", "hint", "mend"}
 
 
 def test_a_robot_that_is_not_reached_fails_with_the_reason() -> None:
@@ -168,11 +170,13 @@ def test_wrong_usage_is_2() -> None:
 
 def test_a_pipe_that_nobody_reads_is_no_fault_of_the_capture(monkeypatch, capsys):
     monkeypatch.setattr("bot_console.tui.cli.system.domain.others_take_part", lambda: True)
-    monkeypatch.setattr("bot_console.tui.cli.doctor.system.examine", lambda *words: [Finding(Level.OK, "link", "is")])
+    monkeypatch.setattr(
+        "bot_console.tui.cli.doctor.system.examine", lambda *words: [DoctorFinding(Level.OK, "link", "is")]
+    )
 
-    def tell(found):
+    def report(found):
         raise BrokenPipeError
 
     with pytest.raises(BrokenPipeError):
-        doctor._zenoh(None, 0.0, None, tell)
+        doctor._zenoh(None, 0.0, None, report)
     assert capsys.readouterr().err == ""

@@ -49,14 +49,14 @@ class Bench:
         """One that knows no questions; like those of before, it locks at a verb that it does not know."""
         states = node.create_publisher(DiagnosticStatus, BASE, LATCHED)
 
-        def tell(locked: str) -> None:
+        def report(locked: str) -> None:
             states.publish(DiagnosticStatus(values=[KeyValue(key="locked", value=locked)]))
 
         def requested(message: DiagnosticStatus) -> None:
             if request_of(message).verb not in ("release", "steer", "hand_back"):
-                tell("true")
+                report("true")
 
-        tell("false")
+        report("false")
         node.create_subscription(DiagnosticStatus, REQUESTS, requested, 10)
 
     def spin(self, node: Node, seconds: float, until: Callable[[], bool] = lambda: False) -> None:
@@ -94,7 +94,7 @@ def test_a_lock_that_hangs_fails_though_its_last_report_is_still_there(bench: Be
     if locked:
         hangs.stop("safety_monitor", "its own reason")
     found = base_finding(bench.doctor)
-    assert found.level is Level.FAIL and found.mend
+    assert found.level is Level.FAIL and found.hint
     assert "does not answer (/emergency_stop/arbiter of /safety_monitor)" in found.text
 
 

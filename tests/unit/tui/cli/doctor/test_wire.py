@@ -92,7 +92,7 @@ def test_the_attachment_of_an_old_release_is_recognised_and_named(place, robot):
     assert level is Level.FAIL and "/words" in text and "too old (before Jazzy 0.2.4" in text
 
 
-def test_a_clock_that_is_wrong_is_told_with_its_sign(place, robot):
+def test_a_clock_that_is_wrong_is_reported_with_its_sign(place, robot):
     token, publisher = robot.topic("/words", 1)
 
     def late():
@@ -119,6 +119,6 @@ def test_what_comes_while_it_listens_counts(place, robot):
     assert sorted(each.node.name for each in wire.parsed()[0]) == ["late", "robot"]
 
 
-def test_an_empty_domain_says_where_to_look(place):
+def test_an_empty_domain_reports_where_to_look(place):
     ((level, text),) = levels(watched(place), "graph")
     assert level is Level.WARN and "no node is seen" in text

@@ -8,10 +8,10 @@ from collections.abc import Generator
 
 import pytest
 from bot_console.tui.cli.main import main
-from bot_console.tui.cli.tune.describing import dials_of
-from bot_console.tui.cli.tune.pool import CAN_FORK, Pool, profile_text
-from bot_console.tui.tuning.question import Question, Trial
+from bot_console.tui.cli.tune.describing import tunables_of
+from bot_console.tui.cli.tune.pool import CAN_FORK, Pool, profile_yaml
 from bot_console.tui.tuning.score import parse_score
+from bot_console.tui.tuning.specification import Trial, TuningSpecification
 
 pytestmark = pytest.mark.skipif(not CAN_FORK, reason="this system cannot fork processes")
 SPEED = "/odom/twist.twist.linear.x"
@@ -25,25 +25,27 @@ def pool() -> Generator[Pool]:
 
 
 def test_a_run_is_the_one_that_headless_makes(pool: Pool, capsys: pytest.CaptureFixture[str]) -> None:
-    question = Question((), parse_score(f"greatest({SPEED})"), profile="outdoor", duration=2.0)
-    begun = [pool.begin(question, Trial((), "", seed)) for seed in (3, 4)]
+    specification = TuningSpecification((), parse_score(f"greatest({SPEED})"), profile="outdoor", duration=2.0)
+    begun = [pool.begin(specification, Trial((), "", seed)) for seed in (3, 4)]
     assert main(["--headless", "--fast", "--profile", "outdoor", "--duration", "2", "--seed", "3"]) == 0
     expected = json.loads(capsys.readouterr().out)
     first, second = (each.result() for each in begun)
     assert first["digest"] == expected["digest"] != second["digest"]
     assert first["deterministic"]
-    assert 0.1 < question.score.of(first) == first["topics"][SPEED]["greatest"] < 3.0
+    assert 0.1 < specification.score.of(first) == first["topics"][SPEED]["greatest"] < 3.0
 
 
 def test_a_value_that_a_node_refuses_fails_the_run_with_its_reason(pool: Pool) -> None:
-    question = Question((), parse_score("swift"), duration=2.0, base={"/safety_monitor": {"warning_distance": 0.2}})
-    problem = pool.begin(question, Trial((), "", 1)).result()["problem"]
+    specification = TuningSpecification(
+        (), parse_score("swift"), duration=2.0, base={"/safety_monitor": {"warning_distance": 0.2}}
+    )
+    problem = pool.begin(specification, Trial((), "", 1)).result()["problem"]
     assert "safety_node" in problem
     assert "warning_distance (0.2 m) must be greater than" in problem
 
 
 def test_a_probe_finds_what_can_be_tuned_with_ranges_and_values(pool: Pool) -> None:
-    known = {each.label: each for each in dials_of(pool.probe("outdoor", {}).result())}
+    known = {each.label: each for each in tunables_of(pool.probe("outdoor", {}).result())}
     speed = known["/robot_navigator:max_speed"]
     assert (speed.kind, speed.low, speed.high, speed.now, speed.unit) == ("double", 0.1, 5.0, 2.0, "m/s")
     assert known["/robot_navigator:enable_safety"].kind == "bool"
@@ -53,7 +55,7 @@ def test_a_probe_finds_what_can_be_tuned_with_ranges_and_values(pool: Pool) -> N
 
 def test_closing_leaves_no_process(pool: Pool) -> None:
     short = Pool(1)
-    begun = short.begin(Question((), parse_score("swift"), duration=100_000.0), Trial((), "", 1))
+    begun = short.begin(TuningSpecification((), parse_score("swift"), duration=100_000.0), Trial((), "", 1))
     server = short.server_pid
     short.close()
     assert begun.cancelled() or begun.exception() or begun.result().get("problem")
@@ -64,7 +66,7 @@ def test_closing_leaves_no_process(pool: Pool) -> None:
 def test_the_text_of_a_profile_is_found_by_name_or_path(tmp_path) -> None:
     own = tmp_path / "mine.yaml"
     own.write_text("/a: {ros__parameters: {b: 1}}\n")
-    assert profile_text(str(own)).startswith("/a")
-    assert "IndoorBot" in profile_text("indoor")
+    assert profile_yaml(str(own)).startswith("/a")
+    assert "IndoorBot" in profile_yaml("indoor")
     with pytest.raises(OSError, match="nowhere"):
-        profile_text("nowhere")
+        profile_yaml("nowhere")

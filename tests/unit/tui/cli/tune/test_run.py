@@ -8,18 +8,18 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.cli.tune import run as tune
-from bot_console.tui.cli.tune.describing import line_of, result_of
-from bot_console.tui.tuning.dial import Dial
-from bot_console.tui.tuning.question import Question
+from bot_console.tui.cli.tune.describing import result_line, result_of
+from bot_console.tui.tuning.job import Progress, SettingResult
 from bot_console.tui.tuning.score import FAILED, parse_score
-from bot_console.tui.tuning.study import Judged, Progress
+from bot_console.tui.tuning.specification import TuningSpecification
+from bot_console.tui.tuning.tunable import Tunable
 
-SPEED = Dial("/robot_navigator", "max_speed", "double", 0.1, 5.0, 1.0, "m/s")
-QUESTION = Question((SPEED,), parse_score("swift"))
-NOW = Judged((1.0,), 0.8, (0.7, 0.9))
-BEST = Judged((2.5,), 1.2, (1.2, 1.2))
-WORST = Judged((5.0,), FAILED, (), problem="seed 1: robot_node ended")
-BUMPED = Judged((4.0,), -1.0, (-1.0, -1.0), 3)
+SPEED = Tunable("/robot_navigator", "max_speed", "double", 0.1, 5.0, 1.0, "m/s")
+QUESTION = TuningSpecification((SPEED,), parse_score("swift"))
+NOW = SettingResult((1.0,), 0.8, (0.7, 0.9))
+BEST = SettingResult((2.5,), 1.2, (1.2, 1.2))
+WORST = SettingResult((5.0,), FAILED, (), problem="seed 1: robot_node ended")
+BUMPED = SettingResult((4.0,), -1.0, (-1.0, -1.0), 3)
 
 
 @pytest.mark.parametrize(
@@ -42,13 +42,13 @@ def test_wrong_usage_ends_before_anything_runs(
 
 
 def test_a_line_for_each_setting() -> None:
-    assert line_of(QUESTION, BEST) == "   1.200  max_speed 2.5"
-    assert line_of(QUESTION, BUMPED).endswith("3 collisions")
-    assert line_of(QUESTION, WORST) == "  failed  max_speed 5.0  seed 1: robot_node ended"
+    assert result_line(QUESTION, BEST) == "   1.200  max_speed 2.5"
+    assert result_line(QUESTION, BUMPED).endswith("3 collisions")
+    assert result_line(QUESTION, WORST) == "  failed  max_speed 5.0  seed 1: robot_node ended"
 
 
-def test_the_result_says_by_how_much_and_whether_it_holds_on_other_seeds() -> None:
-    worse = Judged((2.5,), 0.6, (0.6,))
+def test_the_result_reports_by_how_much_and_whether_it_holds_on_other_seeds() -> None:
+    worse = SettingResult((2.5,), 0.6, (0.6,))
     result = result_of(QUESTION, Progress((NOW, BEST, WORST), 9, 9, 3.0, 9, (NOW, worse), True))
     assert result["best"]["values"] == {"/robot_navigator:max_speed": 2.5}
     assert result["worst"]["score"] is None
@@ -65,10 +65,10 @@ def test_the_best_is_saved_as_a_profile_with_the_comments_of_the_one_that_was_tu
 ) -> None:
     monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path))
     progress = Progress((NOW, BEST), 9, 9, 3.0, 9, (NOW, BEST), True)
-    assert tune._told(QUESTION, progress, Namespace(json=False, save=name)) == code
-    said = capsys.readouterr().err
+    assert tune._reported(QUESTION, progress, Namespace(json=False, save=name)) == code
+    message = capsys.readouterr().err
     if code:
-        assert "is no name for a profile" in said
+        assert "is no name for a profile" in message
         return
     text = (tmp_path / "config" / "profiles" / "swift one.yaml").read_text()
     assert text.startswith("# indoor, tuned for swift: score 1.200\n# Indoor: low speed")
@@ -77,5 +77,5 @@ def test_the_best_is_saved_as_a_profile_with_the_comments_of_the_one_that_was_tu
 
 
 @pytest.mark.parametrize("progress", [Progress((WORST,), ended=True, problem="every setting failed"), Progress()])
-def test_without_a_result_the_exit_code_says_so(progress: Progress) -> None:
-    assert tune._told(QUESTION, progress, Namespace(json=True, save="")) == 1
+def test_without_a_result_the_exit_code_reports_it(progress: Progress) -> None:
+    assert tune._reported(QUESTION, progress, Namespace(json=True, save="")) == 1

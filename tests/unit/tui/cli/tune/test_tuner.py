@@ -5,26 +5,26 @@ from __future__ import annotations
 from pathlib import Path
 
 from bot_console.tui.cli.tune import tuner
-from bot_console.tui.tuning.dial import Dial
-from bot_console.tui.tuning.question import Question
 from bot_console.tui.tuning.score import parse_score
+from bot_console.tui.tuning.specification import TuningSpecification
+from bot_console.tui.tuning.tunable import Tunable
 
-SPEED = Dial("/robot_navigator", "max_speed", "double", 0.1, 5.0, 1.0)
+SPEED = Tunable("/robot_navigator", "max_speed", "double", 0.1, 5.0, 1.0)
 
 
 def test_only_what_the_runs_have_can_be_tuned(tmp_path: Path) -> None:
     asked = tuner.LocalTuner(tmp_path)
-    assert asked.problem(Question((SPEED,), parse_score("swift"))) == ""
-    mine = Dial("/mine", "gain", "double", 0, 1, 0.5)
-    assert asked.problem(Question((SPEED, mine), parse_score("swift"))).startswith(
+    assert asked.problem(TuningSpecification((SPEED,), parse_score("swift"))) == ""
+    mine = Tunable("/mine", "gain", "double", 0, 1, 0.5)
+    assert asked.problem(TuningSpecification((SPEED, mine), parse_score("swift"))).startswith(
         "/mine:gain: only nodes of the robot"
     )
-    assert "too few" in asked.problem(Question((SPEED,), parse_score("swift"), runs=2))
+    assert "too few" in asked.problem(TuningSpecification((SPEED,), parse_score("swift"), runs=2))
 
 
-def test_a_journal_that_cannot_be_written_is_told(tmp_path: Path) -> None:
+def test_a_journal_that_cannot_be_written_is_reported(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
-    tuning = tuner.LocalTuning(Question((SPEED,), parse_score("swift")), None, tmp_path / "file")  # type: ignore[arg-type]
+    tuning = tuner.LocalTuning(TuningSpecification((SPEED,), parse_score("swift")), None, tmp_path / "file")  # type: ignore[arg-type]
     tuning.thread.join(5)
     assert tuning.progress.ended
     assert "the journal cannot be written" in tuning.progress.problem

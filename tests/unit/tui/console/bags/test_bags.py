@@ -16,8 +16,8 @@ from action_tutorials_interfaces.action import Fibonacci
 from bot_console.tui.console.bags import damage
 from bot_console.tui.console.bags.contents import Contents
 from bot_console.tui.console.bags.damage import NoBag
-from bot_console.tui.console.bags.definitions import definition, type_name
-from bot_console.tui.console.bags.opened import OpenedBag
+from bot_console.tui.console.bags.definitions import definition, interface_type_name
+from bot_console.tui.console.bags.opened_bag import OpenedBag
 from bot_console.tui.console.bags.playing.player import Player, Playing
 from bot_console.tui.console.bags.qos import noted, offered
 from bot_console.tui.console.bags.reader import Bag
@@ -86,14 +86,14 @@ def test_others_read_it(tmp_path: Path) -> None:
 def test_a_definition_has_all_that_it_needs() -> None:
     text = definition(Twist)
     assert text.startswith("geometry_msgs/Vector3 linear\n") and "MSG: geometry_msgs/Vector3\nfloat64 x\n" in text
-    assert type_name(Twist) == "geometry_msgs/msg/Twist"
+    assert interface_type_name(Twist) == "geometry_msgs/msg/Twist"
     assert "std_msgs/MultiArrayDimension[] dim" in definition(Float64MultiArray)
     assert "float64[36] covariance" in definition(get_message("geometry_msgs/msg/PoseWithCovariance"))
 
 
 def test_what_is_written_comes_back(tmp_path: Path) -> None:
     bag = Bag(words(tmp_path / "bag", "a", "b", "c"))
-    assert texts(bag) == ["a", "b", "c"] and not bag.mended
+    assert texts(bag) == ["a", "b", "c"] and not bag.repaired
     about = bag.metadata
     assert (about.begin, about.end, about.count) == (SECOND, 3 * SECOND, 3)
     assert about.topics["/words"].type == "std_msgs/msg/String"
@@ -102,7 +102,7 @@ def test_what_is_written_comes_back(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("part", [0.3, 0.5, 0.7, 0.9, 0.999])
-def test_a_file_that_was_cut_is_mended_and_keeps_what_came_whole(tmp_path: Path, part: float) -> None:
+def test_a_file_that_was_cut_is_repaired_and_keeps_what_came_whole(tmp_path: Path, part: float) -> None:
     folder = tmp_path / "bag"
     writer = BagWriter(folder)
     writer.topic("/words", String, [])
@@ -115,12 +115,12 @@ def test_a_file_that_was_cut_is_mended_and_keeps_what_came_whole(tmp_path: Path,
     file.write_bytes(whole[: int(len(whole) * part)])
     bag = Bag(folder)
     found = [int(each) for each in texts(bag)]
-    assert len(bag.mended) == 1 and found == list(range(1, len(found) + 1)) and len(found) > 15
-    assert not Bag(folder).mended and Bag(folder).metadata.count == len(found)
+    assert len(bag.repaired) == 1 and found == list(range(1, len(found) + 1)) and len(found) > 15
+    assert not Bag(folder).repaired and Bag(folder).metadata.count == len(found)
 
 
 def test_what_is_damaged_before_its_end_is_kept_as_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(damage, "MOST_CUT", 4_000_000)
+    monkeypatch.setattr(damage, "MAX_CUT_BYTES", 4_000_000)
     file = words(tmp_path / "bag", "first", *(["x" * 4_000_000] * 3)) / "bag_0.mcap"
     whole = file.read_bytes()
     begin = whole.index(b"x" * 100)
@@ -128,8 +128,8 @@ def test_what_is_damaged_before_its_end_is_kept_as_it_was(tmp_path: Path, monkey
     file.write_bytes(broken)
     bag = Bag(file.parent)
     kept = file.with_name("bag_0.mcap.damaged")
-    assert f"kept as {kept.name}" in bag.mended[0] and kept.read_bytes() == broken
-    assert texts(bag)[0] == "first" and not Bag(file.parent).mended
+    assert f"kept as {kept.name}" in bag.repaired[0] and kept.read_bytes() == broken
+    assert texts(bag)[0] == "first" and not Bag(file.parent).repaired
 
 
 def test_a_full_disk_costs_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -167,33 +167,33 @@ def test_what_is_no_bag_is_refused(tmp_path: Path) -> None:
     (tmp_path / "empty").mkdir()
     (tmp_path / "bad.mcap").write_bytes(b"nothing of the kind")
     (tmp_path / "bad.db3").write_bytes(b"nothing of the kind")
-    for name, says in (
+    for name, message_of in (
         ("none", "no such bag"),
         ("empty", "no .mcap"),
         ("bad.mcap", "no MCAP"),
         ("bad.db3", "database"),
     ):
-        with pytest.raises(NoBag, match=says):
+        with pytest.raises(NoBag, match=message_of):
             Bag(tmp_path / name)
 
 
 @pytest.mark.parametrize("step", [3, pytest.param(1, marks=pytest.mark.soak)])
-def test_a_damaged_byte_anywhere_is_told_or_does_no_harm(tmp_path: Path, step: int) -> None:
+def test_a_damaged_byte_anywhere_is_reported_or_does_no_harm(tmp_path: Path, step: int) -> None:
     file = words(tmp_path / "bag", "a", "b") / "bag_0.mcap"
-    whole, told = file.read_bytes(), 0
+    whole, reported = file.read_bytes(), 0
     for place in range(0, len(whole), step):
         file.write_bytes(whole[:place] + b"\xff" + whole[place + 1 :])
         try:
             contents = Contents(Bag(file.parent))
         except NoBag:
-            told += 1
+            reported += 1
         else:
-            told += bool(contents.damage)
-    assert told > 20 / step
+            reported += bool(contents.damage)
+    assert reported > 20 / step
 
 
 @pytest.mark.parametrize("stamp", ["'soon'", "-1", "9300000000000000000.0"])
-def test_a_message_from_no_time_is_told(tmp_path: Path, stamp: str) -> None:
+def test_a_message_from_no_time_is_reported(tmp_path: Path, stamp: str) -> None:
     base = sqlite3.connect(tmp_path / "bag_0.db3")
     base.execute("create table topics (id integer primary key, name, type, serialization_format, offered_qos_profiles)")
     base.execute("create table messages (id integer primary key, topic_id, timestamp, data)")
@@ -213,7 +213,7 @@ def test_metadata_that_are_no_yaml_do_not_matter(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("type_name", ["", "/msg/String", "std_msgs", "std_msgs/msg/", "../x/y", "a b/msg/C"])
-def test_a_topic_of_an_impossible_type_is_told_of(tmp_path: Path, type_name: str) -> None:
+def test_a_topic_of_an_impossible_type_is_reported(tmp_path: Path, type_name: str) -> None:
     with sqlite3.connect(tmp_path / "bag_0.db3") as base:
         base.execute("create table topics (id integer, name, type, serialization_format, offered_qos_profiles)")
         base.execute("create table messages (id integer primary key, topic_id, timestamp, data)")
@@ -273,7 +273,7 @@ def test_what_is_taken_at_once_lies_as_it_was_sent_unless_clocks_differ() -> Non
     assert [each[0] for each in in_order(found, now, last=now - 2)] == [now - 2, now - 2, now - 1, now]
 
 
-def test_a_topic_whose_type_is_not_here_is_told(tmp_path: Path, node: rclpy.node.Node) -> None:
+def test_a_topic_whose_type_is_not_here_is_reported(tmp_path: Path, node: rclpy.node.Node) -> None:
     folder = words(tmp_path / "bag", "a")
     bag = Bag(folder)
     bag.metadata.topics["/words"].type = "nobody_msgs/msg/Such"
@@ -283,7 +283,7 @@ def test_a_topic_whose_type_is_not_here_is_told(tmp_path: Path, node: rclpy.node
 
 
 def test_a_ring_keeps_the_last_seconds_and_no_more_than_its_bytes(tmp_path: Path) -> None:
-    ring = Ring(seconds=10, most=100_000)
+    ring = Ring(seconds=10, maximum=100_000)
     ring.topic("/words", String, [], "")
     data = serialize_message(String(data="x"))
     for second in range(1, 31):
@@ -292,7 +292,7 @@ def test_a_ring_keeps_the_last_seconds_and_no_more_than_its_bytes(tmp_path: Path
     assert ring.pour(writer) == 11
     writer.close()
     assert Bag(tmp_path / "bag").metadata.begin == 20 * SECOND
-    ring = Ring(seconds=10, most=2 * (400 + OVERHEAD) + 200)
+    ring = Ring(seconds=10, maximum=2 * (400 + OVERHEAD) + 200)
     ring.topic("/words", String, [], "")
     for second in range(31, 60):
         ring.write("/words", b"\0" * 400, second * SECOND // 100 + 30 * SECOND, 0)

@@ -82,7 +82,7 @@ def test_a_topic_remapped_to_a_control_topic_is_left_out(node: rclpy.node.Node, 
     assert "/words" in left_out and REQUEST in left_out
 
 
-def test_the_warning_says_what_is_left_out_and_how_to_include_it(
+def test_the_warning_reports_what_is_left_out_and_how_to_include_it(
     recorded: Bag, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(verb, "take_part", lambda: "")

@@ -26,7 +26,7 @@ def texts(folder: Path, topic: str = "/words") -> list[str]:
     return [deserialize_message(each.data, String).data for each in Bag(folder).messages([topic])]
 
 
-def told(future: Future[Answer]) -> Answer:
+def reported(future: Future[Answer]) -> Answer:
     return future.result(timeout=20)
 
 
@@ -53,22 +53,22 @@ def test_a_bag_is_recorded_from_begin_to_end(tmp_path: Path, node: rclpy.node.No
     latched.publish(String(data="office"))
     publisher = node.create_publisher(String, "/words", 10)
     node.create_publisher(Clock, "/clock", 10)
-    assert not told(room.stop()).ok and not told(room.keep("x")).ok and room.info.folder == ""
-    assert told(room.start(str(tmp_path / "bag"))).ok
+    assert not reported(room.stop()).ok and not reported(room.keep("x")).ok and room.info.folder == ""
+    assert reported(room.start(str(tmp_path / "bag"))).ok
     assert room.info.folder == str(tmp_path / "bag") and room.info is room.info
-    assert "already" in told(room.start("another")).text  # by which time all topics are heard
+    assert "already" in reported(room.start("another")).text  # by which time all topics are heard
     assert publisher.get_subscription_count() == 1
     for number in range(20):
         publisher.publish(String(data=str(number)))
-    answer = told(room.stop())
+    answer = reported(room.stop())
     assert answer.ok and "messages of" in answer.text and room.info.folder == ""
-    again = told(room.start(str(tmp_path / "bag")))
+    again = reported(room.start(str(tmp_path / "bag")))
     assert not again.ok and "is there already" in again.text
     assert texts(tmp_path / "bag") == [str(number) for number in range(20)]
     room.close()
     assert texts(tmp_path / "bag", "/map_name") == ["office"]
     assert "/clock" not in Bag(tmp_path / "bag").metadata.topics
-    assert told(room.start(str(tmp_path / "late"))) == Answer(False, "the console has closed")
+    assert reported(room.start(str(tmp_path / "late"))) == Answer(False, "the console has closed")
 
 
 def test_what_was_is_saved_afterwards_with_what_had_been_latched(tmp_path: Path) -> None:
@@ -76,11 +76,11 @@ def test_what_was_is_saved_afterwards_with_what_had_been_latched(tmp_path: Path)
     sink.topic("/map_name", String, LATCHED)
     sink.topic("/rosout", String, LATCHED)
     sink.topic("/words", String, [])
-    say = lambda text: serialize_message(String(data=text))  # noqa: E731
-    sink.write("/map_name", say("office"), 10**9, 0)
-    sink.write("/rosout", say("a line"), 10**9, 0)
+    show_text = lambda text: serialize_message(String(data=text))  # noqa: E731
+    sink.write("/map_name", show_text("office"), 10**9, 0)
+    sink.write("/rosout", show_text("a line"), 10**9, 0)
     for second in range(2, 60):
-        sink.write("/words", say(str(second)), second * 10**9, 0)
+        sink.write("/words", show_text(str(second)), second * 10**9, 0)
     writer = BagWriter(tmp_path / "bag")
     sink.pour(writer)
     writer.close()
@@ -110,11 +110,11 @@ def test_a_fault_ends_one_bag_and_not_recording(
 
     with monkeypatch.context() as patch:
         patch.setattr("bot_console.tui.console.bags.recordings.Recorder", broken)
-        assert told(room.start(str(tmp_path / "first"))).ok
+        assert reported(room.start(str(tmp_path / "first"))).ok
         thread = room._thread
         if thread is not None:
             thread.join(20)
     assert "a fault" in room.info.problem and not room.info.folder
-    assert "a fault" in told(room.stop()).text
-    assert told(room.start(str(tmp_path / "second"))).ok and not room.info.problem
-    assert told(room.stop()).ok and Bag(tmp_path / "second").files
+    assert "a fault" in reported(room.stop()).text
+    assert reported(room.start(str(tmp_path / "second"))).ok and not room.info.problem
+    assert reported(room.stop()).ok and Bag(tmp_path / "second").files

@@ -71,7 +71,7 @@ def test_what_is_written_is_as_expected_when_it_is_read() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("nodes: /sim", "nodes should be a list of names"),
         ("topic: {}", "'topic' in the file is not known; known are nodes, topics"),
@@ -84,7 +84,7 @@ def test_what_is_written_is_as_expected_when_it_is_read() -> None:
         ("nodes: [a\0]", "this is no YAML: "),
     ],
 )
-def test_a_file_that_cannot_be_used_is_explained(text: str, said: str) -> None:
-    with pytest.raises(ValueError, match=said.replace("[", r"\[").replace("(", r"\(")) as caught:
+def test_a_file_that_cannot_be_used_is_explained(text: str, message: str) -> None:
+    with pytest.raises(ValueError, match=message.replace("[", r"\[").replace("(", r"\(")) as caught:
         read(text)
     assert len(str(caught.value).splitlines()) == 1

@@ -11,18 +11,18 @@ BEST, RELIABLE, LATCHED = "best effort volatile 5", "reliable volatile 10", "rel
 OWN = Endpoint("/a/get_parameters", ("rcl_interfaces/srv/GetParameters",))
 
 
-def said(*nodes: NodeInfo) -> list[str]:
+def message(*nodes: NodeInfo) -> list[str]:
     return [each.text for each in findings(GraphInfo(nodes))]
 
 
 def pair(offered: str, wanted: str) -> list[str]:
-    return said(
+    return message(
         NodeInfo("/lidar", (Endpoint("/scan", SCAN, offered),)),
         NodeInfo("/nav", (), (Endpoint("/scan", SCAN, wanted),)),
     )
 
 
-def test_qos_that_does_not_match_is_told_with_both_nodes() -> None:
+def test_qos_that_does_not_match_is_reported_with_both_nodes() -> None:
     assert pair(BEST, RELIABLE) == ["/scan best effort to reliable: nothing arrives from /lidar at /nav"]
     assert pair(RELIABLE, LATCHED) == ["/scan volatile to transient local: nothing arrives from /lidar at /nav"]
     assert pair(RELIABLE, BEST) == pair(LATCHED, RELIABLE) == pair(BEST, BEST) == []
@@ -31,38 +31,38 @@ def test_qos_that_does_not_match_is_told_with_both_nodes() -> None:
 
 def test_a_topic_without_a_publisher_is_a_fault_one_without_a_listener_is_not() -> None:
     listens = NodeInfo("/nav", (), (Endpoint("/goal_pose", TWIST, RELIABLE),))
-    assert said(listens) == ["nobody publishes /goal_pose, which /nav listens to"]
-    assert said(NodeInfo("/nav", (Endpoint("/plan", TWIST, RELIABLE),))) == []
+    assert message(listens) == ["nobody publishes /goal_pose, which /nav listens to"]
+    assert message(NodeInfo("/nav", (Endpoint("/plan", TWIST, RELIABLE),))) == []
 
 
 def test_two_publishers_are_a_hint_except_on_shared_topics() -> None:
     both = tuple(
         NodeInfo(name, tuple(Endpoint(t, TWIST, RELIABLE) for t in ("/cmd_vel", "/tf"))) for name in ("/a", "/b")
     )
-    assert said(*both) == ["two publishers on /cmd_vel: /a, /b"]
+    assert message(*both) == ["two publishers on /cmd_vel: /a, /b"]
     assert not findings(GraphInfo(both))[0].fault
 
 
 def test_types_that_differ_are_a_fault() -> None:
     nodes = NodeInfo("/a", (Endpoint("/t", SCAN),)), NodeInfo("/b", (), (Endpoint("/t", TWIST),))
-    assert "different types" in said(*nodes)[0] and findings(GraphInfo(nodes))[0].fault
+    assert "different types" in message(*nodes)[0] and findings(GraphInfo(nodes))[0].fault
 
 
 def test_services_and_actions_without_a_server_or_with_two() -> None:
     client = NodeInfo("/c", clients=(Endpoint("/reset", ("std_srvs/srv/Trigger",)),))
     server = NodeInfo("/s", services=(Endpoint("/reset", ("std_srvs/srv/Trigger",)),))
     other = NodeInfo("/o", services=server.services)
-    assert said(client) == ["nobody serves /reset, which /c asks for"]
-    assert said(client, server) == []
-    assert said(client, server, other) == ["two servers of /reset: /o, /s"]
-    assert said(NodeInfo("/g", action_clients=(Endpoint("/go", ()),))) == ["nobody executes /go, which /g asks for"]
+    assert message(client) == ["nobody serves /reset, which /c asks for"]
+    assert message(client, server) == []
+    assert message(client, server, other) == ["two servers of /reset: /o, /s"]
+    assert message(NodeInfo("/g", action_clients=(Endpoint("/go", ()),))) == ["nobody executes /go, which /g asks for"]
 
 
 def test_a_node_without_any_end_and_hidden_ones() -> None:
-    assert said(NodeInfo("/a", (Endpoint("/rosout", ()),), services=(OWN,))) == [
+    assert message(NodeInfo("/a", (Endpoint("/rosout", ()),), services=(OWN,))) == [
         "/a publishes, hears and serves nothing"
     ]
-    assert said(NodeInfo("/_tool", (), (Endpoint("/x", TWIST),))) == []
+    assert message(NodeInfo("/_tool", (), (Endpoint("/x", TWIST),))) == []
 
 
 def test_nodes_of_one_name_are_a_fault() -> None:
@@ -74,4 +74,4 @@ def test_nodes_of_one_name_are_a_fault() -> None:
 def test_what_is_published_on_occasion_needs_no_publisher() -> None:
     topics = ("/initialpose", "/robot1/emergency_stop/arbiter", "/scan")
     base = NodeInfo("/base", (), tuple(Endpoint(each, ("T",)) for each in topics))
-    assert said(base) == ["nobody publishes /scan, which /base listens to"]
+    assert message(base) == ["nobody publishes /scan, which /base listens to"]

@@ -42,55 +42,55 @@ def node(context):
 
 
 def test_it_looks_only_after_an_event(context, node):
-    events, looks = Events(), []
+    events, polls = Events(), []
     watch = GraphWatch(node, lambda graph: None, events)
     assert events.domain == context.get_domain_id()
-    watch.look = lambda looking=watch.look: looks.append(1) or looking()
+    watch.poll = lambda watching=watch.poll: polls.append(1) or watching()
     for _ in range(3):
         watch._tick()
-    assert len(looks) == 1  # the first
+    assert len(polls) == 1  # the first
     events.changed(("n", "/"))
     watch._tick()
     watch._tick()
-    assert len(looks) == 2
+    assert len(polls) == 2
     watch.close()
     assert events.ended
 
 
 def test_without_events_it_looks_at_every_tick(node):
-    watch, looks = GraphWatch(node, lambda graph: None), []
-    watch.look = lambda: looks.append(1)
+    watch, polls = GraphWatch(node, lambda graph: None), []
+    watch.poll = lambda: polls.append(1)
     for _ in range(3):
         watch._tick()
-    assert len(looks) == 3
+    assert len(polls) == 3
 
 
 def test_after_a_long_look_it_rests(node, monkeypatch):
-    now, spent, looks = [0.0], [0.0], []
+    now, spent, polls = [0.0], [0.0], []
     monkeypatch.setattr("bot_console.tui.console.graph.watch.monotonic", lambda: now[0])
     monkeypatch.setattr("bot_console.tui.console.graph.watch.thread_time", lambda: spent[0])
     watch = GraphWatch(node, lambda graph: None)
 
-    def look():
-        looks.append(now[0])
+    def poll():
+        polls.append(now[0])
         spent[0] += 0.3
 
-    watch.look = look
+    watch.poll = poll
     for tick in range(10):
         now[0] = tick * 0.5
         watch._tick()
-    assert looks == [0.0, 1.5, 3.0, 4.5], "a fifth of the time at most"
+    assert polls == [0.0, 1.5, 3.0, 4.5], "a fifth of the time at most"
 
 
 def test_only_what_changed_is_described_again(context, node):
     others = [rclpy.create_node(f"n{number}", context=context) for number in range(3)]
     seen = []
     watch = GraphWatch(node, seen.append)
-    watch.look()
-    watch.look()
+    watch.poll()
+    watch.poll()
     assert len(seen) == 1
     publisher = others[1].create_publisher(Float64, "speed", 7)
-    watch.look()
+    watch.poll()
     before, after = ({each.name: each for each in graph.nodes} for graph in seen)
     assert [name for name in after if after[name] is not before[name]] == ["/n1"]
     assert [(each.name, each.qos) for each in after["/n1"].publishers if each not in before["/n1"].publishers] == [
@@ -99,7 +99,7 @@ def test_only_what_changed_is_described_again(context, node):
     assert seen[1].services is seen[0].services
     others[1].destroy_publisher(publisher)
     others[2].destroy_node()
-    watch.look()
+    watch.poll()
     assert [each.name for each in seen[2].nodes] == ["/_watcher", "/n0", "/n1"]
     assert "/speed" not in {each.name for each in seen[2].topics}
 
@@ -109,28 +109,28 @@ def test_each_topic_is_asked_about_once(context, node):
     asked, ask = [], node.get_publishers_info_by_topic
     node.get_publishers_info_by_topic = lambda topic: asked.append(topic) or ask(topic)
     watch = GraphWatch(node, lambda graph: None)
-    watch.look()
+    watch.poll()
     assert sorted(asked) == ["/parameter_events", "/rosout"]
     del asked[:]
     others[0].create_publisher(Float64, "speed", 7)
-    watch.look()
+    watch.poll()
     assert asked == ["/speed"]
 
 
 def test_only_the_node_that_an_event_names_is_asked_about(context, node):
     others = [rclpy.create_node(f"n{number}", context=context) for number in range(3)]
     watch = GraphWatch(node, lambda graph: None, graph_events)
-    watch.look()
+    watch.poll()
     asked, ask = [], watch._ask
     watch._ask = lambda name, space: asked.append(name) or ask(name, space)
     services = watch.info.services
     publisher = others[1].create_publisher(Float64, "speed", 7)
-    watch.look()
+    watch.poll()
     assert asked == ["n1"] and "/speed" in {each.name for each in watch.info.topics}
     assert watch.info.services is services
     others[1].destroy_publisher(publisher)
     others[2].destroy_node()
-    watch.look()
+    watch.poll()
     assert asked == ["n1", "n1"] and "/speed" not in {each.name for each in watch.info.topics}
     assert "/n2" not in {each.name for each in watch.info.nodes}
     assert "/n2/set_parameters" not in {each.name for each in watch.info.services}
@@ -139,7 +139,7 @@ def test_only_the_node_that_an_event_names_is_asked_about(context, node):
 
 def test_events_of_the_runtime_lead_to_a_look(context, node):
     watch = GraphWatch(node, lambda graph: None, graph_events)
-    watch.look()
+    watch.poll()
     other = rclpy.create_node("late", context=context)
     watch._tick()
     assert "/late" in {each.name for each in watch.info.nodes}
@@ -149,7 +149,7 @@ def test_events_of_the_runtime_lead_to_a_look(context, node):
     watch.close()
 
 
-def test_nodes_of_a_stopped_process_are_told_at_the_next_tick_until_it_goes_on(context, node):
+def test_nodes_of_a_stopped_process_are_reported_at_the_next_tick_until_it_goes_on(context, node):
     stopped, seen = {}, []
     watch = GraphWatch(node, seen.append, graph_events, lambda domain: stopped)
     watch._tick()

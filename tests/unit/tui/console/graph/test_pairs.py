@@ -30,7 +30,7 @@ def end(node, qos=RELIABLE, kind=SCAN, type_hash=ONE):
         (end("/lidar"), end("/nav", kind="std_msgs/msg/String"), ("/nav wants std_msgs/msg/String", "rename")),
     ],
 )
-def test_what_does_not_pass_is_told(publisher, subscription, parts):
+def test_what_does_not_pass_is_reported(publisher, subscription, parts):
     (text,) = unheard("/scan", [publisher], [subscription])
     assert text.startswith("/scan: ")
     assert all(part in text for part in parts), text

@@ -24,7 +24,7 @@ class Graph:
         self.asked: list[str] = []
         self.types: list[str] = []
         self.learned = 0
-        self.told = TypeDiscovery(cast("Any", self), cast("Any", self), cast("Any", self), self._one_more)
+        self.reported = TypeDiscovery(cast("Any", self), cast("Any", self), cast("Any", self), self._one_more)
 
     def _one_more(self) -> None:
         self.learned += 1
@@ -33,14 +33,14 @@ class Graph:
         """These nodes publish the types, and one has a type that is here."""
         self._nodes = nodes
         topics = (Endpoint("/spots", types), Endpoint("/words", ("std_msgs/msg/String",)))
-        self.told.follow(GraphInfo(tuple(NodeInfo(each) for each in nodes), topics))
+        self.reported.follow(GraphInfo(tuple(NodeInfo(each) for each in nodes), topics))
 
     def inquiries(self, domain: int, type_name: str) -> dict[str, Inquiry]:
         return {each: self._inquiry(type_name, f"of {each}") for each in self._nodes}
 
     def _inquiry(self, type_name: str, type_hash: str) -> Inquiry:
-        told = yield type_name, type_hash
-        return "" if told == "/knows" else "has not described it"
+        reported = yield type_name, type_hash
+        return "" if reported == "/knows" else "has not described it"
 
     def run(self, work: Coroutine[Any, Any, None], refused: object) -> None:
         asyncio.run(work)
@@ -64,12 +64,12 @@ def test_each_node_is_asked_once_until_one_knows() -> None:
     graph.has("/hangs", "/other")
     graph.has("/hangs", "/other")
     assert graph.asked == ["/hangs", "/other"] and not graph.learned
-    assert graph.told.explain(SPOT, "") == f"the type {SPOT} is not known here: /other has not described it"
+    assert graph.reported.explain(SPOT, "") == f"the type {SPOT} is not known here: /other has not described it"
 
     graph.has("/hangs", "/knows", "/other")
     graph.has("/hangs", "/knows", "/last", "/other")
     assert graph.asked == ["/hangs", "/other", "/knows"] and graph.learned == 1
-    assert graph.told.explain(SPOT, "nothing to say") == "nothing to say"
+    assert graph.reported.explain(SPOT, "nothing to say") == "nothing to say"
 
 
 def test_a_node_that_has_come_back_is_asked_again() -> None:
@@ -78,7 +78,7 @@ def test_a_node_that_has_come_back_is_asked_again() -> None:
     graph.has()
     graph.has("/hangs")
     assert graph.asked == ["/hangs", "/hangs"]
-    assert "did not answer within 5 s" in graph.told.explain(SPOT, "")
+    assert "did not answer within 5 s" in graph.reported.explain(SPOT, "")
 
 
 def test_a_package_of_which_one_type_was_learned_has_more(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

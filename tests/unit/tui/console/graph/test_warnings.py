@@ -49,12 +49,12 @@ def test_topics_of_other_types_may_have_several_publishers() -> None:
     assert not logged(GraphInfo(nodes))
 
 
-def test_a_warning_is_told_once_and_again_when_it_comes_back() -> None:
+def test_a_warning_is_reported_once_and_again_when_it_comes_back() -> None:
     assert len(logged(RIVALS, RIVALS)) == 1
     assert len(logged(RIVALS, GraphInfo((BASE, NAVIGATOR)), RIVALS)) == 2
 
 
-def test_nodes_of_one_name_and_frozen_ones_are_told() -> None:
+def test_nodes_of_one_name_and_frozen_ones_are_reported() -> None:
     doubled = GraphInfo((replace(BASE, copies=2),), frozen=(("/navigator", 42),))
     lines = logged(doubled, doubled)
     assert len(lines) == 2

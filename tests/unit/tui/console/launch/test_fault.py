@@ -18,7 +18,7 @@ ASKED = "/robot/asked.launch.py"
 LIBRARY = ast.__file__
 
 
-def told(error: Exception, file: str, line: int | None, entity: object = None) -> Exception:
+def reported(error: Exception, file: str, line: int | None, entity: object = None) -> Exception:
     setattr(error, ATTRIBUTE, LaunchPlace(file, line, entity))
     return error
 
@@ -38,36 +38,36 @@ def read_error(path: Path, text: str) -> BaseException:
     return caught.value
 
 
-def test_what_launch_has_told():
-    assert fault_text(told(ValueError("no"), "/a.launch.xml", 7), ASKED) == "/a.launch.xml, line 7: no"
-    assert fault_text(told(ValueError("no"), "/a.launch.xml", None), ASKED) == "/a.launch.xml: no"
+def test_what_launch_has_reported():
+    assert fault_text(reported(ValueError("no"), "/a.launch.xml", 7), ASKED) == "/a.launch.xml, line 7: no"
+    assert fault_text(reported(ValueError("no"), "/a.launch.xml", None), ASKED) == "/a.launch.xml: no"
     assert fault_text(ValueError("no"), ASKED) == f"{ASKED}: no"
 
 
-def test_a_library_that_makes_actions_is_told_as_the_launch_file_that_uses_it():
+def test_a_library_that_makes_actions_is_reported_as_the_launch_file_that_uses_it():
     entity = object()
-    error = told(ValueError("no"), LIBRARY, 7, entity)
+    error = reported(ValueError("no"), LIBRARY, 7, entity)
     assert fault_text(error, ASKED, lambda asked: "/uses.launch.py" if asked is entity else "") == "/uses.launch.py: no"
     assert fault_text(error, ASKED) == f"{ASKED}: no"
 
 
-def test_an_installed_launch_file_that_cannot_be_read_is_told_itself():
-    assert fault_text(told(ValueError("no"), LIBRARY, 7), ASKED) == f"{LIBRARY}, line 7: no"
+def test_an_installed_launch_file_that_cannot_be_read_is_reported_itself():
+    assert fault_text(reported(ValueError("no"), LIBRARY, 7), ASKED) == f"{LIBRARY}, line 7: no"
 
 
-def test_a_launch_that_tells_nothing(tmp_path):
+def test_a_launch_that_reports_nothing(tmp_path):
     path = tmp_path / "a.launch.py"
     error = as_upstream(read_error(path, "\n\n1 / 0\n"))
     assert fault_text(error, ASKED) == f"{path}, line 3: ZeroDivisionError: division by zero"
 
 
 @pytest.mark.parametrize(
-    ("name", "text", "said"),
+    ("name", "text", "message"),
     [("a.launch.xml", "<launch>\n<", "line 2: "), ("a.launch.yaml", "launch:\n- {a", "line 2: ")],
 )
-def test_a_parsers_line_is_of_the_file_that_was_asked_for_only_while_that_is_read(tmp_path, name, text, said):
+def test_a_parsers_line_is_of_the_file_that_was_asked_for_only_while_that_is_read(tmp_path, name, text, message):
     error = as_upstream(read_error(tmp_path / name, text))
-    assert fault_text(error, ASKED, reading=True).startswith(f"{ASKED}, {said}")
+    assert fault_text(error, ASKED, reading=True).startswith(f"{ASKED}, {message}")
     assert fault_text(error, ASKED).startswith(f"{ASKED}: ")
 
 

@@ -88,12 +88,12 @@ class Life(RuleBasedStateMachine):
         self.process = LaunchedProcess("key", "node-1")
         self.due = True
         self.killed = False
-        self.told = False
+        self.reported = False
         self.answers = []
 
     def obey(self, order):
         self.due |= order is Order.START
-        self.told |= order in (Order.SHUT_DOWN, Order.KILL)
+        self.reported |= order in (Order.SHUT_DOWN, Order.KILL)
 
     @rule(verb=st.sampled_from(VERBS))
     def want(self, verb):
@@ -104,13 +104,13 @@ class Life(RuleBasedStateMachine):
     @precondition(lambda self: self.due and not self.process.alive)
     @rule(works=st.booleans())
     def launch_starts(self, works):
-        self.due, self.told = False, False
+        self.due, self.reported = False, False
         self.obey(self.process.started("node-1", 7) if works else self.process.over("why"))
 
     @precondition(lambda self: self.process.alive)
     @rule(code=st.sampled_from([0, 1, -2, -9, -15]), respawns=st.booleans())
     def ends(self, code, respawns):
-        respawns = respawns and not self.told
+        respawns = respawns and not self.reported
         self.due = respawns
         order = self.process.exited(code, respawns)
         self.obey(order)
@@ -132,13 +132,13 @@ TestLife.settings = settings(max_examples=80, stateful_step_count=20, deadline=N
 
 
 @given(st.lists(st.sampled_from(VERBS), max_size=6))
-def test_wishes_while_it_runs_lead_to_one_end(verbs):
+def test_requests_while_it_runs_lead_to_one_end(verbs):
     process = running()
     answers = [process.want(verb)[1] for verb in verbs]
     for _ in range(3):
         if process.alive:
             if process.info.state is ProcessState.RUNNING:
-                process.told_to_end()
+                process.exit_requested()
             if process.exited(0, respawns=False) is Order.START:
                 process.started("node-1", 8)
     assert all(answer.done() for answer in answers)

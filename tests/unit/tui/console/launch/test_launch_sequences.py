@@ -7,7 +7,7 @@ import pytest
 from bot_console.tui.console.launch import launcher
 from bot_console.tui.console.launch.process import ENDED
 from bot_console.tui.console.model import ProcessState
-from launcher_bench import FAILS, PATIENCE, WAITS, Bench, Spawned
+from launcher_bench import FAILS, TIMEOUT_S, WAITS, Bench, Spawned
 
 _domains = itertools.count(4200)
 VERBS = ("start", "stop", "restart", "kill")
@@ -23,7 +23,7 @@ class GatedBench(Bench):
         self.launcher._spawn = lambda target, file: Spawned(lambda: self._pass(target), self.launch_output)
 
     def _pass(self, target):
-        assert self.gate.wait(PATIENCE)
+        assert self.gate.wait(TIMEOUT_S)
         target()
 
 
@@ -56,7 +56,7 @@ def ask(bench, verb, keys):
 
 
 def answers(futures):
-    return [each.result(PATIENCE) for each in futures]
+    return [each.result(TIMEOUT_S) for each in futures]
 
 
 def has_ended(bench):
@@ -86,7 +86,7 @@ def test_a_stop_before_the_launch_runs_again_leaves_that_process_ended(bench, th
     assert states(bench) == [ProcessState.RUNNING, ProcessState.EXITED, ProcessState.RUNNING]
 
 
-def test_a_launch_that_cannot_begin_again_says_so_for_each_process(bench, three, monkeypatch):
+def test_a_launch_that_cannot_begin_again_reports_it_for_each_process(bench, three, monkeypatch):
     import launch
 
     answers(ask(bench, "stop", three))
@@ -97,19 +97,19 @@ def test_a_launch_that_cannot_begin_again_says_so_for_each_process(bench, three,
 
     with monkeypatch.context() as broken:
         broken.setattr(launch, "LaunchService", refuse)
-        told = answers(ask(bench, "start", three))
-    assert [each.ok for each in told] == [False] * 3
-    assert all("no room for a log" in each.text for each in told)
+        reported = answers(ask(bench, "start", three))
+    assert [each.ok for each in reported] == [False] * 3
+    assert all("no room for a log" in each.text for each in reported)
     assert all(each.ok for each in answers(ask(bench, "start", three)))
 
 
 def test_closing_before_the_launch_runs_again_starts_nothing(bench, three, monkeypatch):
-    monkeypatch.setattr(launcher, "KILLED_S", 0.0)
+    monkeypatch.setattr(launcher, "KILLED_TIMEOUT_S", 0.0)
     answers(ask(bench, "stop", three))
     bench.until(lambda: has_ended(bench), "the end of the launch")
     bench.gate.clear()
     starts = ask(bench, "start", three)
-    bench.launcher.close(patience=0.0)
+    bench.launcher.close(timeout_s=0.0)
     bench.gate.set()
     assert not any(each.ok for each in answers(starts))
     assert all(each in ENDED for each in states(bench))

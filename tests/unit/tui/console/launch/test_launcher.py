@@ -5,7 +5,7 @@ import re
 
 import pytest
 from bot_console.tui.console.model import LaunchArgument, ProcessState, Severity
-from launcher_bench import DEAF, ENDS, FAILS, PATIENCE, WAITS, Bench
+from launcher_bench import DEAF, ENDS, FAILS, TIMEOUT_S, WAITS, Bench
 
 _domains = itertools.count(4000)
 
@@ -79,7 +79,7 @@ def test_what_makes_no_sense_is_refused_with_the_reason(bench, waiter, before, v
 
 
 def test_an_unknown_process(bench):
-    answer = bench.launcher.stop("nobody").result(PATIENCE)
+    answer = bench.launcher.stop("nobody").result(TIMEOUT_S)
     assert (answer.ok, answer.text) == (False, "there is no process nobody")
 
 
@@ -99,7 +99,7 @@ def test_kill_while_it_is_stopping(bench):
     assert bench.process().state is ProcessState.STOPPING
     assert not stopping.done()
     assert bench.do("kill", bench.process()).ok
-    assert stopping.result(PATIENCE).ok
+    assert stopping.result(TIMEOUT_S).ok
 
 
 def test_stop_takes_a_restart_back(bench):
@@ -108,8 +108,8 @@ def test_stop_takes_a_restart_back(bench):
     bench.until(lambda: any("up" in text for _, _, text in bench.printed), "its first line")
     key = bench.process().key
     restart, stop = bench.launcher.restart(key), bench.launcher.stop(key)
-    assert stop.result(PATIENCE).ok
-    assert not restart.result(PATIENCE).ok
+    assert stop.result(TIMEOUT_S).ok
+    assert not restart.result(TIMEOUT_S).ok
     assert bench.process().restarts == 0
 
 
@@ -150,7 +150,7 @@ def test_it_still_respawns_after_a_restart(bench):
     bench.until(lambda: bench.process().restarts == 2 and bench.process().state is ProcessState.RUNNING, "the respawn")
 
 
-def test_a_crash_is_told_and_leaves_the_others_alone(bench):
+def test_a_crash_is_reported_and_leaves_the_others_alone(bench):
     fails, waits = bench.program(FAILS, "fails.py"), bench.program(WAITS, "waits.py")
     bench.run(f"[Node(executable={waits!r}), Node(executable={fails!r})]")
     bench.until(lambda: len(bench.info.processes) == 2 and bench.process("fails").exit_code == 1, "the crash")
@@ -213,7 +213,7 @@ def test_two_launch_files_at_once_and_one_of_them_twice(bench):
 
 def test_a_launch_that_came_to_nothing_takes_no_number(bench):
     bench.file("[1 / 0]", "a.launch.py")
-    assert not bench.launcher.launch(str(bench.folder / "a.launch.py"), {}).result(PATIENCE).ok
+    assert not bench.launcher.launch(str(bench.folder / "a.launch.py"), {}).result(TIMEOUT_S).ok
     bench.run(f"[Node(executable={bench.program(WAITS)!r}, name='a')]", "a.launch.py")
     assert [each.group for each in bench.info.processes] == [("a.launch.py",)]
 
@@ -238,7 +238,7 @@ def test_a_launch_file_that_fails_is_one_message_and_nothing_else_stops(bench, w
     path = bench.folder / "broken.launch.py"
     path.write_text(text)
     asked = bench.file(f"[IncludeLaunchDescription({str(path)!r})]", "asked.launch.py") if included else str(path)
-    answer = bench.launcher.launch(asked, {}).result(PATIENCE)
+    answer = bench.launcher.launch(asked, {}).result(TIMEOUT_S)
     assert not answer.ok
     assert re.search(message, answer.text), answer.text
     assert answer.text.startswith(str(path))
@@ -254,12 +254,12 @@ def test_a_missing_package(bench):
 
 
 def test_an_endless_include(bench):
-    answer = bench.launcher.launch(bench.file("[IncludeLaunchDescription(__file__)]"), {}).result(3 * PATIENCE)
+    answer = bench.launcher.launch(bench.file("[IncludeLaunchDescription(__file__)]"), {}).result(3 * TIMEOUT_S)
     assert answer.text.endswith("line 8: launch files include each other without end")
 
 
 def test_a_missing_file(bench):
-    answer = bench.launcher.launch("/nowhere/x.launch.py", {}).result(PATIENCE)
+    answer = bench.launcher.launch("/nowhere/x.launch.py", {}).result(TIMEOUT_S)
     assert (answer.ok, answer.text) == (False, "/nowhere/x.launch.py: No such file or directory")
 
 
@@ -274,7 +274,7 @@ def test_a_missing_file(bench):
 def test_other_kinds_of_launch_files(bench, name, text, message):
     path = bench.folder / name
     path.write_text(text)
-    assert message in bench.launcher.launch(str(path), {}).result(PATIENCE).text
+    assert message in bench.launcher.launch(str(path), {}).result(TIMEOUT_S).text
     with pytest.raises(ValueError, match=message):
         bench.launcher.arguments(str(path))
 
@@ -315,7 +315,7 @@ def test_a_launch_that_shuts_itself_down(bench):
 def test_what_a_process_uses_of_a_processor(bench, waiter, monkeypatch):
     from bot_console.tui.console.launch import vitals as process_vitals
 
-    monkeypatch.setattr(process_vitals, "PERIOD", 0.0)
+    monkeypatch.setattr(process_vitals, "CPU_POLL_S", 0.0)
     bench.until(lambda: bench.process().cpu is not None, "its processor share")
 
 
@@ -337,7 +337,7 @@ while not os.path.exists({stop!r}):
 """
 
 
-def test_code_that_survives_being_killed_is_told(bench):
+def test_code_that_survives_being_killed_is_reported(bench):
     stop = bench.folder / "stop"
     path = bench.program(STUBBORN.format(stop=str(stop)))
     try:
@@ -360,14 +360,14 @@ def test_closing(bench, waiter):
     bench.launcher.close()
     assert bench.process().state is ProcessState.EXITED
     for answer in (bench.launcher.start(waiter.key), bench.launcher.launch("x", {})):
-        assert answer.result(PATIENCE).text == "the console is closing"
+        assert answer.result(TIMEOUT_S).text == "the console is closing"
 
 
 def test_closing_kills_what_does_not_end_in_time(bench):
     path = bench.program(DEAF)
     bench.run(f"[ExecuteProcess(cmd=['python3', '-u', {path!r}])]")
     bench.until(lambda: any("up" in text for _, _, text in bench.printed), "its first line")
-    bench.launcher.close(patience=0.0)
+    bench.launcher.close(timeout_s=0.0)
     assert bench.process().exit_code == -9
 
 

@@ -5,7 +5,7 @@ from bot_console.tui.console.launch.process_output import (
     ENVELOPE,
     ENVELOPE_VARIABLE,
     FORMAT_VARIABLE,
-    PATIENCE_S,
+    ROSOUT_TIMEOUT_S,
     OutputReader,
     ProcessOutput,
     Undecided,
@@ -98,7 +98,7 @@ def test_a_line_of_a_real_logger_counts_when_rosout_never_brings_that_logger() -
         undecided.wait((1, 20, name, "x", ("", "", 0)))
     assert not taken
     heard.add("late")
-    now[0] = PATIENCE_S + 0.1
+    now[0] = ROSOUT_TIMEOUT_S + 0.1
     undecided.settle()
     assert taken == ["nodeless"]
     undecided.wait((2, 20, "last words", "x", ("", "", 0)))

@@ -1,7 +1,7 @@
 """What a launch goes by: its file, or the one program that a person has named."""
 
 import pytest
-from bot_console.tui.console.launch.title import line_of, title_of, unused
+from bot_console.tui.console.launch.title import argument_line, title_of, unused
 
 
 @pytest.mark.parametrize(
@@ -17,16 +17,16 @@ def test_the_title_is_what_a_person_has_named(path, arguments, title):
     assert title_of(path, arguments) == title
 
 
-def test_a_number_tells_two_apart_and_one_that_is_free_is_taken_again():
+def test_a_number_distinguishes_two_and_one_that_is_free_is_taken_again():
     assert unused("a", ()) == "a"
     assert unused("a", {"a", "a (2)"}) == "a (3)"
     assert unused("a", {"b", "a (2)"}) == "a"
 
 
-def test_what_was_asked_for_is_told_as_a_person_would_ask_for_it() -> None:
-    assert line_of("/a/robot.launch.py", {"world": "maze"}) == "launch /a/robot.launch.py world:=maze"
-    assert line_of("/a/robot.launch.py", {}) == "launch /a/robot.launch.py"
+def test_what_was_asked_for_is_reported_as_a_person_would_ask_for_it() -> None:
+    assert argument_line("/a/robot.launch.py", {"world": "maze"}) == "launch /a/robot.launch.py world:=maze"
+    assert argument_line("/a/robot.launch.py", {}) == "launch /a/robot.launch.py"
     talker = {"package": "mine", "program": "talker", "words": "--ros-args -r a:=b"}
-    assert line_of("/site-packages/a/program.launch.py", talker) == "run mine talker --ros-args -r a:=b"
-    assert line_of("/a/program.launch.py", {"program": "/home/me/node.py", "words": ""}) == "run /home/me/node.py"
-    assert line_of("/a/program.launch.py", {}) == "launch /a/program.launch.py"
+    assert argument_line("/site-packages/a/program.launch.py", talker) == "run mine talker --ros-args -r a:=b"
+    assert argument_line("/a/program.launch.py", {"program": "/home/me/node.py", "words": ""}) == "run /home/me/node.py"
+    assert argument_line("/a/program.launch.py", {}) == "launch /a/program.launch.py"

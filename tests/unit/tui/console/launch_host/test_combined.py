@@ -14,7 +14,7 @@ from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessInfo, ProcessState
 from pytest import MonkeyPatch
 
-PATIENCE = 30.0
+TIMEOUT_S = 30.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 
@@ -51,7 +51,7 @@ class Own(Host):
         self.problem = ""
 
     def started(self) -> tuple[str, HostedLauncher]:
-        assert self.may_start.wait(PATIENCE)
+        assert self.may_start.wait(TIMEOUT_S)
         if self.problem:
             raise OSError(self.problem)
         return "own", cast(HostedLauncher, self)
@@ -66,7 +66,7 @@ def beside(work: Any) -> Any:
     found: list[Any] = []
     thread = threading.Thread(target=lambda: found.append(work()), daemon=True)
     thread.start()
-    thread.join(PATIENCE)
+    thread.join(TIMEOUT_S)
     assert found, "it waits"
     return found[0]
 
@@ -78,8 +78,8 @@ def test_nobody_waits_for_a_host_that_is_being_started() -> None:
     assert beside(launcher.info).processes == ()
     assert not answer.done()
     own.may_start.set()
-    assert answer.result(PATIENCE) == Answer(True, "one")
-    assert launcher.launch("two", {}).result(PATIENCE).ok and own.launched == ["one", "two"]
+    assert answer.result(TIMEOUT_S) == Answer(True, "one")
+    assert launcher.launch("two", {}).result(TIMEOUT_S).ok and own.launched == ["one", "two"]
     launcher.close()
     assert own.closed.is_set()
 
@@ -90,14 +90,16 @@ def test_a_host_that_comes_after_the_end_is_ended_at_once() -> None:
     launcher.launch("one", {})
     beside(lambda: launcher.close() or True)
     own.may_start.set()
-    assert own.closed.wait(PATIENCE)
+    assert own.closed.wait(TIMEOUT_S)
 
 
 def test_a_host_that_cannot_be_started_is_an_answer() -> None:
     own = Own()
     own.problem = "no room"
     own.may_start.set()
-    assert combined(own).launch("one", {}).result(PATIENCE) == Answer(False, "no launch host could be started: no room")
+    assert combined(own).launch("one", {}).result(TIMEOUT_S) == Answer(
+        False, "no launch host could be started: no room"
+    )
 
 
 def labels(launcher: CombinedLauncher) -> list[str]:
@@ -108,18 +110,20 @@ def test_a_host_whose_door_is_found_before_it_is_known_as_ones_own_is_shown_once
     monkeypatch.setattr(combining, "HOSTS_POLL_S", 0.001)
     own, entered, searched = Own(), Host(), threading.Semaphore(0)
 
-    def doors() -> list[str]:
+    def addresses() -> list[str]:
         searched.release()
         return ["own"]
 
-    launcher = CombinedLauncher(own.started, tuple, OtherHosts(doors, lambda door: cast(HostedLauncher, entered)))
+    launcher = CombinedLauncher(
+        own.started, tuple, OtherHosts(addresses, lambda address: cast(HostedLauncher, entered))
+    )
     entered.launched = own.launched  # both are connections to the same host
     answer = launcher.launch("one", {})
-    assert searched.acquire(timeout=PATIENCE) and searched.acquire(timeout=PATIENCE)
+    assert searched.acquire(timeout=TIMEOUT_S) and searched.acquire(timeout=TIMEOUT_S)
     own.may_start.set()
-    assert answer.result(PATIENCE).ok
+    assert answer.result(TIMEOUT_S).ok
     assert entered.closed.is_set()
-    assert searched.acquire(timeout=PATIENCE) and searched.acquire(timeout=PATIENCE)
+    assert searched.acquire(timeout=TIMEOUT_S) and searched.acquire(timeout=TIMEOUT_S)
     assert labels(launcher) == ["one"]
     launcher.close()
     assert own.closed.is_set()
@@ -134,12 +138,12 @@ def test_each_launch_file_gets_a_host_of_its_own_where_hosts_are_not_shared() ->
 
     launcher = CombinedLauncher(start, tuple, reuse=False)
     launcher.arguments("one")
-    assert all(launcher.launch(each, {}).result(PATIENCE).ok for each in ("one", "two"))
+    assert all(launcher.launch(each, {}).result(TIMEOUT_S).ok for each in ("one", "two"))
     assert [each.launched for each in hosts] == [["one"], ["two"]]
     assert labels(launcher) == ["one", "two"] and len({each.key for each in launcher.info().processes}) == 2
     launcher.close()
     assert all(each.closed.is_set() for each in hosts)
-    assert not launcher.launch("three", {}).result(PATIENCE).ok and len(hosts) == 2
+    assert not launcher.launch("three", {}).result(TIMEOUT_S).ok and len(hosts) == 2
 
 
 def test_a_host_that_has_gone_is_replaced_for_the_next_launch_and_its_processes_stay_visible() -> None:
@@ -150,8 +154,8 @@ def test_a_host_that_has_gone_is_replaced_for_the_next_launch_and_its_processes_
         return str(len(hosts)), cast(HostedLauncher, hosts[-1])
 
     launcher = CombinedLauncher(start, tuple)
-    assert launcher.launch("one", {}).result(PATIENCE).ok
+    assert launcher.launch("one", {}).result(TIMEOUT_S).ok
     hosts[0].is_gone = True
-    assert launcher.launch("two", {}).result(PATIENCE).ok
+    assert launcher.launch("two", {}).result(TIMEOUT_S).ok
     assert labels(launcher) == ["one", "two"]
     launcher.close()

@@ -8,22 +8,22 @@ import threading
 from bot_console.tui.console.launch_host.proxy import GONE, HostedLauncher
 from bot_console.tui.console.model import Severity
 
-PATIENCE = 20.0
+TIMEOUT_S = 20.0
 
 
-def test_a_host_that_ends_before_it_has_started_anything_is_told_of() -> None:
+def test_a_host_that_ends_before_it_has_started_anything_is_reported() -> None:
     ours, theirs = socket.socketpair()
-    printed, told = list[tuple[int, str, str]](), threading.Event()
+    printed, reported = list[tuple[int, str, str]](), threading.Event()
 
     def take(severity: int, label: str, text: str) -> None:
         printed.append((severity, label, text))
-        told.set()
+        reported.set()
 
     launcher = HostedLauncher(ours, lambda *record: None, take)
     theirs.close()
-    assert told.wait(PATIENCE)
+    assert reported.wait(TIMEOUT_S)
     assert printed == [(Severity.ERROR, "launch", GONE)] and launcher.info().problem == GONE
-    answer = launcher.launch("robot.launch.py", {}).result(PATIENCE)
+    answer = launcher.launch("robot.launch.py", {}).result(TIMEOUT_S)
     assert not answer.ok and answer.text == GONE
     assert printed[1:] == [(Severity.ERROR, "launch", GONE)], "at a start nobody has read the first line"
     launcher.close()
@@ -34,9 +34,9 @@ def test_another_ones_host_may_end() -> None:
     printed: list[object] = []
     launcher = HostedLauncher(ours, lambda *record: None, lambda *line: printed.append(line), owner=False)
     theirs.close()
-    launcher._gone.wait(PATIENCE)
+    launcher._gone.wait(TIMEOUT_S)
     for thread in launcher._channel._threads:
-        thread.join(PATIENCE)
+        thread.join(TIMEOUT_S)
     assert printed == [] and launcher.info().problem == ""
     launcher.close()
 

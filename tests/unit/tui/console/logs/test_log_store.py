@@ -63,7 +63,7 @@ def test_filtering_goes_on_where_it_stopped() -> None:
 
 
 @pytest.mark.parametrize("words", ["re:(", "sev:loud", "!re:*", "time:25:00", "time:noon", "time:14:00..2026-11-22"])
-def test_a_filter_that_does_not_parse_says_so(words: str) -> None:
+def test_a_filter_that_does_not_parse_reports_it(words: str) -> None:
     with pytest.raises(ValueError, match=r"regular expression|severity|time"):
         matching(filled(), LogFilter(words=words))
 

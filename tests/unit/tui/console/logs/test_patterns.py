@@ -39,12 +39,12 @@ def test_an_endless_pattern_ends_with_a_word_for_it_and_others_go_on() -> None:
     for number in range(100):
         store.add(number, 20, "n", "a" * 40 + str(number))
     began = time.thread_time()
-    found = searched(store, f"re:{ENDLESS}").look()
+    found = searched(store, f"re:{ENDLESS}").poll()
     assert time.thread_time() - began < 0.2, "nothing of it is searched here"
     assert found.complete and "too costly without google-re2" in found.problem
     with pytest.raises(ValueError, match="too costly"):
         parse(f"re:{ENDLESS}")
-    assert len(searched(store, "re:9$").look().numbers) == 10
+    assert len(searched(store, "re:9$").poll().numbers) == 10
 
 
 @pytest.mark.usefixtures("without_re2")
@@ -79,7 +79,7 @@ def test_plain_words_need_no_process(word: str, monkeypatch: pytest.MonkeyPatch)
     store = LogStore()
     store.add(1, 20, "n", f"x{word.lower()}y\nz")
     store.add(2, 20, "n", "nothing")
-    assert len(searched(store, word).look().numbers) == 1 and Pattern(word, literal=True).search(word.upper())
+    assert len(searched(store, word).poll().numbers) == 1 and Pattern(word, literal=True).search(word.upper())
 
 
 @pytest.mark.parametrize(

@@ -73,15 +73,15 @@ def test_what_was_written_just_before_a_rotation_is_read(tmp_path: Path, monkeyp
     path = tmp_path / "log"
     path.write_text("a\n")
     tail = Tail(path)
-    look = os.stat
+    poll = os.stat
 
     def rotated(*which: Any, **how: Any) -> os.stat_result:
-        monkeypatch.setattr(os, "stat", look)
+        monkeypatch.setattr(os, "stat", poll)
         with path.open("a") as file:  # after all had been read
             file.write("b\n")
         os.rename(path, tmp_path / "log.1")
         path.write_text("c\n")
-        return look(*which, **how)
+        return poll(*which, **how)
 
     monkeypatch.setattr(os, "stat", rotated)
     assert grown(tail) == "a\nb\nc\n"
@@ -101,7 +101,7 @@ def test_it_is_filtered_as_the_log_is(tmp_path: Path) -> None:
     log = open_log(str(path))
     try:
         view = log.view(LogFilter(words="line !7"))
-        while len(view.look().numbers) < 9:
+        while len(view.poll().numbers) < 9:
             pass
         assert log.record(7).stamp == 7 * SECOND and log.state.end == 10  # type: ignore[union-attr]
     finally:
@@ -111,7 +111,7 @@ def test_it_is_filtered_as_the_log_is(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "why"), [("", "is a folder"), ("none", "no such file"), ("pipe", "no regular file"), ("\0", "zero byte")]
 )
-def test_what_cannot_be_read_says_why(tmp_path: Path, name: str, why: str) -> None:
+def test_what_cannot_be_read_reports_why(tmp_path: Path, name: str, why: str) -> None:
     os.mkfifo(tmp_path / "pipe")
     with pytest.raises(ValueError, match=why):
         open_log(f"{tmp_path}/{name}")

@@ -82,6 +82,6 @@ def test_moments_with_a_date(written: str, begin: int, end: int | None) -> None:
     "written",
     ["", "..", "24:00", "12:60", "1:2", "14:03.5", "2026-02-30", "2026-10-25T", "-5", "@", "14:00..@3", "x..y"],
 )
-def test_what_is_no_time_says_so(written: str) -> None:
+def test_what_is_no_time_reports_it(written: str) -> None:
     with pytest.raises(ValueError, match=r"time '.*for instance 14:03"):
         parse_span(written, NOW)

@@ -85,7 +85,7 @@ def test_a_change_that_two_consoles_saw_stands_once_as_that_of_who_made_it(tmp_p
         each.close()
 
 
-def test_a_file_that_is_no_database_is_put_aside_and_said(tmp_path: Path) -> None:
+def test_a_file_that_is_no_database_is_put_aside_and_reported(tmp_path: Path) -> None:
     file = tmp_path / "history.sqlite"
     file.write_bytes(b"not a database at all, and longer than a header of SQLite is. " * 40)
     history = History(file, 7)
@@ -175,12 +175,12 @@ def test_of_two_consoles_that_find_a_broken_file_one_sets_it_aside(
     others: list[History] = []
 
     @contextmanager
-    def other_first(folder: Path, patience_s: float) -> Iterator[bool]:
+    def other_first(folder: Path, timeout_s: float) -> Iterator[bool]:
         """The other console is through with it when this one gets the lock."""
         monkeypatch.setattr(history_module, "folder_lock", folder_lock)
         others.append(History(file, 1))
         others[0].add(change(1))
-        with folder_lock(folder, patience_s) as locked:
+        with folder_lock(folder, timeout_s) as locked:
             yield locked
 
     monkeypatch.setattr(history_module, "folder_lock", other_first)
@@ -196,7 +196,7 @@ def test_of_two_consoles_that_find_a_broken_file_one_sets_it_aside(
 def test_a_broken_file_that_another_console_repairs_is_left_to_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(history_module, "PATIENCE_S", 0.0)
+    monkeypatch.setattr(history_module, "TIMEOUT_S", 0.0)
     (tmp_path / "h").write_bytes(b"not a database" * 1000)
     with folder_lock(tmp_path, 0.0) as locked:
         assert locked

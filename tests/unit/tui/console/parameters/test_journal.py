@@ -46,12 +46,12 @@ def test_a_refused_undo_is_put_back() -> None:
     assert journal.state.can_undo
 
 
-def test_what_a_node_has_begun_anew_with_is_neither_undone_nor_lost() -> None:
+def test_what_a_node_has_restarted_with_is_neither_undone_nor_lost() -> None:
     journal = Journal()
     journal.did(Step((Move("/n", {"p": 1}, {"p": 2}),)), ChangeSource.EDIT)
     both = (Move("/n", {"p": 2, "q": 1}, {"p": 3, "q": 2}), Move("/other", {"p": 1}, {"p": 2}))
     journal.did(Step(both), ChangeSource.EDIT)
-    journal.begun_anew("/n", "p")
+    journal.restarted("/n", "p")
     assert journal.state.unsaved == (("/n", "q"), ("/other", "p"))
     step = journal.take_undo()
     assert step is not None

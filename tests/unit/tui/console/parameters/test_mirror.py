@@ -21,14 +21,14 @@ class StubNode:
         self.event = callback
 
     def create_timer(self, period, callback):
-        self.look_again = callback
+        self.poll_again = callback
 
 
 class Asked:
     """Answers for all nodes; those in `silent` never do, the others when `open` is set."""
 
     def __init__(self):
-        self.tasks, self.pending, self.most = [], Counter(), 0
+        self.tasks, self.pending, self.maximum = [], Counter(), 0
         self.times, self.silent, self.open = Counter(), set(), asyncio.Event()
         self.value, self.description = 1.5, ""
 
@@ -42,7 +42,7 @@ class Asked:
         node = service.rpartition("/")[0]
         self.times[node] += 1
         self.pending[node] += 1
-        self.most = max(self.most, len(+self.pending))
+        self.maximum = max(self.maximum, len(+self.pending))
         await self.open.wait()
         self.pending[node] -= 1
         if node in self.silent:
@@ -87,7 +87,7 @@ def test_all_nodes_are_read_some_at_a_time(names):
         assert len(+asked.pending) == WINDOW
         asked.open.set()
         await finished(asked)
-        assert asked.most == WINDOW
+        assert asked.maximum == WINDOW
         assert sorted(mirror.trees) == names
         assert {mirror.get(name, "speed").value for name in names} == {1.5}
 
@@ -106,7 +106,7 @@ def test_a_node_that_does_not_answer_costs_the_others_nothing_that_they_gave(nam
         assert {name for name, tree in mirror.trees.items() if tree.problem} == asked.silent
         asked.silent = set()
         asked.times.clear()
-        node.look_again()
+        node.poll_again()
         await finished(asked)
         assert not any(tree.problem for tree in mirror.trees.values())
         assert {asked.times[name] for name in names[1::5]} == {1}  # only whether the names are still the same
@@ -119,7 +119,7 @@ def test_nobody_looks_again_while_nodes_wait_to_be_read(names):
         asked, node = Asked(), StubNode()
         mirror = ParameterMirror(node, asked, lambda *change: None)
         mirror.follow(graph_of(names))
-        node.look_again()
+        node.poll_again()
         asked.open.set()
         await finished(asked)
         assert set(asked.times.values()) == {3}
@@ -143,14 +143,14 @@ def test_who_leaves_while_it_waits_is_not_asked(names):
 @pytest.mark.parametrize("seen", [True, False], ids=["seen gone", "too quick to be seen gone"])
 def test_the_value_of_a_node_that_was_restarted_is_its_start_value_and_nobody_has_set_it(seen):
     async def scenario():
-        asked, node, changed, anew = Asked(), StubNode(), [], []
+        asked, node, changed, on_restart = Asked(), StubNode(), [], []
         asked.open.set()
 
         def set_by(*change):
             changed.append(change)
             return ChangeSource.EDIT
 
-        mirror = ParameterMirror(node, asked, set_by, None, lambda *change: anew.append(change))
+        mirror = ParameterMirror(node, asked, set_by, None, lambda *change: on_restart.append(change))
         mirror.follow(graph_of(["/n"]))
         await finished(asked)
         node.event(ParameterEvent(node="/n", changed_parameters=[speed(4.0)]))
@@ -164,29 +164,31 @@ def test_the_value_of_a_node_that_was_restarted_is_its_start_value_and_nobody_ha
         await finished(asked)
         now = mirror.get("/n", "speed")
         assert (now.value, now.default, now.origin, now.description) == (2.5, 2.5, "start value", "in m/s")
-        assert changed == [("/n", "speed", 1.5, 4.0)] and anew == [("/n", "speed", 4.0, 2.5)]
+        assert changed == [("/n", "speed", 1.5, 4.0)] and on_restart == [("/n", "speed", 4.0, 2.5)]
 
     asyncio.run(scenario())
 
 
-def test_a_node_that_comes_back_as_it_was_has_not_begun_anew():
+def test_a_node_that_comes_back_as_it_was_has_not_restarted():
     async def scenario():
-        asked, anew = Asked(), []
+        asked, on_restart = Asked(), []
         asked.open.set()
-        mirror = ParameterMirror(StubNode(), asked, lambda *change: None, None, lambda *change: anew.append(change))
+        mirror = ParameterMirror(
+            StubNode(), asked, lambda *change: None, None, lambda *change: on_restart.append(change)
+        )
         for names in (["/n"], [], ["/n"]):
             mirror.follow(graph_of(names))
             await finished(asked)
-        assert mirror.get("/n", "speed").value == 1.5 and anew == []
+        assert mirror.get("/n", "speed").value == 1.5 and on_restart == []
 
     asyncio.run(scenario())
 
 
 def test_when_one_of_two_nodes_by_one_name_leaves_the_other_is_read():
     async def scenario():
-        asked, node, anew = Asked(), StubNode(), []
+        asked, node, on_restart = Asked(), StubNode(), []
         asked.open.set()
-        mirror = ParameterMirror(node, asked, lambda *change: None, None, lambda *change: anew.append(change))
+        mirror = ParameterMirror(node, asked, lambda *change: None, None, lambda *change: on_restart.append(change))
         one = graph_of(["/n"])
         two = GraphInfo((replace(one.nodes[0], copies=2),))
         mirror.follow(two)
@@ -198,6 +200,6 @@ def test_when_one_of_two_nodes_by_one_name_leaves_the_other_is_read():
         mirror.follow(one)
         await finished(asked)
         assert mirror.get("/n", "speed").value == 2.5
-        assert anew == [("/n", "speed", 1.5, 2.5)]
+        assert on_restart == [("/n", "speed", 1.5, 2.5)]
 
     asyncio.run(scenario())

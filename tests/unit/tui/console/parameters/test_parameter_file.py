@@ -73,7 +73,7 @@ def test_saving_writes_a_file_that_ros_reads(tmp_path: Path) -> None:
     assert [each.name for each in path.parent.iterdir()] == ["file.yaml"]
 
 
-def test_what_no_parameter_file_can_hold_is_told(tmp_path: Path) -> None:
+def test_what_no_parameter_file_can_hold_is_reported(tmp_path: Path) -> None:
     path = tmp_path / "file.yaml"
     data = ParameterInfo("/a", "data", Kind.BYTE_ARRAY, (b"\x01",))
     names = ParameterInfo("/a", "names", Kind.STRING_ARRAY, ())

@@ -12,8 +12,8 @@ from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Pr
 from bot_console.tui.console.parameters.file.patch import new_text, same
 from bot_console.tui.console.parameters.file.saving import save
 from bot_console.tui.console.parameters.file.text import sections, value_at
+from bot_console.tui.console.parameters.profile_store import ProfileStore
 from bot_console.tui.console.parameters.profiles import differences, find, load, unmatched
-from bot_console.tui.console.parameters.shelf import Shelf
 
 PUBLIC = sorted((Path(__file__).parent / "public").glob("*.yaml"))
 KINDS = {bool: Kind.BOOL, int: Kind.INTEGER, float: Kind.DOUBLE, str: Kind.STRING}
@@ -136,7 +136,7 @@ def test_dump_load_dump_is_byte_equal_for_a_file_with_everything(tmp_path: Path)
     assert new_text({"/robot": {each.name: each.value for each in again.parameters}}) == text
 
 
-def test_keys_that_mean_no_node_and_parameters_that_no_node_has_are_told(tmp_path: Path) -> None:
+def test_keys_that_mean_no_node_and_parameters_that_no_node_has_are_reported(tmp_path: Path) -> None:
     (tmp_path / "p.yaml").write_text(
         "/**:\n  ros__parameters: {speed: 2.0, other: 1}\n/n:\n  ros__parameters: {speed: 9.0, gone: 1}\n"
         "/x/*:\n  ros__parameters: {a: 1}\n"
@@ -161,12 +161,12 @@ def test_keys_that_mean_no_node_and_parameters_that_no_node_has_are_told(tmp_pat
         (f"launch: a\narguments: {{n: 0x{'f' * 5000}}}\n", "a whole number of thousands of digits"),
     ],
 )
-def test_a_launch_profile_that_cannot_be_read_says_why_on_one_line(tmp_path: Path, text: str, problem: str) -> None:
+def test_a_launch_profile_that_cannot_be_read_reports_why_on_one_line(tmp_path: Path, text: str, problem: str) -> None:
     path = tmp_path / "bad.yaml"
     path.write_text(text)
-    told = load(path).problem
-    assert re.search(problem, told)
-    assert len(told.splitlines()) == 1
+    reported = load(path).problem
+    assert re.search(problem, reported)
+    assert len(reported.splitlines()) == 1
 
 
 def test_a_launch_profile_names_a_launch_file_with_its_arguments(tmp_path: Path) -> None:
@@ -184,29 +184,29 @@ def test_profiles_are_found_opened_saved_and_keep_their_comments(tmp_path: Path)
         (tmp_path / folder).mkdir(parents=True)
         (tmp_path / folder / "indoor.yaml").write_text(f"/n:\n  ros__parameters: {{speed: {speed}}}\n")
     (tmp_path / "pkg/config/map.yaml").write_text("image: map.pgm\n")
-    shelf = Shelf([tmp_path / "ours"], tmp_path / "own", [tmp_path / "pkg/config"])
-    assert [each.name for each in shelf.profiles] == ["indoor", "indoor (pkg)"]
+    profile_store = ProfileStore([tmp_path / "ours"], tmp_path / "own", [tmp_path / "pkg/config"])
+    assert [each.name for each in profile_store.profiles] == ["indoor", "indoor (pkg)"]
     trees = {"/n": tree("/n", {"speed": 3.0})}
-    assert shelf.save("mine", "For the hall.", trees).ok
+    assert profile_store.save("mine", "For the hall.", trees).ok
     path = tmp_path / "own" / "mine.yaml"
     assert path.read_text() == "# For the hall.\n/n:\n  ros__parameters:\n    speed: 3.0\n"
     path.write_text(path.read_text().replace("3.0", "3.0  # tried out"))
-    assert shelf.save("mine", "", with_value(trees, "/n", "speed", 4.0)).ok
+    assert profile_store.save("mine", "", with_value(trees, "/n", "speed", 4.0)).ok
     assert path.read_text() == "# For the hall.\n/n:\n  ros__parameters:\n    speed: 4.0  # tried out\n"
-    assert not shelf.save("../mine", "", trees).ok
-    assert shelf.open(str(tmp_path / "pkg/config/map.yaml")).ok is False
-    before = shelf.profiles
-    shelf.look_again()
-    assert shelf.profiles is before
+    assert not profile_store.save("../mine", "", trees).ok
+    assert profile_store.open(str(tmp_path / "pkg/config/map.yaml")).ok is False
+    before = profile_store.profiles
+    profile_store.poll_again()
+    assert profile_store.profiles is before
     (tmp_path / "own" / "theirs.yaml").write_text("/n: {ros__parameters: {speed: 5.0}}\n")
-    shelf.look_if_changed()
-    assert [each.name for each in shelf.profiles] == ["indoor", "indoor (pkg)", "map", "mine", "theirs"]
+    profile_store.reload_if_changed()
+    assert [each.name for each in profile_store.profiles] == ["indoor", "indoor (pkg)", "map", "mine", "theirs"]
     (tmp_path / "own" / "theirs.yaml").write_text("/n: {ros__parameters: {speed: 50.0}}\n")
-    shelf.look_if_changed()
-    assert dict(shelf.profiles[-1].values) == {("/n", "speed"): 50.0}
+    profile_store.reload_if_changed()
+    assert dict(profile_store.profiles[-1].values) == {("/n", "speed"): 50.0}
     (tmp_path / "own" / "theirs.yaml").unlink()
-    shelf.look_if_changed()
-    assert shelf.profiles == before
+    profile_store.reload_if_changed()
+    assert profile_store.profiles == before
 
 
 def test_only_what_differs_is_saved_on_request(tmp_path: Path) -> None:
@@ -224,24 +224,28 @@ def test_only_what_differs_is_saved_on_request(tmp_path: Path) -> None:
 def test_only_the_persons_own_are_renamed_and_deleted(tmp_path: Path) -> None:
     (tmp_path / "ours").mkdir()
     (tmp_path / "ours" / "indoor.yaml").write_text("/n:\n  ros__parameters: {speed: 1.0}\n")
-    shelf = Shelf([tmp_path / "ours"], tmp_path / "own")
+    profile_store = ProfileStore([tmp_path / "ours"], tmp_path / "own")
     trees = {"/n": tree("/n", {"speed": 3.0})}
     for name in ("hall", "attic"):
-        assert shelf.save(name, "", trees).ok
-    assert {each.name: each.own for each in shelf.profiles} == {"indoor": False, "hall": True, "attic": True}
-    assert not shelf.delete("indoor").ok and not shelf.rename("indoor", "mine").ok and not shelf.delete("nobody").ok
+        assert profile_store.save(name, "", trees).ok
+    assert {each.name: each.own for each in profile_store.profiles} == {"indoor": False, "hall": True, "attic": True}
+    assert (
+        not profile_store.delete("indoor").ok
+        and not profile_store.rename("indoor", "mine").ok
+        and not profile_store.delete("nobody").ok
+    )
     assert (tmp_path / "ours" / "indoor.yaml").is_file()
-    taken = shelf.rename("hall", "attic")
+    taken = profile_store.rename("hall", "attic")
     assert not taken.ok and "already" in taken.text
     for bad in ("", "../up", "a/b"):
-        assert not shelf.rename("hall", bad).ok
-    assert shelf.open(str(tmp_path / "own" / "hall.yaml")).ok, "opened by its path as well"
-    assert shelf.rename("hall", "cellar").ok
-    assert [each.name for each in shelf.profiles] == ["attic", "cellar", "indoor"]
-    assert shelf.delete("cellar").ok and not (tmp_path / "own" / "cellar.yaml").exists()
-    assert [each.name for each in shelf.profiles] == ["attic", "indoor"]
+        assert not profile_store.rename("hall", bad).ok
+    assert profile_store.open(str(tmp_path / "own" / "hall.yaml")).ok, "opened by its path as well"
+    assert profile_store.rename("hall", "cellar").ok
+    assert [each.name for each in profile_store.profiles] == ["attic", "cellar", "indoor"]
+    assert profile_store.delete("cellar").ok and not (tmp_path / "own" / "cellar.yaml").exists()
+    assert [each.name for each in profile_store.profiles] == ["attic", "indoor"]
     (tmp_path / "own" / "attic.yaml").unlink()
-    gone = shelf.delete("attic")
+    gone = profile_store.delete("attic")
     assert not gone.ok and "not deleted" in gone.text
 
 

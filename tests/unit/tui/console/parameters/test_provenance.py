@@ -10,17 +10,17 @@ from bot_console.tui.console.parameters.provenance import Provenance
 PROFILES = {"/profiles/indoor.yaml": "indoor"}
 
 
-def first_sight(value: Value = 2.0) -> ParameterInfo:
+def first_snapshot(value: Value = 2.0) -> ParameterInfo:
     return ParameterInfo("/n", "speed", Kind.DOUBLE, value, default=value, origin=START)
 
 
-def told(override: str, given: str = "", value: Value = 2.0) -> ParameterInfo:
+def reported(override: str, given: str = "", value: Value = 2.0) -> ParameterInfo:
     provenance = Provenance(lambda path: PROFILES.get(path, ""))
     if given:
         assert provenance.learn("given", {"node": "/n", "parameters": {"speed": given}}) == "/n"
     declared = ["speed", 1.0, "/ws/src/n.py:12", override]
     assert provenance.learn("declared", {"node": "/n", "parameters": [declared]}) == "/n"
-    return provenance.applied(first_sight(value))
+    return provenance.applied(first_snapshot(value))
 
 
 @pytest.mark.parametrize(
@@ -38,21 +38,21 @@ def told(override: str, given: str = "", value: Value = 2.0) -> ParameterInfo:
     ],
 )
 def test_the_override_that_counts_names_the_origin(override: str, given: str, value: Value, origin: str) -> None:
-    found = told(override, given, value)
+    found = reported(override, given, value)
     assert found.origin == origin
     assert (found.default, found.declared_at) == (1.0, "/ws/src/n.py:12")
     assert found.changed is (value != 1.0), "a mark says what differs from what was declared"
 
 
-def test_the_values_of_the_start_are_known_where_they_were_told() -> None:
+def test_the_values_of_the_start_are_known_where_they_were_reported() -> None:
     provenance = Provenance()
     facts = [["speed", 1.0, "/n.py:1", "-p", 2.0], ["gains", [1.0], "/n.py:2", "", [1.0, 2.0]], ["old", 1, "", ""]]
     provenance.learn("declared", {"node": "/n", "parameters": facts})
     assert provenance.starts() == {("/n", "speed"): 2.0, ("/n", "gains"): (1.0, 2.0)}
 
 
-def test_what_nobody_told_stays_a_start_value() -> None:
-    assert Provenance().applied(first_sight()) == first_sight()
+def test_what_nobody_reported_stays_a_start_value() -> None:
+    assert Provenance().applied(first_snapshot()) == first_snapshot()
     assert Provenance().learn("notice", {"text": "x"}) == ""
 
 
@@ -68,7 +68,7 @@ def test_a_declared_list_is_a_tuple_and_a_type_is_no_default() -> None:
     provenance = Provenance()
     facts = [["speed", None, "/n.py:1", ""], ["list", [1, 2], "/n.py:2", ""]]
     provenance.learn("declared", {"node": "/n", "parameters": facts})
-    assert provenance.applied(first_sight()).default == 2.0
+    assert provenance.applied(first_snapshot()).default == 2.0
     array = ParameterInfo("/n", "list", Kind.INTEGER_ARRAY, (1, 2), default=(1, 2), origin=START)
     assert provenance.applied(array).origin == "declared value"
 

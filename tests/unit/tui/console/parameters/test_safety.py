@@ -8,7 +8,7 @@ LESS, MORE = "lowers a safety margin", "raises a limit"
 OFF = "turns a protection off"
 
 
-def judged(name, before, after, description=""):
+def result(name, before, after, description=""):
     return takes_safety(ParameterInfo("/n", name, Kind.DOUBLE, before, description), before, after)
 
 
@@ -33,9 +33,9 @@ def judged(name, before, after, description=""):
     ],
 )
 def test_one_way_takes_from_safety_and_the_other_does_not(name, before, after, why):
-    assert judged(name, before, after) == why
-    assert judged(name, after, before) == ""
-    assert judged(name, before, before) == ""
+    assert result(name, before, after) == why
+    assert result(name, after, before) == ""
+    assert result(name, before, before) == ""
 
 
 @pytest.mark.parametrize(
@@ -53,9 +53,9 @@ def test_one_way_takes_from_safety_and_the_other_does_not(name, before, after, w
     ],
 )
 def test_others_do_not(name, before, after):
-    assert judged(name, before, after) in ("", OFF if name == "enable_safety" else "")
+    assert result(name, before, after) in ("", OFF if name == "enable_safety" else "")
 
 
-def test_a_description_tells_where_the_name_does_not():
-    assert judged("turn_rate", 1.0, 2.0, "Maximum angular velocity (rad/s)") == MORE
-    assert judged("turn_rate", 1.0, 2.0) == ""
+def test_a_description_reports_where_the_name_does_not():
+    assert result("turn_rate", 1.0, 2.0, "Maximum angular velocity (rad/s)") == MORE
+    assert result("turn_rate", 1.0, 2.0) == ""

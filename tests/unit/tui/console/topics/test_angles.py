@@ -20,6 +20,6 @@ from geometry_msgs.msg import Quaternion
         ((0.0, 0.0, 0.0, -math.inf), "not finite"),
     ],
 )
-def test_it_is_told(parts: tuple[float, float, float, float], text: str) -> None:
+def test_it_is_reported(parts: tuple[float, float, float, float], text: str) -> None:
     x, y, z, w = parts
     assert angles_text(Quaternion(x=x, y=y, z=z, w=w)) == text

@@ -47,7 +47,7 @@ def test_enumerations_are_typed_by_name_or_number() -> None:
 
 
 @pytest.mark.parametrize(
-    ("type_name", "path", "text", "said"),
+    ("type_name", "path", "text", "output"),
     [
         (BATTERY, "voltage", "much", "no number"),
         (BATTERY, "power_supply_status", "256", "does not fit into uint8: 0 .. 255"),
@@ -61,9 +61,9 @@ def test_enumerations_are_typed_by_name_or_number() -> None:
         (ODOM, "header.stamp", "soon", "no number"),
     ],
 )
-def test_what_cannot_stand_in_a_field_is_said(type_name: str, path: str, text: str, said: str) -> None:
-    assert said in wrong(Payload.MESSAGE, type_name, path, text)
-    with pytest.raises(ValueError, match=said.split(maxsplit=1)[0]):
+def test_what_cannot_stand_in_a_field_is_reported(type_name: str, path: str, text: str, output: str) -> None:
+    assert output in wrong(Payload.MESSAGE, type_name, path, text)
+    with pytest.raises(ValueError, match=output.split(maxsplit=1)[0]):
         filled(Payload.MESSAGE, type_name, {path: text})
 
 
@@ -81,7 +81,7 @@ def test_a_command_line_has_only_what_was_typed_and_now() -> None:
     }  # fmt: skip
 
 
-def test_an_unknown_type_is_said_with_a_mend() -> None:
+def test_an_unknown_type_is_reported_with_a_hint() -> None:
     with pytest.raises(ValueError, match="not known here; source the workspace"):
         slots(Payload.MESSAGE, "nowhere_msgs/msg/Nothing", {})
 

@@ -37,20 +37,20 @@ def message(stamp: float, size: int = 100) -> bytes:
 
 def play(meter: Meter, time: Time, rate: float, seconds: float, late: float = 0.0) -> None:
     """Messages at a rate, looked at once a second."""
-    looked = time.now
+    polled = time.now
     for _ in range(round(seconds * rate)):
         time.now += 1 / rate
         meter.take(message(time.now - late))
-        if time.now - looked >= 1.0:
-            looked = time.now
-            meter.look()
+        if time.now - polled >= 1.0:
+            polled = time.now
+            meter.poll()
 
 
 @pytest.mark.parametrize("rate", [0.5, 1, 10, 100])
-def test_a_steady_rate_is_told_exactly(time: Time, rate: float) -> None:
+def test_a_steady_rate_is_reported_exactly(time: Time, rate: float) -> None:
     meter = Meter(True, time.time_ns)
     play(meter, time, rate, 20, late=0.004)
-    found = meter.look()
+    found = meter.poll()
     assert found.rate == pytest.approx(rate, rel=0.01)
     assert found.bandwidth == pytest.approx(100 * rate, rel=0.01)
     assert found.latency == pytest.approx(0.004, abs=1e-6)
@@ -62,29 +62,29 @@ def test_a_topic_that_falls_silent_goes_to_zero_and_its_age_grows(time: Time) ->
     play(meter, time, 10, 10)
     for _ in range(3):
         time.now += 1.0
-        slower = meter.look()
+        slower = meter.poll()
     assert slower.rate is not None and 0 < slower.rate < 9
     for _ in range(10):
         time.now += 1.0
-        meter.look()
-    assert meter.look().rate == 0.0 and meter.look().age == pytest.approx(13.0)
+        meter.poll()
+    assert meter.poll().rate == 0.0 and meter.poll().age == pytest.approx(13.0)
 
 
 def test_before_anything_came_nothing_is_known(time: Time) -> None:
     meter = Meter(True, time.time_ns)
-    assert meter.look() == meters.Measure(None, None, None, None, 0)
+    assert meter.poll() == meters.Measure(None, None, None, None, 0)
 
 
 def test_stamps_of_another_clock_are_no_latency(time: Time) -> None:
     meter = Meter(True, lambda: int(1.7e18))
     play(meter, time, 10, 3)
-    assert meter.look().latency is None
+    assert meter.poll().latency is None
 
 
 def test_a_message_without_a_header_has_no_latency(time: Time) -> None:
     meter = Meter(False, time.time_ns)
     play(meter, time, 10, 3)
-    assert meter.look().latency is None and meter.look().rate == pytest.approx(10, rel=0.01)
+    assert meter.poll().latency is None and meter.poll().rate == pytest.approx(10, rel=0.01)
 
 
 def test_all_are_measured_while_few_messages_come() -> None:

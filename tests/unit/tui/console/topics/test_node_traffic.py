@@ -11,7 +11,7 @@ import rclpy
 from bot_console.tui.console.connection import linked_console
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import GraphInfo
-from bot_console.tui.console.topics.offers import offered_qos
+from bot_console.tui.console.topics.offered_topics import offered_qos
 from bot_console.tui.console.traffic import Payload
 from example_interfaces.action import Fibonacci
 from geometry_msgs.msg import Twist
@@ -20,7 +20,7 @@ from rclpy.action import ActionServer, CancelResponse
 from rclpy.context import Context
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.qos import QoSProfile, ReliabilityPolicy
-from rigs import PATIENCE, until
+from rigs import TIMEOUT_S, until
 from std_srvs.srv import SetBool
 
 TWIST, SET_BOOL, FIBONACCI = "geometry_msgs/msg/Twist", "std_srvs/srv/SetBool", "example_interfaces/action/Fibonacci"
@@ -38,7 +38,7 @@ class Robot:
         self.may_end = threading.Event()
         sensor = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
         self.odometry = self.node.create_publisher(Odometry, "odom", sensor)
-        self.node.create_timer(0.02, self._tell)
+        self.node.create_timer(0.02, self._report)
         self.node.create_subscription(Twist, "cmd_vel", lambda each: self.velocities.append(each.linear.x), 50)
         self.node.create_service(SetBool, "enable", self._enable)
         ActionServer(self.node, Fibonacci, "count", self._count, cancel_callback=lambda goal: CancelResponse.ACCEPT)
@@ -47,7 +47,7 @@ class Robot:
         self.thread = threading.Thread(target=self.executor.spin, daemon=True)
         self.thread.start()
 
-    def _tell(self) -> None:
+    def _report(self) -> None:
         message = Odometry()
         message.header.stamp = self.node.get_clock().now().to_msg()
         message.pose.pose.position.x = 4.25
@@ -126,12 +126,12 @@ def test_a_message_is_published_once_and_at_a_rate_until_all_stop(console: RosCo
 
 
 def test_a_service_is_called_and_its_fields_come_back(console: RosConsole) -> None:
-    reply = console.traffic.call("/enable", SET_BOOL, {"data": "true"}).result(PATIENCE)
+    reply = console.traffic.call("/enable", SET_BOOL, {"data": "true"}).result(TIMEOUT_S)
     assert reply.ok and reply.seconds > 0
     assert [(each.name, each.text) for each in reply.fields] == [("success", "true"), ("message", "it is on")]
-    wrong = console.traffic.call("/enable", SET_BOOL, {"data": "perhaps"}).result(PATIENCE)
+    wrong = console.traffic.call("/enable", SET_BOOL, {"data": "perhaps"}).result(TIMEOUT_S)
     assert not wrong.ok and "neither true nor false" in wrong.text
-    gone = console.traffic.call("/nowhere", SET_BOOL, {}).result(PATIENCE)
+    gone = console.traffic.call("/nowhere", SET_BOOL, {}).result(TIMEOUT_S)
     assert not gone.ok and "no service /nowhere" in gone.text
 
 
@@ -155,7 +155,7 @@ def test_a_goal_is_cancelled(console: RosConsole) -> None:
     until(lambda: traffic.goals()["/count"].status == "canceled", "the cancellation")
 
 
-def test_the_command_line_says_the_same(console: RosConsole) -> None:
+def test_the_command_line_reports_the_same(console: RosConsole) -> None:
     line = console.traffic.line(Payload.MESSAGE, "/cmd_vel", TWIST, {"linear.x": "0.5"}, 10)
     assert line == "ros2 topic pub --rate 10 /cmd_vel geometry_msgs/msg/Twist '{linear: {x: 0.5}}'"
     assert console.traffic.line(Payload.REQUEST, "/enable", SET_BOOL, {"data": "yes"}).endswith("'{data: true}'")

@@ -19,26 +19,26 @@ def console(**series: tuple[list[float], list[float]]) -> FakeConsole:
 def test_every_crossing_counts_once_however_short() -> None:
     robot = console(a=([1.0, 2.0, 3.0], [0.0, 2.0, 0.0]))
     alarm = Alarm.of(AlarmText("fast", "/a/x > 1"))
-    assert alarm.look(robot) == [2.0] and (alarm.holds, alarm.times) == (False, 1)
-    assert alarm.look(robot) == [], "nothing is new"
+    assert alarm.poll(robot) == [2.0] and (alarm.holds, alarm.times) == (False, 1)
+    assert alarm.poll(robot) == [], "nothing is new"
     for time, value in ((4.0, 3.0), (5.0, 4.0)):
         robot.series[A][0].append(time)
         robot.series[A][1].append(value)
-    assert alarm.look(robot) == [3.0] and (alarm.holds, alarm.times, alarm.since) == (True, 2, 4.0)
+    assert alarm.poll(robot) == [3.0] and (alarm.holds, alarm.times, alarm.since) == (True, 2, 4.0)
 
 
 def test_samples_of_several_paths_count_in_the_order_in_which_they_came() -> None:
     robot = console(a=([1.0, 3.0], [5.0, 0.0]), b=([2.0, 4.0], [0.0, 5.0]))
     alarm = Alarm.of(AlarmText("both", "/a/x > 1 and /b/x > 1"))
-    assert alarm.look(robot) == [] and alarm.holds is False, "they never were so at once"
+    assert alarm.poll(robot) == [] and alarm.holds is False, "they never were so at once"
 
 
 def test_without_a_value_nothing_is_known() -> None:
     robot = console(a=([1.0], [5.0]))
     alarm = Alarm.of(AlarmText("both", "/a/x > 1 and /b/x > 1"))
-    assert alarm.look(robot) == [] and alarm.holds is None
+    assert alarm.poll(robot) == [] and alarm.holds is None
     divided = Alarm.of(AlarmText("ratio", "1 / (/a/x - 5) > 1"))
-    assert divided.look(robot) == [] and divided.holds is None and "zero" in divided.problem
+    assert divided.poll(robot) == [] and divided.holds is None and "zero" in divided.problem
 
 
 def test_they_are_kept_as_plain_data_and_nonsense_is_left_out() -> None:

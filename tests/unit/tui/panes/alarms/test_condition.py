@@ -55,12 +55,12 @@ def test_it_holds_or_not(text: str, values: dict[str, float], holds: bool) -> No
         (f"/a/b < {'1+' * 300}1", "letters"),
     ],
 )
-def test_what_is_wrong_is_said(text: str, why: str) -> None:
+def test_what_is_wrong_is_reported(text: str, why: str) -> None:
     with pytest.raises(ValueError, match=why or "."):
         read(text)
 
 
-def test_what_cannot_be_worked_out_for_a_value_is_told_then() -> None:
+def test_what_cannot_be_worked_out_for_a_value_is_reported_then() -> None:
     condition = read("1 / /a/b > 2")
     assert condition.holds({"/a/b": 0.25})
     with pytest.raises(ValueError, match="zero"):

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from bot_console.tui.console.query import parse
-from bot_console.tui.console.sights.model import Level
+from bot_console.tui.console.sensors.model import Level
 from bot_console.tui.panes.diagnostics.tree import Row, matches, rows
-from fakes.sights import status
+from fakes.sensors import status
 from hypothesis import given
 from hypothesis import strategies as st
 

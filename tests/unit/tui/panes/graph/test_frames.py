@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from bot_console.tui.console.query import parse
-from bot_console.tui.console.sights.frame_model import Frame, Frames
+from bot_console.tui.console.sensors.frame_model import Frame, Frames
 from bot_console.tui.panes.graph.frame_tree import facts, rows
 from bot_console.tui.panes.graph.frames import FramesView
-from fakes.sights import FakeSights
+from fakes.sensors import FakeSensors
 
 TREE = Frames(
     (
@@ -35,20 +35,20 @@ def test_what_passes_a_filter_comes_with_what_leads_to_it() -> None:
     assert shown("nothing") == []
 
 
-def test_facts_do_not_say_more_than_is_known() -> None:
+def test_facts_do_not_report_more_than_is_known() -> None:
     base, laser = (next(each for each in rows(TREE, 0.5, parse("")) if each.name == name) for name in ("base", "laser"))
     assert ("By", ["/a", "/b", "one of them; messages do not say which"]) in facts(base, TREE, 0.5)
     assert ("By", ["/mast"]) in facts(laser, TREE, 0.5)
     assert ("Told", ["fixed, told on /tf_static"]) in facts(laser, TREE, 0.5)
 
 
-def test_a_system_that_is_connected_anew_is_asked_anew() -> None:
-    view, before, after = FramesView(), FakeSights(), FakeSights()
-    view.look(before, 0.0, seen=True)
-    assert not before.looked_at
+def test_a_system_that_is_reconnected_is_asked_again() -> None:
+    view, before, after = FramesView(), FakeSensors(), FakeSensors()
+    view.poll(before, 0.0, seen=True)
+    assert not before.watched
     view.open = True
-    view.look(before, 0.0, seen=True)
-    view.look(after, 0.0, seen=True)
-    assert before.looked_at and after.looked_at
-    view.look(after, 0.0, seen=False)
-    assert not after.looked_at
+    view.poll(before, 0.0, seen=True)
+    view.poll(after, 0.0, seen=True)
+    assert before.watched and after.watched
+    view.poll(after, 0.0, seen=False)
+    assert not after.watched

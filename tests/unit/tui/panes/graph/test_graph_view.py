@@ -53,7 +53,7 @@ def test_filters(words: str, expected: set[str]) -> None:
     assert ids(GraphView(mode=Mode.ALL, query=parse(words))) == expected
 
 
-def test_a_topic_with_two_types_is_told() -> None:
+def test_a_topic_with_two_types_is_reported() -> None:
     info = GraphInfo((NodeInfo("/a", (Endpoint("/t", ("x/msg/A",)),), (Endpoint("/t", ("x/msg/B",)),)),))
     assert "x/msg/A, x/msg/B" in summary(info, "topic:/t")
 
@@ -82,7 +82,7 @@ def test_a_node_of_a_stopped_process_is_marked_in_the_line_below():
 
 
 @pytest.mark.parametrize("mode", [Mode.ALL, Mode.NODES])
-def test_nodes_that_do_not_answer_are_told_apart(mode: Mode) -> None:
+def test_nodes_that_do_not_answer_are_distinguished(mode: Mode) -> None:
     info = GraphInfo((NodeInfo("/arm"), NodeInfo("/base")), silent=("/arm",), frozen=(("/base", 7),))
     assert shown(info, GraphView(mode=mode)).silent == {"/arm", "/base"}
     assert summary(info, "/arm").endswith(" - has not answered for a second: it was killed, it hangs, or it is busy")

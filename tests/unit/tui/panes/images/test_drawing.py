@@ -5,8 +5,8 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from bot_console.tui.console.sights.model import Picture
-from bot_console.tui.panes.images.drawing import cost, half_blocks, letters, pixels_of, steady
+from bot_console.tui.console.sensors.model import Picture
+from bot_console.tui.panes.images.drawing import characters, cost, half_blocks, pixels_of, steady
 from bot_console.tui.panes.images.frame_limit import BUDGET, FrameLimit
 
 
@@ -20,8 +20,8 @@ def test_two_pixels_stand_in_a_cell_and_equal_ones_need_one_colour() -> None:
     assert lines[1][1:] == ((" ", "on #000000"), ("▀", "#ffffff on #000000"))
 
 
-def test_letters_go_from_black_to_white() -> None:
-    assert letters(grey([[0, 128, 255], [0, 128, 255]]), 3, 1) == [(("", ""), (" +@", ""))]
+def test_characters_go_from_black_to_white() -> None:
+    assert characters(grey([[0, 128, 255], [0, 128, 255]]), 3, 1) == [(("", ""), (" +@", ""))]
 
 
 def test_an_odd_row_has_black_below_it() -> None:

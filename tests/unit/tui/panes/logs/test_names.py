@@ -9,7 +9,7 @@ from bot_console.tui.panes.logs.rows import line_text
 GRAPH = GraphInfo((NodeInfo("/arm/left/zoo"), NodeInfo("/arm"), NodeInfo("/talker")))
 
 
-def test_a_logger_is_its_node_and_a_child_of_it_says_so() -> None:
+def test_a_logger_is_its_node_and_a_child_of_it_reports_it() -> None:
     names = NodeNames()
     assert names.of("arm.left.zoo") == "arm.left.zoo"
     assert names.learn(GRAPH) and not names.learn(GRAPH)

@@ -39,12 +39,12 @@ def test_a_colour_that_no_other_has_comes_first(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["hide", "off red", "blue re:(", "green time:25:00"])
-def test_a_rule_that_says_nothing_is_refused(text: str) -> None:
+def test_a_rule_that_reports_nothing_is_refused(text: str) -> None:
     with pytest.raises(ValueError):
         rule_of(text)
 
 
-def test_a_file_that_cannot_be_written_is_told(tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_written_is_reported(tmp_path: Path) -> None:
     (tmp_path / "rules.txt").mkdir()
     assert "for now only" in RuleBook(tmp_path / "rules.txt").change([Rule("a")])
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Range
 from bot_console.tui.panes.parameters import tuning
-from bot_console.tui.tuning.dial import Dial
+from bot_console.tui.tuning.tunable import Tunable
 
 SPEED = ParameterInfo("/a", "speed", Kind.DOUBLE, 1.0, "How fast (m/s)", range=Range(0.1, 5.0))
 FREE = ParameterInfo("/a", "gain", Kind.DOUBLE, 1.0)
@@ -15,19 +15,19 @@ PATHS = ("/a:speed", "/odom/pose.x", "/odom/twist.x", "/scan/ranges[0]")
 
 
 def test_numbers_and_booleans_that_can_be_set_are_tuned() -> None:
-    found = [tuning.dial_of(each) for each in TREE.parameters]
+    found = [tuning.tunable_of(each) for each in TREE.parameters]
     assert [each.label if each else "" for each in found] == ["/a:speed", "/a:gain", "/a:safe", ""]
-    assert found[0] == Dial("/a", "speed", "double", 0.1, 5.0, 1.0, "m/s")
-    assert tuning.dial_of(ParameterInfo("/a", "speed", Kind.DOUBLE, 1.0, read_only=True)) is None
-    assert tuning.dial_of(ParameterInfo("/a", "speeds", Kind.DOUBLE_ARRAY, (1.0,))) is None
+    assert found[0] == Tunable("/a", "speed", "double", 0.1, 5.0, 1.0, "m/s")
+    assert tuning.tunable_of(ParameterInfo("/a", "speed", Kind.DOUBLE, 1.0, read_only=True)) is None
+    assert tuning.tunable_of(ParameterInfo("/a", "speeds", Kind.DOUBLE_ARRAY, (1.0,))) is None
 
 
-def test_what_is_offered_to_type_is_taken_or_says_what_is_missing() -> None:
-    dials = [each for each in map(tuning.dial_of, TREE.parameters) if each]
-    text = tuning.ranges_text(dials)
+def test_what_is_offered_to_type_is_taken_or_reports_what_is_missing() -> None:
+    tunables = [each for each in map(tuning.tunable_of, TREE.parameters) if each]
+    text = tuning.ranges_text(tunables)
     assert text == "/a:speed=0.1..5 /a:gain /a:safe"
-    assert "give one: /a:gain=LOW..HIGH" in tuning.wrong_ranges(dials, text)
-    assert tuning.wrong_ranges(dials, "speed=0.1..5 gain=0..1 safe") == ""
+    assert "give one: /a:gain=LOW..HIGH" in tuning.wrong_ranges(tunables, text)
+    assert tuning.wrong_ranges(tunables, "speed=0.1..5 gain=0..1 safe") == ""
 
 
 @pytest.mark.parametrize(
@@ -47,7 +47,7 @@ def test_a_score_is_completed(typed: str, first: str) -> None:
     assert tuning.scores(PATHS, typed)[0].title == first
 
 
-def test_what_is_no_score_says_why() -> None:
+def test_what_is_no_score_reports_why() -> None:
     assert tuning.scores(PATHS, "zzz")[0].about.startswith("✗ 'zzz' is no score")
 
 
@@ -64,6 +64,6 @@ def test_numbers_that_are_none(text: str) -> None:
 
 def test_a_run_begins_with_what_the_running_system_is_set_to() -> None:
     hidden = ParameterTree("/_bot_console", (SPEED,))
-    question = tuning.question_of([], "swift", "60 30", {"/a": TREE, "/_bot_console": hidden})
-    assert question.base == {"/a": {"speed": 1.0, "gain": 1.0, "safe": True, "name": "x"}}
-    assert (question.runs, question.duration) == (60, 30.0)
+    specification = tuning.specification_of([], "swift", "60 30", {"/a": TREE, "/_bot_console": hidden})
+    assert specification.base == {"/a": {"speed": 1.0, "gain": 1.0, "safe": True, "name": "x"}}
+    assert (specification.runs, specification.duration) == (60, 30.0)

@@ -6,7 +6,7 @@ from typing import Any, cast
 
 import numpy as np
 from bot_console.tui.console.protocol import Console, Samples
-from bot_console.tui.panes.plot.curves import MOST, Curve
+from bot_console.tui.panes.plot.curves import MAX_SAMPLES, Curve
 
 
 class Source:
@@ -28,11 +28,11 @@ def take(curve: Curve, source: Source, times: int) -> None:
 
 
 def test_the_newest_samples_are_kept_whatever_comes_at_once() -> None:
-    for each_time in (1, 7, 900, MOST - 1, MOST + 3):
-        curve, looks = Curve("/t/data"), min(300, 3 * MOST // each_time + 3)
-        take(curve, Source(each_time), looks)
-        end = looks * each_time
-        expected = np.arange(max(0, end - MOST), end)
+    for each_time in (1, 7, 900, MAX_SAMPLES - 1, MAX_SAMPLES + 3):
+        curve, polls = Curve("/t/data"), min(300, 3 * MAX_SAMPLES // each_time + 3)
+        take(curve, Source(each_time), polls)
+        end = polls * each_time
+        expected = np.arange(max(0, end - MAX_SAMPLES), end)
         assert np.array_equal(curve.values, expected) and np.array_equal(curve.headers, expected - 0.5)
         assert np.array_equal(curve.times, expected / 10)
 

@@ -81,7 +81,7 @@ def test_commas_in_brackets_part_nothing() -> None:
     assert split("/a/x, max(/a/x, /b/y) , /s/r[1:2],") == ["/a/x", "max(/a/x, /b/y)", "/s/r[1:2]"]
 
 
-def let_go(console: FakeConsole) -> list[str]:
+def detach(console: FakeConsole) -> list[str]:
     return [each[1] for each in console.asked if each[0] == "unwatch"]
 
 
@@ -96,18 +96,18 @@ def test_curves_share_what_they_need_and_let_it_go_with_the_last_of_them() -> No
     assert not timeline.take_in()
     refused = timeline.add(f"{A} - /no/topic")
     assert not refused.ok and "/no/topic" in refused.text and len(timeline.curves) == 2
-    assert let_go(console) == [], "what another curve needs is watched on"
+    assert detach(console) == [], "what another curve needs is watched on"
     assert not timeline.add("/c/z + /no/topic").ok
-    assert let_go(console) == ["/c/z"], "what was watched for a curve that cannot be is let go"
+    assert detach(console) == ["/c/z"], "what was watched for a curve that cannot be is let go"
     timeline.remove(0)
-    assert let_go(console) == ["/c/z", "/c/y"]
+    assert detach(console) == ["/c/z", "/c/y"]
     timeline.remove(0)
-    assert let_go(console) == ["/c/z", "/c/y", A]
+    assert detach(console) == ["/c/z", "/c/y", A]
     wrong = timeline.add("sine(/a/x)")
     assert not wrong.ok and "none of" in wrong.text
 
 
-def test_samples_lie_where_their_headers_say_if_one_wants() -> None:
+def test_samples_lie_where_their_headers_report_if_one_wants() -> None:
     from bot_console.tui.panes.plot.curves import Curve
 
     curve = Curve("/a/x", 0, np.array([1.0, 2.0, 3.0]), np.array([7.0, 8.0, 9.0]))

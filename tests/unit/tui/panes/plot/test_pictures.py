@@ -11,8 +11,8 @@ from bot_console.tui.files import plot_presets
 from bot_console.tui.files.plot_presets import KeptCurve, NoPreset, Preset
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.panes.plot.curves import Curve
-from bot_console.tui.panes.plot.pictures.against import against, pairs
 from bot_console.tui.panes.plot.pictures.sparklines import sparklines
+from bot_console.tui.panes.plot.pictures.xy_plot import against, pairs
 from bot_console.tui.panes.plot.save import picture
 from bot_console.tui.panes.plot.thresholds import thresholds_of, thresholds_text, wrong_thresholds
 from bot_console.tui.panes.plot.view import Axes, Mark, framed, legend
@@ -38,7 +38,7 @@ def test_a_line_for_each_of_many_curves_with_the_chosen_one_in_view(width: int, 
     assert all(cell_len(line) <= width for line in lines)
 
 
-def test_a_sparkline_tells_value_rate_least_and_greatest() -> None:
+def test_a_sparkline_reports_value_rate_least_and_greatest() -> None:
     line = text_of(sparklines([curve("/a/x", [1.0, 5.0, 3.0])], Axes(0.0, 1.0), 100, 3, 0))[1]
     assert line.split()[2:6] == ["3.000", "10.0/s", "1.000", "5.000"]
 
@@ -98,7 +98,7 @@ def test_a_picture_as_svg_is_well_formed_whatever_the_names(tmp_path: Path) -> N
     assert min(numbers) >= 0 and max(numbers) <= 1000
 
 
-def test_a_png_is_a_picture_or_says_what_it_needs(tmp_path: Path) -> None:
+def test_a_png_is_a_picture_or_reports_what_it_needs(tmp_path: Path) -> None:
     shown = [curve("/a", [0.0, 1.0] * 30)], (), Axes(0.0, 6.0), lambda time: 1.7e9 + time
     try:
         import cv2  # noqa: F401
@@ -125,4 +125,4 @@ def test_curves_are_kept_and_files_that_hold_none_are_refused(tmp_path: Path, mo
         (tmp_path / "config" / "plots" / "bad.json").write_text(bad)
         with pytest.raises(NoPreset, match=r"bad\.json"):
             plot_presets.read_preset("bad")
-    assert plot_presets.wrong_name("../x") and not plot_presets.wrong_name("a-1.b c")
+    assert plot_presets.preset_name_problem("../x") and not plot_presets.preset_name_problem("a-1.b c")

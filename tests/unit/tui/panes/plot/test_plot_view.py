@@ -50,9 +50,11 @@ def test_nothing_is_drawn_before_the_first_sample() -> None:
     assert np.isnan(seen.low[:49]).all()
 
 
-@pytest.mark.parametrize(("span", "most", "step"), [(10, 5, 2), (1, 4, 0.5), (7, 10, 1), (0.03, 6, 0.005), (0, 5, 1)])
-def test_ticks_stand_at_round_numbers(span: float, most: int, step: float) -> None:
-    assert tick_step(span, most) == pytest.approx(step)
+@pytest.mark.parametrize(
+    ("span", "maximum", "step"), [(10, 5, 2), (1, 4, 0.5), (7, 10, 1), (0.03, 6, 0.005), (0, 5, 1)]
+)
+def test_ticks_stand_at_round_numbers(span: float, maximum: int, step: float) -> None:
+    assert tick_step(span, maximum) == pytest.approx(step)
 
 
 @given(st.floats(-1e9, 1e9), st.floats(0, 1e6))
@@ -84,7 +86,7 @@ def test_numbers_fit_their_place(value: float, step: float) -> None:
     assert len(short_number(value, step)) <= 7
 
 
-def test_the_legend_tells_the_newest_value_and_the_figures_of_the_window() -> None:
+def test_the_legend_reports_the_newest_value_and_the_figures_of_the_window() -> None:
     text = "".join(each for each, _ in legend(curve([1.0, 3.0, math.nan, 2.0]), Axes(0.0, 1.0), 100, True))
     assert "2.000" in text and "min 1.000  max 3.000  mean 2.000" in text and "1 not finite" in text
 

@@ -51,7 +51,7 @@ def test_a_step_down_has_the_same_figures() -> None:
     assert (up.rise, up.settling) == pytest.approx((down.rise, down.settling))
 
 
-def test_what_has_not_settled_and_what_has_no_step_say_so() -> None:
+def test_what_has_not_settled_and_what_has_no_step_report_it() -> None:
     growing = figures(of(TIMES))
     assert math.isnan(growing.settling)
     still = figures(of(np.ones_like(TIMES)), reference=1.5)

@@ -17,7 +17,7 @@ def titles(typed: str) -> list[str]:
     return [each.title for each in suggested(KNOWN, typed)]
 
 
-def test_paths_by_their_letters_numbers_first() -> None:
+def test_paths_by_their_characters_numbers_first() -> None:
     assert titles("") == list(KNOWN)
     assert titles("scanr")[:2] == ["/scan/ranges[0]", "/scan/ranges.min()"]
     assert titles("twist") == ["/odom/twist.twist.linear.x"]
@@ -34,12 +34,12 @@ def test_the_last_path_of_an_expression_is_completed_and_its_brackets_closed() -
     assert titles("/n:max_speed * 2") == ["/n:max_speed * 2"]
 
 
-def test_a_path_that_is_not_there_yet_can_be_chosen_behind_what_has_its_letters() -> None:
+def test_a_path_that_is_not_there_yet_can_be_chosen_behind_what_has_its_characters() -> None:
     assert titles("/odm/pose.x") == ["/odom/pose.pose.position.x", "/odm/pose.x"]
     assert suggested(KNOWN, "/odm/pose.x")[-1].about == "is not there yet"
     assert titles("/odom/twist") == ["/odom/twist.twist.linear.x"], "what is half typed is no path of its own"
 
 
-def test_what_is_wrong_is_said() -> None:
+def test_what_is_wrong_is_reported() -> None:
     (option,) = suggested(KNOWN, "sine(/q)")
     assert option.about.startswith("✗ 'sine' is none of")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome
-from bot_console.tui.panes.profiles.asking import Asking
+from bot_console.tui.panes.profiles.dry_run import Asking
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
 from bot_console.tui.terminal.styling.style_sheet import StyledByPart
 from fakes.console import FakeConsole
@@ -44,7 +44,7 @@ def differences(name: str, now: str, then: str) -> DifferenceRows:
     return rows
 
 
-def test_a_difference_says_where_it_is_cut() -> None:
+def test_a_difference_reports_where_it_is_cut() -> None:
     name = "recovery.emergency_stop_distance_of_the_rear_bumper"
     assert name in text(differences(name, "a", "b"), 1, 120)
     narrow = text(differences(name, "a" * 40, "b" * 40), 1, 78)
@@ -60,7 +60,7 @@ def test_a_reason_is_folded_to_the_width_and_nothing_of_it_is_lost() -> None:
     assert " ".join(" ".join(lines).split()) == why and max(map(len, lines)) <= 60 and len(lines) == 2
 
 
-def test_wide_letters_take_two_cells() -> None:
+def test_wide_characters_take_two_cells() -> None:
     rows = ProfileRows()
     rows.rows = [Profile("世界" * 4, "/p", title="T"), Profile("indoor", "/p", title="T")]
     places = [cell_len(text(rows, index, 100).split("T")[0]) for index in (0, 1)]

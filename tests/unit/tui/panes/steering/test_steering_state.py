@@ -40,7 +40,7 @@ def test_other_limits_hold_at_once() -> None:
     assert (state.linear, state.angular) == (0.2, 0.3)
 
 
-def test_velocities_are_repeated_a_zero_is_said_once() -> None:
+def test_velocities_are_repeated_a_zero_is_published_once() -> None:
     state = armed()
     assert state.command(0.0) is None
     state.steer(1, 0, 1, 0.0)
@@ -58,7 +58,7 @@ def test_the_deadman_time_is_exact() -> None:
     assert state.command(12.0) == (0.0, 0.0) and state.expired and not state.armed
 
 
-def test_disarmed_it_says_zero_even_if_it_said_so_before() -> None:
+def test_disarmed_it_publishes_zero_even_if_it_did_so_before() -> None:
     state = armed()
     state.disarm()
     assert state.command(0.0) == (0.0, 0.0)

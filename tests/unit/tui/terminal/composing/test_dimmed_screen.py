@@ -67,7 +67,7 @@ class Panes(App[None]):
 def drawn(update: Any) -> list[list[tuple[str, Style | None]]]:
     """Each cell of each line of an update, with its style but for the ids of links, which are chance."""
     return [
-        [(letter, each.style and each.style.clear_meta_and_links()) for each in strip for letter in each.text]
+        [(character, each.style and each.style.clear_meta_and_links()) for each in strip for character in each.text]
         for strip in (Strip.join(line) for line in update.strips)
     ]
 

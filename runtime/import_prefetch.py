@@ -1,0 +1,95 @@
+"""What the fork server imports for a program before it forks a process for it, judging by the program's own imports.
+
+NumPy takes as long to import as all of rclpy. A program that does not need it starts without; where that cannot be
+told it is imported, as each process would otherwise do so by itself.
+"""
+
+from __future__ import annotations
+
+import ast
+import contextlib
+import importlib
+import os
+import sys
+import warnings
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from bot_console.runtime.importer import GENERATED, PACKAGES
+from bot_console.runtime.process.fork_server import Job
+
+UNKNOWN = "numpy"
+"""Imported for a program that may import anything."""
+WITH_ARRAYS = ("rclpy.action",)
+"""Modules that use NumPy: the ids of goals are arrays of it."""
+MAX_SOURCE_BYTES = 1_000_000
+"""Bytes of source text that are read at most."""
+
+_seen: set[tuple[str | None, int]] = set()
+
+
+def import_needed(job: Job) -> None:
+    """Import what the program of a job will need; leaves faults to the program."""
+    with contextlib.suppress(Exception):  # the program meets the fault itself, and tells it
+        path = _source(*job.arguments[1:])
+        seen = path, os.stat(path).st_mtime_ns if path else 0
+        if seen not in _seen:
+            _seen.add(seen)
+            for name in _needed(path) if path else (UNKNOWN,):
+                with contextlib.suppress(Exception):
+                    importlib.import_module(name)
+
+
+def _source(function: str, arguments: Sequence[Any]) -> str | None:
+    """The file of a program, see `workspace.launched`; None if it is not found."""
+    kind = function.rpartition(":")[2]
+    if kind == "python_file":
+        return arguments[1]
+    if kind == "entry_point":
+        module = arguments[1].partition(":")[0].strip().split(".")
+        places = (os.path.join(folder, *module) + ".py" for folder in arguments[2])
+        return next(filter(os.path.isfile, places), None)
+    return None
+
+
+def _needed(path: str) -> Iterator[str]:
+    """The modules to import for a file."""
+    with open(path, "rb") as file:
+        text = file.read(MAX_SOURCE_BYTES + 1)
+    if len(text) > MAX_SOURCE_BYTES:
+        yield UNKNOWN
+        return
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            tree = ast.parse(text)
+    except (SyntaxError, ValueError, MemoryError, RecursionError):
+        return  # it will not run
+    for each in ast.walk(tree):
+        if isinstance(each, ast.Import):
+            for alias in each.names:
+                yield from _of_module(alias.name)
+        elif isinstance(each, ast.ImportFrom):
+            module = each.module or ""
+            yield from _of_module(module, [alias.name for alias in each.names]) if not each.level else (UNKNOWN,)
+
+
+def _of_module(module: str, names: Sequence[str] = ()) -> Iterator[str]:
+    top, _, kind = module.partition(".")
+    if top in sys.stdlib_module_names:
+        return
+    if top in PACKAGES and module not in WITH_ARRAYS:
+        yield module
+    elif kind not in ("msg", "srv") or not os.path.isdir(os.path.join(GENERATED, top)) or not _are_made(module, names):
+        yield from (UNKNOWN, module) if module in WITH_ARRAYS else (UNKNOWN,)
+
+
+def _are_made(module: str, names: Sequence[str]) -> bool:
+    """Make one of each interface, which imports NumPy for one with arrays of fixed size; whether all are known."""
+    for name in names:
+        cls = getattr(importlib.import_module(module), name, None)
+        if cls is None:
+            return False
+        for part in (cls.Request, cls.Response) if module.endswith(".srv") else (cls,):
+            part()
+    return bool(names)

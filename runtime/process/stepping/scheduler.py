@@ -1,0 +1,362 @@
+"""The scheduler of a stepped run. The thread with the baton runs; when it waits, it hands it on in a fixed order.
+
+Threads run in the order in which they became ready. When none is ready, time jumps to the earliest deadline, and the
+threads with that deadline become ready in order of creation.
+"""
+
+from __future__ import annotations
+
+from _thread import allocate_lock, get_ident, get_native_id
+from collections import deque
+from contextlib import suppress
+from heapq import heapify, heappop, heappush
+from typing import TYPE_CHECKING, Protocol, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from ..clock_source import WaitingThread
+
+LAST = 1 << 60
+"""The driver's rank, the last: it sees everything that happens up to the time until which it waits."""
+POLL_NS = 20_000
+"""Cost of a wait that would not block (ns), so that a polling loop advances time."""
+INSTANT_WAITS = 50_000
+"""Number of waits at one instant after which each costs `POLL_NS`: nodes may keep waking each other for ever."""
+STALE_DEADLINES = 64
+Note = TypeVar("Note")
+SIGNAL_CHECK_S = 0.2
+"""How often (s of wall time) a waiting driver checks for real signals: another thread may have received them."""
+
+
+class Awaited(Protocol):
+    """What threads wait for, as seen by the scheduler."""
+
+    flag: bool
+    """Whether it is set."""
+    waiters: list[ScheduledTask]
+    """In the order of their waits."""
+
+
+class ScheduledTask:
+    """One thread's seat in the run."""
+
+    __slots__ = (
+        "detached",
+        "due",
+        "ident",
+        "in_heap",
+        "is_outside",
+        "lock",
+        "native_id",
+        "rank",
+        "scheduler",
+        "state",
+        "waiting",
+        "wakeup",
+        "woken",
+    )
+
+    def __init__(self, scheduler: Scheduler, rank: int, state: WaitingThread | None) -> None:
+        self.scheduler = scheduler
+        self.rank = rank
+        self.state = state
+        self.lock = allocate_lock()
+        # Held from the start: waiting for the turn is acquiring it again, granting the turn is releasing it.
+        self.lock.acquire()
+        self.wakeup: Awaited | None = None
+        self.due: int | None = None
+        self.in_heap: int | None = None
+        self.waiting = False
+        self.woken = False
+        self.detached = False
+        self.is_outside = False
+        self.ident = self.native_id = 0
+
+    def take(self) -> None:
+        """Wait for the first turn; called in the thread that occupies this seat from now on."""
+        self.native_id = get_native_id()
+        self.ident = get_ident()
+        self.lock.acquire()
+
+    def hold_clock(self) -> None:
+        """Stop the clock until this thread first waits, or ends."""
+        self.scheduler.starting.add(self)
+
+    def leave(self) -> None:
+        """Leave the run and pass the turn on."""
+        self.scheduler.leave(self)
+
+    def wake_thread(self) -> None:
+        """End the thread's present wait though it is neither set nor due."""
+        self.scheduler.wake_thread(self)
+
+    def wait(self, wakeup: Awaited | None, deadline: int | None) -> bool:
+        """Hand the baton on until woken or due (ns); return whether woken. Raises what is pending for this thread."""
+        state, scheduler = self.state, self.scheduler
+        if state is None:
+            return scheduler.wait(self, wakeup, deadline)
+        while True:
+            try:
+                state.begin_wait(self.wake_thread)
+                woken = scheduler.wait(self, wakeup, deadline)
+            finally:
+                state.end_wait()
+            if state.called:
+                state.deliver()
+            if woken or (deadline is not None and scheduler.now >= deadline):
+                return woken
+
+
+class Scheduler:
+    """The scheduler: which thread runs, which are ready, which wait for what (the deadline queue), the time (ns)."""
+
+    def __init__(self, now: int) -> None:
+        self.now = now
+        self.holder: ScheduledTask | None = None
+        self.turns = 0
+        self.reads = 0
+        self.tasks: dict[int, ScheduledTask] = {}
+        self.starting: set[ScheduledTask] = set()
+        """Threads that have not reached their first wait and stop the clock until then."""
+        self._guard = allocate_lock()
+        self._ready: deque[ScheduledTask] = deque()
+        self._deadlines: list[tuple[int, int, ScheduledTask]] = []
+        self._next_rank = 0
+        self._instant_waits = 0
+
+    def driver_task(self) -> ScheduledTask:
+        """Return the seat of a thread that has the baton from the start and may keep it as long as it likes."""
+        self.holder = task = self.tasks[LAST] = ScheduledTask(self, LAST, None)
+        return task
+
+    def task(self, state: WaitingThread | None) -> ScheduledTask:
+        """Return a seat for a new thread, which is ready to run."""
+        with self._guard:
+            self._next_rank += 1
+            task = self.tasks[self._next_rank] = ScheduledTask(self, self._next_rank, state)
+            self._ready.append(task)
+            if self.holder is None:
+                self._grant_next()
+        return task
+
+    def leave(self, task: ScheduledTask) -> None:
+        """Remove a thread that ends."""
+        with self._guard:
+            self.tasks.pop(task.rank, None)
+            self.starting.discard(task)
+            if self.holder is not task:
+                with suppress(ValueError):
+                    self._ready.remove(task)
+            if self.holder is task or self.holder is None:
+                self._grant_next()
+
+    def wait(self, task: ScheduledTask, wakeup: Awaited | None, deadline: int | None) -> bool:
+        """Hand the baton on; return True if the wakeup was set, False if due or roused."""
+        with self._guard:
+            self.turns += 1
+            self._instant_waits += 1
+            if self.starting:
+                self.starting.discard(task)
+            if self._instant_waits > INSTANT_WAITS:
+                self.now += POLL_NS
+            if wakeup is not None and wakeup.flag:
+                # A wakeup that is already set costs no turn; but a thread that only waited for such would let nobody
+                # else run.
+                if not task.detached and self._instant_waits <= INSTANT_WAITS:
+                    return True
+                self._ready.append(task)
+            elif deadline is not None and self._is_next(task, deadline):
+                self.now = deadline
+                self.reads = self._instant_waits = 0
+                return False
+            else:
+                self._enlist(task, wakeup, deadline)
+            waits = self._hand_on(task)
+        if waits:
+            try:
+                if task.rank != LAST:
+                    task.lock.acquire()
+                else:
+                    # A signal received by another thread does not end an acquire here, though its handler runs in this
+                    # thread.
+                    while not task.lock.acquire(True, SIGNAL_CHECK_S):
+                        pass
+            except BaseException:  # a real signal's handler raised in the real main thread
+                self._reclaim(task)
+                raise
+        if task.waiting:
+            self._withdraw(task, wakeup)
+        return task.woken or (wakeup is not None and wakeup.flag)
+
+    def _is_next(self, task: ScheduledTask, deadline: int) -> bool:
+        """Whether nothing happens before, or at the same time as, the end of the holder's wait."""
+        deadlines = self._deadlines
+        return (
+            not self._ready
+            and self.now < deadline
+            and (not deadlines or deadline < deadlines[0][0])
+            and not (task.detached or self.starting or (task.state is not None and task.state.called))
+        )
+
+    def wait_outside(self, wakeup: Awaited, deadline: int | None) -> bool:
+        """Wait in a thread that never has the baton and runs beside the one that does."""
+        with self._guard:
+            if wakeup.flag:
+                return True
+            self._next_rank += 1
+            task = ScheduledTask(self, self._next_rank, None)
+            task.is_outside = True
+            self._enlist(task, wakeup, deadline)
+            if self.holder is None:
+                self._grant_next()
+        try:
+            task.lock.acquire()
+        finally:
+            with self._guard:
+                if task.waiting:
+                    self._withdraw(task, wakeup)
+        return task.woken
+
+    def wake_thread(self, task: ScheduledTask) -> None:
+        """Make a waiting thread ready."""
+        with self._guard:
+            self._make_ready(task)
+            if self.holder is None:
+                self._grant_next()
+
+    def wake_all_threads(self, wakeup: Awaited) -> None:
+        """Set a wakeup: its waiters become ready, in the order of their waits."""
+        with self._guard:
+            wakeup.flag = True
+            if wakeup.waiters:
+                for task in tuple(wakeup.waiters):
+                    task.woken = True
+                    self._make_ready(task)
+                if self.holder is None:
+                    self._grant_next()
+
+    def detach(self, task: ScheduledTask, turns: int, note: Callable[[ScheduledTask], Note]) -> Note | None:
+        """Take the baton from a thread that blocks elsewhere, unless it has moved on since.
+
+        Returns the result of `note`, called before the next thread runs; None if the thread has moved on.
+        """
+        with self._guard:
+            if self.holder is not task or self.turns != turns:
+                return None
+            task.detached = True
+            message = note(task)
+            self._grant_next()
+            return message
+
+    def stop_waiting_for_starts(self) -> None:
+        """Let time go on although some threads have not reached their first wait."""
+        with self._guard:
+            self.starting.clear()
+            if self.holder is None:
+                self._grant_next()
+
+    def _enlist(self, task: ScheduledTask, wakeup: Awaited | None, deadline: int | None) -> None:
+        task.waiting = True
+        task.woken = False
+        task.wakeup = wakeup
+        if wakeup is not None:
+            wakeup.waiters.append(task)
+        if deadline is None:
+            task.due = None
+        else:
+            if deadline <= self.now and wakeup is not None:
+                deadline = self.now + POLL_NS
+            task.due = deadline
+            if deadline != task.in_heap:
+                task.in_heap = deadline
+                heappush(self._deadlines, (deadline, task.rank, task))
+        if task.state is not None and task.state.called:
+            self._make_ready(task)
+
+    def _make_ready(self, task: ScheduledTask) -> None:
+        if not task.waiting:
+            return
+        task.waiting = False
+        if task.wakeup is not None:
+            task.wakeup.waiters.remove(task)
+            task.wakeup = None
+        if task.is_outside:
+            task.lock.release()
+        else:
+            self._ready.append(task)
+
+    def _withdraw(self, task: ScheduledTask, wakeup: Awaited | None) -> None:
+        """Cancel a wait that was not ended by a wakeup."""
+        task.waiting = False
+        if wakeup is not None:
+            wakeup.waiters.remove(task)
+
+    def _next(self) -> ScheduledTask | None:
+        """Return the thread whose turn it is, advancing time if none is ready."""
+        ready, deadlines = self._ready, self._deadlines
+        while deadlines and (not ready or deadlines[0][0] <= self.now):
+            deadline, rank, task = deadlines[0]
+            if task.waiting and task.due == deadline:
+                # The driver comes after all others that are ready at this instant.
+                if rank == LAST and ready and deadline == self.now:
+                    break
+                if deadline > self.now:
+                    # The wall time that a start takes must not decide what happens before it.
+                    if self.starting:
+                        break
+                    self.now = deadline
+                    self.reads = self._instant_waits = 0
+                self._make_ready(task)
+            # Woken before it was due, or served now: either way this entry is done.
+            heappop(deadlines)
+            if task.in_heap == deadline:
+                task.in_heap = None
+        return ready.popleft() if ready else None
+
+    def _grant_next(self) -> None:
+        self.holder = task = self._next()
+        if task is not None:
+            task.lock.release()
+
+    def _hand_on(self, task: ScheduledTask) -> bool:
+        """Let the next thread run; return whether `seat` has to wait for its turn."""
+        if len(self._deadlines) > STALE_DEADLINES + 4 * len(self.tasks):
+            self._drop_stale_deadlines()
+        if task.detached:
+            # It was considered hung, and another thread may have the baton by now.
+            task.detached = False
+            if self.holder is not None:
+                return True
+        self.holder = following = self._next()
+        if following is task:
+            return False
+        if following is not None:
+            following.lock.release()
+        return True
+
+    def _drop_stale_deadlines(self) -> None:
+        live = {entry for entry in self._deadlines if entry[2].waiting and entry[2].due == entry[0]}
+        for _deadline, _rank, task in self._deadlines:
+            task.in_heap = None
+        self._deadlines[:] = live
+        for deadline, _rank, task in self._deadlines:
+            task.in_heap = deadline
+        heapify(self._deadlines)
+
+    def _reclaim(self, task: ScheduledTask) -> None:
+        """Get the baton back before anything else runs, for a thread that no longer waits."""
+        with self._guard:
+            if self.holder is not task:
+                self._make_ready(task)
+                with suppress(ValueError):
+                    self._ready.remove(task)
+                self._ready.appendleft(task)
+                if self.holder is None:
+                    self._grant_next()
+        while self.holder is not task:
+            with suppress(KeyboardInterrupt):
+                if task.lock.acquire(timeout=1.0):
+                    return
+        # A turn granted meanwhile would make the next wait return at once.
+        task.lock.acquire(False)

@@ -1,0 +1,122 @@
+"""Detect from outside that a process hangs because C code holds the GIL, and in which line."""
+
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from .. import frames, real
+
+NAME = "interpreter-stacks"
+"""Name of the in-memory file of a watched process."""
+MIN_SWITCHES_PER_S = 4
+"""Minimum number of times per second that a thread waiting for the GIL wakes: every 5 ms unless the machine is busy. A
+thread that only waits for a processor, or is frozen, does not wake.
+"""
+MAX_FILE_CHECKS = 20
+"""How many checks in a row may miss the file of a process that has just started."""
+
+_HEADER = re.compile(r"(\d+) (\d+) ([\d.]+)\n")
+_THREAD = re.compile(r"Thread 0x([0-9a-f]+)")
+_FRAME = re.compile(r'  File "(.*)", line (\d+) in (.*)')
+_ESCAPE = re.compile(r"\\(?:x[0-9a-f]{2}|u[0-9a-f]{4}|U[0-9a-f]{8})")
+
+
+class Held(NamedTuple):
+    """The holder of the GIL."""
+
+    ident: int
+    """The thread, as in `threading.get_ident`."""
+    line: str
+    """`/path/file.py:12, in function`; two that cannot be told apart are joined by ` or `."""
+
+
+@dataclass
+class _Thread:
+    ident: int
+    stack: list[tuple[str, str]] = field(default_factory=list[tuple[str, str]])
+    """File and description of each frame, the innermost first."""
+
+
+def voluntary_switches(process: int | str, thread: int) -> int | None:
+    """Return a thread's number of voluntary context switches; None if the system does not tell."""
+    try:
+        with open(f"/proc/{process}/task/{thread}/status", "rb") as file:
+            return int(file.read().partition(b"\nvoluntary_ctxt_switches:")[2].split(maxsplit=1)[0])
+    except (OSError, ValueError, IndexError):  # it has ended, or the system has no such file
+        return None
+
+
+def held_in_stacks(text: str, switches: int, now: float) -> Held | None:
+    """Determine from a watched process's file who holds the GIL, if anybody does.
+
+    `switches` are the voluntary switches of the thread named in the file; `now` is the monotonic time in s.
+    """
+    header = _HEADER.match(text)
+    if header is None or header.end() == len(text):
+        return None
+    woken, passed = switches - int(header[2]), now - float(header[3])
+    if woken < MIN_SWITCHES_PER_S * passed:
+        return None
+    at_work = [each for each in _threads(text[header.end() :]) if each.stack and not frames.is_idle(each.stack[0][0])]
+    if any(file.startswith("<frozen importlib") for each in at_work for file, _ in each.stack):
+        return None
+    found = [(each.ident, *where) for each in at_work if (where := _line_of_user(each)) is not None]
+    found = [each for each in found if not frames.is_shipped(each[1])] or found
+    if not found:
+        return None
+    return Held(found[0][0], " or ".join(dict.fromkeys(line for *_, line in found[:2])))
+
+
+def _threads(text: str) -> list[_Thread]:
+    threads: list[_Thread] = []
+    for line in text.splitlines():
+        if begun := _THREAD.match(line):
+            threads.append(_Thread(int(begun[1], 16)))
+        elif threads and (frame := _FRAME.match(line)):
+            file = _ESCAPE.sub(lambda found: found[0].encode().decode("unicode_escape"), frame[1])
+            threads[-1].stack.append((file, f"{file}:{frame[2]}, in {frame[3]}"))
+    return threads
+
+
+def _line_of_user(thread: _Thread) -> tuple[str, str] | None:
+    return next((each for each in thread.stack if not frames.is_library(each[0])), None)
+
+
+class GilHolder:
+    """One process, checked repeatedly."""
+
+    def __init__(self, pid: int) -> None:
+        self._pid = pid
+        self._path = ""
+        self._polls = 0
+
+    def held_in(self) -> str:
+        """Return the line in which its GIL is held; empty if it is not held, or unknown."""
+        if not self._path and self._polls < MAX_FILE_CHECKS:
+            self._polls += 1
+            self._path = _file_of(self._pid)
+        if not self._path:
+            return ""
+        try:
+            with open(self._path, encoding="ascii", errors="replace") as file:
+                text = file.read(1 << 20)
+        except OSError:  # it has ended
+            return ""
+        thread = text.partition(" ")[0]
+        switches = voluntary_switches(self._pid, int(thread)) if thread.isdecimal() else None
+        held = None if switches is None else held_in_stacks(text, switches, real.monotonic())
+        return held.line if held is not None else ""
+
+
+def _file_of(pid: int) -> str:
+    folder = f"/proc/{pid}/fd"
+    try:
+        for name in os.listdir(folder):
+            if f":{NAME}" in os.readlink(f"{folder}/{name}"):
+                return f"{folder}/{name}"
+    except OSError:  # it has ended, is another user's, or the system has no such folder
+        return ""
+    return ""

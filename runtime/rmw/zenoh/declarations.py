@@ -1,0 +1,225 @@
+"""A session's declarations, which survive its reopening and do nothing while no session is open.
+
+A session is reopened underneath nodes that are unaware of it (`MeshSession.rejoin`), so nothing here raises only
+because no session is open at the moment.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rmw.zenoh.channel_worker import ChannelWorker
+
+Received = Callable[[bytes, "bytes | None"], None]
+"""Called with the payload and the attachment of a sample."""
+
+TokenCallback = Callable[[str, bool], None]
+"""Called with the key of a liveliness token and whether it appeared (True) or disappeared."""
+
+Declare = Callable[[Any], Any]
+"""Declares an entity in a Zenoh session and returns it."""
+
+
+class DeclarationOwner(Protocol):
+    """What a declaration needs of its session."""
+
+    settled: threading.Event
+
+    def forget(self, thing: Declaration) -> None:
+        """Undeclare an entity."""
+        ...
+
+    def errors(self) -> type[Exception]:
+        """Zenoh's error class; only asked for once an error was raised."""
+        ...
+
+
+UNDECLARE_TIMEOUT_S = 1.0
+"""How long undeclaring waits for an entity that is in use, in seconds; then it is left to the end of the session."""
+
+TAKEN = "Already mutably borrowed"
+"""The error text of Zenoh's binding when another thread is undeclaring the entity being used."""
+
+
+class Declaration:
+    """An entity declared by a session; `declare` creates it in a Zenoh session."""
+
+    def __init__(self, session: DeclarationOwner, declare: Declare) -> None:
+        self._session = session
+        self.declare = declare
+        self.inner: Any = None
+        """The Zenoh entity; None while no session is open."""
+
+    def undeclare(self) -> None:
+        """Undeclare the entity; does nothing if it was already undeclared."""
+        self._session.forget(self)
+
+    def take_back(self) -> None:
+        """Undeclare the Zenoh entity, retrying for up to `LENT_FOR` while another thread is sending with it."""
+        until = time.monotonic() + UNDECLARE_TIMEOUT_S
+        while time.monotonic() < until:
+            try:
+                self.inner.undeclare()
+                return
+            except RuntimeError:  # "Already borrowed", by Zenoh's binding
+                time.sleep(0.0005)
+
+    def begin_again(self) -> None:
+        """The links were cut and are being made again."""
+
+    def settle(self) -> None:
+        """The new links are up."""
+
+
+class Publisher(Declaration):
+    """Sends payloads to the subscribers of a key."""
+
+    def put(self, payload: bytes, attachment: bytes) -> bool:
+        """Send one sample; waits at most `WAIT_BEFORE_DROP` for a full link.
+
+        Returns False if it could not be sent because the session is closed or rejoining, or because another thread is
+        undeclaring the publisher.
+        """
+        inner = self.inner
+        if inner is None:
+            return False
+        try:
+            inner.put(payload, attachment=attachment)
+        except self._session.errors():
+            return False
+        except RuntimeError as error:
+            if str(error) != TAKEN:
+                raise
+            return False
+        return True
+
+    def put_surely(self, payload: bytes, attachment: bytes) -> bool:
+        """Send one sample, waiting for the links of a session that is being reopened; to be called in a separate
+        thread.
+        """
+        settled = self._session.settled
+        while True:
+            if not settled.is_set():
+                settled.wait()
+            if self.put(payload, attachment):
+                return True
+            if settled.is_set():
+                return False
+
+
+class Querier(Declaration):
+    """Queries the queryables of a key; `ask` makes the Zenoh call with (inner, payload, attachment, replied, done)."""
+
+    def __init__(self, session: DeclarationOwner, declare: Declare, ask: Callable[..., None]) -> None:
+        super().__init__(session, declare)
+        self._ask = ask
+
+    def get(self, payload: bytes, attachment: bytes, replied: Received, done: Callable[[], None] | None = None) -> bool:
+        """Send a query; `replied` is called with each reply, and `done`, if given, after the last one or the timeout.
+
+        Returns False if no query was sent because the session is closed or rejoining; then `done` is not called.
+        """
+        inner = self.inner
+        if inner is None or not self._session.settled.is_set():
+            return False
+        try:
+            self._ask(inner, payload, attachment, replied, done)
+        except self._session.errors():
+            return False
+        return True
+
+
+class TokenWatch(Declaration):
+    """Watches tokens and reports once that each appears or disappears.
+
+    Zenoh does not report which tokens disappear with the links of a session that is closed. The tokens that have not
+    appeared again once the new links are up are reported as gone.
+    """
+
+    taking: ChannelWorker | None = None
+    """The thread that takes the samples, if they are taken apart from Zenoh's threads."""
+
+    def __init__(self, session: DeclarationOwner, declare: Declare, seen: TokenCallback) -> None:
+        super().__init__(session, declare)
+        self._seen = seen
+        self._is_asked = False
+        self._gone: set[str] = set()
+        self._lock = threading.RLock()
+        self._there: set[str] = set()
+        self._not_again: set[str] = set()
+
+    def saw(self, key: str, came: bool) -> None:
+        """A token appeared or disappeared. Reported with the lock held, to keep the order of the two."""
+        with self._lock:
+            self._not_again.discard(key)
+            if came:
+                self._there.add(key)
+                self._gone.discard(key)
+            else:
+                self._there.discard(key)
+                if self._is_asked:
+                    self._gone.add(key)
+            self._seen(key, came)
+
+    def begin_question(self) -> None:
+        """A query for the existing tokens starts: from now on, record the tokens that go, as no reply may bring them
+        back.
+        """
+        self._is_asked = True
+
+    def found(self, keys: Iterable[str]) -> None:
+        """Take in a reply: the tokens that existed, except those that have gone since."""
+        for key in keys:
+            with self._lock:
+                if key not in self._gone:
+                    self._not_again.discard(key)
+                    self._there.add(key)
+                    self._seen(key, True)
+
+    def end_question(self) -> None:
+        """All replies have arrived."""
+        with self._lock:
+            self._is_asked = False
+            self._gone.clear()
+
+    def begin_again(self) -> None:
+        """The links were cut: each token has to appear again."""
+        with self._lock:
+            self._not_again = set(self._there)
+
+    def settle(self) -> None:
+        """The new links are up: the tokens that have not appeared again are gone."""
+        with self._lock:
+            for key in tuple(self._not_again):
+                self.saw(key, False)
+
+
+class Query:
+    """A received request: call `answer` once, or `drop`."""
+
+    __slots__ = ("_error", "_key", "_query", "attachment", "payload")
+
+    def __init__(self, query: Any, key: str, payload: bytes, attachment: bytes | None, error: type[Exception]) -> None:
+        """`error` is Zenoh's error class."""
+        self._query = query
+        self._key = key
+        self._error = error
+        self.payload = payload
+        self.attachment = attachment
+
+    def answer(self, payload: bytes, attachment: bytes) -> bool:
+        """Send the only reply; returns False if the session that received the request is closed."""
+        try:
+            with self._query as query:
+                query.reply(self._key, payload, attachment=attachment)
+        except self._error:
+            return False
+        return True
+
+    def drop(self) -> None:
+        """End the request without a reply."""
+        self._query.drop()

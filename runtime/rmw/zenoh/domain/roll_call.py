@@ -1,0 +1,37 @@
+"""Find out which processes are in a domain, before a short-lived program reports on the graph."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+
+from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, lives
+from bot_console.runtime.rmw.zenoh.session import Session
+
+ANSWER_TIMEOUT_S = 0.3
+"""Timeout for the answers of the other processes, in s; a running process takes 5 ms."""
+
+
+def await_answers(session: Session, timeout_s: float = ANSWER_TIMEOUT_S) -> list[Socket]:
+    """Wait until each process that existed when the session joined has answered; return those that have not.
+
+    An answer shows that the link carries queries, which a new link does not yet; only then does a single graph query
+    return the whole graph. Frozen processes are not waited for.
+    """
+    deadline = time.monotonic() + timeout_s
+    missing = list(session.joined)
+    while missing:
+        answered = session.attendance()
+        missing = [each for each in missing if each.zid not in answered and _runs(each)]
+        if all(each.is_stopped() for each in missing) or time.monotonic() > deadline:
+            break
+        threading.Event().wait(0.002)
+    return missing
+
+
+def _runs(socket: Socket) -> bool:
+    """Whether the socket's process has neither left nor been killed."""
+    if not os.path.lexists(socket.path):
+        return False
+    return lives(socket.pid)

@@ -1,0 +1,104 @@
+"""Sends a publisher's messages to other processes, serialized only if one of them subscribes."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import Any
+
+from bot_console.runtime.process import current
+from bot_console.runtime.rmw.endpoints import SubscriptionEndpoint, depth
+from bot_console.runtime.rmw.local_publisher import LocalPublisher
+from bot_console.runtime.rmw.qos_matching import incompatible_policy
+from bot_console.runtime.rmw.zenoh.declarations import Publisher
+from bot_console.runtime.rmw.zenoh.sender import Sender
+from bot_console.runtime.rmw.zenoh.session import Session
+from bot_console.runtime.rmw.zenoh.type_agreement import has_same_type
+from bot_console.runtime.rmw.zenoh.wire.attachment import pack
+from bot_console.runtime.rmw.zenoh.wire.tokens import Token
+
+KEEP_ALL_DEPTH = 1000
+"""How many messages a latching publisher with KEEP_ALL keeps for other processes."""
+
+
+MANY = 1000
+"""Depth from which a reliable publisher counts as one that keeps everything: ROS 2 would keep so many messages for a
+reader that is late, and a link has room for 1 MB.
+"""
+
+BLOCKING_TOPICS = frozenset({"/rosout"})
+"""Reliable topics on which nothing is dropped whatever the depth: readers of a log need every line."""
+
+
+class RemotePublisher(deque[Any]):
+    """The queue, among a publisher's local subscriptions, that represents all other processes.
+
+    A message that the publisher appends is sent at once; one that must not be dropped (reliable, and KEEP_ALL, a depth
+    of `MANY` or a log line) is sent by another thread, so that the publisher does not wait. A latching publisher's
+    messages are always sent: late subscribers get them from the session, not from the program.
+    """
+
+    def __init__(self, session: Session, sender: Sender, publisher: LocalPublisher, key: str) -> None:
+        super().__init__()
+        self._session = session
+        self._publisher = publisher
+        self._key = key
+        self._topic = publisher.endpoint.topic
+        self.gid = publisher.endpoint.gid
+        self._out: Publisher | None = None
+        self._process = current()
+        self._sender = sender
+        qos = publisher.endpoint.qos
+        all_count = (depth(qos) or MANY) >= MANY or publisher.endpoint.topic in BLOCKING_TOPICS
+        self._blocking = all_count and qos.reliability.name != "BEST_EFFORT"
+        self._target = SubscriptionEndpoint(publisher.endpoint, True, self, _nothing)
+        self.latching = publisher.history is not None
+        if self.latching:
+            self._open()
+            publisher.send_elsewhere(self._target)
+
+    def append(self, entry: Any) -> None:
+        """Send one message, which the publisher has serialized."""
+        data, stamp, number, _ = entry
+        out = self._out or self._open()
+        attachment = pack(number, stamp, self.gid, data)
+        if self._blocking:
+            self._sender.send(out, self._topic, data, attachment)
+        else:
+            out.put(data, attachment)
+
+    def _open(self) -> Publisher:
+        qos = self._publisher.endpoint.qos
+        cache = (depth(qos) or KEEP_ALL_DEPTH) if self.latching else 0
+        reliable = qos.reliability.name != "BEST_EFFORT"
+        self._out = self._session.declare_publisher(self._key, reliable=reliable, cache=cache, blocking=self._blocking)
+        return self._out
+
+    def saw(self, token: Token, came: bool) -> None:
+        """A subscription of another process appeared or disappeared."""
+        publisher = self._publisher
+        endpoint = publisher.endpoint
+        if not has_same_type(self._process, endpoint, self._key, token, came):
+            return
+        policy = incompatible_policy(endpoint.qos, token.qos)
+        if policy:
+            if came:
+                publisher.on_event("incompatible", policy)
+            return
+        publisher.elsewhere += 1 if came else -1
+        if not self.latching:
+            publisher.send_elsewhere(self._target if publisher.elsewhere else None)
+        publisher.on_event("matched", 1 if came else -1)
+
+    def send_again(self) -> None:
+        """Publish what a latching publisher has kept to the reopened session."""
+        self._publisher.late(self._target)
+
+    def close(self) -> None:
+        """Stop sending."""
+        self._publisher.send_elsewhere(None)
+        if self._out is not None:
+            self._sender.undeclare(self._out)
+
+
+def _nothing() -> None:
+    """Wake nobody: what is sent has no reader in this process."""

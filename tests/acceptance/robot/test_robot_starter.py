@@ -1,0 +1,186 @@
+"""A launch file whose nodes want a robot gets the simulated one beside it, and nothing else does."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+from headless import headless
+
+NODES = {
+    "driver": "node.create_publisher(Twist, 'cmd_vel', 10), "
+    "node.create_subscription(LaserScan, 'scan', lambda scan: made[0].publish(twist), 10)",
+    "watcher": "node.create_subscription(Odometry, 'odom', lambda odometry: None, 10),",
+    "lidar": "node.create_publisher(LaserScan, 'scan', 10),",
+    "blind": "node.create_publisher(Twist, 'velocity', 10),",
+}
+NODE = """import rclpy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import LaserScan
+
+twist = Twist()
+twist.linear.x = 0.2
+twist.angular.z = 0.3
+rclpy.init()
+node = rclpy.create_node({name!r})
+made = ({endpoints})
+rclpy.spin(node)
+"""
+LAUNCH = """from launch import LaunchDescription
+from launch.actions import GroupAction, OpaqueFunction, Shutdown, TimerAction
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    return LaunchDescription({entities})
+"""
+BESIDE = "the simulated robot runs beside it"
+
+
+def write(folder, *entities):
+    """A launch file of nodes; `driver` stands for the one of that name, other entities for themselves."""
+    for name, endpoints in NODES.items():
+        (folder / f"{name}.py").write_text(NODE.format(name=name, endpoints=endpoints))
+    actions = [f"Node(executable={str(folder / each)!r} + '.py')" if each in NODES else each for each in entities]
+    (folder / "mine.launch.py").write_text(LAUNCH.format(entities=f"[{', '.join(actions)}]"))
+
+
+def run(folder, *words, seconds="6"):
+    words = ("--headless", "--fast", "--duration", seconds, "--launch", "mine.launch.py", *words)
+    line = [sys.executable, "-m", "bot_console.tui", *words]
+    return subprocess.run(line, cwd=folder, capture_output=True, text=True, check=False)
+
+
+def test_nodes_that_want_a_robot_drive_ours_and_each_run_is_the_same(tmp_path):
+    write(tmp_path, "driver", "watcher")
+    words = ("--duration", "8", "--seed", "3", "--world", "warehouse", "--launch", "mine.launch.py")
+    first, second = (headless(tmp_path, *words) for _ in range(2))
+    assert f"{BESIDE}, since nobody gives /scan to /driver, nobody gives /odom to /watcher" in first["log"]
+    assert first["log"].count(BESIDE) == 1
+    assert "nobody obeys /cmd_vel of /driver" in first["log"]
+    assert (first["world"], first["seed"]) == ("warehouse", 3)
+    assert first["distance"] > 0.5
+    assert first["deterministic"] and second["deterministic"]
+    assert (first["digest"], first["duration"]) == (second["digest"], second["duration"])
+
+
+def test_a_node_that_drives_with_a_time_stamp_moves_it(tmp_path):
+    write(tmp_path, "driver")
+    file = tmp_path / "driver.py"
+    text = file.read_text().replace("import Twist\n", "import Twist, TwistStamped\n")
+    text = text.replace("create_publisher(Twist,", "create_publisher(TwistStamped,")
+    file.write_text(text.replace("publish(twist)", "publish(TwistStamped(twist=twist))"))
+    assert headless(tmp_path, "--duration", "8", "--launch", "mine.launch.py")["distance"] > 0.5
+
+
+def test_a_node_that_starts_late_is_seen(tmp_path):
+    write(tmp_path, "TimerAction(period=5.0, actions=[Node(executable='driver.py')])")
+    report = headless(tmp_path, "--duration", "12", "--launch", "mine.launch.py")
+    assert report["distance"] > 0.2
+
+
+def later(period, *actions):
+    return f"TimerAction(period={period}, actions=[{', '.join(actions)}])"
+
+
+BRINGING = "Node(package='bot_console_robot', executable='simulator_node', name='simulator')"
+WAITS = "the launch file starts more later, which is waited for, at most 30 s, before a simulated robot comes"
+
+
+@pytest.mark.parametrize(
+    "bringing",
+    [
+        pytest.param(later(5.0, BRINGING), marks=pytest.mark.soak),
+        pytest.param(f"OpaqueFunction(function=lambda context: [{later(5.0, BRINGING)}])", marks=pytest.mark.soak),
+        later(2.0, later(3.0, f"GroupAction([{BRINGING}])")),
+    ],
+    ids=["timer", "timer of a function", "timer of a timer"],
+)
+def test_no_two_robots_when_the_launch_brings_one_later(tmp_path, bringing):
+    write(tmp_path, "driver", bringing)
+    log = headless(tmp_path, "--duration", "9", "--launch", "mine.launch.py")["log"]
+    assert BESIDE not in log
+    assert log.count(WAITS) == 1
+
+
+@pytest.mark.soak
+def test_what_starts_later_and_is_no_robot_holds_ours_up_for_its_time_only(tmp_path):
+    write(tmp_path, "driver", later(4.0, "Node(executable='blind.py')"), later(900.0, "Shutdown()"))
+    report = headless(tmp_path, "--duration", "10", "--launch", "mine.launch.py")
+    assert report["log"].count(WAITS) == report["log"].count(BESIDE) == 1
+
+
+def test_what_starts_much_later_is_not_waited_for(tmp_path):
+    write(tmp_path, "driver", later(900.0, "Node(executable='blind.py')"))
+    report = headless(tmp_path, "--duration", "35", "--launch", "mine.launch.py")
+    assert report["log"].count(WAITS) == report["log"].count(BESIDE) == 1
+
+
+@pytest.mark.parametrize(
+    "entities",
+    [
+        ("driver", "lidar"),
+        pytest.param(("blind",), marks=pytest.mark.soak),
+        pytest.param(("Node(executable='driver.py', namespace='other')",), marks=pytest.mark.soak),
+        ("Node(executable='driver.py', remappings=[('scan', 'laser'), ('cmd_vel', 'velocity')])",),
+    ],
+    ids=["somebody gives it", "nobody wants it", "in a namespace", "remapped"],
+)
+def test_no_robot_where_none_is_wanted(tmp_path, entities):
+    write(tmp_path, *entities)
+    done = run(tmp_path)
+    assert done.returncode == 1
+    assert BESIDE not in done.stderr
+    assert "no simulator was started beside it, --simulator starts one" in done.stderr
+
+
+def test_no_simulator_where_it_is_turned_off(tmp_path):
+    write(tmp_path, "driver")
+    done = run(tmp_path, "--no-simulator")
+    assert (done.returncode, BESIDE in done.stderr) == (1, False)
+
+
+def test_simulator_where_it_is_asked_for(tmp_path):
+    write(tmp_path, "blind")
+    report = headless(tmp_path, "--duration", "2", "--launch", "mine.launch.py", "--simulator")
+    assert report["duration"] == 2.0
+
+
+def test_no_two_robots_when_the_launch_brings_one(tmp_path):
+    write(tmp_path, "driver", BRINGING)
+    assert BESIDE not in headless(tmp_path, "--duration", "4", "--launch", "mine.launch.py")["log"]
+
+
+ASKS = """import rclpy
+from sensor_msgs.msg import LaserScan
+
+rclpy.init()
+node = rclpy.create_node("asker")
+node.create_subscription(LaserScan, "scan", lambda scan: None, 10)
+looks = []
+node.create_timer(0.1, lambda: looks.append(len(node.get_publishers_info_by_topic("/scan"))))
+while len(looks) < 30 and not any(looks):
+    rclpy.spin_once(node)
+print("given by", looks[-1], flush=True)
+"""
+
+
+@pytest.mark.parametrize(
+    ("words", "givers"),
+    [
+        (("run", "asks.py"), 0),
+        (("launch", "asks.launch.py"), 0),
+        (("run", "--headless", "--duration", "30", "asks.py"), 1),
+    ],
+    ids=["run", "launch", "run --headless"],
+)
+def test_the_verbs_start_what_is_requested_and_no_robot(tmp_path, monkeypatch, words, givers):
+    monkeypatch.setenv("ROS_HOME", str(tmp_path))
+    (tmp_path / "asks.py").write_text(ASKS)
+    node = "Node(executable='./asks.py', output='screen')"
+    (tmp_path / "asks.launch.py").write_text(LAUNCH.format(entities=f"[{node}]"))
+    line = [sys.executable, "-m", "bot_console.tui", *words]
+    done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert f"given by {givers}" in done.stdout + done.stderr, done.stderr

@@ -1,0 +1,42 @@
+"""A stand-in for a machine's ROS 2: a folder in which `rclpy`, `launch` and the messages lie as plain packages.
+
+They are copies of the embedded runtime's, found by the path and not by our finder, so that `attach --ros` takes them
+for the machine's. What real ROS 2 does not have, or does not call public, is not there for the console: it raises
+`AttributeError`, by the lists in `public_ros.py`.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+from bot_console.runtime.importer import GENERATED, PACKAGES, RUNTIME
+
+HOOK = """\
+import sys
+
+sys.path.append({helpers!r})
+from bot_console.runtime.child_discovery import let_children_meet
+from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
+
+share_domains()
+let_children_meet(True)
+from fakes.public_ros import PublicOnly
+
+sys.meta_path.insert(0, PublicOnly())
+"""
+
+
+def make_standin(folder: Path) -> dict[str, str]:
+    """Fill a folder; the environment in which that ROS 2 is sourced."""
+    place = folder / "ros"
+    for name in PACKAGES:
+        shutil.copytree(Path(RUNTIME) / name, place / name, ignore=shutil.ignore_patterns("__pycache__"))
+    for each in Path(GENERATED).iterdir():
+        if each.is_dir() and (each / "__init__.py").is_file():
+            shutil.copytree(each, place / each.name, ignore=shutil.ignore_patterns("__pycache__"))
+    (place / "sitecustomize.py").write_text(HOOK.format(helpers=str(Path(__file__).parents[1])))
+    before = os.environ.get("PYTHONPATH", "")
+    path = os.pathsep.join(filter(None, (str(place), before)))
+    return {**os.environ, "PYTHONPATH": path, "ROS_DISTRO": "standin", "RMW_IMPLEMENTATION": "rmw_standin"}

@@ -1,0 +1,42 @@
+"""`FakeSensors`: what the test says that the robot shows."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.sensors.frame_model import Frames
+from bot_console.tui.console.sensors.model import Diagnostics, Level, Picture, ReportedStatus, Status
+
+
+class FakeSensors:
+    """Shows what was put in."""
+
+    def __init__(self) -> None:
+        self.info = Diagnostics()
+        self.shown = Picture()
+        self.watching: tuple[str, int, int] = ("", 0, 0)
+        self.tree = Frames()
+        self.watched = False
+        self.watched_nodes = False
+
+    def diagnostics(self) -> Diagnostics:
+        return self.info
+
+    def watch_image(self, topic: str, columns: int, rows: int) -> None:
+        self.watching = (topic, columns, rows)
+
+    def picture(self) -> Picture:
+        return self.shown
+
+    def watch_frames(self, on: bool) -> None:
+        self.watched = on
+
+    def watch_nodes(self, on: bool) -> None:
+        self.watched_nodes = on
+
+    def frames(self) -> Frames:
+        return self.tree if self.watched else Frames()
+
+
+def status(name: str, level: Level = Level.OK, message: str = "", heard: float = 100.0, **values: str) -> Status:
+    """A status that has been so from the start."""
+    reported = (ReportedStatus(1_700_000_000_000_000_000, level, message),)
+    return Status(name, level, message, "robot", tuple(values.items()), heard, reported)

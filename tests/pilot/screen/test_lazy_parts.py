@@ -1,0 +1,98 @@
+"""Panes make what is in them when they are first seen, and then look as if it had been there from the start."""
+
+from __future__ import annotations
+
+import asyncio
+
+import pytest
+from bot_console.tui.arrangement.arrival import ORDERED
+from bot_console.tui.panes.alarms.pane import AlarmsPane
+from bot_console.tui.panes.broken_pane import BrokenPane
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.panes.profiles.pane import ProfilesPane
+from bot_console.tui.panes.topics.pane import TopicsPane
+from bot_console.tui.panes.topics.table import TopicRows
+from bot_console.tui.widgets.lazy_parts import LazyParts
+from piloting import Session, run
+from samples import live
+from textual.app import App, ComposeResult
+from textual.widgets import Static
+
+DIGITS = {each.id: each.key for each in ORDERED}
+
+
+def test_a_pane_that_nobody_has_seen_has_no_parts() -> None:
+    async def play(session: Session) -> None:
+        panes = {each.id: each for each in session.app.panes()}
+        assert [*panes] == [each.id for each in ORDERED]
+        assert [id for id, each in panes.items() if each.has_parts] == ["parameters"]
+        await session.press("9")
+        assert [id for id, each in panes.items() if each.has_parts] == ["parameters", "topics"]
+        assert not any(each.is_ending for each in panes.values())
+
+    run(live(), play)
+
+
+def test_panes_look_as_if_their_parts_had_been_there_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[list[str]] = [[], []]
+
+    async def play(session: Session) -> None:
+        for digit in DIGITS.values():
+            await session.press(digit)
+            seen[0].append(session.text())
+
+    run(live(), play, (120, 40))
+    seen.reverse()
+    monkeypatch.setattr(LazyParts, "come_late", lambda self: None)
+    run(live(), play, (120, 40))
+    assert seen[0] == seen[1]
+
+
+def test_who_asks_a_pane_for_a_part_finds_all_that_is_in_it() -> None:
+    async def play(session: Session) -> None:
+        pane = session.pane(TopicsPane)
+        assert not pane.has_parts
+        assert pane.query_one("#topics-message").is_attached and pane.query(TopicRows)
+        await session.press("9")
+        assert len(pane.query(TopicRows)) == 1, "they are made once"
+
+    run(live(), play)
+
+
+class Box(LazyParts):
+    def compose(self) -> ComposeResult:
+        yield Static(id="part")
+
+
+def test_what_is_asked_for_before_the_mount_is_over_is_made_once() -> None:
+    async def play() -> None:
+        app: App[None] = App()
+        async with app.run_test() as pilot:
+            box = Box()
+            box.come_late()
+            mounted = app.mount(box)
+            box.make_parts()
+            await mounted
+            await pilot.pause()
+            assert len(box.children) == 1
+
+    asyncio.run(play())
+
+
+def test_a_fault_in_what_a_pane_makes_late_ends_that_pane_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    def compose(self: Pane) -> ComposeResult:
+        raise ValueError("no parts")
+        yield
+
+    monkeypatch.setattr(ProfilesPane, "compose", compose)
+
+    async def play(session: Session) -> None:
+        assert session.app.faults.seen == []
+        await session.press("7")
+        assert [str(each) for each in session.app.faults.seen] == ["no parts"]
+        broken = session.pane(BrokenPane)
+        assert broken.id == "profiles" and broken.display and "no parts" in session.text()
+        await session.press("B")
+        assert session.pane(AlarmsPane).display and session.pane(AlarmsPane).has_parts
+
+    run(live(), play, faults_wanted=True)

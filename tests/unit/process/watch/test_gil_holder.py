@@ -1,0 +1,138 @@
+"""Who holds the interpreter's lock, by what the interpreter has written of all stacks."""
+
+import os
+import subprocess
+import sys
+import threading
+
+import pytest
+from bot_console.runtime.process.watch.gil_holder import GilHolder, held_in_stacks
+
+RUNTIME = os.path.dirname(os.path.dirname(os.path.dirname(sys.modules[GilHolder.__module__].__file__ or "")))
+LIBRARY = os.path.dirname(os.__file__)
+TIMEOUT_S = 120.0
+"""Seconds after which a test gives up; nothing is measured by it."""
+
+WAITS = f"""Thread 0x00007f0000000001 (most recent call first):
+  File "{LIBRARY}/threading.py", line 320 in wait
+  File "/home/me/waits.py", line 3 in main
+"""
+SPINS = f"""Thread 0x00007f0000000002 (most recent call first):
+  File "{RUNTIME}/process/real_time.py", line 9 in wait
+  File "/home/me/spins.py", line 8 in main
+"""
+HOLDS = f"""Thread 0x00007f0000000003 (most recent call first):
+  File "{LIBRARY}/re/__init__.py", line 166 in match
+  File "/home/me/holds.py", line 12 in tick
+  File "{RUNTIME}/process/program.py", line 44 in __call__
+"""
+IMPORTS = """Thread 0x00007f0000000004 (most recent call first):
+  File "<frozen importlib._bootstrap>", line 241 in _call_with_frames_removed
+  File "/home/me/imports.py", line 1 in <module>
+"""
+OURS = f"""Thread 0x00007f0000000005 (most recent call first):
+  File "{os.path.dirname(RUNTIME)}/nodes/robot_node.py", line 5 in tick
+"""
+
+
+def written(*threads: str, after_s: float = 1.25, woken: int = 200) -> tuple[str, int, float]:
+    """The file's text, and what of its thread and of the clock belongs to it."""
+    return "17 1000 50.0\nTimeout (0:00:01.250000)!\n" + "\n".join(threads), 1000 + woken, 50.0 + after_s
+
+
+def line(*threads: str, after_s: float = 1.25, woken: int = 200) -> str | None:
+    held = held_in_stacks(*written(*threads, after_s=after_s, woken=woken))
+    return held and held.line
+
+
+def test_the_thread_that_does_not_wait_holds_it() -> None:
+    held = held_in_stacks(*written(WAITS, HOLDS, SPINS))
+    assert held is not None
+    assert (held.ident, held.line) == (0x00007F0000000003, "/home/me/holds.py:12, in tick")
+
+
+def test_nobody_holds_it_while_the_beat_comes() -> None:
+    assert held_in_stacks("17 1000 50.0\n", 1000, 50.4) is None
+    assert held_in_stacks("", 1000, 50.4) is None
+
+
+def test_a_process_that_is_frozen_or_gets_no_processor_is_not_blamed() -> None:
+    assert line(HOLDS, woken=3) is None
+    assert line(HOLDS, after_s=100.0, woken=200) is None
+
+
+def test_a_library_that_is_being_imported_is_not_blamed() -> None:
+    assert line(IMPORTS, SPINS) is None
+
+
+def test_two_that_cannot_be_distinguished_are_both_named() -> None:
+    other = HOLDS.replace("holds.py", "other.py")
+    assert line(HOLDS, other, WAITS) == "/home/me/holds.py:12, in tick or /home/me/other.py:12, in tick"
+
+
+def test_what_comes_along_is_named_only_when_there_is_nobody_else() -> None:
+    assert line(OURS, HOLDS) == "/home/me/holds.py:12, in tick"
+    assert "robot_node.py:5" in (line(OURS) or "")
+
+
+def test_a_name_with_other_characters_is_read_back() -> None:
+    assert line(HOLDS.replace("/me/", "/Jos\\xe9/\\u5357/")) == "/home/José/南/holds.py:12, in tick"
+
+
+PROGRAM = """
+import ctypes, sys, threading
+from bot_console.runtime.process.watch.gil_watch import GilWatch
+
+told = threading.Event()
+def tell(ident, text):
+    print(ident == threading.main_thread().ident, text, flush=True)
+    told.set()
+
+GilWatch(tell).begin()
+beside = threading.Thread(target=told.wait, daemon=True)
+beside.start()
+def work(seconds):
+    print("holds", flush=True)
+    ctypes.PyDLL(None).sleep(seconds)
+for _ in range(20):  # a process that gets no processor meanwhile is not blamed
+    work(int(sys.argv[2]))
+    if told.wait(2.0):
+        break
+"""
+
+needs_a_file_in_memory = pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="a system that cannot tell it")
+
+
+def begin(folder: str, seconds: int) -> "subprocess.Popen[str]":
+    file = os.path.join(folder, "program.py")
+    with open(file, "w") as program:
+        program.write(PROGRAM)
+    code = f"exec(compile(open({file!r}).read(), {file!r}, 'exec'))"
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    words = [sys.executable, "-c", code, "-", str(seconds)]
+    return subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=environment)
+
+
+@needs_a_file_in_memory
+def test_it_is_reported_afterwards(tmp_path: os.PathLike[str]) -> None:
+    with begin(str(tmp_path), 3) as process:
+        message, _ = process.communicate(timeout=TIMEOUT_S)
+    reported = next(each for each in message.splitlines() if each != "holds")
+    assert reported.startswith(f"True has held the interpreter's lock for 1 s, in {tmp_path}/program.py:15, in")
+
+
+@needs_a_file_in_memory
+def test_others_see_it_meanwhile(tmp_path: os.PathLike[str]) -> None:
+    with begin(str(tmp_path), 100_000) as process:
+        try:
+            assert process.stdout is not None
+            assert process.stdout.readline() == "holds\n"
+            seen, where = GilHolder(process.pid), ""
+            for _ in range(int(TIMEOUT_S / 0.02)):
+                if where := seen.held_in():
+                    break
+                threading.Event().wait(0.02)
+            assert where == f"{tmp_path}/program.py:15, in work"
+        finally:
+            process.kill()
+    assert GilHolder(process.pid).held_in() == ""

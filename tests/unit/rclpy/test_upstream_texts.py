@@ -1,0 +1,255 @@
+"""What rclpy 7.1 answers to arguments and prints for values, where a program can tell the difference."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import Any
+
+import pytest
+from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
+from rclpy.clock import ClockChange, JumpThreshold, ROSClock
+from rclpy.clock_type import ClockType
+from rclpy.context import Context
+from rclpy.duration import Duration
+from rclpy.event_handler import QoSPublisherEventType
+from rclpy.exceptions import InvalidParameterValueException
+from rclpy.logging import get_logger
+from rclpy.parameter import get_parameter_value
+from rclpy.qos import QoSCompatibility, QoSPresetProfiles, QoSProfile, ReliabilityPolicy
+from rclpy.service_introspection import ServiceIntrospectionState
+from rclpy.signals import SignalHandlerOptions
+from rclpy.time import Time
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+from rclpy.utilities import timeout_sec_to_nsec
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+
+@pytest.mark.parametrize(
+    "member",
+    [
+        QoSCompatibility.WARNING,
+        QoSPublisherEventType.RCL_PUBLISHER_MATCHED,
+        ServiceIntrospectionState.CONTENTS,
+        SignalHandlerOptions.ALL,
+    ],
+)
+def test_an_enumeration_of_the_c_extension_prints_its_name(member: Any) -> None:
+    expected = f"{type(member).__name__}.{member.name}"
+    assert (str(member), f"{member}") == (expected, expected)
+    assert member == member.value
+
+
+@pytest.mark.parametrize("member", [ClockChange.ROS_TIME_ACTIVATED, ClockType.ROS_TIME])
+def test_an_enumeration_of_rclpy_itself_prints_as_those_of_this_python(member: Any) -> None:
+    plain: Any = IntEnum(type(member).__name__, {member.name: member.value})
+    plain = plain(member.value)
+    assert (str(member), f"{member}", repr(member)) == (str(plain), f"{plain}", repr(plain))
+
+
+@pytest.mark.parametrize("profile", [10, "10", None])
+def test_the_qos_of_a_service_is_a_profile_and_no_number(ros: Any, profile: Any) -> None:
+    node = ros.node()
+    refused = pytest.raises(AttributeError, match="object has no attribute 'get_c_qos_profile'")
+    with refused:
+        node.create_client(Trigger, "t", qos_profile=profile)
+    with refused:
+        node.create_service(Trigger, "t", lambda request, response: response, qos_profile=profile)
+    assert node.create_client(Trigger, "t", qos_profile=QoSProfile(depth=10)).srv_name == "t"
+
+
+def test_an_unknown_policy_is_named_among_all_that_were_given() -> None:
+    with pytest.raises(AssertionError, match=r"constructor: dict_keys\(\['depth', 'reliable'\]\)"):
+        QoSProfile(depth=1, reliable=True)
+
+
+def test_the_durations_that_mean_best_available() -> None:
+    from rclpy.qos import DeadlineBestAvailable, LivelinessLeaseDurationeBestAvailable
+
+    best = QoSPresetProfiles.BEST_AVAILABLE.value
+    assert best.deadline == DeadlineBestAvailable
+    assert best.liveliness_lease_duration == LivelinessLeaseDurationeBestAvailable
+
+
+def test_the_publisher_of_log_lines_is_not_among_the_node_s(ros: Any) -> None:
+    node = ros.node()
+    node.create_publisher(String, "t", 1)
+    assert [each.topic_name for each in node.publishers] == ["/parameter_events", "/t"]
+
+
+def test_a_node_keeps_its_handle(ros: Any) -> None:
+    with pytest.raises(AttributeError, match=r"^handle cannot be modified after node creation$"):
+        ros.node().handle = None
+
+
+def test_a_namespace_that_is_no_text(ros: Any) -> None:
+    with pytest.raises(TypeError, match="namespace must be a string, not int"):
+        ros.node(namespace=3)
+
+
+def test_a_context_may_be_asked_not_to_set_up_the_log() -> None:
+    context = Context()
+    context.init([], initialize_logging=False)
+    assert context.ok()
+    context.shutdown()
+
+
+@pytest.mark.parametrize("name", ["pre_callback", "post_callback"])
+def test_what_is_called_at_a_jump_can_be_called(name: str) -> None:
+    threshold: Any = JumpThreshold(min_forward=None, min_backward=None)
+    with pytest.raises(ValueError, match=f"{name} must be callable if given"):
+        ROSClock().create_jump_callback(threshold, **{name: 1})  # type: ignore[arg-type]
+
+
+def test_a_change_of_the_source_reports_no_time() -> None:
+    clock, jumps = ROSClock(), []
+    clock.set_ros_time_override(Time(seconds=5))
+    handle = clock.create_jump_callback(JumpThreshold(min_forward=None, min_backward=None), post_callback=jumps.append)
+    clock._set_ros_time_is_active(True)
+    clock._set_ros_time_is_active(False)
+    handle.unregister()
+    assert [(each.clock_change, each.delta) for each in jumps] == [
+        (ClockChange.ROS_TIME_ACTIVATED, Duration()),
+        (ClockChange.ROS_TIME_DEACTIVATED, Duration()),
+    ]
+
+
+def test_a_time_does_not_grow_beyond_its_64_bits() -> None:
+    with pytest.raises(OverflowError, match="Total nanoseconds value is too large"):
+        _ = Time(nanoseconds=2**63 - 1) - Duration(nanoseconds=-1)
+
+
+@pytest.mark.parametrize(("seconds", "expected"), [(None, -1), (-0.5, -1), (0, 0), (1.5, 1_500_000_000)])
+def test_a_time_out_for_ever_is_minus_one(seconds: float | None, expected: int) -> None:
+    assert timeout_sec_to_nsec(seconds) == expected
+
+
+def test_a_log_line_may_have_another_name(capfd: pytest.CaptureFixture[str]) -> None:
+    logger = get_logger("first")
+    for _ in range(2):
+        assert logger.info("text", name="second")
+    assert capfd.readouterr().err.count("[second]: text") == 2
+    with pytest.raises(ValueError, match="Logger name cannot be changed between calls"):
+        for name in ("third", "fourth"):
+            logger.info("text", name=name)
+
+
+def test_a_severity_is_given_once() -> None:
+    with pytest.raises(TypeError, match="got multiple values for argument 'severity'"):
+        get_logger("l").fatal("text", severity=10)
+
+
+def test_a_throttle_is_a_number() -> None:
+    with pytest.raises(TypeError, match="can't multiply sequence by non-int of type 'float'"):
+        get_logger("l").info("text", throttle_duration_sec="1")
+
+
+def test_an_endpoint_that_nothing_is_known_of() -> None:
+    info = TopicEndpointInfo()
+    assert info.qos_profile == QoSPresetProfiles.UNKNOWN.value
+    assert "Topic type hash: INVALID" in str(info)
+    with pytest.raises(AssertionError):
+        info.endpoint_type = "PUBLISHER"  # type: ignore[assignment]
+
+
+@pytest.mark.parametrize("method", ["set_parameters", "get_parameter", "create_timer", "count_publishers"])
+def test_a_call_without_its_argument_names_the_node_s_method(ros: Any, method: str) -> None:
+    with pytest.raises(TypeError, match=rf"^Node\.{method}\(\) missing 1 required positional argument"):
+        getattr(ros.node(), method)(*(() if method != "create_timer" else (1.0,)))
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"throttle_duration_sec": 1.0, "throttle_time_source_type": None}, "throttle_time_source_type"),
+        ({"throttle_duration_sec": None, "throttle_time_source_type": ROSClock()}, "throttle_duration_sec"),
+    ],
+)
+def test_a_throttle_that_is_given_as_none(options: dict[str, Any], words: str) -> None:
+    with pytest.raises(
+        TypeError, match=f'^Required parameter "{words}" was not specified for logging filter "Throttle"$'
+    ):
+        get_logger("l").info("text", **options)
+
+
+@pytest.mark.parametrize("options", [{"throttle_duration_sec": None}, {"throttle_time_source_type": None}])
+def test_a_throttle_of_none_alone_is_no_throttle(options: dict[str, Any]) -> None:
+    assert [get_logger("l").info("text", **options) for _ in range(2)] == [True, True]
+
+
+def test_a_message_class_that_was_not_called(ros: Any) -> None:
+    publisher = ros.node().create_publisher(String, "t", 1)
+    with pytest.raises(TypeError, match=r"got <class 'std_msgs\.msg\._string\.Metaclass_String'>$"):
+        publisher.publish(String)
+
+
+@pytest.mark.parametrize("name", ["RMW_QOS_POLICY_RELIABILITY_NONE", "RELIABLEE"])
+def test_a_policy_that_there_is_not(name: str) -> None:
+    with pytest.raises(AttributeError, match=rf"\b{name}'?$"):
+        getattr(ReliabilityPolicy, name)
+
+
+@pytest.mark.parametrize("text", [5, None, ["a"]])
+def test_a_parameter_s_word_that_is_no_text(text: Any) -> None:
+    with pytest.raises(AttributeError, match="object has no attribute 'read'"):
+        get_parameter_value(text)
+
+
+def test_a_prefix_of_none(ros: Any) -> None:
+    with pytest.raises(TypeError, match="object of type 'NoneType' has no len"):
+        ros.node().get_parameters_by_prefix(None)
+
+
+def test_a_range_that_begins_with_nan_refuses_all(ros: Any) -> None:
+    nothing = FloatingPointRange(from_value=float("nan"), to_value=1.0)
+    with pytest.raises(InvalidParameterValueException, match=r"out of range Min: nan, Max: nan, value: 0\.5"):
+        ros.node().declare_parameter("p", 0.5, ParameterDescriptor(floating_point_range=[nothing]))
+
+
+def test_a_time_out_that_is_no_number_is_refused_at_once(ros: Any) -> None:
+    with pytest.raises(TypeError):
+        ros.node().create_client(Trigger, "t").wait_for_service("1")
+
+
+def test_the_parts_of_a_service_are_listed_before_they_are_imported() -> None:
+    from nav_msgs.srv import GetPlan
+
+    assert {"Event", "Request", "Response"} <= set(dir(GetPlan))
+
+
+def test_goals_print_the_module_that_they_are_imported_from() -> None:
+    from rclpy.action.client import ClientGoalHandle
+    from rclpy.action.server import ServerGoalHandle
+
+    assert str(ServerGoalHandle) == "<class 'rclpy.action.server.ServerGoalHandle'>"
+    assert str(ClientGoalHandle) == "<class 'rclpy.action.client.ClientGoalHandle'>"
+
+
+def test_what_is_called_at_the_shutdown_is_kept_without_an_answer() -> None:
+    context = Context()
+    answers: list[Any] = [context.on_shutdown(lambda: None)]
+    with pytest.raises(TypeError) as refused:
+        context.on_shutdown(5)  # type: ignore[arg-type]
+    assert answers == [None]
+    assert refused.value.args == ("callback should be a callable, got {}", int)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"args": ("program",)}, "args must be a list of strings, not tuple"),
+        ({"args": "program"}, "args must be a list of strings, not str"),
+        ({"args": [], "domain_id": 1.0}, "domain_id must be an int, not float"),
+        ({"args": [], "domain_id": "5"}, "'<' not supported between instances of 'str' and 'int'"),
+    ],
+)
+def test_a_context_is_initialised_with_a_list_and_a_number(given: Any, words: str) -> None:
+    context = Context()
+    with pytest.raises(TypeError, match=words):
+        context.init(**given)
+    assert not context.ok()
+
+
+def test_an_endpoint_names_all_that_it_was_given() -> None:
+    with pytest.raises(AssertionError, match=r"constructor: dict_keys\(\['node_name', 'nodename'\]\)"):
+        TopicEndpointInfo(node_name="a", nodename="b")

@@ -1,0 +1,95 @@
+"""Samples that a thread of its own takes: all of them, in their order, and never for long without a pause."""
+
+import threading
+from collections import deque
+
+from bot_console.runtime.rmw.zenoh import channel_worker
+from bot_console.runtime.rmw.zenoh.channel_worker import MAX_POLL_S, PAUSE_S, TURN_S, ChannelWorker, drain_in_worker
+
+
+class Over(Exception):
+    """No sample comes any more."""
+
+
+class Channel:
+    """Holds samples, and is over when it has given them all."""
+
+    def __init__(self, samples):
+        self._samples = deque(samples)
+
+    def try_recv(self):
+        if not self._samples:
+            raise Over
+        return self._samples.popleft()
+
+
+class Quiet:
+    """Never has any."""
+
+    def try_recv(self):
+        return None
+
+
+class Clock:
+    """Stands in for the module `time`; each look at it takes a thousandth of a second."""
+
+    def __init__(self):
+        self.now = 0.0
+
+    def monotonic(self):
+        self.now += 0.001
+        return self.now
+
+
+class Waits:
+    """Stands in for the event of a thread's end; keeps when was waited, and how long, and ends after so many."""
+
+    def __init__(self, clock, count=1000):
+        self.clock, self.left, self.waits = clock, count, []
+
+    def wait(self, seconds):
+        self.waits.append((self.clock.now, seconds))
+        self.clock.now += seconds
+        self.left -= 1
+        return self.left <= 0
+
+
+def test_all_come_in_their_order_and_the_thread_ends():
+    taken = []
+    drain_in_worker(Channel(range(1000)), taken.append, Over).join()
+    assert taken == list(range(1000))
+
+
+def test_it_pauses_after_each_turn(monkeypatch):
+    clock = Clock()
+    monkeypatch.setattr(channel_worker, "time", clock)
+    taking = ChannelWorker(Channel(range(30)), lambda sample: None, Over)
+    taking._over = waits = Waits(clock)
+    taking.run()
+    begins = [moment + seconds for moment, seconds in waits.waits]
+    assert len(waits.waits) > 3
+    assert {seconds for _, seconds in waits.waits[1:]} == {PAUSE_S}
+    for begin, (end, _) in zip(begins, waits.waits[1:], strict=False):
+        assert end - begin <= TURN_S + 0.002, "it has taken samples for too long"
+
+
+def test_where_nothing_comes_it_looks_less_and_less_often(monkeypatch):
+    clock = Clock()
+    monkeypatch.setattr(channel_worker, "time", clock)
+    taking = ChannelWorker(Quiet(), lambda sample: None, Over)
+    taking._over = waits = Waits(clock, 30)
+    taking.run()
+    lengths = [seconds for _, seconds in waits.waits]
+    assert lengths == sorted(lengths) and lengths[-1] == MAX_POLL_S
+
+
+def test_it_can_be_ended():
+    taking = drain_in_worker(Quiet(), lambda sample: None, Over)
+    taking.end()
+    assert not taking.is_alive() and taking not in threading.enumerate()
+
+
+def test_all_that_waits_is_taken_at_once_where_that_is_wanted():
+    taken = []
+    ChannelWorker(Channel(range(30)), taken.append, Over).take_waiting()
+    assert taken == list(range(30))

@@ -1,0 +1,98 @@
+"""What comes from other processes: numbers tell what was lost, garbage is dropped and said."""
+
+from types import SimpleNamespace
+
+import pytest
+from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, SubscriptionEndpoint, Tap, own, queue_for
+from bot_console.runtime.rmw.zenoh.remote_subscription import RemoteSubscription
+from bot_console.runtime.rmw.zenoh.wire.attachment import pack
+from rclpy.qos import QoSProfile
+from rclpy.serialization import serialize_message
+from std_msgs.msg import String
+
+GID = bytes(range(16))
+QOS = QoSProfile(depth=10)
+
+
+@pytest.fixture
+def topic():
+    return "/t"
+
+
+@pytest.fixture
+def received(topic):
+    events = []
+    endpoint = Endpoint(NodeId("n", "/"), topic, "std_msgs/msg/String", QOS, bytes(16), String)
+    subscription = SubscriptionEndpoint(
+        endpoint, False, queue_for(QOS), lambda: None, lambda kind, what: events.append((kind, what))
+    )
+    return RemoteSubscription(SimpleNamespace(lost=0), subscription, "key", set(), Tap()), subscription.queue, events
+
+
+def give(remote_subscription, number, stamp=5):
+    remote_subscription.received(serialize_message(String(data=str(number))), pack(number, stamp, GID))
+
+
+def test_a_gap_in_the_numbers_is_an_event(received, notices):
+    remote_subscription, queue, events = received
+    for number in (7, 8, 11):
+        give(remote_subscription, number)
+    assert [(own(message).data, stamp, number) for message, stamp, number, _ in queue] == [
+        ("7", 5, 7),
+        ("8", 5, 8),
+        ("11", 5, 11),
+    ]
+    assert events == [("lost", 2)]
+
+
+@pytest.mark.parametrize(("topic", "lost"), [("/rosout", 2), ("/t", 0)])
+def test_lines_of_a_log_that_make_room_are_counted_and_reported_once(received, notices, topic, lost):
+    remote_subscription, queue, events = received
+    for number in range(1, 13):
+        give(remote_subscription, number)
+    assert [number for _, _, number, _ in queue] == list(range(3, 13))
+    assert remote_subscription._session.lost == lost and events == [("lost", 1)] * lost
+    reported = "messages of '/rosout' come faster than they are taken; of more than 10 the oldest go"
+    assert notices == [reported] * (lost > 0)
+
+
+@pytest.mark.parametrize("topic", ["/rosout"])
+def test_lines_of_before_that_find_no_room_are_not_reported(received, notices, topic):
+    remote_subscription, queue, events = received
+    remote_subscription._session.declare_subscriber = lambda *what, **how: None
+    remote_subscription.open()
+    for number in range(1, 13):
+        give(remote_subscription, number)
+    assert len(queue) == 10 and events == [] and notices == []
+    give(remote_subscription, 13, 2**62)
+    assert events == [("lost", 1)]
+
+
+def test_bytes_that_are_no_message_are_dropped_when_they_are_taken(received, notices):
+    remote_subscription, queue, _ = received
+    remote_subscription.received(b"\0\1\0\0\xff", pack(1, 1, GID))
+    assert own(queue.popleft()[0]) is None
+    assert "'/t' was dropped" in notices[0]
+
+
+def test_a_message_whose_end_is_not_its_own_is_dropped_reported_and_counted(received, notices):
+    remote_subscription, queue, events = received
+    give(remote_subscription, 1)
+    whole = serialize_message(String(data="forward, slowly"))
+    remote_subscription.received(whole[:-8] + b"foreign\0", pack(2, 5, GID, whole))
+    assert len(queue) == 1
+    assert notices == [
+        "a message on '/t' was dropped: it is not what was sent: the link to its sender was cut while it was written"
+    ]
+    remote_subscription.received(whole, pack(3, 5, GID, whole))
+    assert own(queue[-1][0]).data == "forward, slowly"
+    assert events == [("lost", 1)]
+
+
+@pytest.mark.parametrize(("payload", "attachment"), [(b"", None), (b"", b"x")])
+def test_garbage_is_dropped(received, payload, attachment):
+    remote_subscription, queue, _ = received
+    remote_subscription.received(payload, attachment)
+    assert not queue
+    give(remote_subscription, 2)
+    assert len(queue) == 1

@@ -1,0 +1,113 @@
+"""Images of every encoding as pixels for a text screen; what cannot be shown says why."""
+
+from __future__ import annotations
+
+import io
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from bot_console.tui.console.sensors.images import _shown
+from bot_console.tui.console.sensors.pixels import KNOWN, fitting, scaled
+from hypothesis import given
+from hypothesis import strategies as st
+from sensor_msgs.msg import CompressedImage, Image
+
+
+def image(encoding: str, pixels: Any, *, step: int = 0, big: bool = False) -> Image:
+    array = np.asarray(pixels)
+    data = array.astype(array.dtype.newbyteorder(">" if big else "<")).tobytes()
+    line = len(data) // array.shape[0]
+    if step > line:
+        data = b"".join(data[at : at + line] + b"\xff" * (step - line) for at in range(0, len(data), line))
+    return Image(
+        height=array.shape[0],
+        width=array.shape[1],
+        encoding=encoding,
+        step=step or line,
+        is_bigendian=int(big),
+        data=data,
+    )
+
+
+def red(encoding: str) -> list[int]:
+    return {"rgb8": [200, 10, 20], "bgr8": [20, 10, 200], "rgba8": [200, 10, 20, 9], "bgra8": [20, 10, 200, 9]}[
+        encoding
+    ]
+
+
+@pytest.mark.parametrize("encoding", ["rgb8", "bgr8", "rgba8", "bgra8"])
+def test_colours_stand_where_the_encoding_reports(encoding: str) -> None:
+    pixels, _ = scaled(image(encoding, np.full((4, 6, len(red(encoding))), red(encoding), np.uint8)), 3, 2)
+    assert pixels.shape == (2, 3, 3) and pixels[0, 0].tolist() == [200, 10, 20]
+
+
+@pytest.mark.parametrize("encoding", ["mono8", "8UC1", "bayer_rggb8"])
+def test_greys_stay_as_they_are_and_lines_may_be_longer_than_their_pixels(encoding: str) -> None:
+    pixels, _ = scaled(image(encoding, np.array([[10, 20], [30, 40]], np.uint8), step=7), 2, 2)
+    assert pixels[:, :, 0].tolist() == [[10, 20], [30, 40]]
+
+
+@pytest.mark.parametrize("big", [False, True])
+@pytest.mark.parametrize(("encoding", "kind"), [("mono16", "u2"), ("16UC1", "u2"), ("32FC1", "f4"), ("64FC1", "f8")])
+def test_wide_numbers_go_from_black_to_white(encoding: str, kind: str, big: bool) -> None:
+    pixels, output = scaled(image(encoding, np.array([[500, 1500], [1000, 2500]], kind), big=big), 2, 2)
+    assert pixels[:, :, 1].tolist() == [[0, 127], [63, 255]] and output == "500 to 2500"
+
+
+def test_what_is_no_number_is_black() -> None:
+    pixels, output = scaled(image("32FC1", np.array([[np.nan, 1.0], [np.inf, 3.0]], "f4")), 2, 2)
+    assert pixels[:, :, 0].tolist() == [[0, 0], [0, 255]] and output == "1 to 3"
+    assert scaled(image("32FC1", np.full((2, 2), np.nan, "f4")), 2, 2)[1] == "no number in it"
+
+
+def test_a_pixel_is_the_mean_of_those_that_fall_onto_it() -> None:
+    pixels, _ = scaled(image("mono8", np.array([[0, 100, 200, 240], [0, 100, 0, 40]], np.uint8)), 2, 2)
+    assert pixels[:, :, 0].tolist() == [[75, 0]] or pixels[0, :, 0].tolist() == [50, 120]
+
+
+@pytest.mark.parametrize(
+    ("message", "why"),
+    [
+        (Image(height=1, width=1, encoding="yuv422", step=2, data=b"ab"), "yuv422"),
+        (Image(height=0, width=0, encoding="rgb8"), "without pixels"),
+        (
+            Image(height=2, width=2, encoding="rgb8", step=6, data=b"12345"),
+            "needs 6 bytes a line, 12 in all; there are 6 and 5",
+        ),
+        (Image(height=2, width=2, encoding="rgb8", step=1, data=b"1" * 12), "there are 1 and 12"),
+    ],
+)
+def test_what_cannot_be_shown_reports_why(message: Image, why: str) -> None:
+    with pytest.raises(ValueError, match=why):
+        scaled(message, 10, 10)
+
+
+@given(
+    st.sampled_from(KNOWN), st.integers(0, 40), st.integers(0, 40), st.integers(0, 200), st.binary(max_size=2000),
+    st.integers(1, 30), st.integers(1, 30),
+)  # fmt: skip
+def test_any_message_gives_pixels_that_fit_or_a_reason(encoding, width, height, step, data, columns, rows) -> None:
+    message = SimpleNamespace(width=width, height=height, encoding=encoding, step=step, data=data, is_bigendian=0)
+    try:
+        pixels, _ = scaled(message, columns, rows)
+    except ValueError as error:
+        assert str(error)
+    else:
+        assert (pixels.shape[1], pixels.shape[0]) == fitting(width, height, columns, rows)
+        assert pixels.shape[0] <= rows and pixels.shape[1] <= columns and pixels.dtype == np.uint8
+
+
+def test_compressed_images_need_pillow_and_report_what_is_wrong_with_them() -> None:
+    library = pytest.importorskip("PIL.Image")
+    file = io.BytesIO()
+    library.new("RGB", (8, 4), (200, 10, 20)).save(file, "PNG")
+    width, height, encoding, pixels, _ = _shown(CompressedImage(format="png", data=file.getvalue()), 4, 4)
+    assert (width, height, encoding, pixels.shape) == (8, 4, "png", (2, 4, 3)) and pixels[0, 0].tolist() == [
+        200,
+        10,
+        20,
+    ]
+    with pytest.raises(ValueError, match="cannot be unpacked"):
+        _shown(CompressedImage(format="jpeg", data=b"\xff\xd8nonsense"), 4, 4)

@@ -1,0 +1,48 @@
+"""Going back to a row means what its run had set by then, and nothing that is only guessed."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.model import Change, ChangeSource, Kind, ParameterInfo, ParameterTree, Value
+from bot_console.tui.panes.history.revert import Return, returns, values_at
+
+
+def change(seq: int, name: str, old: Value, new: Value, *, accepted: bool = True, run: int = 0) -> Change:
+    return Change(seq, seq, "/n", name, old, new, ChangeSource.EDIT, accepted, run=run)
+
+
+CHANGES = [
+    change(0, "speed", 1.0, 2.0),
+    change(1, "gain", 5, 6),
+    change(2, "speed", 2.0, 9.0, accepted=False),
+    change(3, "speed", 2.0, 3.0),
+    change(4, "mode", "calm", "brave"),
+]
+
+
+def test_the_newest_accepted_value_by_then_counts_and_what_came_later_has_its_value_before() -> None:
+    assert values_at(CHANGES, CHANGES[2]) == {("/n", "speed"): 2.0, ("/n", "gain"): 6, ("/n", "mode"): "calm"}
+    assert values_at(CHANGES, CHANGES[0]) == {("/n", "speed"): 2.0, ("/n", "gain"): 5, ("/n", "mode"): "calm"}
+
+
+def test_other_runs_report_nothing_of_this_one() -> None:
+    earlier = [change(-2, "speed", 1.0, 7.0, run=5), change(-1, "gain", 5, 8, run=5)]
+    assert values_at([*earlier, *CHANGES], CHANGES[1]) == values_at(CHANGES, CHANGES[1])
+    assert values_at([*earlier, *CHANGES], earlier[0]) == {("/n", "speed"): 7.0, ("/n", "gain"): 5}
+
+
+def test_only_what_differs_is_set_and_what_is_not_there_is_reported() -> None:
+    tree = ParameterTree(
+        "/n",
+        (
+            ParameterInfo("/n", "speed", Kind.DOUBLE, 3.0),
+            ParameterInfo("/n", "gain", Kind.INTEGER, 6),
+            ParameterInfo("/n", "frame", Kind.STRING, "a", read_only=True),
+        ),
+    )
+    then: dict[tuple[str, str], Value] = {
+        **{("/n", "speed"): 2.0, ("/n", "gain"): 6, ("/n", "mode"): "calm"},
+        **{("/n", "frame"): "b", ("/gone", "x"): 1},
+    }
+    found, missing = returns(then, {"/n": tree})
+    assert found == [Return("/n", "speed", 3.0, 2.0)]
+    assert missing == ["/gone x: the node is not there", "/n mode: there is no such parameter now"]

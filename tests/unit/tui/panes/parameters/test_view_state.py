@@ -1,0 +1,24 @@
+"""How the tree was left, as plain data and back."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.console.query import parse
+from bot_console.tui.panes.parameters.rows import View
+from bot_console.tui.panes.parameters.view_state import Left, left_of
+
+
+def test_it_comes_back_as_it_was() -> None:
+    left = Left("nav speed", View(parse("nav speed"), True, False, frozenset({"/n", "/n:lidar"})), ("/n", "", "speed"))
+    again = left_of(left.data)
+    assert again is not None and again.data == left.data and again.at == left.at
+    assert left_of(Left("", View()).data) == Left("", View())
+
+
+@pytest.mark.parametrize("data", [None, 7, [], {"filter": "re:("}])
+def test_what_is_no_memory_is_none(data: object) -> None:
+    assert left_of(data) is None
+
+
+def test_parts_that_are_wrong_are_left_out() -> None:
+    assert left_of({"filter": 7, "closed": "x", "at": ["a"], "changed": "yes"}).view == View()

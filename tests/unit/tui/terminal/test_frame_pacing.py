@@ -1,0 +1,128 @@
+"""When a frame may be drawn, on a clock that is moved by hand."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.terminal.frame_pacing import (
+    FRAME_TIMEOUT_S,
+    IN_FLIGHT,
+    MAX_FRAME_TIMEOUT_S,
+    MERGED_NEWS_S,
+    MIN_MERGED_FRAMES,
+    PACE,
+    SLOW,
+    UNPACED_AFTER_KEY_S,
+    AnswerGate,
+)
+
+
+class Clock:
+    def __init__(self) -> None:
+        self.now = 100.0
+
+    def __call__(self) -> float:
+        return self.now
+
+
+@pytest.fixture
+def clock() -> Clock:
+    return Clock()
+
+
+@pytest.fixture
+def gate(clock: Clock) -> AnswerGate:
+    return AnswerGate(clock)
+
+
+def draw(gate: AnswerGate, size: int = 100) -> None:
+    gate.asked(size)
+    gate.drawn()
+
+
+def test_the_first_frame_comes_at_once(gate: AnswerGate) -> None:
+    assert gate.wait() == 0
+
+
+def test_frames_are_paced(gate: AnswerGate, clock: Clock) -> None:
+    draw(gate)
+    gate.answered()
+    assert gate.wait() == pytest.approx(PACE)
+    clock.now += PACE
+    assert gate.wait() == 0
+
+
+def test_what_a_key_has_done_is_shown_at_once(gate: AnswerGate, clock: Clock) -> None:
+    draw(gate)
+    gate.answered()
+    gate.pressed()
+    assert gate.wait() == 0
+    clock.now += UNPACED_AFTER_KEY_S + 0.01
+    draw(gate)
+    assert gate.wait() == pytest.approx(PACE)
+
+
+def test_no_more_than_two_frames_wait_for_an_answer(gate: AnswerGate, clock: Clock) -> None:
+    draw(gate)
+    gate.answered()
+    for _ in range(IN_FLIGHT):
+        draw(gate)
+        clock.now += PACE
+    gate.pressed()
+    assert gate.wait() > 0, "not even for a key"
+    gate.answered()
+    assert gate.wait() == 0
+
+
+def test_a_slow_answer_leaves_one_frame_in_flight(gate: AnswerGate, clock: Clock) -> None:
+    draw(gate)
+    clock.now += SLOW + 0.1
+    gate.answered()
+    draw(gate)
+    clock.now += PACE
+    assert gate.wait() > 0
+    gate.answered()
+    for _ in range(IN_FLIGHT - 1):
+        draw(gate)
+        clock.now += PACE
+    assert gate.wait() == 0, "the answer was quick again"
+
+
+def test_a_terminal_that_never_answers_is_not_waited_for(gate: AnswerGate, clock: Clock) -> None:
+    for _ in range(10):
+        draw(gate)
+        clock.now += PACE
+        assert gate.wait() == 0
+
+
+def test_a_stalled_terminal_gets_ever_fewer_frames(gate: AnswerGate, clock: Clock) -> None:
+    draw(gate)
+    gate.answered()
+    waits: list[float] = []
+    for _ in range(12):
+        draw(gate, 0)
+        draw(gate, 0)
+        waits.append(gate.wait())
+        clock.now += 2 * MAX_FRAME_TIMEOUT_S
+    assert waits[0] == pytest.approx(FRAME_TIMEOUT_S)
+    assert waits == sorted(waits)
+    assert waits[-1] == pytest.approx(MAX_FRAME_TIMEOUT_S)
+    gate.answered()
+    draw(gate, 0)
+    draw(gate, 0)
+    assert gate.wait() == pytest.approx(FRAME_TIMEOUT_S), "it answers again"
+
+
+def test_merged_frames_are_news_only_while_they_are_many_and_recent(gate: AnswerGate, clock: Clock) -> None:
+    draw(gate)
+    gate.answered()
+    gate.merged()
+    assert gate.held_back == 0, "the pace alone holds nothing back"
+    for _ in range(IN_FLIGHT):
+        draw(gate)
+    for _ in range(MIN_MERGED_FRAMES - 1):
+        gate.merged()
+    assert gate.held_back == 0
+    gate.merged()
+    assert gate.held_back == MIN_MERGED_FRAMES
+    clock.now += MERGED_NEWS_S + 0.1
+    assert gate.held_back == 0

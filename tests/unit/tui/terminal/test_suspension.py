@@ -1,0 +1,157 @@
+"""Leaving the terminal: the editor and its line, and a robot that is held before the console sleeps."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from bot_console.tui.terminal.editor import editing
+from bot_console.tui.terminal.suspension import (
+    ASLEEP,
+    EMPTY,
+    STOP_POLL_S,
+    STOP_TIMEOUT_S,
+    Leaving,
+    leaves_an_empty_screen,
+    takes_up_again,
+)
+from fakes.console import FakeConsole
+from samples import live
+
+
+@pytest.fixture
+def file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    for name in ("vi", "code", "my editor"):
+        (tmp_path / name).write_text("#!/bin/sh\n")
+        (tmp_path / name).chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    path = tmp_path / "a node.py"
+    path.write_text("x\n")
+    return str(path)
+
+
+def test_editors_get_the_line_each_in_its_way(file: str) -> None:
+    assert editing(file, 7, {"EDITOR": "vi -R"}) == ["vi", "-R", "+7", file]
+    assert editing(file, 0, {"EDITOR": "vi"}) == ["vi", file]
+    assert editing(file, 7, {"VISUAL": "code", "EDITOR": "vi"}) == ["code", "--wait", "--goto", f"{file}:7"]
+    assert editing(file, 7, {"EDITOR": "'my editor'"}) == ["my editor", "+7", file]
+
+
+@pytest.mark.parametrize(
+    ("environment", "hint"),
+    [({}, "export EDITOR=vi"), ({"EDITOR": "emacs"}, "there is no emacs"), ({"EDITOR": "'vi"}, "without its twin")],
+)
+def test_what_is_missing_is_reported(file: str, environment: dict[str, str], hint: str) -> None:
+    with pytest.raises(ValueError, match=hint):
+        editing(file, 7, environment)
+    with pytest.raises(ValueError, match="not on this machine"):
+        editing(file + "x", 7, {"EDITOR": "vi"})
+
+
+class Shell:
+    """Stands for the app: keeps what was done, in order."""
+
+    def __init__(self) -> None:
+        self.done: list[str] = []
+        self.timers: list[Callable[[], object]] = []
+
+    def notify(self, text: str, **_: Any) -> None:
+        self.done.append(text)
+
+    def set_timer(self, delay: float, callback: Callable[[], object]) -> None:
+        self.timers.append(callback)
+
+    def action_suspend_process(self) -> None:
+        self.done.append("asleep")
+
+    def redraw(self) -> None:
+        self.done.append("redraw")
+
+
+def leaving(console: FakeConsole, *, holds: bool = True) -> tuple[Leaving, Shell]:
+    shell: Any = Shell()
+    return Leaving(shell, console, shell.redraw, holds=holds), shell
+
+
+def test_the_robot_is_held_before_the_terminal_is_left() -> None:
+    console = live()[0]
+    console.change(drive=replace(console.current.drive, lockable=True, stop_confirmed=False))
+    away, shell = leaving(console)
+    reasons: list[Any] = []
+    console.all_stop = lambda hold=True, reason="": reasons.append((hold, reason))  # type: ignore[method-assign]
+    away.sleep()
+    away.sleep()
+    assert reasons == [(True, ASLEEP)] and shell.done == []
+    shell.timers.pop()()
+    assert shell.done == []
+    console.change(drive=replace(console.current.drive, stop_confirmed=True))
+    shell.timers.pop()()
+    assert shell.done == ["asleep", "The robot was held meanwhile; ! releases it.", "redraw"]
+
+
+def test_a_stop_that_nobody_acknowledges_is_not_waited_for_for_ever() -> None:
+    console = live()[0]
+    console.change(drive=replace(console.current.drive, lockable=True, stop_confirmed=False))
+    away, shell = leaving(console)
+    console.all_stop = lambda hold=True, reason="": None  # type: ignore[method-assign]
+    away.sleep()
+    for _ in range(round(STOP_TIMEOUT_S / STOP_POLL_S) + 1):
+        if shell.timers:
+            shell.timers.pop()()
+    assert shell.done[:1] == ["asleep"]
+
+
+def test_who_may_not_release_the_robot_does_not_hold_it() -> None:
+    console = live()[0]
+    away, shell = leaving(console, holds=False)
+    away.sleep()
+    assert shell.done == ["asleep", "redraw"] and not [each for each in console.asked if each[0] == "all_stop"]
+
+
+class Driver:
+    """Stands for Textual's driver: keeps what was done, in order."""
+
+    def __init__(self) -> None:
+        self.done: list[str] = []
+        self._key_thread: Any = None
+        self.then: Callable[[], object] = lambda: None
+
+    def suspend_application_mode(self) -> None:
+        self.done.append("left")
+        self._key_thread = None
+
+    def resume_application_mode(self) -> None:
+        self.done.append("set up")
+        self._key_thread = threading.current_thread()
+        then, self.then = self.then, lambda: None
+        then()
+
+
+def test_a_terminal_that_was_not_left_is_left_before_it_is_set_up_again() -> None:
+    driver = Driver()
+    takes_up_again(driver)
+    driver.resume_application_mode()
+    assert driver.done == ["set up"]
+    driver.resume_application_mode()
+    assert driver.done == ["set up", "left", "set up"]
+
+
+def test_going_on_twice_at_once_is_one_after_the_other() -> None:
+    driver = Driver()
+    takes_up_again(driver)
+    driver.then = driver.resume_application_mode
+    driver.resume_application_mode()
+    assert driver.done == ["set up", "left", "set up"]
+
+
+def test_the_screen_is_empty_when_it_is_left() -> None:
+    done: list[str] = []
+    driver: Any = SimpleNamespace(write=done.append, stop_application_mode=lambda: done.append("left"))
+    leaves_an_empty_screen(driver)
+    driver.stop_application_mode()
+    assert done == [EMPTY, "left"]

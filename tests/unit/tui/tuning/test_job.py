@@ -1,0 +1,139 @@
+"""A tuning from beginning to end, with runs that cost nothing; and its journal."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from concurrent.futures import Future
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from bot_console.tui.tuning.job import Progress, TuningJob
+from bot_console.tui.tuning.journal import TuningJournal
+from bot_console.tui.tuning.score import parse_score
+from bot_console.tui.tuning.specification import HELD_OUT, Trial, TuningSpecification
+from bot_console.tui.tuning.tunable import Tunable
+
+SPEED = Tunable("/navigator", "speed", "double", 0.0, 4.0, 1.0)
+QUESTION = TuningSpecification(
+    (SPEED,), parse_score("mean_speed - 2*collisions"), runs=12, seeds=2, held_out=2, search="grid"
+)
+
+
+def report(trial: Trial) -> dict[str, Any]:
+    """Faster is better, until it collides; seeds differ a little."""
+    speed = float(trial.setting[0])
+    return {"mean_speed": speed + 0.01 * trial.seed, "collisions": int(speed > 3)}
+
+
+class Instant:
+    """A runner whose runs end at once; `fail` are seeds whose runs do."""
+
+    def __init__(self, fail: tuple[int, ...] = ()) -> None:
+        self.begun: list[Trial] = []
+        self._fail = fail
+
+    def begin(self, specification: TuningSpecification, trial: Trial) -> Future[Mapping[str, Any]]:
+        self.begun.append(trial)
+        future: Future[Mapping[str, Any]] = Future()
+        if trial.seed in self._fail:
+            future.set_result({"problem": "max_speed refused"})
+        else:
+            future.set_result(report(trial))
+        return future
+
+
+def tuned(
+    folder: Path, runner: Instant, specification: TuningSpecification = QUESTION, *, resume: bool = False
+) -> Progress:
+    journal = TuningJournal(folder, specification, resume=resume)
+    try:
+        return TuningJob(specification, runner, journal, clock=iter(range(10_000)).__next__).run()
+    finally:
+        journal.close()
+
+
+def test_the_best_setting_is_found_and_evaluated_on_seeds_that_it_was_not_chosen_by(tmp_path: Path) -> None:
+    runner = Instant()
+    progress = tuned(tmp_path, runner)
+    best = progress.best
+    assert best is not None
+    assert (progress.rows[0].setting, best.setting) == ((1.0,), (3.0,))
+    assert best.score == pytest.approx(3.0 + 0.015)
+    assert {each.seed for each in runner.begun} == {1, 2, 1 + HELD_OUT, 2 + HELD_OUT}
+    assert progress.held_out is not None
+    before, after = progress.held_out
+    assert (before.setting, after.setting) == ((1.0,), (3.0,))
+    assert (progress.done, progress.ended, progress.problem) == (len(runner.begun), True, "")
+
+
+def test_a_setting_of_which_one_run_failed_has_failed_and_reports_why(tmp_path: Path) -> None:
+    progress = tuned(tmp_path, Instant(fail=(2,)))
+    assert progress.best is None
+    assert progress.rows[0].problem == "seed 2: max_speed refused"
+    assert progress.problem == "every setting failed: seed 2: max_speed refused"
+
+
+def test_where_nothing_is_better_than_what_is_the_two_are_one(tmp_path: Path) -> None:
+    progress = tuned(tmp_path, Instant(), replace(QUESTION, tunables=(replace(SPEED, now=3.0),)))
+    assert progress.held_out is not None
+    assert progress.held_out[0] == progress.held_out[1]
+
+
+@pytest.mark.parametrize("left", [10, -1], ids=["within a line", "before its end of line"])
+def test_a_tuning_that_was_cut_goes_on_where_it_was_and_comes_to_the_same(tmp_path: Path, left: int) -> None:
+    whole = tuned(tmp_path / "whole", Instant())
+    tuned(tmp_path, Instant())
+    file = next(tmp_path.glob("*.jsonl"))
+    lines = file.read_bytes().splitlines(keepends=True)
+    file.write_bytes(b"".join(lines[:5]) + lines[5][:left])
+    runner = Instant()
+    again = tuned(tmp_path, runner, resume=True)
+    assert len(runner.begun) == len(lines) - 5
+    assert (again.rows, again.held_out, again.done) == (whole.rows, whole.held_out, whole.done)
+    assert file.read_bytes().splitlines(keepends=True)[:5] == lines[:5]
+    assert len(file.read_bytes().splitlines()) == len(lines)
+
+
+def test_without_resume_it_begins_again(tmp_path: Path) -> None:
+    tuned(tmp_path, Instant())
+    runner = Instant()
+    tuned(tmp_path, runner)
+    assert len(runner.begun) == 14
+
+
+@pytest.mark.parametrize("other", [{"duration": 30.0}, {"seed": 2}, {"profile": "outdoor"}, {"base": {"/a": {"b": 1}}}])
+def test_another_question_has_another_journal(other: dict[str, Any]) -> None:
+    assert replace(QUESTION, **other).digest != QUESTION.digest
+
+
+def test_stopping_keeps_what_was_found(tmp_path: Path) -> None:
+    journal = TuningJournal(tmp_path, QUESTION, resume=False)
+    job = TuningJob(QUESTION, Instant(), journal)
+    job.changed = lambda progress: job.stop() if progress.done else None
+    progress = job.run()
+    assert progress.problem == "stopped"
+    assert progress.ended
+    assert progress.held_out is None
+    journal.close()
+
+
+def test_the_time_left_is_that_of_the_runs_so_far() -> None:
+    assert Progress(done=10, runs=40, elapsed=20.0, fresh=5).left == 120.0
+    assert Progress(done=10, runs=40, elapsed=20.0).left is None
+
+
+@pytest.mark.parametrize(
+    ("change", "why"),
+    [({"runs": 3}, "each setting takes 2; give at least 4"), ({"seeds": 0}, "must be positive"), ({}, "")],
+)
+def test_numbers_that_cannot_be(change: dict[str, Any], why: str) -> None:
+    problem = replace(QUESTION, **change).problem()
+    assert why in problem
+    assert bool(why) == bool(problem)
+
+
+def test_values_of_a_run_are_those_of_the_system_with_the_setting_over_them() -> None:
+    specification = replace(QUESTION, base={"/navigator": {"speed": 1.0, "turn": 2.0}})
+    assert specification.values((3.0,)) == {"/navigator": {"speed": 3.0, "turn": 2.0}}

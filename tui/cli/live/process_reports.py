@@ -1,0 +1,44 @@
+"""What launched processes report about themselves, as log lines."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from bot_console.runtime.process import on_notice
+from bot_console.runtime.process.facts import on_fact
+from bot_console.tui.console.model import Severity
+from bot_console.tui.console.parameters.provenance import Learn
+
+if TYPE_CHECKING:
+    from bot_console.runtime.process.roles import Warned
+    from launch.child import News
+
+Printed = Callable[[int, str, str], None]
+
+
+def log_process_reports(printed: Printed, learn: Learn) -> Callable[[], None]:
+    """Log notices and crashes of all processes, and take in their facts, whether or not they are threads of this one.
+
+    Returns a function that stops that.
+    """
+    from launch.child import on_news  # ROS names answer only in a program that is composed
+
+    def noticed(process: Warned, text: str) -> None:
+        printed(Severity.WARN, process.name, text)
+
+    def heard(news: News) -> None:
+        if news.kind == "notice":
+            printed(Severity.WARN, news.process, str(news.facts["text"]))
+        elif news.kind == "crash":
+            printed(Severity.ERROR, news.process, str(news.facts["text"]))
+        elif news.kind in ("declared", "given"):
+            learn(news.kind, news.facts)
+
+    forget = (on_notice(noticed), on_news(heard), on_fact(learn))
+
+    def forget_all() -> None:
+        for each in forget:
+            each()
+
+    return forget_all

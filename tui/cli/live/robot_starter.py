@@ -1,0 +1,129 @@
+"""Starts the simulated robot alongside a launch file or a program whose nodes need a robot that is missing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from bot_console.runtime.process import NodeProcess
+from bot_console.runtime.workspace.builtin_package import ROOT
+from bot_console.tui.cli.arguments import Options
+from bot_console.tui.console.robot.robot_needed import drives_stamped, endpoints, robot_wanted, visible_nodes
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.model import LaunchInfo
+    from rclpy.node import Node
+
+LAUNCH_FILE = str(ROOT / "launch" / "simulator.launch.py")
+GRAPH_POLL_S = 0.25
+"""Seconds between two looks at the graph."""
+SETTLED_S = 1.0
+"""Seconds without a change after which the nodes of a launch are up."""
+NODE_TIMEOUT_S = 10.0
+"""Seconds after which a process that has made no node is not waited for: it may be none of ROS."""
+MAX_DELAY_S = 30.0
+"""Seconds that starts which the launch file has put off are waited for: one of them may be a robot."""
+
+
+@dataclass(frozen=True)
+class System:
+    """What is launched, as far as deciding on a robot requires."""
+
+    processes: Callable[[], tuple[int, int]]
+    """How many run now, and how many starts are put off to later."""
+    report: Callable[[str], None]
+    """Put a line into the log."""
+    start: Callable[[Mapping[str, str]], None]
+    """Launch `LAUNCH_FILE` with arguments."""
+    others: int = 0
+    """Visible nodes that were in the domain before the launch; none of its processes has made them."""
+
+
+class RobotStarter:
+    """Looks at the graph until a robot is wanted, then starts one and tells why.
+
+    The nodes are up when each running process has made one, no start is put off to later, and the graph rests. All
+    times are of the steady clock, so that a stepped run decides the same each time.
+    """
+
+    def __init__(self, system: System, given: Mapping[str, str]) -> None:
+        """`given` are launch arguments that the robot always gets."""
+        self._system = system
+        self._given = given
+        self._seen: object = None
+        self._rested = 0.0
+        self._delayed: float | None = None
+        self.started = False
+
+    def watch(self) -> None:
+        """The main of a node process; returns when the robot was started, or by an interrupt."""
+        import rclpy
+        from rclpy.clock import Clock, ClockType
+        from rclpy.executors import ExternalShutdownException
+
+        rclpy.init()
+        node = rclpy.create_node(
+            "_robot_beside", enable_rosout=False, start_parameter_services=False, use_global_arguments=False
+        )
+        node.create_timer(GRAPH_POLL_S, lambda: self._poll(node), clock=Clock(clock_type=ClockType.STEADY_TIME))
+        try:
+            while not self.started:
+                rclpy.spin_once(node)
+        except (KeyboardInterrupt, ExternalShutdownException):
+            pass
+        finally:
+            node.destroy_node()
+            rclpy.try_shutdown()
+
+    def _poll(self, node: Node) -> None:
+        running, delayed = processes = self._system.processes()
+        seen = processes, endpoints(node)
+        self._rested = self._rested + GRAPH_POLL_S if seen == self._seen else 0.0
+        self._seen = seen
+        if self._delayed is not None:
+            self._delayed += GRAPH_POLL_S
+        up = running > 0 and visible_nodes(node) - self._system.others >= running
+        if self._rested < (SETTLED_S if up else NODE_TIMEOUT_S) or self.started:
+            return
+        why = robot_wanted(node)
+        if why and not (delayed and self._waits(why)):
+            self.started = True
+            self._system.report(f"the simulated robot runs beside it, since {why}; --no-simulator leaves it out")
+            self._system.start({**self._given, "stamped": "true"} if drives_stamped(node) else self._given)
+
+    def _waits(self, why: str) -> bool:
+        """Whether something the launch file starts later may still bring the robot; logged once."""
+        if self._delayed is None:
+            self._delayed = 0.0
+            self._system.report(
+                f"{why}: the launch file starts more later, which is waited for, at most {MAX_DELAY_S:g} s, before "
+                "a simulated robot comes; --simulator starts it at once"
+            )
+        return self._delayed < MAX_DELAY_S
+
+
+def processes(info: LaunchInfo) -> tuple[int, int]:
+    """How many processes run, and how many starts are postponed; for `System.processes`."""
+    from bot_console.tui.console.model import ProcessState
+
+    return sum(each.state is ProcessState.RUNNING for each in info.processes), info.delayed
+
+
+def begin(options: Options, system: System, clock: Any = None) -> NodeProcess | None:
+    """Start a robot now, when one is wanted or never, as the options ask; the node process that looks, if any."""
+    if options.simulator is False or not options.launch:  # our own system has its robot
+        return None
+    if options.simulator:
+        system.report("the simulated robot runs beside it, as --simulator asks")
+        system.start(arguments(options))
+        return None
+    process = NodeProcess("robot_beside", clock)
+    process.start(RobotStarter(system, arguments(options)).watch, argv=["robot_beside"])
+    return process
+
+
+def arguments(options: Options) -> dict[str, str]:
+    """The arguments with which `LAUNCH_FILE` is launched."""
+    given = {"world": options.world, "seed": "" if options.seed is None else str(options.seed)}
+    return {name: value for name, value in given.items() if value}

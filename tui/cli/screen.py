@@ -1,0 +1,156 @@
+"""`bot-console` with a screen: what it shows, and whether it starts a robot of its own."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+from contextlib import ExitStack
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.live.child_host import Host, start_host
+from bot_console.tui.cli.live.session import Session
+from bot_console.tui.cli.open_files import too_few_files
+from bot_console.tui.cli.system.domain import (
+    domain,
+    is_in_range,
+    others_take_part,
+    report_of_other_start,
+    robot_claim,
+    robot_there,
+    same_names_there,
+    take_part,
+    unusable_domain,
+    why_alone,
+)
+from bot_console.tui.cli.system.named_launch import with_launch_file
+from bot_console.tui.files.folders import state_folder
+from bot_console.tui.settings.settings import read_settings
+
+if TYPE_CHECKING:
+    from bot_console.tui.cli.system.connected import Connected
+
+ATTACHED = "Attached to ROS domain {}: q ends the console alone, and what was started from it."
+HOST_LOG = "launch-host.log"
+
+
+def run(options: Options) -> int:
+    """Show the console."""
+    options, problem = with_launch_file(options)
+    problem = _refusal() or problem
+    if problem:
+        print(problem, file=sys.stderr)
+        return 1
+    alone = why_alone()
+    if alone and options.attach:
+        print(alone, file=sys.stderr)
+        return 1
+    with ExitStack() as hosts:
+        if not (alone or options.attach or options.launch) and is_in_range():
+            claim = robot_claim()
+            hosts.callback(claim.release)
+            if others_take_part() or not claim.held:
+                _prepare(options)
+                robot = claim.seen(robot_there, report_of_other_start)
+                there = robot or same_names_there(options.launch_arguments)
+                if there and not _attach_instead(there, robot=bool(robot)):
+                    return 1
+                if there:
+                    claim.release()  # once that robot has gone, another console may bring one
+                options = replace(options, attach=bool(there))
+
+        def start() -> Host:
+            host = _host(options)
+            hosts.callback(host.end)
+            return host
+
+        together = not alone and is_in_range()
+        own = start() if together and not options.attach else None  # while this process imports the screen
+        return Session(options, partial(_connect, options, alone, own, start)).run()
+
+
+def _prepare(options: Options) -> None:
+    """Make the ROS names mean the runtime, and join the domain."""
+    from bot_console.runtime.importer import install
+    from bot_console.tui.cli.system.workspaces import choose
+
+    install()
+    choose(options.workspace)
+    take_part()
+
+
+def _connect(options: Options, alone: str, own: Host | None, start: Callable[[], Host]) -> Connected:
+    """Build what is shown, after the first frame: these imports take longer than everything before it."""
+    _prepare(options)
+    from bot_console.tui.cli.live.launchers import attached, embedded, hosted
+    from bot_console.tui.cli.live.snapshot_buffer import HostedSnapshotBuffer, overhear
+    from bot_console.tui.cli.system.connected import Connected
+    from bot_console.tui.console.model import Severity
+
+    message = [(Severity.WARN, f"No second terminal reaches this system: {alone}")] if alone else []
+    if options.attach:
+        message.append((Severity.INFO, ATTACHED.format(domain())))
+        return Connected(options, message, attached(start))
+    size = read_settings().kept
+    if own is None:
+        return Connected(options, message, embedded, overhear(size) if size else None)
+    buffer = HostedSnapshotBuffer(size.seconds) if size else None
+    return Connected(options, message, hosted(own, buffer), buffer)
+
+
+NO_TERMINAL = """\
+bot-console needs a terminal, and its input or output is not one. Without a terminal:
+  bot-console --headless --duration 60   run the robot for a minute and print a report
+  bot-console up                         start the robot in the background; see also status and down
+  ssh -t HOST bot-console                open the console on another machine"""
+
+
+def _refusal() -> str:
+    if not sys.stdout.isatty() or not sys.stdin.isatty():
+        return NO_TERMINAL
+    return unusable_domain() or too_few_files()
+
+
+def _host(options: Options) -> Host:
+    """A launch host for this console alone."""
+    log = state_folder() / HOST_LOG
+    try:
+        log.parent.mkdir(parents=True, exist_ok=True)
+        log.open("ab").close()
+    except OSError:  # a home that cannot be written is no reason to have no robot
+        log = Path(os.devnull)
+    words = [word for each in options.workspace for word in ("--workspace", str(each))]
+    if size := read_settings().kept:
+        words += ["--keep-seconds", str(size.seconds), "--keep-bytes", str(size.bytes)]
+    return start_host(words, log=log)
+
+
+def _attach_instead(there: list[str], *, robot: bool) -> bool:
+    """Ask whether to attach to a robot, or to nodes that have names of ours.
+
+    Two robots in one domain would obey each other's commands, and two nodes of one name share their parameters and log.
+    """
+    from bot_console.runtime.workspace.builtin_package import NAME
+    from bot_console.tui.cli.system.workspaces import NAVIGATOR
+
+    number = domain()
+    if robot:
+        print(f"A robot runs already in ROS domain {number}: {', '.join(there)}.")
+        print(f"`ROS_DOMAIN_ID={number + 1} bot-console` starts another one apart from it.")
+        question = "Attach the console to the one that runs? [Y/n] "
+    else:
+        print(f"Nodes named as our robot's run already in ROS domain {number}: {', '.join(there)}.")
+        if there == [NAVIGATOR]:
+            print("`bot-console navigator:=false` starts our robot without its own one,")
+        print(f"`bot-console --launch {NAME} simulator.launch.py` adds only a robot,")
+        print(f"`ROS_DOMAIN_ID={number + 1} bot-console` starts ours apart from them.")
+        question = "Attach the console to them, without a robot? [Y/n] "
+    try:
+        return input(question).strip().lower() in ("", "y", "yes")
+    except (EOFError, KeyboardInterrupt):
+        print()
+        return False

@@ -1,0 +1,112 @@
+"""Finds nodes that are in the graph but do not answer: DDS keeps a killed node for some ten seconds.
+
+rclpy does not tell whether a node is alive, so each is asked for the types of no parameters, the smallest request there
+is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from bot_console.tui.console.model import GraphInfo
+from rcl_interfaces.srv import GetParameterTypes
+from rclpy.node import Node
+from rclpy.task import Future
+
+SERVICE = "get_parameter_types"
+POLL_S = 0.5
+"""Seconds between two looks."""
+OVERDUE_POLLS = 2
+"""Looks after which an answer is missed. Looks count, not time: while this program got no processor nobody is late."""
+RETRY_POLLS = 4
+"""Looks after which a request counts as lost, and is sent anew."""
+MAX_REQUESTS_PER_POLL = 25
+"""Requests at each look; of more nodes, each is asked the less often."""
+
+
+class _Asked:
+    """A node, and the last request it was sent."""
+
+    def __init__(self, client: Any) -> None:
+        self.client = client
+        self.answer: Future[Any] | None = None
+        self.polls = OVERDUE_POLLS
+        """How often it was looked since the request, or since its answer."""
+        self.lives = False
+        """Whether it has ever answered."""
+
+    @property
+    def waiting(self) -> bool:
+        """Whether a response is pending."""
+        return self.answer is not None and not self.answer.done()
+
+
+class SilentNodes:
+    """Asks the nodes of the graph, at most once a second, and only while somebody looks at them.
+
+    `changed` receives the names of those that do not answer. All methods are called by the executor's thread.
+    """
+
+    def __init__(self, node: Node, changed: Callable[[tuple[str, ...]], None]) -> None:
+        self._node = node
+        self._changed = changed
+        self._timer: Any = None
+        self._nodes: dict[str, _Asked] = {}
+        self._silent: frozenset[str] = frozenset()
+
+    def poll(self, on: bool, graph: GraphInfo) -> None:
+        """Start or stop asking."""
+        if on and self._timer is None:
+            self._timer = self._node.create_timer(POLL_S, self.tick)
+        elif not on and self._timer is not None:
+            self._node.destroy_timer(self._timer)
+            self._timer = None
+        self.follow(graph)
+
+    def follow(self, graph: GraphInfo) -> None:
+        """Take in a changed graph. A node without parameter services cannot be asked, and never counts as silent."""
+        nodes = graph.nodes if self._timer is not None else ()
+        asked = {each.name for each in nodes if any(own.name == f"{each.name}/{SERVICE}" for own in each.services)}
+        for name in self._nodes.keys() - asked:
+            self._node.destroy_client(self._nodes.pop(name).client)
+        for name in sorted(asked - self._nodes.keys()):
+            self._nodes[name] = _Asked(self._node.create_client(GetParameterTypes, f"{name}/{SERVICE}"))
+        self._report(self._silent & asked)
+
+    def tick(self) -> None:
+        """Note which nodes have not answered, and ask those whose turn it is."""
+        for each in self._nodes.values():
+            each.polls += 1
+        late = {name for name, each in self._nodes.items() if each.waiting and each.polls >= OVERDUE_POLLS}
+        self._report(self._silent | late)
+        due = [
+            name for name, each in self._nodes.items() if each.polls >= (RETRY_POLLS if each.waiting else OVERDUE_POLLS)
+        ]
+        for name in due[:MAX_REQUESTS_PER_POLL]:
+            self._ask(name)
+
+    def _ask(self, name: str) -> None:
+        asked = self._nodes.pop(name)
+        self._nodes[name] = asked  # the others come first the next time
+        if not asked.client.service_is_ready():
+            if asked.lives:
+                self._report(self._silent | {name})
+            return  # a client that is new has to find its server first
+        if asked.answer is not None and not asked.answer.done():
+            asked.client.remove_pending_request(asked.answer)
+        asked.polls = 0
+        answer: Future[Any] = asked.client.call_async(GetParameterTypes.Request())
+        asked.answer = answer
+        answer.add_done_callback(partial(self._answered, name, asked))
+
+    def _answered(self, name: str, asked: _Asked, answer: Future[Any]) -> None:
+        if answer is asked.answer:
+            asked.polls, asked.lives = 0, True
+            self._report(self._silent - {name})
+
+    def _report(self, silent: frozenset[str]) -> None:
+        if silent != self._silent:
+            self._silent = silent
+            self._changed(tuple(sorted(silent)))

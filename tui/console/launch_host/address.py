@@ -1,0 +1,84 @@
+"""The socket through which further consoles reach a launch host: `<pid>.host` in a folder of the user alone."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import socket
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+ADDRESS_SUFFIX = ".host"
+_NAME = re.compile(r"\d+\.host")
+BACKLOG = 8
+
+
+class HostListener:
+    """Accepts consoles until it is closed."""
+
+    def __init__(self, folder: str, enter: Callable[[socket.socket], None]) -> None:
+        """`enter` receives each connection; raises `OSError` if the folder cannot hold a socket."""
+        self.path = door_of(folder, os.getpid())
+        self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        self._enter = enter
+        early = f"{self.path}.new"
+        with contextlib.suppress(FileNotFoundError):  # of a process that had the same id
+            os.unlink(early)
+        self._socket.bind(early)
+        self._socket.listen(BACKLOG)
+        os.rename(early, self.path)  # whoever sees the name can connect
+        threading.Thread(target=self._serve, name="door", daemon=True).start()
+
+    def _serve(self) -> None:
+        while True:
+            try:
+                connection, _ = self._socket.accept()
+            except OSError:  # closed
+                return
+            self._enter(connection)
+
+    def close(self) -> None:
+        """Accept no more consoles."""
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(self.path)
+        with contextlib.suppress(OSError):
+            self._socket.shutdown(socket.SHUT_RDWR)  # wakes the thread
+        self._socket.close()
+
+
+def door_of(folder: str, pid: int) -> str:
+    """The path of the door of a process."""
+    return os.path.join(folder, f"{pid}{ADDRESS_SUFFIX}")
+
+
+def host_addresses(folder: str) -> list[str]:
+    """The paths of all doors in a folder, including those of dead hosts."""
+    return sorted(str(each) for each in Path(folder).iterdir() if _NAME.fullmatch(each.name))
+
+
+def remove_addresses_of_dead_hosts(folder: str, lives: Callable[[int], bool]) -> None:
+    """Remove the doors that killed processes have left in a folder; `lives` says whether a process does."""
+    for left in host_addresses(folder):
+        if not lives(pid_of_address(left)):
+            with contextlib.suppress(FileNotFoundError):
+                os.unlink(left)
+
+
+def pid_of_address(path: str) -> int:
+    """The pid of a door's process."""
+    return int(os.path.basename(path).removesuffix(ADDRESS_SUFFIX))
+
+
+def connect_to_host(path: str) -> socket.socket | None:
+    """A connection to the host behind a door; the door of a dead host is removed."""
+    connection = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    try:
+        connection.connect(path)
+    except (ConnectionRefusedError, FileNotFoundError):
+        connection.close()
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(path)
+        return None
+    return connection

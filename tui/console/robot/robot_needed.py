@@ -1,0 +1,69 @@
+"""What the nodes of a ROS system need from a robot that is missing: scans, odometry, somebody who obeys velocities."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from bot_console.tui.console.graph.full_name import node_name_of
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+SOURCES = {"/scan": "sensor_msgs/msg/LaserScan", "/odom": "nav_msgs/msg/Odometry"}
+"""What a robot publishes, by resolved names; under another name or type our simulator cannot give it."""
+VELOCITY = "/cmd_vel"
+TWIST, STAMPED = KINDS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
+"""The types of velocities; a robot takes one of them."""
+
+
+def robot_wanted(node: Node) -> str:
+    """Why a robot is wanted in the system that `node` sees, for people; empty where one is there or nobody wants it.
+
+    Who publishes one of a robot's topics is a robot, a bag or a stand-in: a second one would contradict it.
+    """
+    if any(node.get_publishers_info_by_topic(topic) for topic in SOURCES):
+        return ""
+    reasons = [
+        f"nobody gives {topic} to {_listed(wanting)}"
+        for topic, kind in SOURCES.items()
+        if (wanting := _visible(node.get_subscriptions_info_by_topic(topic), kind))
+    ]
+    for kind in KINDS:
+        drivers = _visible(node.get_publishers_info_by_topic(VELOCITY), kind)
+        if drivers and not _visible(node.get_subscriptions_info_by_topic(VELOCITY), kind):
+            reasons.append(f"nobody obeys {VELOCITY} of {_listed(drivers)}")
+    return ", ".join(reasons)
+
+
+def drives_stamped(node: Node) -> bool:
+    """Whether velocities are published with a time stamp, and none without."""
+    found = node.get_publishers_info_by_topic(VELOCITY)
+    return bool(_visible(found, STAMPED)) and not _visible(found, TWIST)
+
+
+def endpoints(node: Node) -> object:
+    """The part of the graph that `robot_wanted` depends on: equal as long as none of that has changed."""
+    topics = (*SOURCES, VELOCITY)
+    found = [each for topic in topics for each in _both(node, topic)]
+    return sorted(node.get_node_names_and_namespaces()), [(each.node_name, each.topic_type) for each in found]
+
+
+def visible_nodes(node: Node) -> int:
+    """The number of nodes, not counting tools and the console."""
+    return sum(not name.startswith("_") for name in node.get_node_names())
+
+
+def _both(node: Node, topic: str) -> Iterable[TopicEndpointInfo]:
+    yield from node.get_publishers_info_by_topic(topic)
+    yield from node.get_subscriptions_info_by_topic(topic)
+
+
+def _visible(found: Iterable[TopicEndpointInfo], kind: str) -> list[str]:
+    names = (node_name_of(each) for each in found if each.topic_type == kind)
+    return sorted({name for name in names if not name.rpartition("/")[2].startswith("_")})
+
+
+def _listed(names: list[str]) -> str:
+    return " and ".join(names) if len(names) < 3 else f"{names[0]} and {len(names) - 1} others"

@@ -1,0 +1,108 @@
+"""The newest image of one topic, scaled for a text screen when somebody looks."""
+
+from __future__ import annotations
+
+import importlib
+import io
+import time
+from typing import Any
+
+import numpy as np
+from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.sensors import pixels
+from bot_console.tui.console.sensors.model import COMPRESSED, IMAGE, Picture
+from bot_console.tui.console.topics.followed_topic import FollowedTopic
+from bot_console.tui.console.topics.offered_topics import Offer
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+
+MAX_IMAGE_BYTES = 50_000_000
+"""Bytes of a compressed image, and pixels that it may have; what is larger is not unpacked."""
+NO_PIL = "compressed images need Pillow: pip install 'bot-console[images]'"
+
+
+class ImageWatch(FollowedTopic):
+    """Keeps what came last; it becomes pixels only when somebody looks."""
+
+    def __init__(self, node: Node) -> None:
+        super().__init__(node)
+        self._size = (0, 0)
+        self._newest: tuple[int, Any] = (0, None)
+        self._made: tuple[object, Picture] = (None, Picture())
+
+    def watch_image(self, topic: str, columns: int, rows: int, graph: GraphInfo) -> None:
+        """Receive this topic and no other; called by the executor."""
+        self._size = (columns, rows)
+        if topic != self._topic:
+            self._detach()
+            self._topic, self._newest, self._problem = topic, (0, None), ""
+        self.follow(graph)
+
+    def _class(self, kind: str) -> type:
+        if kind not in (IMAGE, COMPRESSED):
+            raise ValueError(f"{self._topic} is of type {kind}, which is no image")
+        return getattr(importlib.import_module("sensor_msgs.msg"), kind.rpartition("/")[2])
+
+    def _profile(self, offer: Offer) -> QoSProfile:
+        wide = offer.profile()
+        return QoSProfile(depth=1, reliability=wide.reliability, durability=wide.durability)
+
+    def _take(self, message: Any) -> None:
+        self._newest = (self._newest[0] + 1, message)
+
+    def picture(self) -> Picture:
+        """What came last; from any thread, and the same object until there is another or it is wanted otherwise."""
+        count, message = self._newest
+        key = (self._topic, count, self._size, self._problem)
+        if self._made[0] != key:
+            self._made = (key, self._picture(count, message))
+        return self._made[1]
+
+    def _picture(self, count: int, message: Any) -> Picture:
+        if message is None:
+            return Picture(self._topic, problem=self._problem)
+        began = time.monotonic()
+        try:
+            width, height, encoding, shown, output = _shown(message, *self._size)
+        except ValueError as error:
+            return Picture(self._topic, count=count, problem=str(error))
+        rows, columns = shown.shape[:2]
+        return Picture(
+            self._topic,
+            count,
+            width,
+            height,
+            encoding,
+            columns,
+            rows,
+            shown.tobytes(),
+            output,
+            time.monotonic() - began,
+        )
+
+
+def _shown(message: Any, columns: int, rows: int) -> tuple[int, int, str, pixels.Pixels, str]:
+    """Width, height, encoding, the scaled pixels, and a word on them; raises `ValueError`."""
+    if hasattr(message, "encoding"):
+        shown, output = pixels.scaled(message, columns, rows)
+        return int(message.width), int(message.height), str(message.encoding), shown, output
+    image = _unpacked(bytes(message.data))
+    height, width = image.shape[:2]
+    return width, height, str(message.format)[:24], pixels.of_colours(image, columns, rows), ""
+
+
+def _unpacked(data: bytes) -> Any:
+    """A JPEG or PNG as an array of RGB; raises `ValueError`."""
+    try:
+        library: Any = importlib.import_module("PIL.Image")
+    except ImportError:
+        raise ValueError(NO_PIL) from None
+    if len(data) > MAX_IMAGE_BYTES:
+        raise ValueError(f"a compressed image of {len(data)} bytes is too large to be shown")
+    try:
+        with library.open(io.BytesIO(data)) as image:
+            if image.width * image.height > MAX_IMAGE_BYTES:
+                raise ValueError(f"{image.width} x {image.height} pixels are too many to be shown")
+            return np.asarray(image.convert("RGB"))
+    except (OSError, SyntaxError, EOFError, KeyError, library.DecompressionBombError) as error:
+        raise ValueError(f"this image cannot be unpacked: {error}") from None

@@ -1,0 +1,124 @@
+"""Diagnostics, images and frames as a person looks at them, and the protocol that provides them. Standard library only.
+
+`Sights` is part of `Console` and is polled in the same way: nothing here blocks.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Protocol
+
+from bot_console.tui.console.sensors.frame_model import Frames
+
+STALE_AFTER_S = 5.0
+"""Seconds after which a status that was not told again counts as stale, as in rqt_robot_monitor."""
+
+
+class Level(IntEnum):
+    """Levels of `diagnostic_msgs/msg/DiagnosticStatus`, with its codes."""
+
+    OK = 0
+    WARN = 1
+    ERROR = 2
+    STALE = 3
+
+    @property
+    def weight(self) -> int:
+        """How severe it is: an error is worse than stale, and stale is worse than a warning."""
+        return (0, 1, 3, 2)[self]
+
+
+@dataclass(frozen=True, slots=True)
+class ReportedStatus:
+    """The moment (ns since the epoch) at which a status changed its level, or its message at the same level."""
+
+    stamp: int
+    level: Level
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Status:
+    """The latest status of one part of the robot. The slashes in its name are the levels of a tree."""
+
+    name: str
+    level: Level
+    message: str = ""
+    hardware: str = ""
+    values: tuple[tuple[str, str], ...] = ()
+    heard: float = 0.0
+    """When it was said last, in s of a steady clock."""
+    history: tuple[ReportedStatus, ...] = ()
+    """How it came to be so, the newest last."""
+
+    def now(self, clock: float) -> Level:
+        """Its level, or stale when it has been silent for too long."""
+        return Level.STALE if clock - self.heard > STALE_AFTER_S else self.level
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostics:
+    """The latest status of each name; `problem` says why there is none, and is empty when nothing is wrong."""
+
+    statuses: tuple[Status, ...] = ()
+    topics: tuple[str, ...] = ()
+    """Where they come from."""
+    dropped: int = 0
+    """Names beyond those that are kept."""
+    problem: str = ""
+
+
+IMAGE, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
+"""The types that can be looked at."""
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """The newest image of the topic being viewed, scaled to the size asked for."""
+
+    topic: str = ""
+    count: int = 0
+    """Images up to this one."""
+    width: int = 0
+    height: int = 0
+    """Pixels of the image as it was sent."""
+    encoding: str = ""
+    columns: int = 0
+    rows: int = 0
+    pixels: bytes = b""
+    """Red, green and blue of each pixel that is shown, row by row."""
+    message: str = ""
+    """What black and white mean, where they are not colours."""
+    seconds: float = 0.0
+    """How long it took to scale it."""
+    problem: str = ""
+    """Why there is none; empty when all is well."""
+
+
+class Sensors(Protocol):
+    """A robot's diagnostics, images and frames."""
+
+    def diagnostics(self) -> Diagnostics:
+        """The newest diagnostics; the same object until a status changes."""
+        ...
+
+    def watch_image(self, topic: str, columns: int, rows: int) -> None:
+        """Subscribe to one image topic only, scaled to a size in pixels; an empty name stops that."""
+        ...
+
+    def picture(self) -> Picture:
+        """The newest image; the same object until there is another."""
+        ...
+
+    def watch_frames(self, on: bool) -> None:
+        """Listen to `/tf` and `/tf_static` from now on, or stop listening."""
+        ...
+
+    def watch_nodes(self, on: bool) -> None:
+        """Start, or stop, finding out which nodes do not answer (`GraphInfo.silent`) where nothing else tells."""
+        ...
+
+    def frames(self) -> Frames:
+        """What was heard about frames while they were listened to."""
+        ...

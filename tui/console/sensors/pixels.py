@@ -1,0 +1,105 @@
+"""Images of ROS as rows of RGB pixels, scaled to few: what a text screen can show. Pure, in NumPy."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Pixels = npt.NDArray[np.uint8]
+Grey = npt.NDArray[Any]
+
+COLOURS = {
+    "rgb8": (0, 1, 2),
+    "bgr8": (2, 1, 0),
+    "rgba8": (0, 1, 2),
+    "bgra8": (2, 1, 0),
+    "8UC3": (2, 1, 0),
+    "8UC4": (2, 1, 0),
+}
+"""Where red, green and blue stand in a pixel."""
+CHANNELS = {"rgba8": 4, "bgra8": 4, "8UC4": 4}
+GREYS = {
+    **dict.fromkeys(("mono8", "8UC1"), "u1"),
+    **dict.fromkeys(("mono16", "16UC1"), "u2"),
+    "16SC1": "i2",
+    "32FC1": "f4",
+    "64FC1": "f8",
+    **dict.fromkeys((f"bayer_{each}8" for each in ("rggb", "bggr", "gbrg", "grbg")), "u1"),
+    **dict.fromkeys((f"bayer_{each}16" for each in ("rggb", "bggr", "gbrg", "grbg")), "u2"),
+}
+"""Encodings of one number a pixel, and its type; raw patterns of colour filters are shown as grey."""
+KNOWN = (*COLOURS, *GREYS)
+
+
+def scaled(message: Any, columns: int, rows: int) -> tuple[Pixels, str]:
+    """The pixels of a `sensor_msgs/msg/Image`, at most so many, and a word on how numbers became greys.
+
+    Raises `ValueError` where it cannot be shown, in words.
+    """
+    width, height, encoding = int(message.width), int(message.height), str(message.encoding)
+    if not width or not height:
+        raise ValueError("an image without pixels")
+    if encoding not in KNOWN:
+        raise ValueError(f"the encoding '{encoding[:24]}' cannot be shown; those that can: {', '.join(KNOWN)}")
+    channels = CHANNELS.get(encoding, 3 if encoding in COLOURS else 1)
+    kind: np.dtype[Any] = np.dtype((">" if message.is_bigendian else "<") + GREYS.get(encoding, "u1"))
+    line, step = width * channels * kind.itemsize, int(message.step)
+    data = np.frombuffer(bytes(message.data), np.uint8)
+    if step < line or len(data) < step * (height - 1) + line:
+        raise ValueError(
+            f"{width} x {height} {encoding} needs {line} bytes a line, {line * height} in all; "
+            f"there are {step} and {len(data)}"
+        )
+    lines = [data[at * step : at * step + line] for at in _picked(height, rows)]
+    flat: Any = np.frombuffer(np.concatenate(lines).tobytes(), kind)
+    image: Grey = flat.reshape(len(lines), width, channels)
+    image = image[:, _picked(width, columns)]
+    across, down = fitting(width, height, columns, rows)
+    if encoding in COLOURS:
+        return _shrunk(image[:, :, COLOURS[encoding]].astype(np.float32), across, down).astype(np.uint8), ""
+    grey, output = _as_grey(image[:, :, 0].astype(np.float64), wide=kind.itemsize > 1)
+    return _shrunk(np.repeat(grey[:, :, None], 3, axis=2), across, down).astype(np.uint8), output
+
+
+def of_colours(image: Grey, columns: int, rows: int) -> Pixels:
+    """The pixels of an array (height, width, 3) of RGB, at most so many."""
+    height, width = image.shape[:2]
+    across, down = fitting(width, height, columns, rows)
+    return _shrunk(image[_picked(height, rows)][:, _picked(width, columns)].astype(np.float32), across, down).astype(
+        np.uint8
+    )
+
+
+def fitting(width: int, height: int, columns: int, rows: int) -> tuple[int, int]:
+    """The size, of at most so many columns and rows, in which an image keeps its shape; never larger than it is."""
+    scale = min(columns / width, rows / height, 1.0)
+    return max(1, round(width * scale)), max(1, round(height * scale))
+
+
+def _picked(size: int, wanted: int) -> npt.NDArray[np.intp]:
+    """Which lines of many are looked at: four for each that is shown, so that large images cost what small ones do."""
+    count = min(size, max(1, wanted) * 4)
+    return ((np.arange(count) + 0.5) * size / count).astype(np.intp)
+
+
+def _shrunk(image: npt.NDArray[np.floating[Any]], across: int, down: int) -> npt.NDArray[np.floating[Any]]:
+    """The mean of the pixels that fall onto each."""
+    height, width = image.shape[:2]
+    rows, columns = np.arange(down) * height // down, np.arange(across) * width // across
+    sums = np.add.reduceat(np.add.reduceat(image, rows, axis=0), columns, axis=1)
+    counts = np.diff([*rows, height])[:, None] * np.diff([*columns, width])[None, :]
+    return sums / counts[:, :, None]
+
+
+def _as_grey(image: npt.NDArray[np.float64], *, wide: bool) -> tuple[npt.NDArray[np.float64], str]:
+    """Bytes as they are; wider numbers, such as depths, from the least (black) to the greatest; NaN is black."""
+    if not wide:
+        return image, ""
+    finite = np.isfinite(image)
+    if not finite.any():
+        return np.zeros_like(image), "no number in it"
+    low, high = float(image[finite].min()), float(image[finite].max())
+    spread = (high - low) or 1.0
+    return np.where(finite, (np.where(finite, image, low) - low) / spread * 255.0, 0.0), f"{low:.4g} to {high:.4g}"

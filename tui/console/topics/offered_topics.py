@@ -1,0 +1,51 @@
+"""How a topic is offered: its type and the QoS that hears everything its publishers send."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from bot_console.tui.console.model import GraphInfo
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+
+DEPTH = 10
+
+
+@dataclass(frozen=True)
+class Offer:
+    """Whether all publishers are reliable, and whether all keep messages for those who come late."""
+
+    reliable: bool
+    latched: bool
+    depth: int = DEPTH
+
+    @property
+    def key(self) -> tuple[bool, bool]:
+        """What has to be the same for a subscription to fit on."""
+        return self.reliable, self.latched
+
+    def profile(self) -> QoSProfile:
+        """The profile of a subscription to it."""
+        return QoSProfile(
+            history=HistoryPolicy.KEEP_LAST,
+            depth=self.depth,
+            reliability=ReliabilityPolicy.RELIABLE if self.reliable else ReliabilityPolicy.BEST_EFFORT,
+            durability=DurabilityPolicy.TRANSIENT_LOCAL if self.latched else DurabilityPolicy.VOLATILE,
+        )
+
+
+def offered_qos(graph: GraphInfo, topic: str) -> Offer:
+    """What all publishers of a topic offer; where nobody publishes yet, what most do."""
+    profiles = [each.qos for node in graph.nodes for each in node.publishers if each.name == topic and each.qos]
+    return Offer(
+        all(not each.startswith("best effort") for each in profiles),
+        bool(profiles) and all("transient local" in each for each in profiles),
+    )
+
+
+def offered_types_of(graph: GraphInfo, topic: str) -> tuple[str, ...]:
+    """The types of a topic: those that are published count before those that are only listened for."""
+    nodes = graph.nodes
+    published = (each for node in nodes for each in node.publishers if each.name == topic)
+    listened = (each for node in nodes for each in node.subscriptions if each.name == topic)
+    known = (each for each in graph.topics if each.name == topic)
+    return tuple(dict.fromkeys(kind for each in (*published, *known, *listened) for kind in each.types))

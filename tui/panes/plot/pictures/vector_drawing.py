@@ -1,0 +1,128 @@
+"""The layout of a plot for a file: positions of lines and words on a sheet, for any format (SVG, PNG)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from datetime import datetime
+
+import numpy as np
+from bot_console.tui.format import sanitize
+from bot_console.tui.panes.plot.curves import Curve, Reach
+from bot_console.tui.panes.plot.view import Axes, Mark, limits, reach_of, short_number, tick_step
+
+WIDTH, HEIGHT = 1000, 560
+LEFT, RIGHT, TOP, BOTTOM = 70, 70, 20, 40
+"""Margins of the frame; below it, and below its labels, is a line for each curve."""
+ROW = 20
+INK, GRID = "#1b1f27", "#d5d9e2"
+COLOURS = ("#1f6feb", "#d9480f", "#2b8a3e", "#9c36b5", "#0b7285", "#a61e4d")
+
+
+@dataclass(frozen=True)
+class Words:
+    """A text at a place; `anchor` is start, middle or end."""
+
+    x: float
+    y: float
+    text: str
+    anchor: str = "start"
+    colour: str = INK
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """A line through points."""
+
+    points: tuple[tuple[float, float], ...]
+    colour: str
+    width: float = 1.0
+    dashed: bool = False
+
+
+@dataclass
+class VectorDrawing:
+    """What is drawn, in this order; sizes in pixels."""
+
+    width: int = WIDTH
+    height: int = HEIGHT
+    strokes: list[Stroke] = field(default_factory=list[Stroke])
+    words: list[Words] = field(default_factory=list[Words])
+
+
+def sheet(curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, wall: Callable[[float], float]) -> VectorDrawing:
+    """The plot as it is seen; `wall` takes a time of the axis to one of the clock on the wall (s since the epoch)."""
+    page = VectorDrawing(height=HEIGHT + ROW * len(curves) + 12)
+    right = [each.right for each in curves]
+    both = any(right) and not all(right)
+    seen = [reach_of(each, axes, (WIDTH - LEFT - RIGHT) // 2) for each in curves]
+    spans = [axes.limits or limits([each for each, other in zip(seen, right, strict=True) if not (both and other)])]
+    spans.append(limits([each for each, other in zip(seen, right, strict=True) if other]) if both else spans[0])
+    _values(page, spans[0], LEFT - 6, "end", grid=True)
+    if both:
+        _values(page, spans[1], WIDTH - RIGHT + 6, "start", grid=False)
+    _times(page, marks, axes, wall)
+    for at, (curve, reach) in enumerate(zip(curves, seen, strict=True)):
+        span, colour = spans[both and curve.right], COLOURS[curve.colour % len(COLOURS)]
+        for each in curve.thresholds:
+            if span[0] <= each.value <= span[1]:
+                y = _y(each.value, span)
+                page.strokes.append(Stroke(((LEFT, y), (WIDTH - RIGHT, y)), colour, 1.0, dashed=True))
+        page.strokes += [Stroke(points, colour, 1.6) for points in _traces(reach, span)]
+        y = HEIGHT + ROW * at + 18
+        page.strokes.append(Stroke(((LEFT, y - 4), (LEFT + 24, y - 4)), colour, 3.0))
+        page.words.append(Words(LEFT + 32, y, sanitize(curve.path) + (" (right axis)" if both and curve.right else "")))
+    return page
+
+
+def _y(value: float, span: tuple[float, float]) -> float:
+    return round(TOP + (span[1] - value) / (span[1] - span[0]) * (HEIGHT - TOP - BOTTOM), 2)
+
+
+def _values(page: VectorDrawing, span: tuple[float, float], x: float, anchor: str, *, grid: bool) -> None:
+    step = tick_step(span[1] - span[0], 10)
+    for count in range(math.ceil(span[0] / step - 1e-9), math.floor(span[1] / step + 1e-6) + 1):
+        y = _y(count * step, span)
+        if grid:
+            page.strokes.append(Stroke(((LEFT, y), (WIDTH - RIGHT, y)), GRID))
+        page.words.append(Words(x, y + 4, short_number(count * step, step), anchor))
+
+
+def _times(page: VectorDrawing, marks: Sequence[Mark], axes: Axes, wall: Callable[[float], float]) -> None:
+    span, bottom = axes.end - axes.start, HEIGHT - BOTTOM
+
+    def place(time: float) -> float:
+        return round(LEFT + (time - axes.start) / span * (WIDTH - LEFT - RIGHT), 2)
+
+    step = tick_step(span, 8)
+    first = wall(axes.start)
+    for count in range(math.ceil(first / step), math.floor((first + span) / step) + 1):
+        x = place(axes.start + count * step - first)
+        page.strokes.append(Stroke(((x, TOP), (x, bottom)), GRID))
+        moment = datetime.fromtimestamp(count * step)
+        text = f"{moment:%H:%M:%S}" + (f".{moment.microsecond // 1000:03}" if step < 1 else "")
+        page.words.append(Words(x, bottom + 16, text, "middle"))
+    for each in marks:
+        if axes.start <= each.time <= axes.end:
+            x = place(each.time)
+            page.strokes.append(Stroke(((x, bottom), (x, bottom - 8)), "#c92a2a" if each.refused else INK, 2.0))
+    corners = ((LEFT, TOP), (LEFT, bottom), (WIDTH - RIGHT, bottom), (WIDTH - RIGHT, TOP), (LEFT, TOP))
+    page.strokes.append(Stroke(tuple((float(x), float(y)) for x, y in corners), INK))
+    page.words.append(Words(LEFT, bottom + 34, f"{datetime.fromtimestamp(first):%Y-%m-%d %H:%M:%S}"))
+
+
+def _traces(seen: Reach, span: tuple[float, float]) -> list[tuple[tuple[float, float], ...]]:
+    """The lowest and highest value of each column in turn, apart where there is nothing."""
+    fine = np.flatnonzero(np.isfinite(seen.low))
+    runs = np.split(fine, np.flatnonzero(np.diff(fine) > 1) + 1) if len(fine) else []
+    scale = (WIDTH - LEFT - RIGHT) / len(seen.low)
+    traces: list[tuple[tuple[float, float], ...]] = []
+    for run in runs:
+        points: list[tuple[float, float]] = []
+        for column in run.tolist():
+            x = round(LEFT + (column + 0.5) * scale, 2)
+            ends = [float(seen.low[column]), float(seen.high[column])]
+            points += [(x, _y(min(max(each, span[0]), span[1]), span)) for each in dict.fromkeys(ends)]
+        traces.append(tuple(points if len(points) > 1 else points * 2))
+    return traces

@@ -1,0 +1,104 @@
+"""The user's own profiles: saved, overwritten, renamed and deleted, each after the necessary questions."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.model import ConsoleSnapshot, Profile
+from bot_console.tui.console.parameters.profile_names import profile_name_problem
+from bot_console.tui.console.protocol import Console
+from bot_console.tui.widgets.prompt.question import Confirmation, Line, Question
+
+
+@dataclass
+class OwnProfiles:
+    """`later` runs something in the thread of the panes, `ask` asks the person, `tell` says what came of it."""
+
+    console: Console
+    later: Callable[..., object]
+    ask: Callable[[Question[Any]], object]
+    report: Callable[[Answer], object]
+
+    def save(self, snapshot: ConsoleSnapshot) -> None:
+        """Ask for a name, then for what the profile is for; one that is there is saved over after a question."""
+        text = snapshot.active_profile
+        self.ask(Line("save what runs as profile", self._named, text=text, check=lambda name: _problem(name.strip())))
+
+    def _named(self, typed: str) -> None:
+        name = typed.strip()
+        there = self._own(name)
+        if there is None:
+            self.later(self.ask, Line(f"what {name} is for", partial(self._save, name)))
+            return
+        changed = f", changed {reported}" if (reported := _changed(there.path)) else ""
+        reasons = f"{there.path}{changed}:\nits values are replaced by those that run, its comments stay."
+        question = Confirmation(f"Save over the profile {name}?", lambda _: self._save(name, ""), reasons=reasons)
+        self.later(self.ask, question)
+
+    def _save(self, name: str, description: str) -> None:
+        self.report(self.console.save_profile(name, description))
+
+    def rename(self, profile: Profile) -> None:
+        """Ask for another name."""
+        if not self._refused(profile, "renamed"):
+            name = _file_name(profile)
+            check = partial(self._name_problem, name)
+            self.ask(Line(f"rename {name} to", partial(self._rename, profile.name), text=name, check=check))
+
+    def _name_problem(self, name: str, typed: str) -> str:
+        to = typed.strip()
+        taken = to != name and self._own(to) is not None
+        return _problem(to) or (f"there is a profile {to} already" if taken else "")
+
+    def _rename(self, name: str, to: str) -> None:
+        self.report(self.console.rename_profile(name, to.strip()))
+
+    def delete(self, profile: Profile) -> None:
+        """Ask whether its file is to be deleted."""
+        if not self._refused(profile, "deleted"):
+            changed = f", changed {reported}" if (reported := _changed(profile.path)) else ""
+            reasons = (
+                f"{profile.path}{changed}.\nThe values that run stay as they are. The file cannot be brought back."
+            )
+            delete = partial(self._delete, profile.name)
+            gone = partial(self._gone, profile.name)
+            self.ask(Confirmation(f"Delete the profile {profile.name}?", delete, gone=gone, reasons=reasons))
+
+    def _delete(self, name: str, _: None) -> None:
+        self.report(self.console.delete_profile(name))
+
+    def _gone(self, name: str) -> str:
+        there = any(each.name == name for each in self.console.snapshot().profiles)
+        return "" if there else f"The profile {name} is not there any more."
+
+    def _refused(self, profile: Profile, what: str) -> bool:
+        if not profile.own:
+            self.report(
+                Answer(False, f"{profile.name} is not {what}: only profiles that S has saved are; see {profile.path}")
+            )
+        return not profile.own
+
+    def _own(self, name: str) -> Profile | None:
+        return next((each for each in self.console.snapshot().profiles if each.own and _file_name(each) == name), None)
+
+
+def _file_name(profile: Profile) -> str:
+    """The name it was saved under: one that comes with the robot has the name itself, and it got an addition."""
+    return os.path.splitext(os.path.basename(profile.path))[0]
+
+
+def _problem(name: str) -> str:
+    return profile_name_problem(name) if name else "a profile needs a name"
+
+
+def _changed(path: str) -> str:
+    try:
+        return time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(os.stat(path).st_mtime))
+    except OSError:
+        return ""

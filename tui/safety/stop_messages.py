@@ -1,0 +1,82 @@
+"""The wording for the robot's emergency stop, its holders, and the question before their stops are released."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, ProcessInfo
+from bot_console.tui.console.robot.robot_model import DriveInfo, RobotStop
+from bot_console.tui.format import counted, sanitize
+from bot_console.tui.widgets.prompt.question import Confirmation
+
+HOLDS_AGAIN = "What persons have requested holds it again as soon as it is back; ! and bot-console release end that."
+MAX_NAMED_STOPS = 5
+"""Stops that are named one by one."""
+
+
+def stop_text(drive: DriveInfo) -> str:
+    """The state of a stop; it says held only when the robot has acknowledged it."""
+    if drive.unsent:
+        return f"STOP NOT SENT: {drive.unsent}"
+    if drive.nothing_to_stop:
+        return "STOP REACHES NOBODY: nothing is here to stop, no robot listens for commands (! ends it)"
+    if not drive.lockable and drive.stop_confirmed:
+        return f"ALL STOP held by {sanitize(drive.held_by_means)} (! releases)"
+    if not drive.lockable:
+        return f"STOP SENT, NOT CONFIRMED: {may_move(drive)} (! ends it)"
+    if not drive.stop_confirmed:
+        return "STOP SENT, NOT CONFIRMED: THE ROBOT MAY MOVE (! sends it again)"
+    key = "! releases" if drive.stopped_here else "! holds it too, once more releases"
+    if holder_is_gone(drive) and not drive.stopped_here:
+        key = "! twice releases"  # shorter: that nobody else will is to be seen in 80 columns
+    if drive.refused:
+        key = "released elsewhere: this console only looks on"
+    # The key first: in a narrow terminal the end of the line is not seen.
+    loose = f"  {may_move(drive)}" if drive.stopped_here and drive.unlocked and not drive.held_by_means else ""
+    return f"ALL STOP held ({key}){loose}{held_by(drive)}"
+
+
+def may_move(drive: DriveInfo) -> str:
+    """That robots without an emergency stop may move, and what is being tried."""
+    who = sanitize(", ".join(drive.unlocked)) if drive.lockable else "THE ROBOT"
+    return f"{who} MAY MOVE, {sanitize(drive.means_news) or 'zeros only'}"
+
+
+def held_by(drive: DriveInfo) -> str:
+    """Who holds the robot and why, as the end of a sentence."""
+    holder = drive.stops[0].who if holder_is_gone(drive) else drive.stop_holder
+    who = "" if holder in ("", "this console") else f" by {sanitize(holder)}"
+    why = f": {sanitize(drive.stop_reason)}" if drive.stop_reason not in ("", "ALL STOP") else ""
+    more = f", and {counted(len(drive.stops) - 1, 'other stop')}" if len(drive.stops) > 1 else ""
+    return f"{who}{why}{more}"
+
+
+def holder_is_gone(drive: DriveInfo) -> bool:
+    """Whether the process that has held the robot longest has ended."""
+    return bool(drive.stops) and drive.stops[0].gone
+
+
+def stops_of_ending(snapshot: ConsoleSnapshot, processes: Sequence[ProcessInfo]) -> list[str]:
+    """Lines that name who holds the robot, if the end of these processes would end a lock; else none."""
+    stops = snapshot.drive.stops
+    locks = {node.name for node in snapshot.graph.nodes if any(map(_is_lock, node.publishers))}
+    if not stops or not any(locks.intersection(each.nodes) for each in processes):
+        return []
+    return ["⚠ This ends an emergency stop that holds the robot:", *_lines(stops), HOLDS_AGAIN]
+
+
+def _is_lock(topic: Endpoint) -> bool:
+    return "/emergency_stop/" in topic.name and not topic.name.endswith("/request")
+
+
+def _lines(stops: Sequence[RobotStop]) -> list[str]:
+    lines = [f"  {sanitize(each.who)}: {sanitize(each.reason)}" for each in stops[:MAX_NAMED_STOPS]]
+    return lines + ([f"  and {len(stops) - MAX_NAMED_STOPS} more"] if len(stops) > MAX_NAMED_STOPS else [])
+
+
+def release_question(
+    others: Sequence[RobotStop], then: Callable[[None], object], gone: Callable[[], str]
+) -> Confirmation:
+    """Asks whether to release the stops of others too; `gone` tells when there are none any more."""
+    reasons = ["These stops are not this console's:", *_lines(others), "", "With no the robot stays held, by you too."]
+    return Confirmation("Release the robot all the same?", then, gone, reasons="\n".join(reasons))

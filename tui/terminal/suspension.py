@@ -1,0 +1,122 @@
+"""Leaving the terminal to another program for a while: an editor, or the shell on Ctrl-Z.
+
+The robot is stopped first.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from bot_console.tui.terminal.editor import editing
+from textual.app import App, SuspendNotSupported
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.protocol import Console
+
+STOP_TIMEOUT_S = 1.0
+"""Seconds that the robot's stop has to be acknowledged before the terminal is left anyway."""
+STOP_POLL_S = 0.05
+EMPTY = "\x1b[m\x1b[H\x1b[J"
+ASLEEP = "bot-console was put to sleep (Ctrl-Z)"
+
+
+class Leaving:
+    """Leaves the terminal and comes back to it."""
+
+    def __init__(self, app: App[None], console: Console, redraw: Callable[[], None], *, holds: bool = True) -> None:
+        """`holds` says whether to hold the robot while the console sleeps: only who may release it may hold it."""
+        self._app = app
+        self._holds = holds
+        self._console = console
+        self._redraw = redraw
+        self._going = False
+
+    def edit(self, file: str, line: int) -> None:
+        """Open a file at a line in the user's editor. Nothing is steered meanwhile: a command expires after 0.5 s."""
+        try:
+            command = editing(file, line, os.environ)
+        except ValueError as error:
+            self._app.notify(str(error), severity="error")
+            return
+        self.run(command)
+
+    def run(self, command: Sequence[str]) -> int:
+        """Hand the terminal to another program, and return its exit code. Nothing is steered meanwhile."""
+        code = 0
+        self._console.drive(0.0, 0.0)
+        try:
+            with self._app.suspend():
+                # While the console runs, descriptors 0 to 2 refer to the log; these are the terminal.
+                inward, outward, errors = sys.__stdin__, sys.__stdout__, sys.__stderr__
+                code = subprocess.run(command, stdin=inward, stdout=outward, stderr=errors, check=False).returncode
+        except SuspendNotSupported:
+            self._app.notify("This terminal cannot be handed to another program.", severity="error")
+        except OSError as error:
+            self._app.notify(f"{command[0]}: {error.strerror or error}", severity="error")
+        self._redraw()
+        return code
+
+    def sleep(self) -> None:
+        """Hold the robot, and give the terminal back to the shell; `fg` brings the console back."""
+        if self._going:
+            return
+        self._going = True
+        if self._holds:
+            self._console.all_stop(True, ASLEEP)
+        self._when_held(STOP_TIMEOUT_S if self._holds else 0.0)
+
+    def _when_held(self, timeout_s: float) -> None:
+        drive = self._console.snapshot().drive
+        if timeout_s > 0 and drive.lockable and not drive.stop_confirmed:
+            self._app.set_timer(STOP_POLL_S, lambda: self._when_held(timeout_s - STOP_POLL_S))
+            return
+        self._app.action_suspend_process()
+        self._going = False
+        if self._holds:
+            self._app.notify("The robot was held meanwhile; ! releases it.")
+        self._redraw()
+
+
+def takes_up_again(driver: Any) -> None:
+    """Let a Linux driver of Textual continue after any stop, even an unnoticed one (SIGSTOP, a debugger).
+
+    Textual sets the terminal up at each SIGCONT. If it had not been left before, a second thread would read the
+    keys alongside the first one: each gets some of them, and the end waits forever for the one that got nothing.
+    """
+    set_up = driver.resume_application_mode
+    wanted, at_it = False, False
+
+    def resume() -> None:
+        nonlocal wanted, at_it
+        wanted = True
+        if at_it:  # a SIGCONT during this one
+            return
+        at_it = True
+        try:
+            while wanted:
+                wanted = False
+                if driver._key_thread is not None and driver._key_thread.is_alive():
+                    driver.suspend_application_mode()
+                set_up()
+        finally:
+            at_it = False
+
+    driver.resume_application_mode = resume
+
+
+def leaves_an_empty_screen(driver: Any) -> None:
+    """Make a Linux driver of Textual clear the alternate screen before it leaves it.
+
+    tmux moves full rows of it into the shell's screen if the terminal was enlarged meanwhile.
+    """
+    leave = driver.stop_application_mode
+
+    def stop() -> None:
+        driver.write(EMPTY)
+        leave()
+
+    driver.stop_application_mode = stop

@@ -1,0 +1,81 @@
+"""A container whose parts are made when it is first shown: most panes of a run are never looked at."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, cast
+
+from bot_console.tui.terminal.composing.cache_limits import limit_query_cache
+from bot_console.tui.terminal.output import SUPPORTED
+from textual.compose import compose  # pyright: ignore[reportUnknownVariableType] -- Textual's App is generic
+from textual.containers import Container
+from textual.widget import Widget
+
+
+class LazyParts(Container):
+    """A container that composes itself as usual, unless `come_late` was called before it is mounted.
+
+    A query for its parts creates them at the latest.
+    """
+
+    _late = False
+    """Whether the parts come by `make_parts`, also when that was before the mount is over."""
+    _missing = False
+
+    def __init__(self, *children: Widget, **how: Any) -> None:
+        super().__init__(*children, **how)
+        limit_query_cache(self)
+
+    @property
+    def has_parts(self) -> bool:
+        """Whether the parts exist: not before they are made, nor at the end, when the screen is dismantled."""
+        return bool(self.children)
+
+    @property
+    def is_ending(self) -> bool:
+        """Whether the screen, and this with it, is being dismantled."""
+        return not (self.is_attached if self._missing else self.children)
+
+    def come_late(self) -> None:
+        """Defer the parts: they are composed by `make_parts` instead of the mount."""
+        self._late = self._missing = True
+
+    def make_parts(self) -> None:
+        """Make the parts now, unless they exist; the next query finds all of them."""
+        private = cast(Any, self)
+        if self._missing and self.is_attached and not (private._closing or private._pruning):
+            self._missing = False
+            put(self, compose(self))
+
+    async def _compose(self) -> None:
+        if not self._late:
+            await super()._compose()
+
+    if not TYPE_CHECKING:  # the parent's overloads are the types that count
+
+        def query(self, *what: Any, **how: Any) -> Any:
+            """The matching parts, made if necessary."""
+            self.make_parts()
+            return super().query(*what, **how)
+
+        def query_one(self, *what: Any, **how: Any) -> Any:
+            """The first matching part, made if necessary."""
+            self.make_parts()
+            return super().query_one(*what, **how)
+
+
+def put(parent: Widget, widgets: Sequence[Widget]) -> None:
+    """Mount widgets and their children in a parent that is not displayed yet, without a layout.
+
+    Textual's own mount lays the screen out a second time, and mounts nested parts a little later.
+    """
+    if not widgets:
+        return
+    if not SUPPORTED:
+        parent.mount_all(widgets)
+        return
+    cast(Any, parent.app)._register(parent, *widgets)  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
+    for each in widgets:
+        given: list[Widget] = cast(Any, each)._pending_children
+        within, given[:] = [*given], []
+        put(each, within)

@@ -1,0 +1,53 @@
+"""A line of figures that change faster than a person can read."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from bot_console.tui.widgets.static_text import StaticText
+
+FIGURE = re.compile(r" *[-+]?\d+(?:\.\d+)?")
+
+
+class LiveFigures(StaticText):
+    """Shows changed words at once, and changed figures at most every `EVERY` beats, always the newest in the end."""
+
+    EVERY = 5
+    """Beats of the app, of which there are ten a second, for which figures stand before others take their place."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._live: str = ""
+        self._newest: str = ""
+        self._wait = 0
+        self._heartbeats = False
+        """Whether there are beats; without them, nothing would ever show what waits."""
+
+    def show_live(self, text: str) -> None:
+        """Show a text whose figures may be delayed."""
+        self._newest = text
+        if not (self._wait and _words(text) == _words(self._live)):
+            self._show_newest()
+
+    def heartbeat(self) -> None:
+        """Show delayed figures when they are due; called ten times a second."""
+        self._heartbeats = True
+        self._wait = max(0, self._wait - 1)
+        if not self._wait:
+            self._show_newest()
+
+    def show_now(self, text: str) -> None:
+        """Show a text that was explicitly requested."""
+        self._newest = text
+        self._show_newest()
+
+    def _show_newest(self) -> None:
+        if self._newest != self._live:
+            self._live = self._newest
+            self._wait = self.EVERY if self._heartbeats else 0
+            self.show_text(self._live)
+
+
+def _words(text: str) -> str:
+    return FIGURE.sub("#", text)
