@@ -105,6 +105,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         self._downward = False
         self._room = Size()
         self._footer: Sequence[str] = ()
+        self._drawing_beside = False
 
     def show(
         self,
@@ -125,7 +126,8 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         self.refresh()
 
     @property
-    def _is_large(self) -> bool:
+    def is_large(self) -> bool:
+        """Whether laying it out takes so long that it is done beside the event loop."""
         content = self._content
         if isinstance(content, Chart):
             return len(content.boxes) + len(content.links) > LARGE
@@ -135,7 +137,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         """The ways in which the content may be drawn here."""
         if not isinstance(self._content, Digraph):
             return (self._window,)
-        if self._is_large:
+        if self.is_large:
             return (self._flow or RIGHT,)
         return (self._flow,) if self._flow else (RIGHT, DOWN)
 
@@ -151,25 +153,37 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         """Draw what is not drawn yet, and choose; a large picture beside the event loop."""
         manners = self._manners()
         missing = [each for each in manners if each not in self._drawings]
-        if missing and self._is_large:
-            self.run_worker(self._draw_beside(self._content, manners[0]), exclusive=True, group="draw")
+        if missing and self.is_large:
+            if not self._drawing_beside:
+                self._drawing_beside = True
+                self.run_worker(self._draw_beside(), group="draw")
             return
         for each in missing:
             self._drawings[each] = _drawn(self._content, each)
         self._choose(manners)
 
-    async def _draw_beside(self, content: Content, manner: Manner) -> None:
-        """Lay out a large picture in a thread, in one manner only, while the previous drawing stays."""
-        drawing = await asyncio.to_thread(_drawn, content, manner)
-        if content is self._content:
-            self._drawings[manner] = drawing
-            if manner in self._manners():
-                self._choose((manner,))
+    async def _draw_beside(self) -> None:
+        """Lay out a large picture in a thread, in one manner only, while the previous drawing stays.
+
+        One at a time: what comes meanwhile, such as new rates, waits for the next round.
+        """
+        try:
+            while self.is_large and (manner := self._manners()[0]) not in self._drawings:
+                content = self._content
+                drawing = await asyncio.to_thread(_drawn, content, manner)
+                if content is self._content:
+                    self._drawings[manner] = drawing
+                if self.is_large:
+                    self._present(drawing, manner)
+        finally:
+            self._drawing_beside = False
 
     def _choose(self, manners: Sequence[Manner]) -> None:
         """Show the drawing of which more is visible at once."""
         manner = min(manners, key=self._excess)
-        drawing = self._drawings[manner]
+        self._present(self._drawings[manner], manner)
+
+    def _present(self, drawing: Drawing, manner: Manner) -> None:
         if drawing is not self.drawing:
             self._downward = isinstance(manner, Flow) and manner.downward
             self.drawing = drawing

@@ -171,9 +171,9 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     @property
     def _measures(self) -> bool:
         """Whether rates are shown: as a person has chosen, else in a flow chart that has room for them."""
-        if self._rates.wanted is not None:
-            return self._rates.wanted
-        return self._view.mode is Mode.FLOW and self._picture.outer_size.width >= WIDE
+        picture, wanted = self._picture, self._rates.wanted
+        room = self._view.mode is Mode.FLOW and picture.outer_size.width >= WIDE and not picture.is_large
+        return room if wanted is None else wanted
 
     def _ask_nodes(self) -> None:
         """Have nodes probed for liveness while the pane is visible."""

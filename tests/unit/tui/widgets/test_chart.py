@@ -104,8 +104,14 @@ def test_the_robot_fits_a_terminal_of_80_columns_and_24_lines() -> None:
 
 def test_words_are_left_out_rather_than_the_picture_being_too_wide() -> None:
     found = chart("source>target: " + " ".join(f"a_rather_long_word_{at}" for at in range(6)))
-    assert "+3" in draw_chart(found, 100, 20).text() and "+5" in draw_chart(found, 60, 20).text()
     assert "a_rather_long_word_5" in draw_chart(found, 200, 20).text()
+    assert "+3" in draw_chart(found, 100, 20).text() and "+5" in draw_chart(found, 40, 20).text()
+
+
+def test_long_words_are_cut_in_a_narrow_window() -> None:
+    drawing = draw_chart(shown(robot(), GraphView()).bundles.chart, 57, 11)
+    assert drawing.width <= 57 and len(drawing.rows) <= 11
+    assert "cm…ired" in drawing.text() and "[motion_controller]" in drawing.text()
 
 
 def test_boxes_without_links_fill_rows() -> None:
@@ -129,6 +135,25 @@ def test_no_later_line_runs_through_an_arrow_head() -> None:
     readable(found, draw_chart(found, 60, 30))
     found = chart("d|h>a: scan x", "a>c: scan x", "a>f|g: scan x", "b>e: scan x o")
     readable(found, drawn(found, planned(found, Style(rightward=9, slack=10), 80)))
+
+
+def test_without_frames_what_leads_back_from_several_boxes_has_a_row_of_its_own() -> None:
+    found = chart("a|b>c: x", "a|b>d: x", "c>a|b: x", "c>d: x", "d>a|b: x")
+    readable(found, drawn(found, planned(found, Style(slack=4, framed=False), 80)))
+
+
+@pytest.mark.parametrize("size", [(60, 11), (77, 16), (117, 30), (197, 40)])
+def test_who_publishes_and_who_subscribes_can_be_read_from_the_picture(size: tuple[int, int]) -> None:
+    drawing = draw_chart(shown(robot(), GraphView()).bundles.chart, *size)
+    reader = Reader(drawing)
+
+    def ends(word: str) -> tuple[set[str], set[str]]:
+        lines = {run.item for row in drawing.rows for run in row if word in run.text.split()}
+        found = [reader.ends_of(line) for line in lines]
+        return {one for sources, _ in found for one in sources}, {one for _, targets in found for one in targets}
+
+    assert ends("scan") == ({"/sensor_handler"}, {"/robot_navigator", "/safety_monitor", "/telemetry_publisher"})
+    assert ends("cmd_vel") == ({"/safety_monitor"}, {"/simulator"})
 
 
 @pytest.mark.parametrize(

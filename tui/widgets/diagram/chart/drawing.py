@@ -18,8 +18,12 @@ WIDE = 116
 """Columns from which on a chain of boxes runs from left to right rather than down."""
 RIGHTWARD = (99, 3, 2, 1, 0)
 SLACK = (0, 4, 10)
-WORDS = ((99, 1, True), (99, 0, True), (99, 1, False), (99, 0, False), (3, 0, True), (3, 0, False), (1, 0, False))
-"""Words on a line, the blanks around them, and whether boxes have frames."""
+WORDS = (
+    Style(pad=1), Style(pad=0), Style(pad=1, framed=False), Style(pad=0, framed=False),
+    Style(pad=0, words=3), Style(pad=0, words=3, framed=False), Style(pad=0, words=3, framed=False, cells=10),
+    Style(pad=0, words=1, framed=False, cells=7),
+)  # fmt: skip
+"""From roomy to narrow: with blanks around the words, and with frames, as long as there is room for them."""
 SOME_LINKS, MANY_LINKS = 24, 80
 """Links from which on few plans are tried, and only one."""
 
@@ -51,15 +55,13 @@ def _styles(chart: Chart, width: int) -> Iterator[Style]:
     count, wide = len(chart.links), width >= WIDE
     if count > MANY_LINKS:
         yield Style(words=3)
-    elif count > SOME_LINKS:
-        for (words, pad, framed), right in product((WORDS[0], WORDS[3], WORDS[5], WORDS[6]), (4, 0) if wide else (0,)):
-            yield Style(right * framed, 4, words, pad, framed)
-    else:
-        for (words, pad, framed), right, slack in product(
-            WORDS, RIGHTWARD if wide else (0,), SLACK[::2] if wide else SLACK
-        ):
-            if framed or not right:
-                yield Style(right, slack, words, pad, framed)
+        return
+    few = count > SOME_LINKS
+    slacks = (4,) if few else SLACK[::2] if wide else SLACK
+    rightward = (0,) if not wide else RIGHTWARD[1::3] if few else RIGHTWARD
+    for style, right, slack in product((*WORDS[::3], WORDS[-1]) if few else WORDS, rightward, slacks):
+        if style.framed or not right:
+            yield replace(style, rightward=right, slack=slack)
 
 
 def draw_chart(chart: Chart, width: int, height: int) -> Drawing:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from bot_console.tui.text.sanitize import cut_name
 from rich.cells import cell_len
 
 
@@ -39,11 +40,11 @@ class ChartLink:
     target: str
     words: tuple[str, ...]
 
-    def label(self, maximum: int) -> str:
-        """At most so many words, and the number of those left out."""
-        if len(self.words) <= maximum:
-            return "  ".join(self.words)
-        return "  ".join((*self.words[:maximum], f"+{len(self.words) - maximum}"))
+    def label(self, maximum: int, cells: int) -> str:
+        """At most so many words, each name (without its rate) of at most so many cells, and how many are left out."""
+        parts = (each.partition(" ") for each in self.words[:maximum])
+        words = [f"{cut_name(name, cells)}{blank}{rest}" for name, blank, rest in parts]
+        return "  ".join([*words, *([f"+{len(self.words) - maximum}"] if len(self.words) > maximum else [])])
 
 
 @dataclass(frozen=True)

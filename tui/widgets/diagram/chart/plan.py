@@ -33,6 +33,8 @@ class Style:
     """Cells kept free on both sides of the words."""
     framed: bool = True
     """Whether boxes have a frame; a row for each name and each arrow is all that the others take."""
+    cells: int = 99
+    """The length of a word at most."""
 
     @property
     def frame(self) -> int:
@@ -80,7 +82,7 @@ class Placed:
     def member_rows(self) -> list[int]:
         """The rows of its members."""
         count, step = len(self.box.members), 1 + self.framed
-        first = self.y + (self.height - (step * (count - 1) + 1)) // 2
+        first = self.y + (self.height - (step * (count - 1) + 1)) // 2 if self.framed else self.y
         return [first + step * at for at in range(count)]
 
 
@@ -146,7 +148,7 @@ class _Builder:
 
     def _label(self, link: ChartLink) -> str:
         pad = " " * self._style.pad
-        return f"{pad}{link.label(self._style.words)}{pad}"
+        return f"{pad}{link.label(self._style.words, self._style.cells)}{pad}"
 
     def _place(self, name: str, forward: list[ChartLink], back: list[ChartLink], rightward: bool) -> None:
         box = self._boxes[name]
@@ -159,6 +161,9 @@ class _Builder:
         right_ports = len(back_in) + (back_out and not several) + rightward
         style = self._style
         inner = max((1 + style.framed) * (len(box.members) - 1) + 1, len(ins), right_ports, 1)
+        inner += (
+            several and back_out and not style.framed
+        )  # a row of its own, which is the lower edge where there is one
         wants = _Wants(box, ins, outs, back_in, back_out, rightward, inner + 2 * style.frame, style)
         spot = self._spot(wants)
         self._settle(wants, spot)
