@@ -136,7 +136,11 @@ def test_the_graph_goes_from_match_to_match_too() -> None:
         await session.press("3", "slash", *"scan", "enter", "escape", "n")
         from bot_console.tui.widgets.diagram_view import DiagramView
 
-        assert "scan" in session.pane(DiagramView).selected
+        first = session.pane(DiagramView).selected
+        assert first == "line:/sensor_handler>/robot_navigator"
+        assert "/sensor_handler → /robot_navigator  /scan" in session.text(), "a line matches by the topics on it"
+        await session.press("n")
+        assert "/scan" in session.text() and session.pane(DiagramView).selected not in ("", first)
 
     run(live(), play, size=(120, 40))
 
