@@ -68,7 +68,7 @@ class Client(Entity):
             clock = current().clock
             deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(NANO))
             try:
-                wait_until_settled(future, self._node.context, deadline)
+                wait_until_settled(future, self, self._node, f"a call of {self.endpoint.name}", deadline)
             finally:
                 if not future.done():
                     self.remove_pending_request(future)
@@ -105,6 +105,10 @@ class Client(Entity):
                 if each is future:
                     del self._pending_requests[number]
                     return
+
+    def awaits(self, future: Any) -> bool:
+        """Whether a future is that of a request that was not answered yet."""
+        return future in tuple(self._pending_requests.values())
 
     def pending(self) -> bool:
         """Whether a response has arrived."""

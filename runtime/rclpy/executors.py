@@ -5,19 +5,23 @@
 
 from __future__ import annotations
 
+import math
 from _thread import allocate_lock
 from collections import deque
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable
 from operator import attrgetter
 from types import TracebackType
 from typing import Any
 
 from bot_console.runtime.process import current
+from rclpy.executor_parts.deadlock import WARNING_DELAY_NS, report_future, runs_in_callback
 from rclpy.executor_parts.ready_callbacks import ReadyCallbacks
 from rclpy.executor_parts.ready_callbacks import TimeoutObject as TimeoutObject
 from rclpy.executor_parts.ready_callbacks import await_or_execute as await_or_execute
+from rclpy.executor_parts.task_queue import TaskQueue
 from rclpy.executor_parts.timer_heap import TimerHeap
 from rclpy.executor_parts.worker_pool import WorkerPool, cpu_count, report_unfetched_at_exit
+from rclpy.impl.explanations import spun_twice
 from rclpy.impl.reexports import reexporting
 from rclpy.task import Future, Task
 from rclpy.utilities import get_default_context, timeout_sec_to_nsec
@@ -45,12 +49,15 @@ class ConditionReachedException(Exception):
     """The awaited condition has become true."""
 
 
-class Executor(ReadyCallbacks):
+class Executor(TaskQueue, ReadyCallbacks):
     """Serves nodes; `spin_once` runs one callback.
 
     An entity marks itself ready once, however much it has to do. A wake takes what is ready and the timers that are
     due, and sorts that batch by (node, kind, creation): rclpy's order, at the cost of the ready entities only.
     """
+
+    receives_in_one_thread = False
+    """Whether nothing is received while a callback runs."""
 
     def __init__(self, *, context: Any = None) -> None:
         self._context = get_default_context() if context is None else context
@@ -69,6 +76,8 @@ class Executor(ReadyCallbacks):
         self._lock = allocate_lock()  # held for a few lines that never wait: it blocks nobody, in a stepped run either
         self._wakeup = self._clock.wakeup()
         self._waiting = 0
+        self._awaited: tuple[Any, ...] | None = None
+        """What the thread that waits for work has asked for."""
         self._is_shutdown = False
         self.is_global = False
         """Whether it is the one of `rclpy.spin`, which ends silently with `rclpy.shutdown`."""
@@ -102,30 +111,6 @@ class Executor(ReadyCallbacks):
     def wake(self) -> None:
         """Wake a waiting `spin_once`."""
         self._wakeup.set()
-
-    def create_task(
-        self, callback: Callable[..., Any] | Coroutine[Any, Any, Any], *args: Any, **kwargs: Any
-    ) -> Task[Any]:
-        """Schedule a function or coroutine in this executor; thread-safe."""
-        if self._is_shutdown:
-            raise AttributeError("this executor was shut down: it takes no more tasks")
-        task: Task[Any] = Task(callback, args, kwargs, executor=self)
-        self._enter(task, None)
-        return task
-
-    def _enter(self, task: Task[Any], entity: Any) -> None:
-        with self._lock:
-            self._tasks[task] = entity
-            self._ready_tasks.append(task)
-        if self._waiting:
-            self._wakeup.set()
-
-    def _resume(self, task: Task[Any]) -> None:
-        with self._lock:
-            if task in self._tasks and task not in self._ready_tasks:
-                self._ready_tasks.append(task)
-        if self._waiting:
-            self._wakeup.set()
 
     def add_node(self, node: Any) -> bool:
         """Add a node, removing it from its previous executor; returns whether it was new here."""
@@ -175,18 +160,28 @@ class Executor(ReadyCallbacks):
         """Run callbacks until the future is done or cancelled, or the time-out (s) expires."""
         future._when_settled(self.wake)
         timeout = timeout_sec_to_nsec(timeout_sec)
-        deadline = None if timeout < 0 else self._clock.steady_ns() + timeout
+        start = self._clock.steady_ns()
+        deadline = None if timeout < 0 else start + timeout
+        warning = min(start + WARNING_DELAY_NS, deadline or math.inf) if runs_in_callback() else None
         while self._context.ok() and not future._settled() and not self._is_shutdown:
-            left = None if deadline is None else max(0, deadline - self._clock.steady_ns()) * 1e-9
-            self._spin_once(left, future._settled)
-            if deadline is not None and self._clock.steady_ns() >= deadline:
+            ends = [each for each in (deadline, warning) if each is not None]
+            self._spin_once(max(0, min(ends) - self._clock.steady_ns()) * 1e-9 if ends else None, future._settled)
+            now = self._clock.steady_ns()
+            if warning is not None and now >= warning:
+                warning = None
+                report_future(future, self)
+            if deadline is not None and now >= deadline:
                 return
 
     def _spin_once(self, timeout_sec: float | None, condition: Condition | None = None) -> None:
         raise NotImplementedError
 
-    def _take(self, timeout_sec: float | None, condition: Condition | None) -> Any:
-        """Take the next entity (with its callback group entered) or task; raises the reason if there is none."""
+    def _take(self, timeout_sec: float | None, condition: Condition | None, nodes: Any = None) -> Any:
+        """Take the next entity (with its callback group entered) or task; raises the reason if there is none.
+
+        Raises `ValueError` if another thread waits for the same (of the same `nodes`), as upstream's generator does.
+        """
+        asked = (timeout_sec, condition, nodes)
         timeout = -1 if timeout_sec is None else timeout_sec_to_nsec(timeout_sec)
         deadline = None if timeout < 0 else self._clock.steady_ns() + timeout
         batch, context = self._batch, self._context
@@ -216,7 +211,7 @@ class Executor(ReadyCallbacks):
             if self._is_shutdown or context.ended or condition is not None:
                 self._check_for_end(condition)
             if not self._new_batch():
-                self._wait(deadline)
+                self._wait(deadline, asked)
                 if self._held:
                     self._release_held()
 
@@ -259,19 +254,24 @@ class Executor(ReadyCallbacks):
         batch.extend(entities)
         return bool(batch)
 
-    def _wait(self, deadline: int | None) -> None:
+    def _wait(self, deadline: int | None, asked: tuple[Any, ...]) -> None:
         with self._lock:
             timer = self._timers.next_deadline(self)
         until = timer if deadline is None else deadline if timer is None else min(deadline, timer)
         wakeup, context = self._wakeup, self._context
         wakeup.clear()
+        if self._awaited == asked:
+            raise spun_twice()
         self._waiting += 1
+        self._awaited = asked
         try:
             if self._ready or self._ready_tasks or self._is_shutdown or (context.ended and not context.ok()):
                 return
             woken = wakeup.wait(until)
         finally:
             self._waiting -= 1
+            if self._awaited is asked:
+                self._awaited = None
         if not woken and deadline is not None and self._clock.steady_ns() >= deadline:
             raise TimeoutException
 
@@ -294,21 +294,6 @@ class Executor(ReadyCallbacks):
             self._tasks[task] = item
         self._run_task(task)
 
-    def _run_task(self, task: Task[Any]) -> None:
-        task()
-        if not task.done():
-            if task.cancelled():
-                self._forget(task)
-            elif task.waits_for is not None:
-                task.waits_for._when_settled(lambda: self._resume(task))
-            else:
-                self._resume(task)
-            return
-        self._forget(task)
-        error = task.exception()
-        if error is not None:
-            raise error
-
     def _ended(self, entity: Any) -> None:
         group = entity.callback_group
         group.ending_execution(entity)
@@ -320,6 +305,8 @@ class Executor(ReadyCallbacks):
 
 class SingleThreadedExecutor(Executor):
     """Runs callbacks in the thread that calls `spin`."""
+
+    receives_in_one_thread = True
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Run one callback."""
@@ -355,6 +342,8 @@ class MultiThreadedExecutor(Executor):
             raise ValueError("max_workers must be greater than 0")
         self._pool = WorkerPool(num_threads, "executor")
         self._futures: deque[Task[Any]] = deque()
+        self._wanted: tuple[Condition | None, Condition] = (None, lambda: bool(self._failed()))
+        """A condition that a caller waits for, and with it that of the pool: the same one for the same condition."""
         report_unfetched_at_exit(self, self._futures)
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
@@ -362,8 +351,10 @@ class MultiThreadedExecutor(Executor):
         self._spin_once(timeout_sec)
 
     def _spin_once(self, timeout_sec: float | None, condition: Condition | None = None) -> None:
+        if self._wanted[0] != condition:
+            self._wanted = (condition, lambda: bool(self._failed()) or (condition is not None and condition()))
         try:
-            item = self._take(timeout_sec, lambda: bool(self._failed()) or (condition is not None and condition()))
+            item = self._take(timeout_sec, self._wanted[1])
         except (ExternalShutdownException, ShutdownException, TimeoutException, ConditionReachedException):
             item = None
         if item is not None:

@@ -11,6 +11,7 @@ from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.callback_groups import CallbackGroup
 from rclpy.clock_type import ClockType
 from rclpy.exceptions import ROSInterruptException
+from rclpy.executor_parts.deadlock import WARNING_DELAY_NS, report_deadlock
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import TIMER, Entity
 from rclpy.impl.reexports import reexporting
@@ -154,9 +155,10 @@ class Timer(Entity):
 class Rate:
     """Sleeps at a frequency; made by `Node.create_rate`."""
 
-    def __init__(self, timer: Timer, *, context: Any) -> None:
+    def __init__(self, timer: Timer, *, node: Any) -> None:
+        context = node.context
         self._timer = timer
-        self._context = context
+        self._node = node
         self._clock = timer.clock
         self._wakeup = current().clock.wakeup()
         self._lock = threading.Lock()
@@ -201,7 +203,9 @@ class Rate:
         """
         self._presleep()
         try:
-            self._wakeup.wait()
+            if not self._wakeup.wait(current().clock.steady_ns() + WARNING_DELAY_NS):
+                report_deadlock(self._timer, self._node, "sleep() of a rate")
+                self._wakeup.wait()
         finally:
             self._postsleep()
         if self._is_shutdown:

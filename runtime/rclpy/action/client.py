@@ -183,6 +183,10 @@ class ActionClient(ActionEntity):
             raise TypeError(f"Expected type ClientGoalHandle but received {type(goal_handle)}")
         self.use()
 
+    def awaits(self, future: Any) -> bool:
+        """Whether a future is that of a request that was not answered yet."""
+        return any(each.awaits(future) for each in (self._goals, self._cancels, self._results))
+
     def server_is_ready(self) -> bool:
         """Whether a server is available; raises `RCLError` after a shutdown of the context."""
         self.use()
@@ -194,7 +198,7 @@ class ActionClient(ActionEntity):
         return wait_until_there(self._node, self.server_is_ready, timeout_sec)
 
     def _wait(self, future: Future[Any]) -> Any:
-        wait_until_settled(future, self._node.context)
+        wait_until_settled(future, self, self._node, f"a call of action {self._action_name}")
         return future.result()
 
 

@@ -39,6 +39,11 @@ class PendingRequests:
             found = self._waiting.get(number)
         return None if found is None else found[1]
 
+    def awaits(self, future: Future[Any]) -> bool:
+        """Whether a future is that of a pending request."""
+        with self._lock:
+            return any(each is future for each, _ in self._waiting.values())
+
     def settle(self, number: int, result: Any, executor: Any) -> bool:
         """Complete a request, with done callbacks run by `executor`; returns whether the request was pending."""
         found = self._forget(number)

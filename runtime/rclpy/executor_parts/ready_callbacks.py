@@ -27,13 +27,11 @@ class ReadyCallbacks:
     """The methods of `Executor` that hand out work instead of running it."""
 
     _nodes: dict[Any, int]
-    _take: Callable[[float | None, Callable[[], bool] | None], Any]
+    _take: Callable[[float | None, Callable[[], bool] | None, Any], Any]
     _run: Callable[[Any], None]
     _ended: Callable[[Any], None]
     _resume: Callable[[Task[Any]], None]
     _tasks: dict[Task[Any], Any]
-    _ready_tasks: list[Task[Any]]
-    _lock: Any
 
     def wait_for_ready_callbacks(
         self,
@@ -51,7 +49,7 @@ class ReadyCallbacks:
         others: list[Any] = []
         try:
             while True:
-                item = self._take(timeout, condition)
+                item = self._take(timeout, condition, wanted)
                 entity, node = self._origin(item)
                 if wanted is None or node is None or node in wanted:
                     return Task(self._run, (item,), executor=self), entity, node
@@ -82,18 +80,3 @@ class ReadyCallbacks:
             self._ended(item)
             if item.pending():  # only here for a timer, too: it has not run, which would have armed it
                 item.notify()
-
-    def _collect_tasks(self) -> list[Task[Any]]:
-        """The tasks that can continue, newest first."""
-        with self._lock:
-            tasks, self._ready_tasks = self._ready_tasks, []
-            if len(tasks) > 1:
-                order = {task: place for place, task in enumerate(self._tasks)}
-                tasks.sort(key=lambda task: order.get(task, 0), reverse=True)
-        return tasks
-
-    def _forget(self, task: Task[Any]) -> None:
-        with self._lock:
-            entity = self._tasks.pop(task, None)
-        if entity is not None:
-            self._ended(entity)

@@ -50,6 +50,10 @@ class Entity:
         """Whether there is something to do."""
         raise NotImplementedError
 
+    def awaits(self, future: Any) -> bool:
+        """Whether it is what arrives for the entity that settles a future."""
+        return False
+
     def arm(self) -> None:
         """Tell the executor when the entity will be ready, if that depends on time."""
 

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import linecache
 import re
+import sys
 from collections.abc import Callable
 from typing import Any
 
 from bot_console.runtime.exit_messages import is_read
+from bot_console.runtime.process import current
+from bot_console.runtime.process.frames import line_outside
+from bot_console.runtime.process.notices import notify
 from rclpy.impl.callables import is_coroutine
 from rclpy.impl.written_values import literal_text, written
 
@@ -26,6 +30,11 @@ COROUTINE_RESULT = (
 INIT_IN_WITH = (
     "rclpy.init() returns nothing in ROS 2 Jazzy; only later releases support `with rclpy.init():`. Call rclpy.init() "
     "on a line of its own, and rclpy.try_shutdown() at the end"
+)
+
+SPUN_TWICE = (
+    "a second thread spins an executor that one already spins; rclpy.spin() has one executor for all nodes of the "
+    "program. Spin in one thread only, or give each thread an executor of its own: rclpy.spin(node, executor)"
 )
 
 _EXPECTED = re.compile(r"expecting type '(\w+)'")
@@ -62,6 +71,14 @@ def _init_in_with(exception: BaseException) -> bool:
         trace = trace.tb_next
     line = "" if trace is None else linecache.getline(trace.tb_frame.f_code.co_filename, trace.tb_lineno)
     return re.match(r"\s*(async )?with\b.*\binit\(", line) is not None
+
+
+def spun_twice() -> ValueError:
+    """The error of two threads that wait for work of one executor; a person is also told how to avoid it."""
+    if is_read():
+        frame = sys._getframe(1)  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
+        notify(current(), f"{line_outside(frame)}: {SPUN_TWICE}")
+    return ValueError("generator already executing")
 
 
 def invalid_result(callback: Callable[..., Any], result: object) -> str:

@@ -237,7 +237,7 @@ class NodeEntities:
         if frequency <= 0:
             raise ValueError("frequency must be > 0")
         timer = self.create_timer(1.0 / frequency, None, ReentrantCallbackGroup(), clock)
-        rate = Rate(timer, context=self.context)
+        rate = Rate(timer, node=self)
         self._ros_rates[rate] = timer
         return rate
 

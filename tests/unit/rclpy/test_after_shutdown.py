@@ -44,7 +44,7 @@ def test_who_sleeps_at_a_rate_sees_the_interrupt_that_shuts_down(ros: Any, monke
         def set(self) -> None: ...
         def clear(self) -> None: ...
 
-        def wait(self) -> None:
+        def wait(self, until_ns: int) -> None:
             ros.context.shut_down_by_signal()
             raise KeyboardInterrupt
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import threading
 from typing import Any
 
 import pytest
+import rclpy
+from bot_console.runtime.process import on_notice
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.context import Context
 from rclpy.executors import (
@@ -13,6 +16,7 @@ from rclpy.executors import (
     SingleThreadedExecutor,
     TimeoutException,
 )
+from rclpy.impl import explanations
 from rclpy.task import Future
 from std_msgs.msg import Int32
 from std_srvs.srv import Trigger
@@ -309,3 +313,79 @@ def test_an_exit_in_a_callback_of_a_pool_ends_that_callback_alone(ros: Any) -> N
             break
     executor.shutdown()
     assert len(calls) > 2
+
+
+def _waiting_thread(executor: Any, wait: Any) -> tuple[threading.Thread, list[BaseException]]:
+    """A thread that has begun to wait for work, and what its wait has raised."""
+    errors: list[BaseException] = []
+
+    def run() -> None:
+        try:
+            wait()
+        except BaseException as error:
+            errors.append(error)
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    while not executor._waiting and thread.is_alive():
+        thread.join(0.001)
+    return thread, errors
+
+
+SPINS: dict[str, Any] = {
+    "spin": lambda executor, node, future: executor.spin(),
+    "spin_once": lambda executor, node, future: executor.spin_once(),
+    "rclpy.spin": lambda executor, node, future: rclpy.spin(node, executor),
+    "rclpy.spin_once": lambda executor, node, future: rclpy.spin_once(node, executor=executor),
+    "until a future": lambda executor, node, future: executor.spin_until_future_complete(future),
+    "ready callbacks": lambda executor, node, future: executor.wait_for_ready_callbacks(),
+}
+
+
+@pytest.mark.parametrize("how", SPINS)
+@pytest.mark.parametrize("kind", [SingleThreadedExecutor, MultiThreadedExecutor])
+def test_second_thread_that_spins_the_same_executor_gets_a_value_error(ros: Any, kind: Any, how: str) -> None:
+    executor, node, future = kind(context=ros.init()), ros.node(), Future()
+    executor.add_node(node)
+    thread, errors = _waiting_thread(executor, lambda: SPINS[how](executor, node, future))
+    with pytest.raises(ValueError, match=r"^generator already executing$"):
+        SPINS[how](executor, node, future)
+    future.set_result(None)
+    ros.context.shutdown()
+    thread.join()
+    assert not [each for each in errors if isinstance(each, ValueError)], "the first one goes on"
+
+
+def test_two_threads_may_wait_for_different_things(ros: Any) -> None:
+    executor, node = SingleThreadedExecutor(context=ros.init()), ros.node()
+    executor.add_node(node)
+    thread, errors = _waiting_thread(executor, executor.spin)
+    executor.spin_once(timeout_sec=0.01)
+    executor.spin_once_until_future_complete(Future(), timeout_sec=0.01)
+    rclpy.spin_once(node, executor=executor, timeout_sec=0)
+    ros.context.shutdown()
+    thread.join()
+    assert not [each for each in errors if isinstance(each, ValueError)]
+
+
+def test_callback_may_spin_its_own_executor(ros: Any) -> None:
+    executor, node, seen = SingleThreadedExecutor(context=ros.init()), ros.node(), list[str]()
+    executor.add_node(node)
+    node.create_timer(0.001, lambda: (executor.spin_once(timeout_sec=0.0), seen.append("outer")))
+    executor.spin_once()
+    assert seen
+
+
+def test_person_is_advised_on_two_threads_that_spin(ros: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(explanations, "is_read", lambda: True)
+    lines: list[str] = []
+    forget = on_notice(lambda process, text: lines.append(text))
+    executor = SingleThreadedExecutor(context=ros.init())
+    thread, _ = _waiting_thread(executor, executor.spin)
+    with pytest.raises(ValueError):
+        executor.spin_once()
+    forget()
+    ros.context.shutdown()
+    thread.join()
+    assert len(lines) == 1
+    assert lines[0].startswith(f"{__file__}:") and "give each thread an executor of its own" in lines[0]

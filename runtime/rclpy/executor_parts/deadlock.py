@@ -1,0 +1,92 @@
+"""Recognizes a wait that cannot end: a callback waits for what only its own callback group or thread could receive."""
+
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from types import FrameType
+from typing import Any
+
+from bot_console.runtime.process import current
+from bot_console.runtime.process.frames import line_outside
+from bot_console.runtime.process.notices import notify
+from rclpy.callback_groups import CallbackGroup
+from rclpy.executor_parts.ready_callbacks import ReadyCallbacks
+from rclpy.task import Task
+
+WARNING_DELAY_NS = 5_000_000_000
+"""How long a thread waits before a deadlock is reported."""
+GROUP = (
+    "{line}: {what} waits in vain: it was called in a callback of {group}, which lets nothing else run until that "
+    "callback has ended, and what it waits for arrives in the same group. Give {entity} a callback group of its own "
+    "(callback_group=MutuallyExclusiveCallbackGroup()) and spin with a MultiThreadedExecutor, or do not block: await "
+    "it in an async callback"
+)
+THREAD = (
+    "{line}: {what} waits in vain: it was called in a callback, and the SingleThreadedExecutor that runs this "
+    "callback (group: {group}) has no other thread to receive what it waits for. Spin with a MultiThreadedExecutor, "
+    "or do not block: await it in an async callback"
+)
+UNSPUN = (
+    "{line}: {what} waits in vain: no executor spins the node {node}, so nothing is received. Spin it in another "
+    "thread, or use rclpy.spin_until_future_complete(node, future)"
+)
+
+
+def report_deadlock(entity: Any, node: Any, what: str) -> None:
+    """Give a notice if what the calling thread waits for, an event of a node's entity, cannot come."""
+    frame = sys._getframe(1)
+    if text := _cause(entity, frame):
+        name = node.get_fully_qualified_name()
+        default = " (the default one)" if entity.callback_group is node.default_callback_group else ""
+        group = f"a {type(entity.callback_group).__name__} of {name}{default}"
+        kind: int = entity.KIND
+        line = line_outside(frame)
+        notify(current(), text.format(line=line, what=what, group=group, entity=_KINDS[kind], node=name))
+
+
+def report_future(future: Any, executor: Any) -> None:
+    """Give a notice if a future, for which the calling thread spins an executor, cannot be settled that way."""
+    for node in executor.get_nodes():
+        for entity in tuple(node._ros_entities):
+            if entity.awaits(future) and _blocked(entity, sys._getframe(1)):
+                report_deadlock(entity, node, "spinning until a future is complete")
+
+
+def runs_in_callback() -> bool:
+    """Whether the calling thread is inside a callback of an executor."""
+    return next(_running(sys._getframe(1)), None) is not None
+
+
+def _cause(entity: Any, frame: FrameType) -> str:
+    if _blocked(entity, frame):
+        return GROUP
+    if any(executor is entity.sink and executor.receives_in_one_thread for executor, _ in _running(frame)):
+        return THREAD
+    return UNSPUN if entity.sink is None else ""
+
+
+def _blocked(entity: Any, frame: FrameType) -> bool:
+    """Whether a callback of the entity's group runs further up the stack, and keeps the entity from being served."""
+    group: CallbackGroup = entity.callback_group
+    return any(each.callback_group is group for _, each in _running(frame)) and not group.can_execute(entity)
+
+
+def _running(frame: FrameType | None) -> Iterator[tuple[Any, Any]]:
+    """The executors that run callbacks further up the stack, each with the entity whose callback it runs."""
+    while frame is not None:
+        if frame.f_code.co_name == "_run":
+            executor: Any = frame.f_locals.get("self")
+            item: Any = frame.f_locals.get("item")
+            if isinstance(executor, ReadyCallbacks):
+                entity = executor._tasks.get(item) if item.__class__ is Task else item
+                if entity is not None:
+                    yield executor, entity
+        frame = frame.f_back
+
+
+_KINDS = ("the action client", "the timer", "the subscription", "the guard condition", "the client", "the service")
+"""By the kind of an entity."""
