@@ -1,4 +1,4 @@
-"""Interface packages beside the core: those that come along, those that are added, and what they cost."""
+"""Interface packages beyond the core: which ones are included, how more are added, and what they cost."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ PACKAGES = sorted(further_interfaces.unverified_folders())
 
 
 @pytest.mark.parametrize("package", PACKAGES)
-def test_every_definition_makes_classes_that_travel(package: str) -> None:
+def test_all_definitions_give_classes_that_survive_serialization(package: str) -> None:
     folder = further_interfaces.unverified_folders()[package]
     for path in sorted(folder.rglob("*.*")):
         kind = path.parent.name
@@ -29,7 +29,7 @@ def test_every_definition_makes_classes_that_travel(package: str) -> None:
             assert serialize(deserialize(sent, part)) == sent
 
 
-def test_the_packages_are_those_that_programs_ask_for() -> None:
+def test_included_packages_are_the_expected_ones() -> None:
     assert set(PACKAGES) == {
         "ackermann_msgs",
         "can_msgs",
@@ -45,7 +45,7 @@ def test_the_packages_are_those_that_programs_ask_for() -> None:
     }
 
 
-def test_they_cost_nothing_until_they_are_asked_for() -> None:
+def test_packages_cost_nothing_until_imported() -> None:
     text = (
         "import sys; from bot_console.runtime.importer import install; install(); import rclpy, std_msgs.msg;"
         "print([name for name in sys.modules if 'further_interfaces' in name or 'interface_cache' in name])"
@@ -53,7 +53,7 @@ def test_they_cost_nothing_until_they_are_asked_for() -> None:
     assert subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True).stdout == "[]\n"
 
 
-def test_a_second_import_takes_the_code_from_the_cache() -> None:
+def test_second_import_takes_code_from_the_cache() -> None:
     made: list[str] = []
 
     def source() -> str:
@@ -67,7 +67,7 @@ def test_a_second_import_takes_the_code_from_the_cache() -> None:
     assert len(made) == 2
 
 
-def test_a_spoilt_cache_is_made_again() -> None:
+def test_damaged_cache_is_rebuilt() -> None:
     interface_cache.compiled("spoilt.msg", "int32 a", lambda: "answer = 1")
     for path in (cache_folder() / "interfaces").iterdir():
         path.write_bytes(b"nonsense")
@@ -76,7 +76,7 @@ def test_a_spoilt_cache_is_made_again() -> None:
     assert names["answer"] == 2
 
 
-def test_a_cache_that_cannot_be_written_is_no_fault(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_unwritable_cache_is_not_an_error(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path / "file"))
     assert interface_cache.compiled("nowhere.msg", "", lambda: "x = 1").co_filename == "<nowhere.msg>"

@@ -1,4 +1,4 @@
-"""What the fork server imports for a program before it forks: NumPy for all that may need it, and for nothing else."""
+"""What the fork server imports for a program before it forks: NumPy for programs that may need it, nothing else."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ ENDS = "import sys\nprint(sorted(each for each in ('numpy', 'tf2_ros') if each i
 
 
 def imported(folder: Path, function: str, arguments: list[object]) -> str:
-    """What a process has at its first line."""
+    """Return the modules that a process has imported when its first line runs."""
     server = ForkServer(PLAIN, PREPARE)
     taken, given = os.pipe()
     null = os.open(os.devnull, os.O_RDWR)
@@ -53,7 +53,7 @@ def imported(folder: Path, function: str, arguments: list[object]) -> str:
         ("import numpy\n1 +", []),
     ],
 )
-def test_numpy_is_there_for_a_file_that_may_need_it(text: str, wanted: list[str], tmp_path: Path) -> None:
+def test_numpy_is_imported_for_a_file_that_may_need_it(text: str, wanted: list[str], tmp_path: Path) -> None:
     file = tmp_path / "node.py"
     if text.endswith("+"):
         file.write_text(text)
@@ -63,7 +63,7 @@ def test_numpy_is_there_for_a_file_that_may_need_it(text: str, wanted: list[str]
     assert imported(tmp_path, "python_file", [[], str(file), [], False]) == str(wanted)
 
 
-def test_the_file_of_an_entry_point_and_a_program_without_one(tmp_path: Path) -> None:
+def test_numpy_is_imported_for_an_entry_point_that_needs_it(tmp_path: Path) -> None:
     (tmp_path / "a").mkdir()
     (tmp_path / "a" / "b.py").write_text("import json\n\n\ndef main():\n    " + ENDS.replace("\n", "\n    "))
     assert imported(tmp_path, "entry_point", [[], "a.b:main", [str(tmp_path)]]) == "[]"
@@ -74,9 +74,7 @@ def test_the_file_of_an_entry_point_and_a_program_without_one(tmp_path: Path) ->
     assert imported(elsewhere, "entry_point", [[], "json.tool:main", [str(tmp_path)]]) == ""
 
 
-def test_a_numpy_that_cannot_be_imported_does_not_end_the_server(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_numpy_that_fails_to_import_does_not_end_the_server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "numpy.py").write_text("raise ImportError('broken')")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     server = ForkServer(PLAIN, PREPARE)

@@ -1,4 +1,4 @@
-"""The ROS names mean the embedded runtime; a start of a node imports its own modules anew."""
+"""ROS module names resolve to the embedded runtime; each start of a node imports its own modules again."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from bot_console.runtime.workspace import discover
 from bot_console.runtime.workspace.builtin_package import FIRST_VARIABLE, NAME, PAGE_NAME
 
 
-def test_embedded_names():
+def test_ros_modules_are_embedded():
     assert is_embedded("rclpy")
     assert is_embedded("launch_ros")
     assert not is_embedded("numpy")
@@ -47,18 +47,18 @@ def make(folder: Path, name: str) -> Path:
 
 
 def run(path: Path, text: str) -> int | None:
-    """The exit code of a node process that runs this file."""
+    """Run the file as a node process and return its exit code."""
     path.write_text(text)
     process = NodeProcess("node")
     process.start(file_program(str(path), node_modules([path.parent])))
     return process.wait(20.0)
 
 
-def test_the_names_are_those_of_the_package():
+def test_own_packages_are_those_of_the_package():
     assert OWN_PACKAGES == (NAME, PAGE_NAME)
 
 
-def test_our_two_names_are_the_same_modules(workspace):
+def test_our_two_package_names_share_modules(workspace):
     same = (
         "import {0}.simulator.worlds as a, {1}.simulator.worlds as b; "
         "from {0}.simulation import world; assert a.World is world.World"
@@ -70,25 +70,25 @@ def test_our_two_names_are_the_same_modules(workspace):
 
 
 @pytest.mark.parametrize("name", OWN_PACKAGES)
-def test_a_workspace_package_of_our_name_wins(name, workspace):
+def test_workspace_package_with_our_name_takes_precedence(name, workspace):
     make(workspace, name)
     assert node_modules().load(name).theirs
     assert node_modules([workspace / name]).load(name).theirs
 
 
-def test_what_lies_beside_a_node_file_wins(tmp_path):
+def test_package_beside_the_node_file_takes_precedence(tmp_path):
     (tmp_path / PAGE_NAME).mkdir()
     (tmp_path / PAGE_NAME / "__init__.py").write_text("theirs = True")
     assert node_modules([tmp_path]).load(PAGE_NAME).theirs
 
 
-def test_in_a_launch_of_our_own_our_name_means_ours(workspace, monkeypatch):
+def test_our_name_means_our_package_in_our_own_launch(workspace, monkeypatch):
     make(workspace, OWN_PACKAGE)
     make(workspace, PAGE_NAME)
     monkeypatch.setenv(FIRST_VARIABLE, "1")
     assert run(workspace / "node.py", f"import {OWN_PACKAGE}.trip, {PAGE_NAME}; assert {PAGE_NAME}.theirs") == 0
 
 
-def test_embedded_packages_are_shared_whatever_lies_in_the_folder(tmp_path):
+def test_embedded_packages_are_shared_even_if_the_folder_has_one(tmp_path):
     (tmp_path / "rclpy.py").write_text("")
     assert not node_modules([tmp_path]).owns("rclpy")

@@ -1,4 +1,4 @@
-"""Interfaces of a workspace's packages, imported from source."""
+"""Interfaces of workspace packages, imported from source."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
         del sys.modules[name]
 
 
-def test_messages_services_and_actions(folder: Path) -> None:
+def test_messages_services_and_actions_are_imported(folder: Path) -> None:
     from finder_msgs.action import Roll  # type: ignore[import-not-found]
     from finder_msgs.msg import Num, Sphere  # type: ignore[import-not-found]
     from finder_msgs.srv import AddThree  # type: ignore[import-not-found]
@@ -60,30 +60,30 @@ def test_messages_services_and_actions(folder: Path) -> None:
     assert deserialize(serialize(Sphere(nums=[Num(num=1)])), Sphere).nums == [Num(num=1)]
 
 
-def test_one_package_uses_another(folder: Path) -> None:
+def test_package_may_use_another_packages_messages(folder: Path) -> None:
     outer = importlib.import_module("finder_more.msg").Outer()
     assert type(outer.sphere).__module__ == "finder_msgs.msg._sphere"
 
 
-def test_a_python_package_of_that_name_has_its_messages_too(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_python_package_of_the_same_name_has_its_messages_too(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(str(folder / "finder_mixed"))
     assert importlib.import_module("finder_mixed").HERE == 1
     assert importlib.import_module("finder_mixed.msg").Own(text="a").text == "a"
 
 
-def test_a_faulty_definition_is_named_with_its_line(folder: Path) -> None:
+def test_invalid_definition_is_reported_with_its_line(folder: Path) -> None:
     module = importlib.import_module("finder_msgs.msg")
     with pytest.raises(ImportError) as caught:
         _ = module.Bad
     assert str(caught.value).startswith(f"{folder}/finder_msgs/msg/Bad.msg:2: 'badName' is no field name")
 
 
-def test_a_package_of_the_tutorials_is_the_one_in_the_workspace(folder: Path) -> None:
+def test_workspace_package_takes_precedence_over_the_tutorials(folder: Path) -> None:
     assert importlib.import_module("turtlesim.msg").Shell().width == 0.0
     assert interface_names("turtlesim") == ["msg/Shell"]
 
 
-def test_what_is_not_there(folder: Path) -> None:
+def test_missing_interfaces_raise_import_errors(folder: Path) -> None:
     with pytest.raises(ImportError, match="cannot import name 'Nope'"):
         from finder_msgs.msg import Nope  # type: ignore[import-not-found]  # noqa: F401
     with pytest.raises(ModuleNotFoundError, match=r"No module named 'finder_more\.srv'"):
@@ -92,7 +92,7 @@ def test_what_is_not_there(folder: Path) -> None:
         importlib.import_module("finder_nowhere")
 
 
-def test_all_node_processes_have_the_same_classes(folder: Path) -> None:
+def test_all_node_processes_share_the_classes(folder: Path) -> None:
     nodes = [node_modules([str(folder), str(folder / "finder_mixed")]) for _ in range(2)]
     for text in ("from finder_msgs.msg import Num as found", "from finder_mixed.msg import Own as found"):
         names: list[dict[str, object]] = [{"__builtins__": node.builtins} for node in nodes]

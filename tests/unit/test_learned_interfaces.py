@@ -1,4 +1,4 @@
-"""Interfaces learned from what a node tells: taken where they have the hash, refused otherwise."""
+"""Interfaces learned from a node's type description: accepted if the hash matches, refused otherwise."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def hash_of(name: str, texts: dict[str, str]) -> str:
     return text_of_description(describe_texts(name, texts))
 
 
-def test_a_message_is_there_with_its_constants_and_more_of_its_package_later() -> None:
+def test_learned_message_has_constants_and_package_can_grow() -> None:
     spots = {"learned_a/msg/Spot": SPOT}
     assert learn("learned_a/msg/Spot", hash_of("learned_a/msg/Spot", spots), reported(spots)) == ""
     module = importlib.import_module("learned_a.msg")
@@ -73,7 +73,7 @@ def test_another_hash_is_refused_and_leaves_nothing(forgotten: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["../msg/Spot", "learned_c/../Spot", "learned_c/msg/Spot.py", "a/b", "Os/msg/Spot"])
-def test_names_that_no_type_has_are_no_paths(name: str, forgotten: Path) -> None:
+def test_invalid_type_names_are_not_used_as_paths(name: str, forgotten: Path) -> None:
     texts = {"learned_c/msg/Spot": SPOT}
     answer = learn("learned_c/msg/Spot", hash_of("learned_c/msg/Spot", texts), reported({**texts, name: SPOT}))
     assert answer == "describes it in a way that cannot be read: a name that no type has"
@@ -94,11 +94,11 @@ def test_names_that_no_type_has_are_no_paths(name: str, forgotten: Path) -> None
     ],
     ids=["nothing", "failed", "missing", "unreadable", "within itself"],
 )
-def test_what_is_of_no_use_is_reported(answer: Any, why: str) -> None:
+def test_useless_answers_are_reported(answer: Any, why: str) -> None:
     assert learn("learned_d/msg/Spot", "RIHS01_" + "0" * 64, answer).startswith(why)
 
 
-def test_a_package_that_is_here_stays_as_it_is(forgotten: Path) -> None:
+def test_existing_package_stays_as_it_is(forgotten: Path) -> None:
     texts = {"std_msgs/msg/String": "float64 data\n"}
     problem = learn("std_msgs/msg/String", hash_of("std_msgs/msg/String", texts), reported(texts))
     assert problem == "has other definitions of the types in it than there are here"

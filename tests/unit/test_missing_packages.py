@@ -1,4 +1,4 @@
-"""Imports of ROS 2 packages that are not there get one sentence more."""
+"""The error for a missing ROS 2 package gets an explanation."""
 
 from __future__ import annotations
 
@@ -31,19 +31,19 @@ def failure(statement: str) -> BaseException:
         ("import python_qt_binding", "python_qt_binding makes windows of Qt"),
     ],
 )
-def test_what_brings_a_package(statement: str, words: str) -> None:
+def test_explanation_says_how_to_get_the_package(statement: str, words: str) -> None:
     assert (explain_missing_package(failure(statement)) or "").startswith(words)
 
 
 @pytest.mark.parametrize("package", ["nav9_msgs", "robot9_interfaces", "course9_srvs"])
-def test_interfaces_belong_into_the_workspace(package: str) -> None:
+def test_interface_packages_belong_in_the_workspace(package: str) -> None:
     text = explain_missing_package(failure(f"from {package}.srv import Something"))
     assert text is not None
     assert text.startswith(f"bot-console does not bring the interfaces of {package}. Put the sources")
 
 
 @pytest.mark.parametrize("line", ["from sausages.msg import Fried", "import sausages.action"])
-def test_interfaces_are_known_by_what_is_imported_of_them(line: str, tmp_path: Path) -> None:
+def test_interfaces_are_recognized_by_the_imported_names(line: str, tmp_path: Path) -> None:
     (tmp_path / "node.py").write_text(line)
     with pytest.raises(ModuleNotFoundError) as caught:
         runpy.run_path(str(tmp_path / "node.py"))
@@ -53,9 +53,9 @@ def test_interfaces_are_known_by_what_is_imported_of_them(line: str, tmp_path: P
 @pytest.mark.parametrize(
     "exception", [failure("import sausage"), failure("from std_msgs.msg import Sausage"), ValueError("rosbag2_py")]
 )
-def test_nothing_to_report(exception: BaseException) -> None:
+def test_other_errors_get_no_explanation(exception: BaseException) -> None:
     assert explain_missing_package(exception) is None
 
 
-def test_node_processes_ask_for_it() -> None:
+def test_node_processes_use_the_explanation() -> None:
     assert "rosbag2_py is a library" in (explanation(failure("import rosbag2_py")) or "")

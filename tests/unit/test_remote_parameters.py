@@ -1,4 +1,4 @@
-"""Parameter files from a real HTTPS server with a certificate made on the spot; what is kept, and what is refused."""
+"""Parameter files from a real HTTPS server with a temporary certificate: what is kept, and what is refused."""
 
 from __future__ import annotations
 
@@ -111,13 +111,13 @@ def plain(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Server]:
 
 
 @pytest.mark.parametrize("host", ["localhost", "LOCALHOST", "127.0.0.1"])
-def test_a_server_on_this_machine_may_do_without_tls(plain: Server, host: str) -> None:
+def test_local_server_needs_no_tls(plain: Server, host: str) -> None:
     address = plain.address.replace("localhost", host)
     assert local_copy(address).read_bytes() == FIRST
     assert parse(["--ros-args", "--params-file", address]).parameters.for_node("/robot") == {"speed": 1.5}
 
 
-def test_a_server_on_this_machine_leads_to_others_with_tls_only(plain: Server) -> None:
+def test_local_server_may_redirect_elsewhere_only_with_tls(plain: Server) -> None:
     plain.status, plain.location = 302, plain.address.replace("robot", "there")
     assert local_copy(plain.address).read_bytes() == FIRST
     for other in ("http://example.org/robot.yaml", "http://127.0.0.1.example.org/robot.yaml"):
@@ -129,11 +129,11 @@ def test_a_server_on_this_machine_leads_to_others_with_tls_only(plain: Server) -
 @pytest.mark.parametrize(
     "address", ["http://127.0.0.1:8/a.yaml", "http://127.8.9.1/a", "http://[::1]:80/a.yaml", "HTTP://LocalHost/a.yaml"]
 )
-def test_addresses_of_this_machine(address: str) -> None:
+def test_loopback_addresses_are_accepted_without_tls(address: str) -> None:
     remote_parameters._check(address)
 
 
-def test_a_file_is_fetched_once_and_then_only_asked_about(server: Server) -> None:
+def test_file_is_fetched_once_then_only_revalidated(server: Server) -> None:
     path = local_copy(server.address)
     assert path.read_bytes() == FIRST
     assert local_copy(server.address) == path
@@ -143,7 +143,7 @@ def test_a_file_is_fetched_once_and_then_only_asked_about(server: Server) -> Non
     assert path.stat().st_mode & 0o777 == 0o600
 
 
-def test_a_server_out_of_reach_is_reported_and_the_last_copy_is_used(
+def test_unreachable_server_is_reported_and_last_copy_is_used(
     server: Server, capsys: pytest.CaptureFixture[str]
 ) -> None:
     local_copy(server.address)
@@ -158,20 +158,20 @@ def test_a_server_out_of_reach_is_reported_and_the_last_copy_is_used(
         local_copy(server.address + "?other")
 
 
-def test_a_server_that_cannot_for_now_is_out_of_reach(server: Server, capsys: pytest.CaptureFixture[str]) -> None:
+def test_server_error_503_counts_as_unreachable(server: Server, capsys: pytest.CaptureFixture[str]) -> None:
     local_copy(server.address)
     server.status = 503
     assert local_copy(server.address).read_bytes() == FIRST
     assert "it answers 503" in capsys.readouterr().err
 
 
-def test_a_file_that_breaks_off_is_not_taken(server: Server) -> None:
+def test_truncated_file_is_not_used(server: Server) -> None:
     local_copy(server.address)
     server.content, server.tag, server.length = SECOND[:20], '"2"', len(SECOND)
     assert local_copy(server.address).read_bytes() == FIRST
 
 
-def test_a_server_that_is_gone_for_good_or_sends_no_yaml_is_an_error(server: Server) -> None:
+def test_missing_file_or_invalid_yaml_is_an_error(server: Server) -> None:
     path = local_copy(server.address)
     server.content, server.tag = b"a: [", '"2"'
     with pytest.raises(RemoteError, match="is no YAML, line"):
@@ -182,14 +182,14 @@ def test_a_server_that_is_gone_for_good_or_sends_no_yaml_is_an_error(server: Ser
     assert path.read_bytes() == FIRST
 
 
-def test_what_is_too_large_is_refused(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_file_that_is_too_large_is_refused(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(remote_parameters, "MAX_FILE_BYTES", 1000)
     server.content = b"# " + b"x" * 2000
     with pytest.raises(RemoteError, match="larger than 1 kB"):
         local_copy(server.address)
 
 
-def test_a_server_leads_to_another_place_but_never_out_of_tls(server: Server) -> None:
+def test_redirect_away_from_https_is_refused(server: Server) -> None:
     server.status, server.location = 302, "http://localhost/robot.yaml"
     with pytest.raises(RemoteError, match="which is not https: not followed"):
         local_copy(server.address)
@@ -198,14 +198,12 @@ def test_a_server_leads_to_another_place_but_never_out_of_tls(server: Server) ->
         local_copy(server.address)
 
 
-def test_a_server_that_leads_to_another_place_within_tls_is_followed(server: Server) -> None:
+def test_redirect_within_https_is_followed(server: Server) -> None:
     server.status, server.location = 302, server.address.replace("robot", "there")
     assert local_copy(server.address).read_bytes() == FIRST
 
 
-def test_a_certificate_that_is_not_trusted_is_refused_though_a_copy_is_there(
-    server: Server, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_untrusted_certificate_is_refused_despite_a_copy(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
     local_copy(server.address)
     monkeypatch.delenv("SSL_CERT_FILE")
     with pytest.raises(RemoteError, match=r"its certificate is not trusted: self.signed"):
@@ -231,27 +229,27 @@ def test_a_certificate_that_is_not_trusted_is_refused_though_a_copy_is_there(
         ("https://me:secret@host/a.yaml", "a password in an address"),
     ],
 )
-def test_addresses_that_are_not_taken(address: str, why: str) -> None:
+def test_invalid_addresses_are_refused_without_printing_passwords(address: str, why: str) -> None:
     with pytest.raises(RemoteError, match=why) as refused:
         local_copy(address)
     assert "secret" not in str(refused.value)
 
 
-def test_a_copy_that_was_changed_by_hand_is_fetched_again(server: Server) -> None:
+def test_copy_changed_by_hand_is_fetched_again(server: Server) -> None:
     path = local_copy(server.address)
     path.write_bytes(b"changed: true")
     assert local_copy(server.address).read_bytes() == FIRST
     assert server.asked == ["", ""]
 
 
-def test_a_node_takes_its_parameters_from_there(server: Server) -> None:
+def test_node_takes_parameters_from_an_address(server: Server) -> None:
     found = parse(["--ros-args", "--params-file", server.address]).parameters
     assert found.for_node("/robot") == {"speed": 1.5}
     with pytest.raises(ArgumentsError, match="give an https:// address"):
         parse(["--ros-args", "--params-file", "http://example.org/a.yaml"])
 
 
-def test_a_launch_file_does_too_and_asks_once(server: Server) -> None:
+def test_parameter_file_in_a_launch_is_fetched_once(server: Server) -> None:
     file = ParameterFile(server.address)
     path = file.evaluate(LaunchContext())
     assert path.read_bytes() == FIRST
@@ -260,7 +258,7 @@ def test_a_launch_file_does_too_and_asks_once(server: Server) -> None:
     assert os.fspath(path).endswith(".yaml")
 
 
-def test_all_nodes_of_a_launch_take_one_answer_and_the_next_launch_asks_again(server: Server) -> None:
+def test_all_nodes_of_a_launch_share_one_answer(server: Server) -> None:
     context = LaunchContext()
     paths = {ParameterFile(server.address).evaluate(context) for _ in range(3)}
     assert len(paths) == len(server.asked) == 1

@@ -1,4 +1,6 @@
-"""Arguments, configurations and environment, with scopes as they really are. Contract, section 1.2."""
+"""Arguments, configurations, the environment, and their scopes as upstream really implements them. Contract, section
+1.2.
+"""
 
 from __future__ import annotations
 
@@ -236,13 +238,17 @@ CAUGHT: list[tuple[str, Mapping[str, str], Entities, str]] = [
 @pytest.mark.parametrize(
     ("arguments", "entities", "message"), [row[1:] for row in OUTPUT], ids=[row[0] for row in OUTPUT]
 )
-def test_printed_text(run: Launch, arguments: Mapping[str, str], entities: Entities, message: list[str]) -> None:
+def test_launch_prints_expected_messages(
+    run: Launch, arguments: Mapping[str, str], entities: Entities, message: list[str]
+) -> None:
     outcome = run(entities(), arguments)
     assert (outcome.code, outcome.message) == (0, message), outcome.text
 
 
 @pytest.mark.parametrize(("arguments", "entities", "text"), [row[1:] for row in CAUGHT], ids=[row[0] for row in CAUGHT])
-def test_caught(run: Launch, arguments: Mapping[str, str], entities: Entities, text: str) -> None:
+def test_launch_fails_with_expected_error(
+    run: Launch, arguments: Mapping[str, str], entities: Entities, text: str
+) -> None:
     outcome = run(entities(), arguments)
     assert (outcome.code, outcome.caught) == (1, text), outcome.text
 
@@ -257,7 +263,7 @@ def test_caught(run: Launch, arguments: Mapping[str, str], entities: Entities, t
         ({"choices": ["A"], "description": "Which."}, "Which. Valid choices are: ['A']"),
     ],
 )
-def test_description_of_an_argument(options: Any, text: str) -> None:
+def test_argument_has_description(options: Any, text: str) -> None:
     assert DeclareLaunchArgument("x", **options).description == text
 
 
@@ -271,7 +277,7 @@ def test_description_of_an_argument(options: Any, text: str) -> None:
         ),
     ],
 )
-def test_wrong_choices(log_lines: list[str], options: Any, text: str) -> None:
+def test_inconsistent_choices_are_rejected_and_logged(log_lines: list[str], options: Any, text: str) -> None:
     with pytest.raises(RuntimeError) as caught:
         DeclareLaunchArgument("x", **options)
     assert str(caught.value) == text
@@ -279,12 +285,12 @@ def test_wrong_choices(log_lines: list[str], options: Any, text: str) -> None:
 
 
 @pytest.mark.parametrize("default", [5, True])
-def test_a_default_that_is_no_text(default: Any) -> None:
+def test_default_value_must_be_text(default: Any) -> None:
     with pytest.raises(TypeError, match="object is not iterable"):
         DeclareLaunchArgument("x", default_value=default)
 
 
-def test_a_wrong_value_is_reported_twice(run: Launch) -> None:
+def test_invalid_value_is_logged_and_raised(run: Launch) -> None:
     outcome = run([DeclareLaunchArgument("m", choices=["A"])], {"m": "C"})
     message = 'Argument "m" provided value "C" is not valid. Valid options are: [\'A\']'
     assert outcome.lines[2] == f"[ERROR] [launch.actions.declare_launch_argument]: {message}"
@@ -295,7 +301,7 @@ def test_a_wrong_value_is_reported_twice(run: Launch) -> None:
     ("arguments", "text"),
     [({"a": "1"}, "not enough values to unpack (expected 2, got 1)"), ([("a", 5)], "'int' object is not iterable")],
 )
-def test_arguments_in_a_wrong_form(run: Launch, arguments: Any, text: str) -> None:
+def test_malformed_launch_arguments_are_rejected(run: Launch, arguments: Any, text: str) -> None:
     source = LaunchDescriptionSource(LaunchDescription([]))
     outcome = run(
         [OpaqueFunction(function=lambda context: [IncludeLaunchDescription(source, launch_arguments=arguments)])]
@@ -303,7 +309,7 @@ def test_arguments_in_a_wrong_form(run: Launch, arguments: Any, text: str) -> No
     assert outcome.caught == text
 
 
-def test_the_directory_stays_that_of_the_included_file(run_file: Launch, tmp_path: Any) -> None:
+def test_launch_file_directory_stays_that_of_the_included_file(run_file: Launch, tmp_path: Any) -> None:
     (tmp_path / "sub").mkdir()
     (tmp_path / "sub" / "b.launch.py").write_text(
         "from launch import LaunchDescription\ndef generate_launch_description():\n    return LaunchDescription()\n"
@@ -324,7 +330,7 @@ def test_the_directory_stays_that_of_the_included_file(run_file: Launch, tmp_pat
     assert outcome.message == [str(tmp_path), str(tmp_path / "sub")]
 
 
-def test_a_missing_local_names_those_that_are_there() -> None:
+def test_missing_local_error_lists_existing_ones() -> None:
     from launch import LaunchContext
 
     context = LaunchContext()
@@ -337,19 +343,19 @@ def test_a_missing_local_names_those_that_are_there() -> None:
     assert context.locals.a == 1
 
 
-def test_a_deprecated_description(run: Launch) -> None:
+def test_deprecated_description_logs_a_warning(run: Launch) -> None:
     outcome = run([LaunchDescription([], deprecated_reason="use the other")])
     assert outcome.lines[-1].endswith("is deprecated: use the other")
     assert outcome.lines[-1].startswith("[WARNING] [root]: ")
 
 
-def test_the_folder_of_a_description_without_a_file_is_its_location() -> None:
+def test_directory_of_description_without_file_is_its_location() -> None:
     context = LaunchContext()
     IncludeLaunchDescription(LaunchDescriptionSource(LaunchDescription(), "<script>")).visit(context)
     assert context.locals.current_launch_file_directory == "<script>"
 
 
-def test_a_missing_argument_is_reported_with_its_description(run: Launch) -> None:
+def test_missing_argument_error_has_its_description(run: Launch) -> None:
     declare = DeclareLaunchArgument("must", description="needed")
     outcome = run([OpaqueFunction(function=lambda context: [declare])])
     message = 'Required launch argument "must" (description: "needed") was not provided'
@@ -357,7 +363,7 @@ def test_a_missing_argument_is_reported_with_its_description(run: Launch) -> Non
     assert outcome.caught == 'Required launch argument "must" was not provided.'
 
 
-def test_a_source_without_a_description() -> None:
+def test_source_without_description_is_rejected() -> None:
     with pytest.raises(RuntimeError, match=r"called without launch description being set"):
         LaunchDescriptionSource().get_launch_description(LaunchContext())
     assert IncludeLaunchDescription(LaunchDescriptionSource()).get_sub_entities() == []

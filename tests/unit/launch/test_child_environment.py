@@ -55,7 +55,7 @@ def program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
 @pytest.mark.parametrize(
     ("kind", "python"), [("process", "python3"), ("process", sys.executable), ("node", "python3"), ("shell", "python3")]
 )
-def test_a_program_by_its_interpreter(run: Launch, program: str, python: str, kind: str) -> None:
+def test_program_started_by_its_interpreter_finds_ros(run: Launch, program: str, python: str, kind: str) -> None:
     action: Any = {
         "process": lambda: ExecuteProcess(cmd=[python, program, "a"], output="screen"),
         "node": lambda: Node(executable=shutil.which(python), arguments=[program, "a"], output="screen"),
@@ -65,7 +65,7 @@ def test_a_program_by_its_interpreter(run: Launch, program: str, python: str, ki
     assert OUTPUT.removesuffix("]") in text, text
 
 
-def test_an_interpreter_that_has_nothing_installed_takes_part_in_the_domain(run: Launch, program: str) -> None:
+def test_interpreter_without_installed_packages_joins_the_domain(run: Launch, program: str) -> None:
     share_domains()
     let_children_meet(True)
     python = os.path.realpath(sys.executable)
@@ -75,12 +75,12 @@ def test_an_interpreter_that_has_nothing_installed_takes_part_in_the_domain(run:
     assert OUTPUT.removesuffix("]") in run([ExecuteProcess(cmd=[python, program, "a"], output="screen")]).text
 
 
-def test_ros2_in_a_line_that_needs_a_shell(run: Launch, program: str) -> None:
+def test_ros2_works_in_a_shell_command(run: Launch, program: str) -> None:
     line = "true; ros2 interface show child_shapes/msg/Corner | tr x y"
     assert "float64 y" in run([ExecuteProcess(cmd=[line], shell=True, output="screen")]).text
 
 
-def test_neither_the_launch_nor_its_message_has_it(run: Launch, program: str) -> None:
+def test_launch_and_action_environments_stay_unchanged(run: Launch, program: str) -> None:
     before = [os.environ.get(name) for name in ("PATH", "PYTHONPATH")]
     process = ExecuteProcess(cmd=["env"], output="screen", env={"PATH": "/bin:/usr/bin", "OWN": "1"})
     text = run([process]).text
@@ -89,19 +89,19 @@ def test_neither_the_launch_nor_its_message_has_it(run: Launch, program: str) ->
     assert [os.environ.get(name) for name in ("PATH", "PYTHONPATH")] == before
 
 
-def test_it_is_added_once(program: str) -> None:
+def test_environment_is_extended_only_once(program: str) -> None:
     once = child_environment({"PATH": "/bin", "PYTHONPATH": "/mine"})
     assert child_environment({"OWN": "1"}) == {"OWN": "1"}
     assert child_environment(once) == once and once["PYTHONPATH"].endswith("/mine")
 
 
-def test_without_it_nothing_is_found(program: str) -> None:
+def test_program_without_the_environment_finds_no_ros(program: str) -> None:
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     done = subprocess.run([sys.executable, program], env=environment, capture_output=True, text=True, check=False)
     assert "No module named" in done.stderr
 
 
-def test_launches_that_start_at_the_same_time() -> None:
+def test_concurrent_launches_share_one_environment() -> None:
     made, together = ChildEnvironment(), threading.Barrier(4)
 
     def first(_: int) -> str:

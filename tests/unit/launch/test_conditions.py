@@ -1,4 +1,4 @@
-"""Conditions: which texts are true, which false, and what is said of the others."""
+"""Conditions: which texts are true, which are false, and the errors for all others."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ def holds(condition: Condition, text: str = "") -> bool:
 
 
 @pytest.mark.parametrize(("text", "value"), [(each, True) for each in TRUE] + [(each, False) for each in FALSE])
-def test_truth(text: str, value: bool) -> None:
+def test_accepted_texts_are_true_or_false(text: str, value: bool) -> None:
     assert holds(IfCondition(LaunchConfiguration("x")), text) is value
     assert holds(UnlessCondition(LaunchConfiguration("x")), text) is not value
 
 
 @pytest.mark.parametrize("text", NEITHER)
-def test_everything_else_is_an_error(text: str) -> None:
+def test_other_texts_raise_an_error(text: str) -> None:
     with pytest.raises(InvalidConditionExpressionError) as caught:
         holds(IfCondition(LaunchConfiguration("x")), text)
     message = str(caught.value)
@@ -47,13 +47,13 @@ def test_everything_else_is_an_error(text: str) -> None:
     assert isinstance(caught.value, ValueError)
 
 
-def test_a_bool_is_no_text() -> None:
+def test_bool_is_rejected() -> None:
     wrong: Any = True
     with pytest.raises(TypeError, match="'bool' object is not iterable"):
         IfCondition(wrong)
 
 
-def test_conditions_of_one_configuration_are_old() -> None:
+def test_launch_configuration_conditions_are_deprecated() -> None:
     with pytest.warns(UserWarning):
         assert holds(LaunchConfigurationEquals("x", "a"), "a")
     with pytest.warns(UserWarning):
@@ -63,28 +63,28 @@ def test_conditions_of_one_configuration_are_old() -> None:
         assert holds(LaunchConfigurationEquals("y", unset))
 
 
-def test_a_false_condition_is_silent(run: Launch) -> None:
+def test_false_condition_skips_the_action(run: Launch) -> None:
     outcome = run([LogInfo(msg="a", condition=IfCondition("0")), LogInfo(msg="b", condition=UnlessCondition("0"))])
     assert outcome.message == ["b"]
 
 
-def test_a_bad_condition_ends_the_launch(run: Launch) -> None:
+def test_invalid_condition_ends_the_launch(run: Launch) -> None:
     outcome = run([LogInfo(msg="a", condition=IfCondition("yes"))])
     assert outcome.code == 1
     assert outcome.caught.startswith("invalid condition expression")
 
 
-def test_a_condition_describes_itself() -> None:
+def test_describe_returns_the_expression() -> None:
     condition = Condition(predicate=lambda context: True)
     assert condition.describe() == repr(condition)
     assert IfCondition("true").describe() == "IfCondition('true')"
 
 
-def test_public_launch_files_ask_a_condition_directly() -> None:
+def test_predicate_func_can_be_called_directly_as_public_launch_files_do() -> None:
     context = LaunchContext()
     assert IfCondition("1")._predicate_func(context)
     assert UnlessCondition("0")._predicate_func(context)
 
 
-def test_a_condition_without_a_predicate_is_false() -> None:
+def test_condition_without_predicate_is_false() -> None:
     assert Condition().evaluate(LaunchContext()) is False

@@ -1,4 +1,4 @@
-"""Arguments that are found without running a launch file, and which of them an include must be given."""
+"""Arguments that are found without running a launch file, and those that an include requires."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ def include(*entities: Any, **arguments: str) -> IncludeLaunchDescription:
 
 
 def found(*entities: Any) -> dict[str, bool]:
-    """Names of the arguments, with whether each is conditional."""
+    """Return the names of the arguments, each with whether it is conditional."""
     arguments = LaunchDescription(list(entities)).get_launch_arguments()
     return {each.name: each._conditionally_included for each in arguments}
 
 
-def test_what_stands_in_a_conditional_branch_is_conditional() -> None:
+def test_argument_in_a_conditional_branch_is_conditional() -> None:
     group = GroupAction([DeclareLaunchArgument("a")], condition=YES)
     assert found(group, DeclareLaunchArgument("b", condition=YES), DeclareLaunchArgument("c")) == {
         "a": True,
@@ -38,18 +38,18 @@ def test_what_stands_in_a_conditional_branch_is_conditional() -> None:
     }
 
 
-def test_what_lies_deeper_in_a_conditional_branch_is_not() -> None:
+def test_argument_nested_deeper_in_a_conditional_branch_is_not() -> None:
     inside = GroupAction([DeclareLaunchArgument("a")])
     assert found(GroupAction([inside, include(DeclareLaunchArgument("b"))], condition=YES)) == {"a": False, "b": False}
 
 
-def test_a_reset_hides_the_rest_of_its_own_list_only() -> None:
+def test_reset_hides_the_rest_of_its_own_list_only() -> None:
     isolated = GroupAction([DeclareLaunchArgument("a")], forwarding=False)
     assert found(isolated, DeclareLaunchArgument("b")) == {"b": False}
     assert found(DeclareLaunchArgument("a"), ResetLaunchConfigurations(), DeclareLaunchArgument("b")) == {"a": False}
 
 
-def test_includes_below_count_as_givers_for_each_other(run: Launch) -> None:
+def test_nested_includes_do_not_provide_arguments_for_each_other(run: Launch) -> None:
     needs = include(DeclareLaunchArgument("x", description="needed"))
     gives = include(x="1")
     outcome = run([include(needs, gives)])
@@ -57,7 +57,7 @@ def test_includes_below_count_as_givers_for_each_other(run: Launch) -> None:
     assert "missing required argument 'x' (description: 'needed'), given: []" in outcome.text
 
 
-def test_names_that_are_given_add_up_in_the_message(run: Launch) -> None:
+def test_missing_argument_error_lists_all_given_names(run: Launch) -> None:
     first = include(DeclareLaunchArgument("x"), x="1")
     second = include(DeclareLaunchArgument("y"))
     outcome = run([include(first, second, z="3")])

@@ -40,13 +40,13 @@ def python(code: str, **options: Any) -> ExecuteProcess:
 
 
 def of_process(outcome: Outcome) -> list[str]:
-    """Lines about and from processes, without their numbers."""
+    """Return lines about and from processes, without their numbers."""
     lines = [each for each in outcome.lines if re.search(r"-\d+\]", each)]
     lines = [re.sub(r"\[p-\d+\]", "[p]", each) for each in lines]
     return [re.sub(r"pid \[?\d+\]?", "pid", each) for each in lines]
 
 
-def test_a_process_and_what_it_prints(run: Launch) -> None:
+def test_process_prints_start_output_and_exit_code(run: Launch) -> None:
     outcome = run([python("print('a'); import sys; sys.exit(3)", output="screen")])
     started, printed, died = of_process(outcome)
     assert (started, printed) == ("[INFO] [p]: process started with pid", "[p] a")
@@ -68,7 +68,7 @@ OUTPUTS: list[tuple[Any, set[str], str]] = [
 
 
 @pytest.mark.parametrize(("output", "shown", "logged"), OUTPUTS, ids=[str(row[0]) for row in OUTPUTS])
-def test_output(run: Launch, output: Any, shown: set[str], logged: str) -> None:
+def test_output_option_selects_screen_and_log(run: Launch, output: Any, shown: set[str], logged: str) -> None:
     import launch.logging
 
     outcome = run([python(OUT, output=output)])
@@ -78,7 +78,7 @@ def test_output(run: Launch, output: Any, shown: set[str], logged: str) -> None:
         assert bool(re.search(rf"^\d+\.\d{{7}} \[p-\d+\] {word}$", log, re.M)) is (word in logged.split())
 
 
-def test_own_files_have_the_lines_alone(run: Launch) -> None:
+def test_own_log_files_contain_bare_lines(run: Launch) -> None:
     import launch.logging
 
     name = next(each for each in run([python(OUT, output="own_log")]).lines if "process started" in each)
@@ -92,27 +92,27 @@ def test_own_files_have_the_lines_alone(run: Launch) -> None:
         assert set(text.splitlines()) == {f"[{name}] {line}" for line in lines}
 
 
-def test_the_environment_overrules_the_output(run: Launch, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_environment_variable_overrides_output(run: Launch, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "screen")
     assert "[p] out" in of_process(run([python(OUT, output="nonsense")]))
 
 
-def test_a_bad_output(run: Launch) -> None:
+def test_invalid_output_is_rejected(run: Launch) -> None:
     text = 'nonsense is not a valid standard output config i.e. "screen", "log" or "both"'
     assert run([python(OUT, output="nonsense")]).caught == text
 
 
-def test_an_unfinished_line_comes_after_the_end(run: Launch) -> None:
+def test_unfinished_line_is_printed_after_the_end(run: Launch) -> None:
     lines = of_process(run([python("print('part', end='')", output="screen")]))
     assert lines[1:] == ["[INFO] [p]: process has finished cleanly [pid", "[p] part"]
 
 
-def test_output_format(run: Launch) -> None:
+def test_output_format_formats_each_line(run: Launch) -> None:
     outcome = run([python("print('a')", output="screen", output_format="<{line}>")])
     assert "<a>" in outcome.lines
 
 
-def test_cached_output(run: Launch) -> None:
+def test_cached_output_is_kept(run: Launch) -> None:
     process = python("print('kept')", cached_output=True)
     assert process.return_code is None
     run([process])
@@ -121,20 +121,20 @@ def test_cached_output(run: Launch) -> None:
         python("").get_stdout()
 
 
-def test_an_executable_that_is_not_there(run: Launch) -> None:
+def test_missing_executable_is_logged_and_the_launch_goes_on(run: Launch) -> None:
     outcome = run([ExecuteProcess(cmd=["/no/such/program"]), LogInfo(msg="on")])
     assert outcome.code == 0
     assert "exception occurred while executing process:" in outcome.text
 
 
-def test_labels_count_up_and_never_start_again(run: Launch) -> None:
+def test_process_numbers_increase_across_launches(run: Launch) -> None:
     first, second = python("", name="a"), python("", name="b")
     run([first, second])
     names = [each.process_description.final_name or "" for each in (first, second)]
     assert int(names[1].rpartition("-")[2]) == int(names[0].rpartition("-")[2]) + 1
 
 
-def test_the_same_action_twice(run: Launch) -> None:
+def test_executing_an_action_twice_is_an_error(run: Launch) -> None:
     process = python("")
     outcome = run([process, process])
     assert re.match(r"ExecuteLocal action 'p-\d+': executed more than once: <", outcome.caught)
@@ -152,7 +152,7 @@ AGAIN: dict[str, Callable[[Any], Any]] = {
 
 @pytest.mark.parametrize("again", AGAIN)
 @pytest.mark.parametrize("after", ["start", "output"])
-def test_executing_a_running_action_again_leaves_its_process_whole(run: Launch, again: str, after: str) -> None:
+def test_reexecuting_a_running_action_keeps_its_process(run: Launch, again: str, after: str) -> None:
     ended: list[int] = []
     process = python(
         "print('up', flush=True); input()",
@@ -171,12 +171,12 @@ def test_executing_a_running_action_again_leaves_its_process_whole(run: Launch, 
     assert process.process_details is not None and process.process_details["pid"] == ended[0]
 
 
-def test_a_text_as_command_is_taken_apart(run: Launch) -> None:
+def test_command_given_as_text_is_split_into_characters(run: Launch) -> None:
     process = ExecuteProcess(cmd="/x y")
     assert [each[0].describe() for each in process.cmd] == ["'/'", "'x'", "' '", "'y'"]
 
 
-def test_prefix_and_its_filter(run: Launch) -> None:
+def test_launch_prefix_filter_limits_the_prefix(run: Launch) -> None:
     code = "import os; print(os.environ.get('BC_P'))"
     filtered = {"launch-prefix": "env BC_P=1", "launch-prefix-filter": "nothing"}
     assert "1" in [
@@ -187,7 +187,7 @@ def test_prefix_and_its_filter(run: Launch) -> None:
     assert "2" in [each.partition("] ")[2] for each in run([own], filtered).lines]
 
 
-def test_environment_of_a_process(run: Launch) -> None:
+def test_env_replaces_and_additional_env_extends_environment(run: Launch) -> None:
     code = "import os; print(os.environ.get('BC_A'), 'PATH' in os.environ)"
     added = python(code, output="screen", additional_env={"BC_A": LaunchConfiguration("x")})
     replaced = python(code, output="screen", env={"BC_A": "2"})
@@ -196,7 +196,7 @@ def test_environment_of_a_process(run: Launch) -> None:
     assert "] 2 False" in text
 
 
-def test_respawn_until_the_retries_are_used_up(run: Launch) -> None:
+def test_process_respawns_until_retries_are_used_up(run: Launch) -> None:
     ended: list[int] = []
     process = python("", respawn=True, respawn_max_retries=2, on_exit=lambda event, context: ended.append(event.pid))
     outcome = run([process])
@@ -204,7 +204,7 @@ def test_respawn_until_the_retries_are_used_up(run: Launch) -> None:
     assert outcome.text.count("process has finished cleanly") == 3
 
 
-def test_no_respawn_in_a_shutdown(run: Launch) -> None:
+def test_process_does_not_respawn_during_shutdown(run: Launch) -> None:
     process = python("", respawn=True, respawn_delay=60.0)
     outcome = run(
         [process, RegisterEventHandler(OnProcessExit(on_exit=[TimerAction(period=0.01, actions=[Shutdown()])]))]
@@ -212,7 +212,7 @@ def test_no_respawn_in_a_shutdown(run: Launch) -> None:
     assert outcome.text.count("process started") == 1
 
 
-def test_a_required_process(run: Launch) -> None:
+def test_exit_of_a_required_process_shuts_down_the_launch(run: Launch) -> None:
     outcome = run([python("import sys; sys.exit(1)", on_exit=Shutdown())])
     assert outcome.code == 0
     assert re.search(r"\[INFO\] \[launch\]: process\[p-\d+\] was required: shutting down launched system", outcome.text)
@@ -229,7 +229,7 @@ def test_shutdown_sends_sigint(run: Launch) -> None:
     assert lines[3] == "[INFO] [p]: process has finished cleanly [pid"
 
 
-def test_escalation_to_sigkill(run: Launch) -> None:
+def test_shutdown_escalates_to_sigkill(run: Launch) -> None:
     code = "import signal, time\nfor each in (signal.SIGINT, signal.SIGTERM): signal.signal(each, signal.SIG_IGN)\n"
     code += "import os; os.write(1, b'up\\n')\ntime.sleep(60)"
     process = python(code, sigterm_timeout="0.1", sigkill_timeout="0.2", output="screen")
@@ -240,7 +240,7 @@ def test_escalation_to_sigkill(run: Launch) -> None:
     assert "exit code -9" in text
 
 
-def test_a_signal_by_its_name_ends_the_launch(run: Launch) -> None:
+def test_signal_can_be_sent_by_name(run: Launch) -> None:
     process = python(WAITS.format("signal.default_int_handler"), output="screen")
 
     def signal_it(event: Any) -> Any:
@@ -254,14 +254,14 @@ def test_a_signal_by_its_name_ends_the_launch(run: Launch) -> None:
     assert outcome.code == 1
 
 
-def test_one_process_can_be_shut_down(run: Launch) -> None:
+def test_single_process_can_be_shut_down(run: Launch) -> None:
     process = python(WAITS.format("lambda *_: os._exit(0)"), output="screen")
     event = ShutdownProcess(process_matcher=matches_action(process))
     on_io = OnProcessIO(target_action=process, on_stdout=lambda _: EmitEvent(event=event))
     assert "sending signal 'SIGINT'" in run([process, RegisterEventHandler(on_io)]).text
 
 
-def test_start_and_exit_handlers(run: Launch) -> None:
+def test_start_and_exit_handlers_run_in_order(run: Launch) -> None:
     process = python("")
     seen: list[Any] = []
 
@@ -280,7 +280,7 @@ def test_start_and_exit_handlers(run: Launch) -> None:
             RegisterEventHandler(OnProcessExit(target_action=python(""), on_exit=LogInfo(msg="never"))),
         ]
     )
-    assert outcome.message == ["started", "predicate", "exited"]  # the newest handler is asked first
+    assert outcome.message == ["started", "predicate", "exited"]  # the newest handler runs first
     assert seen == [(True, 0, process.process_description.final_name, True)]
 
 
@@ -297,31 +297,31 @@ def test_start_and_exit_handlers(run: Launch) -> None:
         ),
     ],
 )
-def test_wrong_handlers(make: Any, text: str) -> None:
+def test_invalid_handlers_are_rejected(make: Any, text: str) -> None:
     with pytest.raises(TypeError) as caught:
         make()
     assert str(caught.value) == text
 
 
-def test_emit_something_else() -> None:
+def test_emit_event_rejects_non_events() -> None:
     wrong: Any = "x"
     with pytest.raises(RuntimeError, match=r"EmitEvent\(\) expected an event instance, got 'x'."):
         EmitEvent(event=wrong)
 
 
-def test_the_static_tree_comes_before_every_process(run: Launch) -> None:
+def test_static_tree_is_visited_before_any_process_starts(run: Launch) -> None:
     lines = run([python(""), LogInfo(msg="later")]).lines
     assert lines.index("[INFO] [launch.user]: later") < next(i for i, each in enumerate(lines) if "started" in each)
 
 
-def test_configurations_in_a_handler_are_those_of_the_event(run: Launch) -> None:
+def test_handler_sees_configurations_of_its_event(run: Launch) -> None:
     process = python("")
     on_exit = OnProcessExit(target_action=process, on_exit=[LogInfo(msg=LaunchConfiguration("x"))])
     group = GroupAction([SetLaunchConfiguration("x", "in"), RegisterEventHandler(on_exit), process])
     assert run([SetLaunchConfiguration("x", "out"), group]).message == ["out"]
 
 
-def test_timers(run: Launch) -> None:
+def test_timers_fire_in_order_of_period(run: Launch) -> None:
     def timer(period: Any, text: str) -> TimerAction:
         return TimerAction(period=period, actions=[LogInfo(msg=text)])
 
@@ -334,7 +334,7 @@ def test_timers(run: Launch) -> None:
         timer(1, "int")
 
 
-def test_a_period_that_is_no_number_is_an_error(run: Launch) -> None:
+def test_timer_period_must_be_a_number(run: Launch) -> None:
     outcome = run([TimerAction(period=LaunchConfiguration("t"), actions=[])], {"t": "soon"})
     assert (outcome.code, outcome.caught) == (1, "could not convert string to float: 'soon'")
 
@@ -343,7 +343,7 @@ class Own(Event):
     name = "own"
 
 
-def test_shutdown_cancels_timers_and_lets_none_begin(run: Launch) -> None:
+def test_shutdown_cancels_timers_and_prevents_new_ones(run: Launch) -> None:
     timer = TimerAction(period=60.0, actions=[LogInfo(msg="never")])
     assert run([timer, Shutdown()]).message == []
     late = TimerAction(period=60.0, actions=[LogInfo(msg="never")])
@@ -352,13 +352,13 @@ def test_shutdown_cancels_timers_and_lets_none_begin(run: Launch) -> None:
     assert run([RegisterEventHandler(after), RegisterEventHandler(during), Shutdown()]).message == []
 
 
-def test_shutdown_handlers_and_reasons(run: Launch) -> None:
+def test_shutdown_handlers_get_the_reason(run: Launch) -> None:
     reason = LogInfo(msg=LocalSubstitution("event.reason"))
     assert run([RegisterEventHandler(OnShutdown(on_shutdown=[reason])), Shutdown(reason="done")]).message == ["done"]
     assert run([RegisterEventHandler(OnShutdown(on_shutdown=lambda event, context: [reason]))]).message[-1] == "idle"
 
 
-def test_completion_needs_a_handler_that_is_there_before(run: Launch) -> None:
+def test_completion_handler_must_be_registered_before_completion(run: Launch) -> None:
     timer = TimerAction(period=0.01, actions=[])
     before = RegisterEventHandler(OnExecutionComplete(target_action=timer, on_completion=[LogInfo(msg="complete")]))
     assert run([before, timer]).message == ["complete"]
@@ -367,14 +367,14 @@ def test_completion_needs_a_handler_that_is_there_before(run: Launch) -> None:
     assert run([late, after]).message[1:] == []
 
 
-def test_handlers_of_own_events(run: Launch) -> None:
+def test_custom_events_respect_handle_once_and_unregistering(run: Launch) -> None:
     once = EventHandler(matcher=lambda event: isinstance(event, Own), entities=[LogInfo(msg="once")], handle_once=True)
     gone = EventHandler(matcher=lambda event: isinstance(event, Own), entities=[LogInfo(msg="gone")])
     entities = [RegisterEventHandler(once), RegisterEventHandler(gone), UnregisterEventHandler(gone)]
     assert run([*entities, EmitEvent(event=Own()), EmitEvent(event=Own())]).message == ["once"]
 
 
-def test_coroutines(run: Launch) -> None:
+def test_coroutines_run_and_are_cancelled_at_the_end(run: Launch) -> None:
     ran: list[str] = []
 
     async def later(context: Any, word: str) -> None:
@@ -389,7 +389,7 @@ def test_coroutines(run: Launch) -> None:
     assert run([OpaqueCoroutine(coroutine=for_ever, ignore_context=True), Shutdown()]).code == 0
 
 
-def test_an_exception_later_stops_what_runs(run: Launch) -> None:
+def test_exception_in_handler_stops_running_processes(run: Launch) -> None:
     process = python(WAITS.format("lambda *_: os._exit(0)"), output="screen")
 
     def fail(event: Any) -> None:
@@ -400,7 +400,7 @@ def test_an_exception_later_stops_what_runs(run: Launch) -> None:
     assert "sending signal 'SIGINT'" in outcome.text
 
 
-def test_a_service_in_another_thread(log_lines: list[str]) -> None:
+def test_service_runs_in_another_thread(log_lines: list[str]) -> None:
     service = LaunchService(noninteractive=True)
     codes: list[int] = []
     runs = threading.Event()
@@ -416,7 +416,7 @@ def test_a_service_in_another_thread(log_lines: list[str]) -> None:
     assert codes == [0]
 
 
-def test_a_service_runs_once_at_a_time(log_lines: list[str]) -> None:
+def test_service_rejects_a_concurrent_run(log_lines: list[str]) -> None:
     service = LaunchService()
 
     async def twice() -> None:
@@ -430,18 +430,18 @@ def test_a_service_runs_once_at_a_time(log_lines: list[str]) -> None:
     asyncio.run(twice())
 
 
-def test_the_first_lines_are_always_the_same(run: Launch) -> None:
+def test_launch_starts_with_log_folder_and_verbosity(run: Launch) -> None:
     first, second = run([]).lines
     assert first.startswith("[INFO] [launch]: All log files can be found below ")
     assert second == "[INFO] [launch]: Default logging verbosity is set to INFO"
 
 
 class _Heard(Event):
-    """An event of a test."""
+    """An event for tests."""
 
 
 def _while_it_runs(act: Callable[[LaunchService], Any], *handlers: Any) -> tuple[int, list[Any]]:
-    """Call something in another thread while a service runs; its exit code and what the call gave."""
+    """Call something in another thread while a service runs; return the exit code and the result of the call."""
     service = LaunchService(noninteractive=True)
     given: list[Any] = []
 
@@ -461,7 +461,7 @@ def _while_it_runs(act: Callable[[LaunchService], Any], *handlers: Any) -> tuple
     return code, given
 
 
-def test_emitting_from_another_thread_returns_when_the_loop_has_taken_the_event() -> None:
+def test_emit_from_another_thread_returns_once_the_loop_took_the_event() -> None:
     begun, free = threading.Event(), threading.Event()
 
     def held_up(context: Any) -> None:
@@ -470,7 +470,7 @@ def test_emitting_from_another_thread_returns_when_the_loop_has_taken_the_event(
 
     def act(service: LaunchService) -> list[bool]:
         service.emit_event(_Heard())
-        begun.wait(10.0)  # the handler holds up the loop now
+        begun.wait(10.0)  # the handler blocks the loop now
         second = threading.Thread(target=service.emit_event, args=(_Heard(),))
         second.start()
         second.join(0.1)
@@ -483,7 +483,7 @@ def test_emitting_from_another_thread_returns_when_the_loop_has_taken_the_event(
     assert _while_it_runs(act, handler) == (0, [[True, False]])
 
 
-def test_emitting_in_the_loop_is_refused_instead_of_waiting_for_itself(log_lines: list[str]) -> None:
+def test_emit_inside_the_loop_is_refused_instead_of_deadlocking(log_lines: list[str]) -> None:
     service = LaunchService(noninteractive=True)
     inside = OpaqueFunction(function=lambda context: service.emit_event(_Heard()))
     service.include_launch_description(LaunchDescription([inside]))
@@ -491,7 +491,7 @@ def test_emitting_in_the_loop_is_refused_instead_of_waiting_for_itself(log_lines
     assert "return the action EmitEvent(event=...)" in "\n".join(log_lines)
 
 
-def test_shutdown_returns_a_coroutine_outside_of_coroutines_too() -> None:
+def test_shutdown_returns_a_coroutine_outside_coroutines_too() -> None:
     service = LaunchService()
     loop = asyncio.new_event_loop()
     loop.run_until_complete(loop.create_task(service.shutdown()))

@@ -1,4 +1,4 @@
-"""Launch files in XML and YAML: the same trees as in Python, and what is said of wrong ones. Contract, section 2."""
+"""Launch files in XML and YAML: the same trees as in Python, and the errors for invalid ones. Contract, section 2."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ YAML = """
 
 
 @pytest.mark.parametrize(("name", "text"), [("x.launch.py", PYTHON), ("x.launch.xml", XML), ("x.launch.yaml", YAML)])
-def test_the_same_launch_file_three_times(run_file: Launch, tmp_path: Any, name: str, text: str) -> None:
+def test_python_xml_and_yaml_launch_files_are_equivalent(run_file: Launch, tmp_path: Any, name: str, text: str) -> None:
     outcome = run_file(text, name)
     assert outcome.message == [
         "x 1", "always", "/n", "in", "gone", "1", "1,2", "none", "True", str(tmp_path), "round 0", "round 1", "timer",
@@ -144,7 +144,7 @@ def described(kind: Any, text: str) -> list[Any]:
     return description.entities
 
 
-def test_a_node_with_everything() -> None:
+def test_xml_node_accepts_all_attributes() -> None:
     [node] = xml(
         """<node pkg="p" exec="e" name="n" namespace="s" exec_name="l" args="-a $(var b) c"
         ros_args="--log-level debug"
@@ -170,7 +170,7 @@ def test_a_node_with_everything() -> None:
     assert words[1:6] == ["'-a'", "LaunchConfig('b')", "'c'", "'--ros-args'", "'--log-level'"]
 
 
-def test_a_process() -> None:
+def test_yaml_executable_accepts_its_attributes() -> None:
     [process] = yaml(
         "  - executable: {cmd: \"echo a 'b c'\", name: e, shell: true, output: screen, env: [{name: A, value: b}]}"
     )
@@ -180,12 +180,12 @@ def test_a_process() -> None:
 
 
 def command_words(text: str) -> list[str]:
-    """What each word of a command is made of."""
+    """Return the parts of each word of a command."""
     [process] = xml(f"<executable cmd={text!r}/>")
     return [" ".join(part.describe() for part in word) for word in process.cmd]
 
 
-def test_the_words_of_a_command() -> None:
+def test_command_is_split_into_words_with_substitutions() -> None:
     variable = "LaunchConfig('a')"
     assert command_words("$(var a) $(var a)b 'c d'$(var a) ") == [
         variable,
@@ -196,30 +196,30 @@ def test_the_words_of_a_command() -> None:
     assert command_words("x$(var a)  y") == [f"'x' {variable}", "'y'"]
 
 
-def test_empty_arguments_are_one_empty_word() -> None:
+def test_empty_args_give_one_empty_word() -> None:
     [node] = xml('<node exec="e" args=""/>')
     assert node.cmd[1] == []
 
 
-def test_stop_times_are_numbers() -> None:
+def test_signal_timeouts_may_be_numbers() -> None:
     [process] = yaml("  - executable: {cmd: e, sigterm_timeout: 4.0, sigkill_timeout: 2.5}")
     context = LaunchContext()
     assert process.sigterm_timeout[0].perform(context) == "4.0"
     assert process.sigkill_timeout[0].perform(context) == "2.5"
 
 
-def test_a_timer_that_shutdown_does_not_cancel() -> None:
+def test_timer_may_continue_during_shutdown() -> None:
     [timer] = xml('<timer period="1" cancel_on_shutdown="false"><log message="a"/></timer>')
     assert isinstance(timer, TimerAction)
     assert timer.describe_conditional_sub_entities()[0][0] == "1.0 seconds pass without being canceled"
 
 
-def test_unless() -> None:
+def test_unless_becomes_a_condition() -> None:
     [log] = xml('<log message="a" unless="$(var x)"/>')
     assert isinstance(log.condition, UnlessCondition)
 
 
-def test_group_in_a_map() -> None:
+def test_yaml_group_may_be_a_map() -> None:
     [group] = yaml("  - group: {scoped: false, children: [{log: {message: a}}]}")
     assert isinstance(group, GroupAction)
     assert [type(each) for each in group.get_sub_entities()] == [LogInfo]
@@ -289,7 +289,7 @@ XML_ERRORS: list[tuple[str, type[Exception], str]] = [
 
 
 @pytest.mark.parametrize(("text", "kind", "message"), XML_ERRORS, ids=[row[2][:50] for row in XML_ERRORS])
-def test_errors_in_xml(text: str, kind: type[Exception], message: str) -> None:
+def test_invalid_xml_is_rejected(text: str, kind: type[Exception], message: str) -> None:
     with pytest.raises(kind) as caught:
         xml(text)
     assert str(caught.value) == message
@@ -323,7 +323,7 @@ YAML_ERRORS: list[tuple[str, type[Exception], str]] = [
 
 
 @pytest.mark.parametrize(("text", "kind", "message"), YAML_ERRORS, ids=[row[2][:50] for row in YAML_ERRORS])
-def test_errors_in_yaml(text: str, kind: type[Exception], message: str) -> None:
+def test_invalid_yaml_is_rejected(text: str, kind: type[Exception], message: str) -> None:
     with pytest.raises(kind) as caught:
         yaml(text)
     assert str(caught.value) == message
@@ -354,7 +354,7 @@ SUBSTITUTIONS: list[tuple[str, list[str]]] = [
 
 
 @pytest.mark.parametrize(("text", "pieces"), SUBSTITUTIONS, ids=[row[0] for row in SUBSTITUTIONS])
-def test_substitutions_in_texts(text: str, pieces: list[str]) -> None:
+def test_substitutions_are_parsed_from_text(text: str, pieces: list[str]) -> None:
     XmlParser.load_launch_extensions()
     assert [each.describe() for each in parse_substitution(text)] == pieces
 
@@ -373,19 +373,19 @@ def test_substitutions_in_texts(text: str, pieces: list[str]) -> None:
         ("$(eval f(1))", "No terminal matches '('"),
     ],
 )
-def test_malformed_substitutions(text: str, message: str) -> None:
+def test_malformed_substitutions_are_rejected(text: str, message: str) -> None:
     with pytest.raises(ValueError, match=re.escape(message)):
         parse_substitution(text)
 
 
-def test_quotes_of_the_other_kind_are_text_within_quotes(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_quotes_of_the_other_kind_are_literal_within_quotes(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("B", raising=False)
     XmlParser.load_launch_extensions()
     found = parse_substitution('$(env NO_A \'$(env NO_B "c") == "d e"\')')
     assert perform_substitutions(LaunchContext(), found) == '"c" == "d e"'
 
 
-def test_the_default_of_a_parameter_that_nobody_has_set() -> None:
+def test_param_substitution_falls_back_to_its_default() -> None:
     XmlParser.load_launch_extensions()
     context = LaunchContext()
     found = parse_substitution("$(param speed 1.5)")
@@ -394,12 +394,12 @@ def test_the_default_of_a_parameter_that_nobody_has_set() -> None:
     assert perform_substitutions(context, found) == "2"
 
 
-def test_the_version_of_a_launch_file_is_allowed() -> None:
+def test_version_attribute_is_allowed() -> None:
     root, parser = XmlParser.load(io.StringIO('<launch version="0.1.0"><log message="x"/></launch>'))
     assert len(parser.parse_description(root).entities) == 1
 
 
-def test_what_a_substitution_gives_is_one_word() -> None:
+def test_value_of_a_substitution_stays_one_word() -> None:
     words = parse_command_line("-a=$(var x)b c'd e'  $(var y)", XmlParser())
     assert [[each.describe() for each in word] for word in words] == [
         ["'-a='", "LaunchConfig('x')", "'b'"],
@@ -442,7 +442,9 @@ FILES: list[tuple[str, str, list[str]]] = [
 
 
 @pytest.mark.parametrize(("name", "text", "patterns"), FILES, ids=[f"{row[0]} {row[1]}" for row in FILES])
-def test_files_that_cannot_be_read(run_file: Launch, name: str, text: str, patterns: list[str]) -> None:
+def test_unreadable_files_are_reported_line_by_line(
+    run_file: Launch, name: str, text: str, patterns: list[str]
+) -> None:
     outcome = run_file(text, name)
     lines = outcome.caught.splitlines()
     assert outcome.code == 1
@@ -451,24 +453,24 @@ def test_files_that_cannot_be_read(run_file: Launch, name: str, text: str, patte
         assert re.search(pattern + "$", line), (line, pattern)
 
 
-def test_an_endless_loop_of_includes(run_file: Launch, tmp_path: Any) -> None:
+def test_recursive_include_ends_with_recursion_error(run_file: Launch, tmp_path: Any) -> None:
     outcome = run_file('<launch><include file="$(dirname)/x.launch.xml"/></launch>', "x.launch.xml")
     assert outcome.code == 1
     assert "recursion" in outcome.caught
 
 
-def test_an_exit_in_a_launch_file_is_the_programs_exit(run_file: Launch) -> None:
+def test_sys_exit_in_a_launch_file_exits_the_program(run_file: Launch) -> None:
     with pytest.raises(SystemExit) as stop:
         run_file("import sys; sys.exit(7)")
     assert stop.value.code == 7
 
 
-def test_substitutions_in_one_another_without_end_are_refused() -> None:
+def test_too_deeply_nested_substitutions_are_rejected() -> None:
     with pytest.raises(ValueError, match="has too many substitutions in one another"):
         parse_substitution("$(var " * 5000)
 
 
-def test_a_text_is_not_blamed_for_a_stack_that_its_callers_have_used_up() -> None:
+def test_deep_call_stack_raises_recursion_error_not_a_parse_error() -> None:
     text = "$(var " * 15 + "name" + ")" * 15
 
     def below(frames: int) -> Any:

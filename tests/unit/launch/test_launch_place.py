@@ -1,4 +1,4 @@
-"""Where launch was when an exception was raised is told on the exception."""
+"""An exception carries the place in the launch where it was raised."""
 
 from __future__ import annotations
 
@@ -26,29 +26,33 @@ def place(error):
     return reported.file, reported.line, reported.entity
 
 
-def test_what_was_visited_and_where_it_was_made():
+def test_place_has_entity_and_its_source_line():
     action = LogInfo(msg=LaunchConfiguration("nowhere"))
     assert place(failure_of(action)) == (
         __file__,
-        test_what_was_visited_and_where_it_was_made.__code__.co_firstlineno + 1,
+        test_place_has_entity_and_its_source_line.__code__.co_firstlineno + 1,
         action,
     )
 
 
-def test_the_innermost_is_reported_not_what_it_stands_in():
+def test_innermost_entity_is_reported():
     inner = LogInfo(msg=LaunchConfiguration("nowhere"))
     outer = OpaqueFunction(function=lambda context: [inner])
     assert place(failure_of(outer))[2] is inner
 
 
-def test_a_coroutine_that_fails_later():
+def test_place_is_known_for_a_coroutine_that_fails_later():
     async def fails(context):
         await asyncio.sleep(0)
         raise RuntimeError("later")
 
     action = OpaqueCoroutine(coroutine=fails)
     file, line, entity = place(failure_of(action))
-    assert (file, line, entity) == (__file__, test_a_coroutine_that_fails_later.__code__.co_firstlineno + 5, action)
+    assert (file, line, entity) == (
+        __file__,
+        test_place_is_known_for_a_coroutine_that_fails_later.__code__.co_firstlineno + 5,
+        action,
+    )
 
 
 @dataclass(frozen=True)
@@ -56,7 +60,7 @@ class FrozenError(Exception):
     reason: str
 
 
-def test_an_exception_that_takes_no_attributes():
+def test_place_is_known_for_exceptions_without_attributes():
     def fails(context):
         raise FrozenError("so")
 
@@ -76,7 +80,7 @@ def test_an_exception_that_takes_no_attributes():
         ("a.launch.py", "x = 1\n", None),
     ],
 )
-def test_a_file_that_cannot_be_read(tmp_path, name, text, line):
+def test_place_is_the_line_of_a_syntax_error_in_the_file(tmp_path, name, text, line):
     path = tmp_path / name
     path.write_text(text)
     error = failure_of(IncludeLaunchDescription(AnyLaunchDescriptionSource(str(path))))
@@ -85,7 +89,7 @@ def test_a_file_that_cannot_be_read(tmp_path, name, text, line):
     assert place(error) == (str(path), line, None)
 
 
-def test_an_included_file_that_is_not_there():
+def test_place_of_a_missing_include_is_its_path():
     with pytest.raises(FileNotFoundError) as caught:
         PythonLaunchDescriptionSource("/nowhere/x.launch.py").get_launch_description(LaunchContext())
     assert place(caught.value) == ("/nowhere/x.launch.py", None, None)

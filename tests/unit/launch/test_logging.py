@@ -20,7 +20,7 @@ def fresh() -> Iterator[None]:
     launch.logging.reset()
 
 
-def test_a_log_folder_must_be_there(tmp_path: Path) -> None:
+def test_log_folder_must_exist(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="is not a directory"):
         config.log_dir = str(tmp_path / "none")
     config.log_dir = str(tmp_path)
@@ -29,20 +29,20 @@ def test_a_log_folder_must_be_there(tmp_path: Path) -> None:
     assert config.log_dir != str(tmp_path)
 
 
-def test_a_named_format_has_its_style() -> None:
+def test_named_format_rejects_another_style() -> None:
     with pytest.raises(ValueError):
         config.set_screen_format("default", screen_style="%")
     with pytest.raises(ValueError):
         config.set_log_format(log_format="default", log_style="%")
 
 
-def test_a_format_of_another_style(capsys: pytest.CaptureFixture[str]) -> None:
+def test_custom_format_may_use_percent_style(capsys: pytest.CaptureFixture[str]) -> None:
     config.set_screen_format("%(name)s: %(message)s", screen_style="%")
     launch.logging.get_logger("n").info("x")
     assert capsys.readouterr().out == "n: x\n"
 
 
-def test_a_handler_that_is_added_again_writes_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_handler_added_twice_writes_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     config.log_dir = str(tmp_path)
     logger = launch.logging.get_logger("n")
     logger.addHandler(config.get_screen_handler())
@@ -52,7 +52,7 @@ def test_a_handler_that_is_added_again_writes_once(tmp_path: Path, capsys: pytes
     assert len((tmp_path / "launch.log").read_text().splitlines()) == 1
 
 
-def test_log_files_are_made_by_a_factory(tmp_path: Path) -> None:
+def test_log_files_are_created_by_the_factory(tmp_path: Path) -> None:
     made: dict[str, list[str]] = {}
 
     class Memory(launch.logging.handlers.Handler):
@@ -70,7 +70,7 @@ def test_log_files_are_made_by_a_factory(tmp_path: Path) -> None:
     assert line.endswith("[ERROR] [n]: x")
 
 
-def test_a_log_file_that_cannot_be_written_is_reported_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_unwritable_log_file_is_reported_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     config.log_dir = str(tmp_path)
     (tmp_path / "launch.log").mkdir()
     reported = list[str]()

@@ -1,4 +1,4 @@
-"""Work that must not grow faster than the launch: counted, not timed."""
+"""Work that must not grow faster than the launch, measured by counting calls."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def test_each_of_a_thousand_includes_is_read_once(run: Launch, tmp_path: Path) -
     assert len(log.read_text()) == 1000
 
 
-def test_an_event_asks_only_handlers_of_its_action() -> None:
+def test_event_consults_only_handlers_of_its_action() -> None:
     from launch.actions import ExecuteProcess
 
     registry = HandlerRegistry()
@@ -64,7 +64,7 @@ def test_an_event_asks_only_handlers_of_its_action() -> None:
     assert asked == [actions[7]]
 
 
-def test_handlers_are_asked_newest_first_whatever_they_wait_for() -> None:
+def test_handlers_are_consulted_newest_first() -> None:
     from launch.actions import ExecuteProcess
 
     action = ExecuteProcess(cmd=["x"])
@@ -85,6 +85,6 @@ def test_handlers_are_asked_newest_first_whatever_they_wait_for() -> None:
     assert second not in registry
 
 
-def test_registering_is_an_action(run: Launch) -> None:
+def test_registering_a_handler_is_an_action(run: Launch) -> None:
     handler = OnProcessExit(on_exit=[LogInfo(msg="never")])
     assert run([RegisterEventHandler(handler)]).message == []

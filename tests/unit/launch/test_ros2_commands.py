@@ -1,4 +1,4 @@
-"""`ros2 ...` as the command of a process: which command lines need no shell and are answered here."""
+"""`ros2 ...` as the command of a process: which command lines need no shell and run inside bot-console."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ ROWS: list[tuple[list[str], bool, list[str] | None]] = [
     (["ros2", "topic", "list"], False, ["topic", "list"]),
     (["/opt/ros/bin/ros2", "node", "list"], False, ["node", "list"]),
     (["echo", "ros2"], False, None),
-    (["ros2", "bag", "record", "-a"], False, None),  # a program of its own
+    (["ros2", "bag", "record", "-a"], False, None),  # a separate program
     (["ros2 daemon stop"], True, None),
     (["ros2"], False, []),
     (
@@ -29,5 +29,5 @@ ROWS: list[tuple[list[str], bool, list[str] | None]] = [
 
 
 @pytest.mark.parametrize(("command", "shell", "words"), ROWS)
-def test_commands(command: list[str], shell: bool, words: list[str] | None) -> None:
+def test_ros2_command_is_recognized(command: list[str], shell: bool, words: list[str] | None) -> None:
     assert ros2_words(command, shell) == words

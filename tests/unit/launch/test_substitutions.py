@@ -158,45 +158,45 @@ def performed(context: LaunchContext, made: Any) -> str:
 
 
 @pytest.mark.parametrize(("make", "value"), [row[1:] for row in VALUES], ids=[row[0] for row in VALUES])
-def test_value(context: LaunchContext, make: Make, value: str) -> None:
+def test_substitution_performs_to_value(context: LaunchContext, make: Make, value: str) -> None:
     assert performed(context, make()) == value
 
 
 @pytest.mark.parametrize(("make", "kind", "text"), [row[1:] for row in ERRORS], ids=[row[0] for row in ERRORS])
-def test_error(context: LaunchContext, make: Make, kind: type[Exception], text: str) -> None:
+def test_substitution_raises_error(context: LaunchContext, make: Make, kind: type[Exception], text: str) -> None:
     with pytest.raises(kind) as caught:
         performed(context, make())
     assert text in str(caught.value)
 
 
 @pytest.mark.parametrize(("make", "text"), DESCRIBED, ids=[row[1] for row in DESCRIBED])
-def test_description(make: Make, text: str) -> None:
+def test_substitution_describes_itself(make: Make, text: str) -> None:
     assert make().describe() == text
 
 
-def test_environment_is_read_when_it_is_performed(context: LaunchContext, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_environment_is_read_on_perform(context: LaunchContext, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(os.environ, "BC_TEST", "1")
     assert performed(context, EnvironmentVariable("BC_TEST")) == "1"
     assert performed(context, EnvironmentVariable("BC_NONE", default_value=["a", X])) == "a7"
 
 
-def test_an_anonymous_name_stays_the_same(context: LaunchContext) -> None:
+def test_anonymous_name_stays_the_same(context: LaunchContext) -> None:
     first = performed(context, AnonName("rviz"))
     assert first.startswith("rviz_")
     assert performed(context, AnonName("rviz")) == first != performed(context, AnonName("rviz2"))
 
 
 @pytest.mark.parametrize("wrong", [5, None, [1], [["a"]]])
-def test_what_is_no_substitution(wrong: Any) -> None:
+def test_non_substitutions_are_rejected(wrong: Any) -> None:
     with pytest.raises(TypeError):
         normalize_to_list_of_substitutions(wrong)
 
 
-def test_wrong_item_is_named() -> None:
+def test_error_names_type_of_the_invalid_item() -> None:
     with pytest.raises(TypeError, match="Failed to normalize given item of type '<class 'int'>', when only 'str' or"):
         normalize_to_list_of_substitutions(["a", 1])
 
 
-def test_both_values_of_a_choice_empty() -> None:
+def test_if_else_needs_at_least_one_value() -> None:
     with pytest.raises(RuntimeError):
         IfElseSubstitution("true")

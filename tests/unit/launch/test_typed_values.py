@@ -1,4 +1,4 @@
-"""Typed values from texts: `launch.utilities.type_utils`, which actions and parsers of others use, too."""
+"""Typed values from texts: `launch.utilities.type_utils`, which third-party actions and parsers use, too."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ COERCED: list[tuple[str, Any, bool, Any]] = [
 
 
 @pytest.mark.parametrize(("text", "kind", "can_be_str", "value"), COERCED)
-def test_a_text_becomes_a_value(text: str, kind: Any, can_be_str: bool, value: Any) -> None:
+def test_text_is_converted_to_its_type(text: str, kind: Any, can_be_str: bool, value: Any) -> None:
     found = get_typed_value(text, kind, can_be_str=can_be_str)
     assert (found, type(found)) == (value, type(value))
 
@@ -57,13 +57,13 @@ REFUSED: list[tuple[str, Any, str]] = [
 
 
 @pytest.mark.parametrize(("text", "kind", "message"), REFUSED)
-def test_a_text_of_another_type_is_refused(text: str, kind: Any, message: str) -> None:
+def test_text_of_another_type_is_rejected(text: str, kind: Any, message: str) -> None:
     with pytest.raises(ValueError) as caught:
         coerce_to_type(text, kind)
     assert message in str(caught.value)
 
 
-def test_lists_of_texts() -> None:
+def test_lists_of_texts_are_converted_together() -> None:
     assert coerce_list(["1", "1000"]) == [1, 1000]
     assert coerce_list(["a", "1"], can_be_str=True) == ["a", 1]
     with pytest.raises(ValueError, match="cannot convert value to None"):
@@ -74,7 +74,7 @@ def test_lists_of_texts() -> None:
         get_typed_value(["1", "2"], int)
 
 
-def test_instances() -> None:
+def test_is_instance_of_checks_list_items() -> None:
     assert is_instance_of(True, int)
     assert not is_instance_of(1, float)
     assert is_instance_of(["1", 2], list[int], can_be_str=True)
@@ -93,7 +93,7 @@ NORMAL: list[tuple[Any, Any, Any]] = [
 
 
 @pytest.mark.parametrize(("value", "kind", "performed"), NORMAL)
-def test_values_and_substitutions_in_one_list(value: Any, kind: Any, performed: Any) -> None:
+def test_typed_substitution_list_may_mix_values_and_substitutions(value: Any, kind: Any, performed: Any) -> None:
     normal = normalize_typed_substitution(value, kind)
     assert perform_typed_substitution(LaunchContext(), normal, kind) == performed
 
@@ -108,6 +108,6 @@ def test_values_and_substitutions_in_one_list(value: Any, kind: Any, performed: 
         ([1, "a"], None, "not an acceptable 'SomeValueType'"),
     ],
 )
-def test_values_of_no_type(value: Any, kind: Any, message: str) -> None:
+def test_values_of_unsupported_type_are_rejected(value: Any, kind: Any, message: str) -> None:
     with pytest.raises(TypeError, match=message):
         normalize_typed_substitution(value, kind)

@@ -1,4 +1,4 @@
-"""The SIGINT of a launch: taken while it runs, and given back to nobody else."""
+"""The SIGINT handler of a launch: installed while it runs, then restored only if nobody replaced it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.runtime.process.stepping.stepped_time import stepped
 from launch.user_interrupt import UserInterrupt
 
 
-def test_a_killed_launch_that_is_collected_later_leaves_the_handler_of_another_program() -> None:
+def test_late_collection_of_a_killed_launch_keeps_another_programs_handler() -> None:
     interrupt = UserInterrupt(lambda again: None)
     found: list[Any] = []
 
@@ -29,7 +29,7 @@ def test_a_killed_launch_that_is_collected_later_leaves_the_handler_of_another_p
         found.append(signal.getsignal(signal.SIGINT))
 
     def own(number: int, frame: Any) -> None:
-        """A handler of the other program's."""
+        """The handler of another program."""
 
     with stepped() as clock:
         for name, main in (("launch", launches), ("other", collects)):

@@ -1,4 +1,4 @@
-"""Fixtures of launch descriptions: what runs beside tests, what comes after it, and how a failure is told."""
+"""Fixtures of launch descriptions: tests beside the launch, tests after its shutdown, and reported failures."""
 
 from __future__ import annotations
 
@@ -164,7 +164,7 @@ FILES |= {"refused": REFUSED, "itself": BY_ITSELF}
 
 
 class Done:
-    """One run of all files: what was printed, and the cases of each file with what became of them."""
+    """One run of all files: its output, and the test cases of each file with their outcomes."""
 
     def __init__(self, folder: Path) -> None:
         for name, text in FILES.items():
@@ -172,13 +172,13 @@ class Done:
         words = ["test", "-p", "no:cacheprovider", "-q", "--junitxml=report.xml", "--continue-on-collection-errors"]
         program = f"import sys; from bot_console.tui.cli.main import main; sys.exit(main({words!r}))"
         command = [sys.executable, "-c", program]
-        environment = {**os.environ, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}  # those for our own tests
+        environment = {**os.environ, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}  # plugins needed only by our own tests
         done = subprocess.run(
             command, cwd=folder, env=environment, capture_output=True, text=True, timeout=120, check=False
         )
         self.code, self.printed = done.returncode, done.stdout
         self.cases: dict[str, list[tuple[str, list[str]]]] = {name: [] for name in FILES}
-        # Not from what is printed: what a process says in between stands in the same lines.
+        # Not from the output: what processes print appears in the same lines.
         for each in ElementTree.parse(folder / "report.xml").iter("testcase"):
             where = (each.attrib["classname"] or each.attrib["name"]).removeprefix("test_")
             self.cases[where].append((each.attrib["name"], [kind.tag for kind in each]))
@@ -189,11 +189,11 @@ def done(tmp_path_factory: pytest.TempPathFactory) -> Done:
     return Done(tmp_path_factory.mktemp("launched"))
 
 
-def test_plain_tests_coroutines_and_generators_run_beside_and_after_a_launch(done: Done) -> None:
+def test_functions_coroutines_and_generators_run_beside_and_after_a_launch(done: Done) -> None:
     assert [kinds for _, kinds in done.cases["beside"]] == [[]] * 7, done.printed
 
 
-def test_a_fixture_of_a_module_runs_once_and_what_comes_after_it_is_last(done: Done) -> None:
+def test_module_fixture_runs_once_and_shutdown_tests_come_last(done: Done) -> None:
     order = ["test_one", "test_two", "test_end", "test_two[shutdown_test]"]
     assert done.cases["common"] == [(name, []) for name in order], done.printed
 
@@ -209,14 +209,14 @@ def test_failures_are_reported_with_their_own_assertion(done: Done) -> None:
         assert text in done.printed
 
 
-def test_the_mark_wants_a_fixture_of_its_own(done: Done) -> None:
+def test_mark_requires_a_fixture(done: Done) -> None:
     assert done.code == 1
     assert "pytest.mark.launch takes fixture=" in done.printed
     assert done.cases["unmarked"] == [("test_it", ["skipped"])]
     assert '"fixture" keyword argument is required in a pytest.mark.launch() decorator' in done.printed
 
 
-def test_what_a_fixture_may_not_be(done: Done) -> None:
+def test_invalid_fixtures_are_rejected(done: Done) -> None:
     cases = dict(done.cases["refused"])
     assert cases["test_no_description"] == cases["test_ready_twice"] == ["error"]
     assert "fixture 'no_description': return value must be either a launch description" in done.printed
@@ -225,5 +225,5 @@ def test_what_a_fixture_may_not_be(done: Done) -> None:
     assert "launch test items cannot be marked with shutdown=True" in done.printed
 
 
-def test_a_launch_may_end_itself(done: Done) -> None:
+def test_launch_may_end_by_itself(done: Done) -> None:
     assert done.cases["itself"] == [("test_by_itself", [])], done.printed

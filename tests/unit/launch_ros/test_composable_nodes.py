@@ -1,4 +1,4 @@
-"""What a container is asked for when a launch file loads nodes into it."""
+"""The requests that a launch file sends to a container to load nodes into it."""
 
 from __future__ import annotations
 
@@ -59,16 +59,16 @@ FILES: list[tuple[str, str, Found]] = [
 
 @pytest.mark.filterwarnings("ignore:node name not provided")
 @pytest.mark.parametrize(("file", "found"), [row[1:] for row in FILES], ids=[row[0] for row in FILES])
-def test_parameter_files(tmp_path: Path, file: str, found: Found) -> None:
+def test_parameter_files_are_sent(tmp_path: Path, file: str, found: Found) -> None:
     assert values(request(tmp_path, file)) == found
 
 
-def test_a_file_with_nothing_for_the_node_is_reported(tmp_path: Path) -> None:
+def test_file_without_parameters_for_the_node_warns(tmp_path: Path) -> None:
     with pytest.warns(UserWarning, match="parameter files will not apply"):
         request(tmp_path, "/x:\n  ros__parameters: {a: 1}\n")
 
 
-def test_what_is_set_for_all_nodes_comes_first(tmp_path: Path) -> None:
+def test_parameters_for_all_nodes_come_first(tmp_path: Path) -> None:
     file = tmp_path / "all.yaml"
     file.write_text("/**:\n  ros__parameters: {a: 1, b: 2}\n")
     found = request(
@@ -83,11 +83,11 @@ def test_what_is_set_for_all_nodes_comes_first(tmp_path: Path) -> None:
     assert list(found.remap_rules) == ["x:=y"]
 
 
-def test_a_condition_that_does_not_hold_asks_for_nothing(tmp_path: Path) -> None:
+def test_false_condition_sends_no_request(tmp_path: Path) -> None:
     assert request(tmp_path, condition=IfCondition("false")) is None
 
 
-def test_a_pushed_namespace_is_not_put_before_the_container(run: Launch, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_pushed_namespace_does_not_apply_to_the_container(run: Launch, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[str] = []
 
     class Node:
@@ -104,6 +104,6 @@ def test_a_pushed_namespace_is_not_put_before_the_container(run: Launch, monkeyp
     assert asked == ["ns/box/_container/load_node"]
 
 
-def test_a_container_is_a_text_or_an_action() -> None:
+def test_container_must_be_text_or_action() -> None:
     with pytest.raises(TypeError, match="'LoadComposableNodes' expected 'target_container' to be one of"):
         LoadComposableNodes(target_container=5, composable_node_descriptions=[])

@@ -1,4 +1,4 @@
-"""Nodes: the command line that they get, names, rules and parameters. Contract, sections 1.5 and 1.6."""
+"""Nodes: their command line, names, remapping rules and parameters. Contract, sections 1.5 and 1.6."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def node(**options: Any) -> Node:
 
 
 def words(action: Node) -> list[str]:
-    """The command line behind the executable."""
+    """Return the command line after the executable."""
     return (action.process_description.final_cmd or [])[1:]
 
 
@@ -39,7 +39,7 @@ def launched(run: Launch, *entities: Any) -> Outcome:
     return outcome
 
 
-def test_the_order_of_words(run: Launch, tmp_path: Path) -> None:
+def test_arguments_are_ordered_as_upstream(run: Launch, tmp_path: Path) -> None:
     file = tmp_path / "f.yaml"
     file.write_text("{}")
     action = node(
@@ -75,7 +75,7 @@ def test_the_order_of_words(run: Launch, tmp_path: Path) -> None:
     ("options", "key"),
     [({"name": "n"}, "/**"), ({"namespace": "s"}, "/**"), ({"name": "n", "namespace": "s"}, "/s/n"), ({}, "/**")],
 )
-def test_for_whom_a_dict_is_written(run: Launch, options: Any, key: str) -> None:
+def test_dict_is_written_for_the_nodes_full_name(run: Launch, options: Any, key: str) -> None:
     action = node(parameters=[{"b": {"c": [1, 2]}, "a": "x"}], **options)
     launched(run, action)
     text = Path(words(action)[-1]).read_text()
@@ -97,24 +97,26 @@ NAMES: list[tuple[str | None, str | None, str | None, str]] = [
 
 
 @pytest.mark.parametrize(("pushed", "namespace", "name", "full"), NAMES)
-def test_names(run: Launch, pushed: str | None, namespace: str | None, name: str | None, full: str) -> None:
+def test_node_name_includes_namespaces(
+    run: Launch, pushed: str | None, namespace: str | None, name: str | None, full: str
+) -> None:
     action = node(name=name, namespace=namespace)
     launched(run, *([PushRosNamespace(pushed)] if pushed else []), action)
     assert action.node_name == full
 
 
-def test_an_empty_namespace_is_the_root(run: Launch) -> None:
+def test_empty_namespace_is_the_root(run: Launch) -> None:
     action = node(namespace="")
     launched(run, action)
     assert words(action) == ["--ros-args", "-r", "__ns:=/"]
 
 
-def test_a_name_before_the_launch() -> None:
+def test_node_name_is_unavailable_before_launch() -> None:
     with pytest.raises(RuntimeError, match="cannot access 'node_name' before executing action"):
         _ = node(name="n").node_name
 
 
-def test_a_bad_name(run: Launch) -> None:
+def test_invalid_name_is_rejected(run: Launch) -> None:
     outcome = run([node(name="bad name")])
     assert outcome.code == 1
     assert (
@@ -126,13 +128,13 @@ def test_a_bad_name(run: Launch) -> None:
     )
 
 
-def test_a_bad_namespace(run: Launch) -> None:
+def test_invalid_namespace_is_rejected(run: Launch) -> None:
     outcome = run([PushRosNamespace("not valid")])
     message = "The resulting namespace is invalid: [previous_namespace='None', pushed_namespace='not valid']"
     assert outcome.caught == message
 
 
-def test_two_of_one_name(run: Launch) -> None:
+def test_duplicate_names_are_warned_about(run: Launch) -> None:
     outcome = launched(run, node(name="x", namespace="s"), node(name="x", namespace="s"))
     assert re.search(
         r"\[WARNING\] \[true-\d+\]: there are now at least 2 nodes with the name /s/x created within this launch",
@@ -140,13 +142,13 @@ def test_two_of_one_name(run: Launch) -> None:
     )
 
 
-def test_namespaces_end_with_their_group(run: Launch) -> None:
+def test_pushed_namespace_ends_with_its_group(run: Launch) -> None:
     inside, outside = node(name="a"), node(name="a")
     launched(run, GroupAction([PushRosNamespace("g"), inside]), outside)
     assert (inside.node_name, outside.node_name) == ("/g/a", "<node_namespace_unspecified>/a")
 
 
-def test_parameters_for_all_leak_out_of_a_group_when_one_was_there(run: Launch) -> None:
+def test_set_parameter_leaks_out_of_a_group_if_one_was_set_before(run: Launch) -> None:
     inside, outside = node(), node()
     launched(run, GroupAction([SetParameter("b", 2), inside]), outside)
     assert (words(inside), words(outside)) == (["--ros-args", "-p", "b:=2"], ["--ros-args"])
@@ -172,19 +174,19 @@ def test_parameters_for_all_leak_out_of_a_group_when_one_was_there(run: Launch) 
         ({"nonsense": 1}, "Action.__init__() got an unexpected keyword argument 'nonsense'"),
     ],
 )
-def test_wrong_options(options: Any, message: str) -> None:
+def test_invalid_options_are_rejected(options: Any, message: str) -> None:
     with pytest.raises(TypeError) as caught:
         node(**options)
     assert message in str(caught.value)
 
 
-def test_old_names_are_gone() -> None:
+def test_removed_option_names_are_rejected() -> None:
     wrong: Any = Node
     with pytest.raises(TypeError, match=r"Node.__init__\(\) missing 1 required keyword-only argument: 'executable'"):
         wrong(node_executable="x")
 
 
-def test_a_missing_file_is_only_a_warning(run: Launch) -> None:
+def test_missing_parameter_file_is_a_warning(run: Launch) -> None:
     action = node(parameters=["/no/such.yaml"])
     outcome = launched(run, action)
     assert "[WARNING] [launch_ros.actions.node]: Parameter file path is not a file: /no/such.yaml" in outcome.text
@@ -192,12 +194,12 @@ def test_a_missing_file_is_only_a_warning(run: Launch) -> None:
     assert "was looked for in" not in outcome.text
 
 
-def test_where_a_relative_file_was_searched_for_is_reported(run: Launch) -> None:
+def test_warning_says_where_a_relative_file_was_searched_for(run: Launch) -> None:
     outcome = launched(run, node(parameters=[Path("config/no_such.yaml")]))
     assert f"config/no_such.yaml was looked for in {Path.cwd()}, the folder that launch was started" in outcome.text
 
 
-def test_a_package_that_has_the_missing_file_is_named(run: Launch, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_warning_names_the_package_that_has_the_file(run: Launch, monkeypatch: pytest.MonkeyPatch) -> None:
     from launch_ros import parameter_arguments
 
     monkeypatch.setattr(parameter_arguments, "hint_for", lambda path: f"package 'mine' has src/mine/{path}")
@@ -205,7 +207,7 @@ def test_a_package_that_has_the_missing_file_is_named(run: Launch, monkeypatch: 
     assert "launch was started in; package 'mine' has src/mine/config/no_such.yaml" in outcome.text
 
 
-def test_a_missing_file_for_all_ends_the_launch(run: Launch) -> None:
+def test_missing_parameter_file_for_all_nodes_ends_the_launch(run: Launch) -> None:
     outcome = run([SetParametersFromFile("/no/such.yaml"), node()])
     assert (outcome.code, outcome.caught) == (1, "")
 
@@ -218,7 +220,7 @@ def test_a_missing_file_for_all_ends_the_launch(run: Launch) -> None:
         ("bare", "x", "package 'bare' found at '{prefix}', but libexec directory '{prefix}/lib/bare' does not exist"),
     ],
 )
-def test_executables_that_are_not_there(
+def test_missing_executables_end_the_launch(
     run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, package: str, executable: str, message: str
 ) -> None:
     index = tmp_path / "share" / "ament_index" / "resource_index" / "packages"
@@ -232,7 +234,7 @@ def test_executables_that_are_not_there(
     assert "--allow-missing" in outcome.text
 
 
-def test_missing_executables_can_be_left_out(log_lines: list[str]) -> None:
+def test_allow_missing_leaves_out_missing_executables(log_lines: list[str]) -> None:
     from launch_ros.missing_executables import allow_missing
 
     from launch import LaunchDescription, LaunchService
@@ -245,7 +247,7 @@ def test_missing_executables_can_be_left_out(log_lines: list[str]) -> None:
     assert "process has finished cleanly" in "\n".join(log_lines)
 
 
-def test_a_missing_executable_of_a_package_whose_setup_py_has_a_mistake(
+def test_missing_executable_error_shows_mistake_in_setup_py(
     run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, log_lines: list[str]
 ) -> None:
     (tmp_path / "demo").mkdir()
@@ -256,7 +258,7 @@ def test_a_missing_executable_of_a_package_whose_setup_py_has_a_mistake(
     assert f"demo has: none. It has a mistake: {tmp_path / 'demo' / 'setup.py'}:1" in "\n".join(log_lines)
 
 
-def test_a_missing_executable_of_a_package_that_has_others(log_lines: list[str]) -> None:
+def test_missing_executable_error_lists_existing_ones(log_lines: list[str]) -> None:
     from launch_ros.missing_executables import allow_missing
 
     from launch import LaunchDescription, LaunchService
@@ -272,7 +274,7 @@ def test_a_missing_executable_of_a_package_that_has_others(log_lines: list[str])
     assert "turtlesim_node. --allow-missing leaves out what is missing" in "\n".join(log_lines)
 
 
-def test_where_nodes_log(run: Launch, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_set_ros_log_dir_sets_log_folder_of_nodes(run: Launch, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
     seen: list[str] = []
     launched(
@@ -298,9 +300,9 @@ PREFIXES: list[tuple[str | None, str | None, str | None]] = [
 
 
 @pytest.mark.parametrize(("base", "own", "combined"), PREFIXES)
-def test_prefixes(base: str | None, own: str | None, combined: str | None) -> None:
+def test_namespaces_are_combined(base: str | None, own: str | None, combined: str | None) -> None:
     assert prefix_namespace(base, own) == combined
 
 
-def test_absolute() -> None:
+def test_namespace_is_made_absolute() -> None:
     assert [make_namespace_absolute(each) for each in ("a", "/a", "", None)] == ["/a", "/a", "/", None]

@@ -1,4 +1,4 @@
-"""Nodes as node processes of the launch: what they are given, print, and how they end."""
+"""Nodes as node processes of the launch: their arguments and environment, their output, and their end."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def lines_of(text: str) -> list[str]:
     return re.findall(r"^\[\w+-\d+\] (.*)$", text, re.M)
 
 
-def test_it_sees_its_own_arguments_and_environment(run: Launch, script: Any) -> None:
+def test_node_gets_its_own_arguments_and_environment(run: Launch, script: Any) -> None:
     path = script("import os, sys; print(sys.argv[1:], os.environ['BC_A'], os.getpid() > 4194304)")
     nodes = [
         Node(executable=path, name=each, output="screen", arguments=[each], additional_env={"BC_A": each})
@@ -51,14 +51,14 @@ def test_it_sees_its_own_arguments_and_environment(run: Launch, script: Any) -> 
 
 
 @pytest.mark.parametrize("prefix", ["python3", sys.executable])
-def test_a_file_that_python_is_to_run_need_not_be_executable(run: Launch, script: Any, prefix: str) -> None:
+def test_file_run_by_python_need_not_be_executable(run: Launch, script: Any, prefix: str) -> None:
     path = script("import os, sys; print(sys.argv, os.getpid() > 4194304)", "node.py")
     Path(path).chmod(0o644)
     outcome = run([Node(executable=path, prefix=prefix, exec_name="node.py", output="screen", arguments=["a"])])
     assert re.search(rf"^\[node\.py-\d+\] \['{re.escape(path)}', 'a', '--ros-args'\] True$", outcome.text, re.M)
 
 
-def test_what_python_is_to_do_with_a_file_is_left_to_it(run: Launch, script: Any) -> None:
+def test_python_options_in_prefix_are_left_to_python(run: Launch, script: Any) -> None:
     path = script("import rclpy, sys; print(rclpy.__name__, sys.argv[1:])", "node.py")
     Path(path).chmod(0o644)
     outcome = run([Node(executable=path, prefix="python3 -m cProfile -s calls", output="screen")])
@@ -74,21 +74,21 @@ def test_stdout_and_stderr_are_distinguished(run: Launch, script: Any) -> None:
     ("code", "exit_code"),
     [("", 0), ("raise SystemExit(7)", 7), ("1 / 0", 1), ("raise KeyboardInterrupt", -2), ("import os; os._exit(5)", 5)],
 )
-def test_exit_codes(run: Launch, script: Any, code: str, exit_code: int) -> None:
+def test_exit_code_is_reported(run: Launch, script: Any, code: str, exit_code: int) -> None:
     codes: list[int] = []
     on_exit = OnProcessExit(on_exit=lambda event, context: codes.append(event.returncode))
     outcome = run([RegisterEventHandler(on_exit), Node(executable=script(code))])
     assert (codes, outcome.code) == ([exit_code], 0)
 
 
-def test_a_traceback_comes_before_the_end(run: Launch, script: Any) -> None:
+def test_traceback_is_printed_before_the_end(run: Launch, script: Any) -> None:
     lines = run([Node(executable=script("def f():\n    1 / 0\nf()"))]).lines
     died = next(number for number, each in enumerate(lines) if "process has died" in each)
     assert lines[died - 1].endswith("ZeroDivisionError: division by zero")
     assert len(lines) == died + 1
 
 
-def test_the_end_of_the_launch_interrupts_it(run: Launch, script: Any) -> None:
+def test_shutdown_interrupts_the_node(run: Launch, script: Any) -> None:
     node = Node(executable=script(WAITS), output="screen")
     text = run([node, once_up(node, Shutdown())]).text
     assert lines_of(text) == ["up", "interrupted"]
@@ -96,7 +96,7 @@ def test_the_end_of_the_launch_interrupts_it(run: Launch, script: Any) -> None:
     assert "process has finished cleanly" in text
 
 
-def test_one_of_two_is_shut_down(run: Launch, script: Any) -> None:
+def test_one_of_two_nodes_is_shut_down(run: Launch, script: Any) -> None:
     first, second = (Node(executable=script(WAITS, each), output="screen") for each in ("first", "second"))
     only = EmitEvent(event=ShutdownProcess(process_matcher=matches_action(first)))
     rest = RegisterEventHandler(OnProcessExit(target_action=first, on_exit=[Shutdown()]))
@@ -105,7 +105,7 @@ def test_one_of_two_is_shut_down(run: Launch, script: Any) -> None:
     assert text.index("first-") < text.rindex("second-")
 
 
-def test_a_kill(run: Launch, script: Any) -> None:
+def test_node_can_be_killed(run: Launch, script: Any) -> None:
     node = Node(executable=script(WAITS), output="screen")
     kill = EmitEvent(event=SignalProcess(signal_number="SIGKILL", process_matcher=matches_action(node)))
     assert "exit code -9" in run([node, once_up(node, kill)]).text
@@ -128,7 +128,7 @@ def test_respawn_starts_a_fresh_program(run: Launch, script: Any, tmp_path: Path
     assert len(set(re.findall(r"\[(program-\d+)\]", text))) == 1
 
 
-def test_parameters_and_rules_arrive(run: Launch, script: Any) -> None:
+def test_parameters_and_remappings_arrive(run: Launch, script: Any) -> None:
     path = script(
         """
         import rclpy
@@ -145,7 +145,7 @@ def test_parameters_and_rules_arrive(run: Launch, script: Any) -> None:
     assert lines_of(run([node]).text) == ["/s/n 2.5 /s/b"]
 
 
-def test_lifecycle(run: Launch, script: Any) -> None:
+def test_lifecycle_node_changes_state_on_events(run: Launch, script: Any) -> None:
     path = script(
         """
         import rclpy
@@ -173,7 +173,9 @@ def test_lifecycle(run: Launch, script: Any) -> None:
     assert (outcome.code, states) == (0, ["inactive", "active"]), outcome.text
 
 
-def test_components_in_python(run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_python_components_are_loaded_into_a_container(
+    run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (tmp_path / "bc_components.py").write_text(
         textwrap.dedent(
             """
@@ -209,7 +211,7 @@ def test_components_in_python(run: Launch, tmp_path: Path, monkeypatch: pytest.M
     assert "Failed to load node '' of type 'bc_components::Cpp' in container '/c':" in text
 
 
-def test_a_lifecycle_component_becomes_active_by_itself(
+def test_lifecycle_component_activates_automatically(
     run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "bc_lifecycle_component.py").write_text(

@@ -1,4 +1,4 @@
-"""A workspace package with messages of its own, its node launched from source: nothing built, nothing installed."""
+"""A node launched from source whose package defines messages: nothing is built or installed."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
         del sys.modules[name]
 
 
-def test_its_messages_and_services_are_imported_and_its_variables_are_its_own(run: Launch, package: str) -> None:
+def test_node_imports_interfaces_of_its_package_and_has_its_environment(run: Launch, package: str) -> None:
     text = run([Node(package=package, executable="drawer", output="screen")]).text
     assert "launched_shapes.msg.Corner(x=1.0, y=2.5) 2.5" in text
     assert "a path words 4 a pipe" in text

@@ -1,4 +1,4 @@
-"""Nodes of a launch in processes of their own: what they are given, print and tell, and how they end."""
+"""Launched nodes that run in operating-system processes: their arguments, output, reports, and end."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def script(tmp_path: Path) -> Any:
 
 @pytest.fixture
 def news() -> Iterator[list[News]]:
-    """What processes tell."""
+    """Collects what processes report."""
     heard: list[News] = []
     forget = on_news(heard.append)
     yield heard
@@ -66,18 +66,19 @@ def lines_of(text: str) -> list[str]:
 IN_A_PROCESS = "import os, sys, threading; print(os.getpid() < 1 << 22, os.getppid() == {server}, sys.argv[1:])"
 
 
-def test_a_node_has_a_process_with_its_arguments_and_environment(run: Launch, script: Any) -> None:
+def test_node_has_its_own_process_with_arguments_and_environment(run: Launch, script: Any) -> None:
     reports = "\nprint(os.environ['BC_A'], 'asyncio' in sys.modules)"
     path = script(IN_A_PROCESS.format(server=fork_server().pid) + reports)
     pids: list[int] = []
     started = RegisterEventHandler(OnProcessStart(on_start=lambda event, context: pids.append(event.pid)))
     node = Node(executable=path, name="a", output="screen", arguments=["x"], additional_env={"BC_A": "b"})
     text = run([started, node], PROCESS).text
-    assert lines_of(text) == ["True True ['x', '--ros-args', '-r', '__node:=a']", "b False"]  # no launch in it
+    # launch is not imported there
+    assert lines_of(text) == ["True True ['x', '--ros-args', '-r', '__node:=a']", "b False"]
     assert len(pids) == 1 and pids[0] < 1 << 22 and f"process has finished cleanly [pid {pids[0]}]" in text
 
 
-def test_who_gets_a_process(run: Launch, script: Any) -> None:
+def test_isolation_argument_and_default_decide_who_gets_a_process(run: Launch, script: Any) -> None:
     path = script("import os; print('own' if os.getpid() < 1 << 22 else 'thread')")
     node = lambda: [Node(executable=path, output="screen")]  # noqa: E731
     assert lines_of(run(node()).text) == ["thread"]
@@ -91,20 +92,22 @@ def test_who_gets_a_process(run: Launch, script: Any) -> None:
         isolate_by_default("thread")
 
 
-def test_each_begins_with_what_the_composition_wants(run: Launch, script: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_children_run_the_configured_startup_function(
+    run: Launch, script: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
     path = script("import tracemalloc; print(tracemalloc.is_tracing())")
     monkeypatch.setattr(own_processes, "_beginnings", [])
     begin_children_with("tracemalloc:start")
     assert lines_of(run([Node(executable=path, output="screen")], PROCESS).text) == ["True"]
 
 
-def test_a_crash_that_nobody_hears_of_is_printed(run: Launch, script: Any) -> None:
+def test_crash_without_listener_is_printed(run: Launch, script: Any) -> None:
     path = script("import ctypes\nctypes.string_at(0)\n")
     text = run([Node(executable=path)], PROCESS).text
     assert f'File "{path}", line 3 in <module>' in text
 
 
-def test_another_word_is_refused_with_the_words_that_are_known(run: Launch, script: Any) -> None:
+def test_unknown_isolation_is_rejected_with_known_values(run: Launch, script: Any) -> None:
     outcome = run([Node(executable=script(""))], {"isolation": "box"})
     assert "the launch argument 'isolation' must be 'process' or 'thread', not 'box'" in outcome.text
 
@@ -120,14 +123,14 @@ def test_another_word_is_refused_with_the_words_that_are_known(run: Launch, scri
         ("import os; os.abort()", -6),
     ],
 )
-def test_exit_codes(run: Launch, script: Any, code: str, exit_code: int) -> None:
+def test_exit_code_is_reported(run: Launch, script: Any, code: str, exit_code: int) -> None:
     codes: list[int] = []
     on_exit = OnProcessExit(on_exit=lambda event, context: codes.append(event.returncode))
     outcome = run([RegisterEventHandler(on_exit), Node(executable=script(code))], PROCESS)
     assert (codes, outcome.code) == ([exit_code], 0)
 
 
-def test_a_traceback_comes_before_the_end(run: Launch, script: Any, news: list[News]) -> None:
+def test_traceback_is_printed_before_the_end(run: Launch, script: Any, news: list[News]) -> None:
     path = script("def f():\n    1 / 0\nf()")
     lines = run([Node(executable=path)], PROCESS).lines
     died = next(number for number, each in enumerate(lines) if "process has died" in each)
@@ -135,21 +138,21 @@ def test_a_traceback_comes_before_the_end(run: Launch, script: Any, news: list[N
     assert [(each.kind, each.facts["frames"][-1]) for each in news] == [("uncaught", [path, 3, "f"])]
 
 
-def test_a_crash_in_c_reports_the_line(run: Launch, script: Any, news: list[News]) -> None:
+def test_crash_in_c_reports_the_line(run: Launch, script: Any, news: list[News]) -> None:
     path = script("import ctypes\nctypes.string_at(0)\n")
     run([Node(executable=path)], PROCESS)
     assert [each.kind for each in news] == ["crash"]
     assert f'File "{path}", line 3 in <module>' in news[0].facts["text"] and news[0].process.startswith("program-")
 
 
-def test_the_end_of_the_launch_interrupts_it(run: Launch, script: Any) -> None:
+def test_shutdown_interrupts_the_node(run: Launch, script: Any) -> None:
     node = Node(executable=script(WAITS), output="screen")
     text = run([node, once_up(node, Shutdown())], PROCESS).text
     assert lines_of(text) == ["up", "interrupted"] and "process has finished cleanly" in text
 
 
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGKILL"])
-def test_one_that_is_deaf_is_ended_by_escalation(run: Launch, script: Any, name: str) -> None:
+def test_node_that_ignores_signals_is_ended_by_escalation(run: Launch, script: Any, name: str) -> None:
     deaf = "import signal, time\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\n"
     if name == "SIGKILL":
         deaf += "signal.signal(signal.SIGTERM, signal.SIG_IGN)\n"
@@ -160,7 +163,7 @@ def test_one_that_is_deaf_is_ended_by_escalation(run: Launch, script: Any, name:
     assert f"exit code {-signal.Signals[name]}" in text and f"escalating to '{name}'" in text
 
 
-def test_a_kill_and_a_start_again(run: Launch, script: Any) -> None:
+def test_killed_node_respawns_in_a_new_process(run: Launch, script: Any) -> None:
     path = script(WAITS)
     node = Node(executable=path, output="screen", respawn=True, respawn_max_retries=1)
     kill = EmitEvent(event=SignalProcess(signal_number="SIGKILL", process_matcher=matches_action(node)))
@@ -169,13 +172,13 @@ def test_a_kill_and_a_start_again(run: Launch, script: Any) -> None:
     assert text.count("exit code -9") == 2 and len(set(pids)) == 2
 
 
-def test_a_terminal_for_its_output(run: Launch, script: Any) -> None:
+def test_emulate_tty_gives_the_output_a_terminal(run: Launch, script: Any) -> None:
     path = script("import sys; print(sys.stdout.isatty(), sys.stderr.isatty())")
     assert lines_of(run([Node(executable=path, output="screen", emulate_tty=True)], PROCESS).text) == ["True True"]
     assert lines_of(run([Node(executable=path, output="screen")], PROCESS).text)[-1:] == ["False False"]
 
 
-def test_what_is_written_to_its_input_arrives(run: Launch, script: Any) -> None:
+def test_input_reaches_the_process(run: Launch, script: Any) -> None:
     from launch.events.process import ProcessStdin
 
     node = Node(executable=script("print('up', flush=True)\nprint(input()[::-1])"), output="screen")
@@ -190,12 +193,12 @@ def test_what_is_written_to_its_input_arrives(run: Launch, script: Any) -> None:
     assert "cba" in run([node, handler], PROCESS).text
 
 
-def test_a_ros2_line_gets_a_process_where_all_do(run: Launch) -> None:
+def test_ros2_command_gets_a_process_like_all_others(run: Launch) -> None:
     lines = run([ExecuteProcess(cmd=["ros2", "interface", "show", "std_msgs/msg/Bool"], output="screen")], PROCESS).text
     assert "bool data" in lines
 
 
-def test_a_killed_fork_server_takes_no_node_along_and_the_next_start_has_a_new_one(run: Launch, script: Any) -> None:
+def test_nodes_survive_a_killed_fork_server_and_next_start_gets_a_new_one(run: Launch, script: Any) -> None:
     first = Node(executable=script(WAITS, "first"), output="screen")
 
     def kill_server(event: Any) -> Any:

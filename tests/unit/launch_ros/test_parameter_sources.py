@@ -1,4 +1,4 @@
-"""A launch tells which launch argument, or which of its lines, gives a node a parameter."""
+"""A launch records which launch argument, or which of its lines, gives a node a parameter."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def given(node: Node, *arguments: DeclareLaunchArgument) -> dict[str, Any]:
     return dict(news.facts["parameters"])
 
 
-def test_each_parameter_names_its_launch_arguments_or_the_line() -> None:
+def test_each_parameter_has_its_launch_arguments_or_line() -> None:
     speed, low = LaunchConfiguration("speed"), LaunchConfiguration("low")
     node = Node(
         package="p",

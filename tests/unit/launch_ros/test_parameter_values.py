@@ -32,7 +32,7 @@ LITERALS = [True, 1, 2.0, "1", "true", "", "1e3", b"ab", (1, 2), (1.5,), ("1", "
 
 
 @pytest.mark.parametrize("value", LITERALS, ids=repr)
-def test_a_literal_stays_what_it_is(value: Any) -> None:
+def test_literal_keeps_its_type(value: Any) -> None:
     found = value_of(value)
     assert (found, type(found)) == (value, type(value))
 
@@ -59,7 +59,7 @@ TEXTS: list[tuple[str, Any]] = [
 
 
 @pytest.mark.parametrize(("text", "value"), TEXTS, ids=[repr(row[0]) for row in TEXTS])
-def test_a_substitution_is_read_as_yaml(text: str, value: Any) -> None:
+def test_substitution_is_parsed_as_yaml(text: str, value: Any) -> None:
     found = value_of(LC("x"), x=text)
     assert (found, type(found)) == (value, type(value))
 
@@ -79,7 +79,7 @@ FORMS: list[tuple[str, Any, Any]] = [
 
 
 @pytest.mark.parametrize(("value", "found"), [row[1:] for row in FORMS], ids=[row[0] for row in FORMS])
-def test_forms(value: Any, found: Any) -> None:
+def test_mixed_values_are_evaluated(value: Any, found: Any) -> None:
     assert value_of(value, i="1", t="true", l="[1, 2]") == found
 
 
@@ -152,7 +152,7 @@ ERRORS: list[tuple[str, Callable[[], Any], type[Exception], str]] = [
 
 
 @pytest.mark.parametrize(("make", "kind", "message"), [row[1:] for row in ERRORS], ids=[row[0] for row in ERRORS])
-def test_errors(make: Callable[[], Any], kind: type[Exception], message: str) -> None:
+def test_invalid_values_are_rejected(make: Callable[[], Any], kind: type[Exception], message: str) -> None:
     with pytest.raises(kind) as caught:
         value_of(
             make(),
@@ -169,18 +169,18 @@ def test_errors(make: Callable[[], Any], kind: type[Exception], message: str) ->
     assert str(caught.value) == message
 
 
-def test_broken_yaml_names_the_parameter() -> None:
+def test_invalid_yaml_error_names_the_parameter() -> None:
     with pytest.raises(ValueError, match="Unable to parse the value of parameter p as yaml"):
         value_of(LC("x"), x="[1,")
 
 
-def test_nested_names_have_dots() -> None:
+def test_nested_names_are_joined_with_dots() -> None:
     context = LaunchContext()
     parameters = normalize_parameter_dict({"a": {"b": 1, "c": {"d": 2}}, "e.f": 3, LC("n", default="g"): 4})
     assert evaluate_parameter_dict(context, parameters) == {"a.b": 1, "a.c.d": 2, "e.f": 3, "g": 4}
 
 
-def test_entries(tmp_path: Path) -> None:
+def test_parameter_entries_may_be_dicts_files_or_parameters(tmp_path: Path) -> None:
     context = LaunchContext()
     file = tmp_path / "f.yaml"
     entries = normalize_parameters([{}, str(file), file, [TextSubstitution(text=str(file))], Parameter("a", 1)])
@@ -189,7 +189,7 @@ def test_entries(tmp_path: Path) -> None:
     assert (parameter.name, parameter.value) == ("a", 1)
 
 
-def test_substitutions_in_a_file(tmp_path: Path) -> None:
+def test_allow_substs_evaluates_substitutions_in_a_file(tmp_path: Path) -> None:
     context = LaunchContext()
     context.launch_configurations["x"] = "7"
     file = tmp_path / "f.yaml"
@@ -202,7 +202,7 @@ def test_substitutions_in_a_file(tmp_path: Path) -> None:
     assert not path.exists()
 
 
-def test_a_file_description_is_evaluated_once(tmp_path: Path) -> None:
+def test_parameter_file_is_evaluated_once(tmp_path: Path) -> None:
     file = tmp_path / "p.yaml"
     file.write_text("/**: {ros__parameters: {a: $(var i)}}")
     context = LaunchContext()
@@ -216,6 +216,6 @@ def test_a_file_description_is_evaluated_once(tmp_path: Path) -> None:
     assert not first.exists()
 
 
-def test_a_file_with_substitutions_must_be_there(tmp_path: Path) -> None:
+def test_file_with_substitutions_must_exist(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError):
         ParameterFile(str(tmp_path / "none.yaml"), allow_substs=True).evaluate(LaunchContext())

@@ -1,4 +1,4 @@
-"""Warnings, with file and line, where upstream is silent; what happens stays the same."""
+"""Warnings with file and line where upstream is silent; the behaviour stays that of upstream."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def node(**options: Any) -> Node:
     return Node(executable="true", **options)
 
 
-def test_arguments_that_are_not_declared(run: Launch) -> None:
+def test_undeclared_launch_arguments_are_warned_about(run: Launch) -> None:
     from launch.actions import DeclareLaunchArgument, LogInfo
 
     entities = [
@@ -45,7 +45,7 @@ ns:
 """
 
 
-def test_a_file_that_means_another_node(run_file: Launch, tmp_path: Path) -> None:
+def test_parameter_file_without_section_for_the_node_is_warned_about(run_file: Launch, tmp_path: Path) -> None:
     file = tmp_path / "f.yaml"
     file.write_text(FILE)
     text = f'<launch>\n  <node exec="true" name="robot_node">\n    <param from="{file}"/>\n  </node>\n</launch>\n'
@@ -66,7 +66,7 @@ def test_a_file_that_means_another_node(run_file: Launch, tmp_path: Path) -> Non
         ("any", {}),
     ],
 )
-def test_files_that_mean_the_node(run: Launch, tmp_path: Path, keys: str, options: Any) -> None:
+def test_matching_parameter_file_is_not_warned_about(run: Launch, tmp_path: Path, keys: str, options: Any) -> None:
     file = tmp_path / "f.yaml"
     file.write_text(f"{keys}:\n  ros__parameters: {{a: 1}}\n")
     assert warnings(run([node(parameters=[str(file)], **options)])) == []
@@ -84,7 +84,7 @@ VALUES: list[tuple[Any, str]] = [
 
 
 @pytest.mark.parametrize(("value", "message"), VALUES, ids=[row[1] for row in VALUES])
-def test_values_whose_type_changes(run: Launch, value: Any, message: str) -> None:
+def test_values_whose_type_changes_are_warned_about(run: Launch, value: Any, message: str) -> None:
     action = node(parameters=[{"p": value}])
     [found] = warnings(run([action], {"octal": "0123", "time": "12:30:45", "yes": "yes"}))
     assert found == f"{action.origin}: {message}"
@@ -92,7 +92,7 @@ def test_values_whose_type_changes(run: Launch, value: Any, message: str) -> Non
 
 
 @pytest.mark.parametrize("value", [True, 1, -5, 2.5, "text", "5", "true", "", "null", [1, 2], ["y", "n"]])
-def test_values_that_stay_what_they_are(run: Launch, value: Any) -> None:
+def test_values_that_keep_their_type_are_not_warned_about(run: Launch, value: Any) -> None:
     class Own(int):
         pass
 
@@ -102,17 +102,17 @@ def test_values_that_stay_what_they_are(run: Launch, value: Any) -> None:
 @pytest.mark.parametrize(
     ("text", "changes"), [("5", False), ("+5", False), ("-3", False), ("1_000", True), ("0x1F", True)]
 )
-def test_numbers_in_yaml(text: str, changes: bool) -> None:
+def test_numbers_that_yaml_reads_differently_are_recognized(text: str, changes: bool) -> None:
     import yaml
 
     assert changes_in_yaml(text, yaml.safe_load(text)) is changes
 
 
-def test_strings_in_files() -> None:
+def test_strings_that_a_parameter_file_reads_as_numbers_are_recognized() -> None:
     assert [changes_in_file(each) for each in ("1e3", "nan", "5", "yes", "a")] == [True, True, False, False, False]
 
 
-def test_parameters_for_all(run: Launch) -> None:
+def test_set_parameter_values_whose_type_changes_are_warned_about(run: Launch) -> None:
     message = warnings(run([SetParameter("a", "5"), SetParameter("b", [1, 2]), SetParameter("c", 1)]))
     assert [each.partition(": ")[2] for each in message] == [
         "a: the string '5' arrives as the integer 5",
@@ -120,7 +120,7 @@ def test_parameters_for_all(run: Launch) -> None:
     ]
 
 
-def test_two_of_one_name_without_a_namespace(run: Launch) -> None:
+def test_duplicate_names_without_namespace_are_warned_about(run: Launch) -> None:
     first, second = node(name="n"), node(name="n")
     assert warnings(run([first, second, node(), node()])) == [
         f"{second.origin}: this node and the one of {first.origin} have the same name /n"

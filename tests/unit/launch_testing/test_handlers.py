@@ -1,4 +1,4 @@
-"""What is known of processes: which are meant, what they wrote, and how they ended."""
+"""What is recorded of processes: which ones match, what they printed, and how they ended."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def known() -> SimpleNamespace:
     return SimpleNamespace(bare=bare, fast=fast, info=info, output=output)
 
 
-def test_processes_are_meant_by_name_and_command(known: SimpleNamespace) -> None:
+def test_processes_are_matched_by_name_and_arguments(known: SimpleNamespace) -> None:
     def found(*process: Any, **more: Any) -> list[Any]:
         return resolveProcesses(known.info, process=process[0] if process else None, **more)
 
@@ -74,17 +74,17 @@ def test_processes_are_meant_by_name_and_command(known: SimpleNamespace) -> None
         resolveProcesses(ActiveIoHandler())
 
 
-def test_output_by_process(known: SimpleNamespace) -> None:
+def test_output_is_kept_per_process(known: SimpleNamespace) -> None:
     name = known.bare.process_details["name"]
     assert known.output.process_names() == [name, known.fast.process_details["name"]]
-    assert known.output.processes() == [known.bare]  # those that have written
+    assert known.output.processes() == [known.bare]  # those that have printed something
     assert [each.text for each in known.output[name]] == [each.text for each in known.output[known.bare]]
     assert known.output[known.fast] == []
     with pytest.raises(KeyError):
-        known.output["counter"]  # not the whole name
+        known.output["counter"]  # only a part of the name
 
 
-def test_output_is_asserted_and_waited_for(known: SimpleNamespace) -> None:
+def test_assert_in_stdout_matches_texts_patterns_and_lists(known: SimpleNamespace) -> None:
     assertInStdout(known.output, "one\ntwo", "counter")
     assertInStdout(known.output, re.compile("^two$", re.M), None)
     assertInStdout(known.output, ["one", "two"], known.bare)
@@ -102,7 +102,7 @@ def test_output_is_asserted_and_waited_for(known: SimpleNamespace) -> None:
         known.output.waitFor("one", "talker", timeout=0)
 
 
-def test_texts_in_their_order(known: SimpleNamespace) -> None:
+def test_sequential_assertions_respect_order(known: SimpleNamespace) -> None:
     with assertSequentialStdout(known.output, "counter") as checker:
         checker.assertInStdout("one")
         checker.assertInStdout("oops")
@@ -117,13 +117,13 @@ def test_texts_in_their_order(known: SimpleNamespace) -> None:
     assert checker.get_nearby_lines() == "a1 a2\nb\nc\nd"
 
 
-def test_ends_by_process(known: SimpleNamespace) -> None:
+def test_exit_codes_are_kept_per_process(known: SimpleNamespace) -> None:
     with pytest.raises(AssertionError, match=r"Timed out waiting for process 'counter-\d+ --fast twice' to finish"):
         known.info.assertWaitForShutdown(known.fast, timeout=0)
     known.info.append(event(ProcessExited, known.fast, returncode=-2))
     known.info.append(event(ProcessExited, known.bare, returncode=0))
     known.info.assertWaitForShutdown("counter", "--fast", timeout=0)
-    assert known.info["counter"].returncode == 0  # the first of that name
+    assert known.info["counter"].returncode == 0  # the first with that name
     with pytest.raises(KeyError):
         known.info["talker"]
     assertExitCodes(known.info, [0, -2])
@@ -134,7 +134,7 @@ def test_ends_by_process(known: SimpleNamespace) -> None:
         assertExitCodes(known.info, ["0"])  # type: ignore[list-item]
 
 
-def test_an_action_when_a_process_reports_it_is_ready() -> None:
+def test_ready_listener_runs_actions_when_text_appears() -> None:
     from launch.actions import OpaqueFunction, RegisterEventHandler
 
     done: list[str] = []
@@ -152,7 +152,7 @@ def test_an_action_when_a_process_reports_it_is_ready() -> None:
     assert done == ["ready"]
 
 
-def test_programs_that_are_tested() -> None:
+def test_test_actions_run_programs_with_a_timeout() -> None:
     locked = Test(cmd=["sleep", "60"], timeout=0.1)
     service = LaunchService(noninteractive=True)
     service.include_launch_description(LaunchDescription([locked]))

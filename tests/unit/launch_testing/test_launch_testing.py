@@ -1,4 +1,4 @@
-"""Tests of launch descriptions: what passes, what fails, and how it is told."""
+"""Tests of launch descriptions: what passes, what fails, and how failures are reported."""
 
 from __future__ import annotations
 
@@ -104,12 +104,12 @@ def run(path: Path, **arguments: str) -> unittest.TestResult:
 
 
 @pytest.mark.parametrize(("text", "count"), [(GOOD, 4), (PARAMETRIZED, 2)])
-def test_tests_run_beside_and_afterwards(tmp_path: Path, text: str, count: int) -> None:
+def test_tests_run_beside_the_launch_and_after_shutdown(tmp_path: Path, text: str, count: int) -> None:
     result = run(write(tmp_path, text))
     assert (result.failures, result.errors, result.testsRun) == ([], [], count)
 
 
-def test_a_failure_is_reported(tmp_path: Path) -> None:
+def test_failure_is_reported_with_its_message(tmp_path: Path) -> None:
     result = run(write(tmp_path, BAD))
     assert len(result.failures) == 1
     assert "'good bye' was not found within 0.1 s" in result.failures[0][1]
@@ -120,13 +120,13 @@ def test_launch_arguments_reach_the_description(tmp_path: Path) -> None:
     assert run(write(tmp_path, text), who="me").wasSuccessful()
 
 
-def test_a_description_that_never_becomes_ready_is_refused(tmp_path: Path) -> None:
+def test_description_without_ready_to_test_is_rejected(tmp_path: Path) -> None:
     path = write(tmp_path, "def generate_test_description():\n    return launch.LaunchDescription([])\n")
     with pytest.raises(Exception, match="must return a LaunchDescription containing a ReadyToTest action"):
         run(path)
 
 
-def test_a_launch_that_ends_before_its_tests_is_an_error(tmp_path: Path) -> None:
+def test_launch_ending_before_its_tests_is_an_error(tmp_path: Path) -> None:
     text = BAD.replace(
         "return described()",
         "PROGRAM_ENDS = 'pass'\n    return launch.LaunchDescription(["
@@ -138,19 +138,20 @@ def test_a_launch_that_ends_before_its_tests_is_an_error(tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize(("text", "code"), [(GOOD, 0), (BAD, 1)])
-def test_under_pytest_and_alone(tmp_path: Path, text: str, code: int) -> None:
+def test_exit_code_is_the_same_under_pytest_and_launch_test(tmp_path: Path, text: str, code: int) -> None:
     path = write(tmp_path, text)
     for words in (["test", "-q", "-p", "no:cacheprovider", str(path)], ["launch_test", str(path)]):
         ended = subprocess.run(
             [sys.executable, "-c", f"import sys; from bot_console.tui.cli.main import main; sys.exit(main({words!r}))"],
-            cwd=tmp_path, env={**os.environ, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"},  # those for our own tests
+            # plugins needed only by our own tests
+            cwd=tmp_path, env={**os.environ, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"},
             capture_output=True, text=True, check=False,
         )  # fmt: skip
         assert ended.returncode == code, ended.stdout + ended.stderr
     assert ("good bye" in ended.stderr) == bool(code)
 
 
-def test_a_test_may_be_tried_again() -> None:
+def test_retry_on_failure_repeats_the_test() -> None:
     tries: list[int] = []
 
     @retry_on_failure(times=3)
@@ -199,12 +200,12 @@ class TestAfterwards(unittest.TestCase):
 """
 
 
-def test_a_test_may_start_processes_itself(tmp_path: Path) -> None:
+def test_test_may_start_processes_itself(tmp_path: Path) -> None:
     result = run(write(tmp_path, BESIDE))
     assert (result.failures, result.errors, result.testsRun) == ([], [], 6)
 
 
-def test_names_of_tests_have_their_parameters(tmp_path: Path) -> None:
+def test_parametrized_test_names_include_their_parameters(tmp_path: Path) -> None:
     waits = "proc_output.assertWaitFor(word, timeout=30, stream='stdout')"
     result = run(write(tmp_path, PARAMETRIZED.replace(waits, "assert not word")))
     assert [test.id().rpartition(".")[2] for test, _ in result.failures] == [
@@ -213,13 +214,13 @@ def test_names_of_tests_have_their_parameters(tmp_path: Path) -> None:
     ]
 
 
-def test_a_description_may_be_skipped(tmp_path: Path) -> None:
+def test_skipped_description_skips_its_tests(tmp_path: Path) -> None:
     result = run(write(tmp_path, "@unittest.skip('not here')" + BAD))
     assert [text for _, text in result.skipped] == ["not here"]
     assert result.wasSuccessful()
 
 
-def test_what_was_meant_to_be_ready_in_time(tmp_path: Path) -> None:
+def test_ready_to_test_timeout_is_an_error(tmp_path: Path) -> None:
     text = """
 @launch_testing.ready_to_test_action_timeout(0.2)
 def generate_test_description():
@@ -230,7 +231,7 @@ def generate_test_description():
     assert "Timed out waiting for processes to start up" in result.errors[0][1]
 
 
-def test_the_output_of_what_ended_too_early_is_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_output_of_a_process_that_ended_early_is_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = BAD.replace(
         "return described()",
         "return launch.LaunchDescription([ExecuteProcess(cmd=[sys.executable, '-c', 'raise RuntimeError(5)']), "
@@ -241,7 +242,7 @@ def test_the_output_of_what_ended_too_early_is_shown(tmp_path: Path, capsys: pyt
     assert "exited with 1\n##### 'python" in shown and "RuntimeError: 5" in shown
 
 
-def test_options_of_launch_test(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_launch_test_shows_arguments_and_writes_junit_xml(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path, report = write(tmp_path, BAD), tmp_path / "report.xml"
     assert main([str(path), "--show-args"]) == 0
     assert "    'who':\n        no description given\n        (default: 'you')" in capsys.readouterr().out
@@ -258,7 +259,7 @@ def test_options_of_launch_test(tmp_path: Path, capsys: pytest.CaptureFixture[st
         (["{path}", "who:="], "malformed launch argument 'who:=', expected format '<name>:=<value>'"),
     ],
 )
-def test_what_launch_test_cannot_run(
+def test_launch_test_rejects_invalid_command_lines(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], words: list[str], text: str
 ) -> None:
     with pytest.raises(SystemExit) as ended:

@@ -1,4 +1,4 @@
-"""What is expected of output, in texts and in lines."""
+"""Expectations about output, as text and as lines."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TALKER, LISTENER = re.compile(r"\[talker\]"), re.compile(r"\[listener\]")
     ("expected", "strict", "found"),
     [
         (LINES, True, True),
-        (LINES[:2], True, True),  # all that is expected follows each other; more may come
+        (LINES[:2], True, True),  # the expected lines follow each other; more may come
         (LINES[1:], True, False),
         (LINES[::2], False, True),
         (LINES[::2], True, False),
@@ -29,7 +29,7 @@ TALKER, LISTENER = re.compile(r"\[talker\]"), re.compile(r"\[listener\]")
         (re.compile("foo"), False, False),  # at the beginning of a line
     ],
 )
-def test_lines(expected: Any, strict: bool, found: bool) -> None:
+def test_expected_lines_are_compared(expected: Any, strict: bool, found: bool) -> None:
     assert expect_output(lines=LINES, expected_lines=expected, strict=strict) == found
     assert expect_output("\r\n".join(LINES), expected_lines=expected, strict=strict) == found
 
@@ -46,12 +46,12 @@ def test_lines(expected: Any, strict: bool, found: bool) -> None:
         (["bar", "foo"], False, False),
     ],
 )
-def test_texts(expected: Any, strict: bool, found: bool) -> None:
+def test_expected_text_is_compared(expected: Any, strict: bool, found: bool) -> None:
     assert expect_output("\r\n".join(LINES), expected_text=expected, strict=strict) == found
     assert expect_output(lines=LINES, expected_text=expected, strict=strict) == found
 
 
-def test_colours_do_not_count_unless_they_are_wanted() -> None:
+def test_colours_are_ignored_by_default() -> None:
     assert expect_output("\x1b[1;32mgreen\x1b[0m", expected_text="green", strict=True)
     assert not expect_output(
         "\x1b[32mgreen\x1b[0m", expected_text="green", strict=True, strip_ansi_escape_sequences=False
@@ -68,18 +68,18 @@ def test_colours_do_not_count_unless_they_are_wanted() -> None:
         ({"text": "x", "expected_lines": 5}, "Unknown format for expected lines"),
     ],
 )
-def test_what_cannot_be_compared(given: dict[str, Any], text: str) -> None:
+def test_invalid_expectations_are_rejected(given: dict[str, Any], text: str) -> None:
     with pytest.raises(ValueError, match=text):
         expect_output(**given)
 
 
-def test_lines_that_do_not_count() -> None:
+def test_output_filter_removes_lines_by_prefix() -> None:
     output = "pid 5\nrc 0\n[talker] foo\n[listener] foo\n"
     assert basic_output_filter()(output) == "[talker] foo\n[listener] foo\n"
     assert basic_output_filter(["["], ["rc"])(output) == "pid 5\n"
 
 
-def test_expectations_in_files(tmp_path: Path) -> None:
+def test_expectations_are_read_from_files(tmp_path: Path) -> None:
     (tmp_path / "a.txt").write_text("one\ntwo")
     (tmp_path / "b.regex").write_text("o.e\n")
     assert expected_output_from_file(str(tmp_path / "a")) == ["one", "two"]

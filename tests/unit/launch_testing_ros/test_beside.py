@@ -1,4 +1,4 @@
-"""What runs beside a test of ROS: a node that spins, messages that are changed, lines that do not count."""
+"""What runs beside a ROS test: a spinning node, a message pump, and output filters."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def test_messages_are_changed_while_a_node_spins() -> None:
     rclpy.shutdown()
 
 
-def test_lines_of_a_middleware_do_not_count(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_filter_removes_lines_of_the_middleware(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for kind, text in (("prefixes", "[W]\n"), ("patterns", r".*\d+ ms")):
         folder = tmp_path / "share/ament_index/resource_index" / f"rmw_output_{kind}"
         folder.mkdir(parents=True)

@@ -1,4 +1,4 @@
-"""Waiting for messages."""
+"""`WaitForTopics` waits for messages."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def _spin(executor: SingleThreadedExecutor) -> None:
 
 @pytest.fixture
 def talker() -> Iterator[Any]:
-    """A node that says something again and again, whoever listens."""
+    """A node that publishes repeatedly, even without subscribers."""
     rclpy.init()
     node = rclpy.create_node("talker")
     publisher = node.create_publisher(String, "said", 10)
@@ -37,7 +37,7 @@ def talker() -> Iterator[Any]:
     rclpy.shutdown()
 
 
-def test_messages_that_come_are_kept(talker: Any) -> None:
+def test_received_messages_are_kept(talker: Any) -> None:
     with WaitForTopics([("said", String)], timeout=20.0) as waited:
         assert waited.topics_received() == {"said"}
         assert waited.received_messages("said")[0].data == "hi"
@@ -45,6 +45,6 @@ def test_messages_that_come_are_kept(talker: Any) -> None:
             waited.received_messages("other")
 
 
-def test_what_does_not_come_is_named(talker: Any) -> None:
+def test_timeout_error_names_missing_topics(talker: Any) -> None:
     with pytest.raises(RuntimeError, match="never"), WaitForTopics([("never", Int32), ("said", String)], timeout=0.2):
         pass

@@ -34,7 +34,7 @@ def make(folder: Path, text: str) -> Path:
         "install(DIRECTORY scripts/ DESTINATION lib/${PROJECT_NAME} USE_SOURCE_PERMISSIONS)",
     ],
 )
-def test_programs(tmp_path: Path, text: str) -> None:
+def test_installed_programs_become_scripts(tmp_path: Path, text: str) -> None:
     folder = make(tmp_path / "mixed", text)
     assert read_cmake_lists(folder).scripts == {
         "talk.py": folder / "scripts" / "talk.py",
@@ -42,7 +42,7 @@ def test_programs(tmp_path: Path, text: str) -> None:
     }
 
 
-def test_a_program_under_another_name(tmp_path: Path) -> None:
+def test_rename_option_names_the_script(tmp_path: Path) -> None:
     folder = make(tmp_path / "mixed", "install(PROGRAMS scripts/talk.py DESTINATION lib/mixed RENAME talk)")
     assert read_cmake_lists(folder).scripts == {"talk": folder / "scripts" / "talk.py"}
 
@@ -54,17 +54,17 @@ def test_a_program_under_another_name(tmp_path: Path) -> None:
         ("ament_python_install_package(mixed PACKAGE_DIR scripts)", "scripts"),
     ],
 )
-def test_the_python_package(tmp_path: Path, text: str, place: str) -> None:
+def test_ament_python_install_package_gives_the_module_folder(tmp_path: Path, text: str, place: str) -> None:
     folder = make(tmp_path / "mixed", text)
     assert read_cmake_lists(folder).modules == {"mixed": folder / place}
 
 
-def test_the_usual_layout_is_its_own_share_folder(tmp_path: Path) -> None:
+def test_package_folder_serves_as_share_when_layout_matches(tmp_path: Path) -> None:
     folder = make(tmp_path / "mixed", "install(DIRECTORY launch config DESTINATION share/${PROJECT_NAME}/)")
     assert Workspace([tmp_path]).share("mixed") == folder
 
 
-def test_another_layout_is_made_of_links(tmp_path: Path) -> None:
+def test_share_folder_with_another_layout_is_built_of_links(tmp_path: Path) -> None:
     text = (
         "install(DIRECTORY config/ DESTINATION share/${PROJECT_NAME})\n"
         "install(FILES launch/a.launch.py DESTINATION share/${PROJECT_NAME}/start)"
@@ -91,12 +91,12 @@ def test_another_layout_is_made_of_links(tmp_path: Path) -> None:
         "install(PROGRAMS scripts/talk.py",
     ],
 )
-def test_nothing_that_could_be_run(tmp_path: Path, text: str) -> None:
+def test_files_installed_elsewhere_are_not_scripts_or_modules(tmp_path: Path, text: str) -> None:
     found = read_cmake_lists(make(tmp_path / "mixed", text))
     assert (found.scripts, found.modules) == ({}, {})
 
 
-def test_a_file_that_is_no_text_is_named(tmp_path: Path) -> None:
+def test_file_that_is_not_text_is_reported_by_path(tmp_path: Path) -> None:
     folder = make(tmp_path / "mixed", "")
     (folder / "CMakeLists.txt").write_bytes(b"\xff\xfe")
     assert read_package(folder).problem.startswith(str(folder / "CMakeLists.txt"))

@@ -1,4 +1,4 @@
-"""Where a parameter file is that was named by a path within its package."""
+"""Hints that say where a parameter file is if it was named by a path within its package."""
 
 from __future__ import annotations
 
@@ -29,22 +29,22 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 @pytest.mark.parametrize("named", ["config/robot.yaml", "./config/robot.yaml", "robot.yaml", "./robot.yaml"])
-def test_the_package_and_the_path_from_here_are_named(named: str) -> None:
+def test_hint_names_package_and_path_relative_to_working_directory(named: str) -> None:
     assert hint_for(named) == "package 'mine' has src/mine/config/robot.yaml"
 
 
-def test_from_elsewhere_the_whole_path_is_named(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_hint_has_absolute_path_outside_the_workspace(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (folder / "other").mkdir()
     monkeypatch.chdir(folder / "other")
     assert hint_for("config/robot.yaml") == f"package 'mine' has {folder}/src/mine/config/robot.yaml"
 
 
 @pytest.mark.parametrize("named", ["config/nowhere.yaml", "/etc/config/robot.yaml", "config", "", ".."])
-def test_nothing_is_made_up(named: str) -> None:
+def test_no_hint_without_a_matching_file(named: str) -> None:
     assert hint_for(named) == ""
 
 
-def test_a_command_line_that_names_it_is_reported() -> None:
+def test_command_line_error_includes_the_hint() -> None:
     find_with(hint_for)
     with pytest.raises(ArgumentsError) as refused:
         parse(["--ros-args", "--params-file", "config/robot.yaml"])

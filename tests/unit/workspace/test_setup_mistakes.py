@@ -1,4 +1,4 @@
-"""What keeps a `setup.py` from being run is told, with its line, although the package is read all the same."""
+"""A mistake that keeps `setup.py` from running is reported with its line, although the package is still read."""
 
 import ast
 
@@ -23,7 +23,7 @@ setup(
 """
 
 
-def test_modules_that_are_not_imported(tmp_path):
+def test_missing_imports_are_reported_with_line_and_fix(tmp_path):
     (tmp_path / "setup.py").write_text(SETUP)
     read = read_setup_py(tmp_path)
     assert read.problem == f"{tmp_path / 'setup.py'}: line 10: name 'glob' is not defined; add `from glob import glob`"
@@ -41,7 +41,7 @@ def test_modules_that_are_not_imported(tmp_path):
         ("setup = print\nsetup(nmae)", "line 2: name 'nmae' is not defined"),
     ],
 )
-def test_other_mistakes(text, reported):
+def test_first_mistake_is_reported(text, reported):
     assert first_mistake(ast.parse(text)).startswith(reported)
 
 
@@ -61,5 +61,5 @@ def test_other_mistakes(text, reported):
         "class C:\n    name = __qualname__\n    def f(self): return __class__",
     ],
 )
-def test_what_python_would_run(text):
+def test_valid_files_have_no_mistake(text):
     assert first_mistake(ast.parse(text)) == ""

@@ -1,4 +1,4 @@
-"""What a `setup.py` says is worked out without running it, or told where that cannot be done."""
+"""Values in `setup.py` are evaluated without running it; what cannot be evaluated is reported."""
 
 from __future__ import annotations
 
@@ -38,16 +38,14 @@ def package(tmp_path: Path) -> Path:
         "[each.strip() for each in 'talk = mine.talk:main, listen = mine.listen:main'.split(',')]",
     ],
 )
-def test_entry_points_that_are_worked_out_are_found(package: Path, scripts: str) -> None:
+def test_computed_entry_points_are_found(package: Path, scripts: str) -> None:
     (package / "setup.py").write_text(f"{ABOVE}setup(name='mine', entry_points={{'console_scripts': {scripts}}})\n")
     found = read_setup_py(package)
     assert (found.console_scripts, found.problem) == ({"talk": "mine.talk:main", "listen": "mine.listen:main"}, "")
 
 
 @pytest.mark.parametrize("scripts", ["[open('x').read()]", "[nodes[7]]", "['{:>9999999999}'.format(1)]", "[-nodes[0]]"])
-def test_what_only_running_it_could_report_is_named_with_its_line_and_what_to_write(
-    package: Path, scripts: str
-) -> None:
+def test_entry_points_that_need_execution_are_reported_with_line_and_fix(package: Path, scripts: str) -> None:
     (package / "setup.py").write_text(f"{ABOVE}setup(name='mine', entry_points={{'console_scripts': {scripts}}})\n")
     problem = read_setup_py(package).problem
     assert "line 6: " in problem and "Write them out" in problem

@@ -43,7 +43,7 @@ def make(folder: Path, name: str = "demo", setup: str = SETUP) -> Path:
     return folder
 
 
-def test_setup_py_is_read_not_run(tmp_path: Path) -> None:
+def test_setup_py_is_read_without_running_it(tmp_path: Path) -> None:
     package = read_package(make(tmp_path / "demo"))
     assert package.executables == {"talker": EntryPoint("demo.talker", "main"), "bare": EntryPoint("demo.bare", "main")}
     assert package.modules == {"demo": tmp_path / "demo" / "demo"}
@@ -51,7 +51,7 @@ def test_setup_py_is_read_not_run(tmp_path: Path) -> None:
     assert package.problem == ""
 
 
-def test_a_share_folder_with_another_layout_is_made_of_links(tmp_path: Path) -> None:
+def test_share_folder_with_another_layout_is_built_of_links(tmp_path: Path) -> None:
     make(tmp_path / "demo")
     found = Workspace([tmp_path])
     share = found.share("demo")
@@ -61,38 +61,38 @@ def test_a_share_folder_with_another_layout_is_made_of_links(tmp_path: Path) -> 
     assert share != tmp_path / "demo"
 
 
-def test_the_usual_layout_is_its_own_share_folder(tmp_path: Path) -> None:
+def test_package_folder_serves_as_share_when_layout_matches(tmp_path: Path) -> None:
     make(tmp_path / "demo", setup=SETUP.replace("/odd", "/config"))
     assert Workspace([tmp_path]).share("demo") == tmp_path / "demo"
 
 
-def test_entry_points_of_setup_cfg(tmp_path: Path) -> None:
+def test_entry_points_are_read_from_setup_cfg(tmp_path: Path) -> None:
     folder = make(tmp_path / "demo", setup="from setuptools import setup\nsetup()\n")
     (folder / "setup.cfg").write_text("[options.entry_points]\nconsole_scripts =\n  talker = demo.talker:main\n")
     assert read_package(folder).executables == {"talker": EntryPoint("demo.talker", "main")}
 
 
-def test_broken_files_are_named(tmp_path: Path) -> None:
+def test_broken_setup_py_and_package_xml_are_reported(tmp_path: Path) -> None:
     folder = make(tmp_path / "demo", setup="setup(\n")
     assert "setup.py:1" in read_package(folder).problem
     (folder / "package.xml").write_text("<package>")
     assert "package.xml" in read_package(folder).problem
 
 
-def test_a_line_that_is_no_entry_point_is_named_and_the_others_are_there(tmp_path: Path) -> None:
+def test_malformed_entry_point_is_reported_and_others_are_kept(tmp_path: Path) -> None:
     setup = SETUP.replace('"bare = demo.bare"', '"a = demo.a:main" "b = demo.b:main"')
     package = read_package(make(tmp_path / "demo", setup=setup))
     assert set(package.executables) == {"talker"}
     assert "setup.py: 'a = demo.a:mainb = demo.b:main' is not of the form" in package.problem
 
 
-def test_entry_points_that_only_running_could_report_are_named(tmp_path: Path) -> None:
+def test_entry_points_with_syntax_error_are_reported_with_line(tmp_path: Path) -> None:
     setup = SETUP.replace('"console_scripts": [', '"console_scripts" [')
     problem = read_package(make(tmp_path / "demo", setup=setup)).problem
     assert "setup.py: entry_points cannot be made out, line 18" in problem
 
 
-def test_packages_are_found_as_colcon_does(tmp_path: Path) -> None:
+def test_packages_are_found_as_colcon_finds_them(tmp_path: Path) -> None:
     make(tmp_path / "src" / "deep" / "one", "one")
     make(tmp_path / "src" / "two", "two")
     make(tmp_path / "src" / "two" / "inner", "inner")
@@ -103,7 +103,7 @@ def test_packages_are_found_as_colcon_does(tmp_path: Path) -> None:
     assert set(found) - set(demo_packages()) == {"one", "two", NAME}
 
 
-def test_a_link_that_leads_to_itself_is_no_package(tmp_path: Path) -> None:
+def test_package_xml_linking_to_itself_is_ignored(tmp_path: Path) -> None:
     make(tmp_path / "demo")
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "package.xml").symlink_to("package.xml")
@@ -111,7 +111,7 @@ def test_a_link_that_leads_to_itself_is_no_package(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", [NAME, PAGE_NAME])
-def test_a_workspace_package_of_our_name_wins(name: str, tmp_path: Path) -> None:
+def test_workspace_package_with_our_name_takes_precedence(name: str, tmp_path: Path) -> None:
     folder = make(tmp_path / "robot", name)
     found = Workspace([tmp_path])
     assert found.packages[name].folder == folder
@@ -120,7 +120,9 @@ def test_a_workspace_package_of_our_name_wins(name: str, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("name", [NAME, PAGE_NAME])
-def test_in_a_launch_of_our_own_our_name_means_ours(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_our_name_means_our_package_in_our_own_launch(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     make(tmp_path / "robot", name)
     found = Workspace([tmp_path])
     assert not is_own(found.packages[name])
@@ -133,7 +135,7 @@ def test_in_a_launch_of_our_own_our_name_means_ours(name: str, tmp_path: Path, m
 
 
 @pytest.mark.parametrize("name", [NAME, PAGE_NAME])
-def test_our_own_package_has_its_share_folder(name: str) -> None:
+def test_own_package_has_a_share_folder(name: str) -> None:
     own = Workspace([])
     share = own.share(name)
     assert share is not None
@@ -143,5 +145,5 @@ def test_our_own_package_has_its_share_folder(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["nothing_like_it"])
-def test_an_unknown_package_has_no_share_folder(name: str) -> None:
+def test_unknown_package_has_no_share_folder(name: str) -> None:
     assert Workspace([]).share(name) is None
