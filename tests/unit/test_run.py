@@ -1,4 +1,4 @@
-"""`bot-console run`: plain files and executables, as the main program of a process."""
+"""`bot-console run`: plain files and executables as the main program of a process."""
 
 from __future__ import annotations
 
@@ -91,28 +91,28 @@ def run(tmp_path: Path) -> Iterator[Runs]:
         (("-p", "x:=2.5"), "/talker 1.0"),
     ],
 )
-def test_a_file_takes_ros_arguments(run: Runs, words: tuple[str, ...], message: str) -> None:
+def test_file_takes_ros_arguments(run: Runs, words: tuple[str, ...], message: str) -> None:
     program = run.file(TALK + CALL, *words)
     assert (program.stdout, program.stderr, program.exit) == (f"{message}\n", "", 0)
 
 
-def test_parameters_come_from_files(run: Runs, tmp_path: Path) -> None:
+def test_parameters_come_from_a_file(run: Runs, tmp_path: Path) -> None:
     (tmp_path / "p.yaml").write_text("talker:\n  ros__parameters:\n    x: 7.5\n", "utf-8")
     assert run.file(TALK + CALL, "--ros-args", "--params-file", str(tmp_path / "p.yaml")).stdout == "/talker 7.5\n"
 
 
-def test_wrong_ros_arguments_end_it(run: Runs) -> None:
+def test_invalid_ros_arguments_end_the_program(run: Runs) -> None:
     program = run.file(TALK + CALL, "--ros-args", "-p", "x=2")
     assert program.exit == 1
     assert "Couldn't parse parameter override rule: '-p x=2'" in program.stderr
 
 
-def test_a_main_that_nobody_calls_is_called(run: Runs) -> None:
+def test_main_that_the_file_does_not_call_is_called(run: Runs) -> None:
     assert run.file(TALK).stdout == "/talker 1.0\n"
     assert run.file("def main():\n    return 4\n").exit == 4
 
 
-def test_several_mains(run: Runs) -> None:
+def test_several_main_functions_are_warned_about(run: Runs) -> None:
     program = run.file(f"def main():\n    print('first')\n\ndef main():\n    print('last')\n{CALL}")
     assert program.stdout == "last\n"
     assert "defines main() 2 times (lines 1, 4); the last one counts" in program.stderr
@@ -126,31 +126,31 @@ def real_end(text: str, folder: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, env={**os.environ, **own}, capture_output=True, text=True, timeout=60, check=False)
 
 
-def test_its_threads_go_on_after_the_main_program(tmp_path: Path) -> None:
+def test_threads_continue_after_the_main_program(tmp_path: Path) -> None:
     end = real_end(SPINS_IN_A_THREAD, tmp_path)
     assert (end.stdout, end.stderr, end.returncode) == ("main is over\nspun\n", "", 0)
 
 
-def test_what_a_last_callback_of_a_pool_raises_is_reported(tmp_path: Path) -> None:
+def test_exception_in_a_late_pool_callback_is_reported(tmp_path: Path) -> None:
     end = real_end(FAILS_LATE, tmp_path)
     assert (end.stderr, end.returncode) == ("The following exception was never retrieved: too late\n", 0)
 
 
-def test_no_main(run: Runs) -> None:
+def test_file_without_main_suggests_one(run: Runs) -> None:
     program = run.file("from rclpy.node import Node\n\nclass Robot(Node):\n    pass\n")
     assert (program.exit, program.stdout) == (1, "")
     assert "has no main()" in program.stderr
     assert "rclpy.spin(Robot())" in program.stderr
 
 
-def test_a_script_without_main_runs(run: Runs) -> None:
+def test_script_without_main_runs(run: Runs) -> None:
     assert run.file("print('done')\n").stdout == "done\n"
 
 
 @pytest.mark.parametrize(
     ("text", "refusal"), [("def main(:\n", "node.py:1: "), ("\0", "node.py"), ("import nope_nope\n", "has no main()")]
 )
-def test_a_file_that_cannot_run(run: Runs, text: str, refusal: str) -> None:
+def test_invalid_file_is_reported_without_traceback(run: Runs, text: str, refusal: str) -> None:
     program = run.file(text)
     assert program.exit == 1
     assert refusal in program.stderr
@@ -178,13 +178,13 @@ def test_modules_beside_the_file_are_found(run: Runs, tmp_path: Path) -> None:
         ),
     ],
 )
-def test_wrong_words_are_reported(run: Runs, words: tuple[str, ...], refusal: str) -> None:
+def test_invalid_command_line_is_reported(run: Runs, words: tuple[str, ...], refusal: str) -> None:
     program = run(*words)
     assert program.exit == 1
     assert program.stderr.startswith(refusal)
 
 
-def test_the_traceback_begins_in_the_users_file(run: Runs) -> None:
+def test_traceback_begins_in_the_users_file(run: Runs) -> None:
     program = run.file("def main():\n    raise ValueError('mine')\n" + CALL)
     assert program.exit == 1
     assert program.stderr.count("  File ") == program.stderr.count("node.py") == 2
@@ -202,13 +202,13 @@ def main():
 @pytest.mark.parametrize(
     "statement", ["Parameter('speed', Parameter.Type.DOUBLE, 1.0)", "Parameter('speed', 3, 1.0)", "Parameter.Type"]
 )
-def test_the_wrong_parameter_class_is_explained(run: Runs, statement: str) -> None:
+def test_wrong_parameter_class_is_explained(run: Runs, statement: str) -> None:
     program = run.file(WRONG_IMPORT.format(statement=statement) + CALL)
     assert program.exit == 1
     assert "node.py:6: Parameter is imported from rcl_interfaces.msg" in program.stderr.splitlines()[-1]
     assert program.stderr.endswith("from rclpy.parameter import Parameter\n")
 
 
-def test_other_errors_are_left_as_they_are(run: Runs) -> None:
+def test_other_errors_get_no_explanation(run: Runs) -> None:
     program = run.file("import rclpy\ndef main():\n    rclpy.parameter.Parameter.Nope\n" + CALL)
     assert program.stderr.splitlines()[-1] == "AttributeError: type object 'Parameter' has no attribute 'Nope'"

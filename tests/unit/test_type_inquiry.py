@@ -1,4 +1,4 @@
-"""What a node is asked for an action that nobody here has: what the graph shows of it, then the whole."""
+"""Asking a node for an action type that is unknown here: first the types shown in the graph, then the whole action."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ HASHES = {
 
 @pytest.fixture
 def node() -> Iterator[Any]:
-    """One that has the action."""
+    """A node that has the action."""
     context = rclpy.Context()
     rclpy.init(args=[], context=context)
     made = rclpy.create_node("n", context=context)
@@ -40,7 +40,7 @@ def reported(node: Any, type_hash: str) -> Any:
 
 
 def outcome(asking: Generator[Any, Any, str], answer: Any) -> str:
-    """What comes of it when `answer(name, hash)` gives the responses."""
+    """Return the outcome of an inquiry if `answer(name, hash)` gives the responses."""
     question = next(asking)
     while True:
         try:
@@ -49,7 +49,7 @@ def outcome(asking: Generator[Any, Any, str], answer: Any) -> str:
             return over.value
 
 
-def test_the_hash_of_an_action_follows_from_those_of_its_parts(node: Any) -> None:
+def test_action_hash_follows_from_the_hashes_of_its_parts(node: Any) -> None:
     asked: list[str] = []
 
     def answer(name: str, type_hash: str) -> Any:
@@ -60,7 +60,7 @@ def test_the_hash_of_an_action_follows_from_those_of_its_parts(node: Any) -> Non
     assert asked == [*HASHES, NAME]
 
 
-def test_a_part_with_another_hash_is_refused(node: Any) -> None:
+def test_part_with_another_hash_is_refused(node: Any) -> None:
     last = list(HASHES)[-1]
 
     def answer(name: str, type_hash: str) -> Any:
@@ -72,11 +72,11 @@ def test_a_part_with_another_hash_is_refused(node: Any) -> None:
     assert outcome(inquiry(NAME, HASHES), answer) == f"tells of it what does not have the hash {HASHES[last]}"
 
 
-def test_what_is_of_no_use_is_reported(node: Any) -> None:
+def test_useless_answers_are_reported(node: Any) -> None:
     assert outcome(inquiry(NAME, HASHES), lambda name, type_hash: None) == "has not described it"
     refused = outcome(inquiry(NAME, HASHES), lambda name, type_hash: reported(node, "RIHS01_" + "0" * 64))
     assert refused == "does not describe it: Type not currently in use by this node"
-    # True to their hashes, but of another action.
+    # True to their hashes, but from another action.
     other = {name.replace("Fibonacci", "Other"): hashed for name, hashed in HASHES.items()}
     elsewhere = outcome(inquiry(NAME.replace("Fibonacci", "Other"), other), lambda name, each: reported(node, each))
     assert elsewhere.startswith(
@@ -93,5 +93,5 @@ def test_what_is_of_no_use_is_reported(node: Any) -> None:
         ("a_b/srv/Dig_Event", "a_b/srv/Dig_Event"),
     ],
 )
-def test_what_an_action_is_made_of_is_asked_for_as_a_whole(part: str, type_name: str) -> None:
+def test_part_of_an_action_is_requested_as_the_whole_action(part: str, type_name: str) -> None:
     assert whole(part) == type_name

@@ -1,4 +1,4 @@
-"""The runtime's folders are where platformdirs has them, which a launch has no time to import."""
+"""The runtime's folders are those of platformdirs, which takes a launch too long to import."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.runtime import user_folders
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere platformdirs is asked")
 @pytest.mark.parametrize("value", [None, "", " ", "/data/of mine"])
-def test_the_folders_are_those_of_platformdirs(value: str | None, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_folders_equal_those_of_platformdirs(value: str | None, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv(user_folders.OVERRIDE, raising=False)
     user_folders._platform.cache_clear()
     for name in ("XDG_DATA_HOME", "XDG_CACHE_HOME"):

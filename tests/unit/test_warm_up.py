@@ -1,4 +1,4 @@
-"""What the fork server does once: it must leave nothing behind that a fork would tear."""
+"""The warm-up of the fork server must leave nothing behind that a fork would break."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ print(rclpy.create_node("first").get_node_names_and_namespaces())
 
 
 @pytest.mark.skipif(not os.path.isdir("/proc/self/task"), reason="needs /proc")
-def test_one_thread_no_descriptor_and_an_empty_graph() -> None:
+def test_warm_up_leaves_one_thread_no_descriptor_and_an_empty_graph() -> None:
     environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
     done = subprocess.run([sys.executable, "-c", CODE], env=environment, capture_output=True, text=True, check=False)
     assert done.stdout.splitlines() == ["1 1", "[]", "[]", "[('first', '/')]"], done.stderr
 
 
-def test_what_is_imported_before_the_fork_has_no_exit_functions() -> None:
+def test_shared_imports_register_no_exit_functions() -> None:
     text = "import atexit\nfrom bot_console.runtime.warm_up import import_shared\nimport_shared()\n"
-    text += "print(atexit._ncallbacks())"  # the server drops all, as those of its parent's program
+    text += "print(atexit._ncallbacks())"  # the server drops all of them, as it drops those of its parent
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
     assert done.stdout == "0\n"

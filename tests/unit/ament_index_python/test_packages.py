@@ -38,7 +38,7 @@ def prefixes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[Path]:
     return found
 
 
-def test_the_first_prefix_wins(prefixes: list[Path]) -> None:
+def test_first_prefix_takes_precedence(prefixes: list[Path]) -> None:
     first, second = map(str, prefixes)
     assert get_package_prefix("both") == first
     assert get_package_prefix("second") == second
@@ -47,7 +47,7 @@ def test_the_first_prefix_wins(prefixes: list[Path]) -> None:
     assert get_package_share_path("both") == prefixes[0] / "share" / "both"
 
 
-def test_a_missing_share_folder_is_only_a_warning(prefixes: list[Path]) -> None:
+def test_missing_share_folder_is_only_a_warning(prefixes: list[Path]) -> None:
     with pytest.warns(UserWarning, match="does not exist"):
         assert get_package_share_directory("second") == f"{prefixes[1]}/share/second"
     with warnings.catch_warnings():
@@ -55,14 +55,14 @@ def test_a_missing_share_folder_is_only_a_warning(prefixes: list[Path]) -> None:
         get_package_share_directory("second", print_warning=False)
 
 
-def test_an_unknown_package(prefixes: list[Path]) -> None:
+def test_unknown_package_error_lists_searched_prefixes(prefixes: list[Path]) -> None:
     with pytest.raises(PackageNotFoundError) as caught:
         get_package_prefix("nopkg")
     assert isinstance(caught.value, KeyError)
     assert str(caught.value) == f"\"package 'nopkg' not found, searching: {[str(each) for each in prefixes]}\""
 
 
-def test_without_prefixes_the_folders_of_source_packages_are_named(
+def test_error_without_prefixes_lists_workspace_folders(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
@@ -73,12 +73,12 @@ def test_without_prefixes_the_folders_of_source_packages_are_named(
 
 
 @pytest.mark.parametrize("name", ["./x.launch.py", "a/b", "", "a b"])
-def test_what_is_no_name(name: str) -> None:
+def test_invalid_package_name_is_rejected(name: str) -> None:
     with pytest.raises(ValueError, match="is not a valid package name"):
         get_package_prefix(name)
 
 
-def test_resources(prefixes: list[Path]) -> None:
+def test_resources_are_found_by_type_and_name(prefixes: list[Path]) -> None:
     first, second = map(str, prefixes)
     assert get_resource("packages", "both") == ("both of first", first)
     assert get_resources("packages") == {"both": first, "second": second}
@@ -90,14 +90,14 @@ def test_resources(prefixes: list[Path]) -> None:
 
 
 @pytest.mark.parametrize("name", ["a/b", "..\\x"])
-def test_names_that_lead_elsewhere_are_refused(name: str) -> None:
+def test_resource_names_with_path_separators_are_rejected(name: str) -> None:
     with pytest.raises(InvalidResourceTypeNameError):
         get_resources(name)
     with pytest.raises(InvalidResourceNameError):
         get_resource("packages", name)
 
 
-def test_names_of_resources_that_are_empty() -> None:
+def test_empty_resource_names_are_rejected() -> None:
     for ask in (lambda: get_resource("", "name"), lambda: get_resources(""), lambda: has_resource("", "name")):
         with pytest.raises(AssertionError, match=r"^The resource type must not be empty"):
             ask()
@@ -105,7 +105,7 @@ def test_names_of_resources_that_are_empty() -> None:
         get_resource("packages", "")
 
 
-def test_where_the_index_lies() -> None:
+def test_resource_index_subfolder_is_upstreams() -> None:
     import ament_index_python
 
     assert ament_index_python.RESOURCE_INDEX_SUBFOLDER == "share/ament_index/resource_index"

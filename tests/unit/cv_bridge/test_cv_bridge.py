@@ -22,7 +22,7 @@ def picture(encoding: str) -> np.ndarray:
 
 
 @pytest.mark.parametrize("encoding", ENCODINGS)
-def test_there_and_back(encoding: str) -> None:
+def test_image_survives_a_round_trip(encoding: str) -> None:
     image = picture(encoding)
     message = bridge.cv2_to_imgmsg(image, encoding, Header(frame_id="camera"))
     assert (message.height, message.width, message.encoding, message.header.frame_id) == (4, 6, encoding, "camera")
@@ -32,7 +32,7 @@ def test_there_and_back(encoding: str) -> None:
     np.testing.assert_array_equal(back, image)
 
 
-def test_padded_rows_and_the_other_byte_order() -> None:
+def test_padded_rows_and_big_endian_images_are_read() -> None:
     image = picture("16UC1")
     padded = np.zeros((4, 16), np.uint8)
     padded[:, :12] = image.byteswap().view(np.uint8).reshape(4, 12)
@@ -40,7 +40,7 @@ def test_padded_rows_and_the_other_byte_order() -> None:
     np.testing.assert_array_equal(bridge.imgmsg_to_cv2(message), image)
 
 
-def test_colours() -> None:
+def test_colours_are_converted() -> None:
     rgb = np.array([[[255, 0, 0], [0, 255, 0], [0, 0, 255], [10, 20, 30]]], np.uint8)
     message = bridge.cv2_to_imgmsg(rgb, "rgb8")
     np.testing.assert_array_equal(bridge.imgmsg_to_cv2(message, "bgr8"), rgb[..., ::-1])
@@ -62,13 +62,13 @@ def test_colours() -> None:
         ("bgr8", "purple", "Unrecognized image encoding [purple]"),
     ],
 )
-def test_what_cannot_become_one_another(have: str, want: str, words: str) -> None:
+def test_impossible_conversions_are_rejected(have: str, want: str, words: str) -> None:
     with pytest.raises(CvBridgeError) as caught:
         bridge.imgmsg_to_cv2(bridge.cv2_to_imgmsg(picture(have), have), want)
     assert words in str(caught.value)
 
 
-def test_wrong_input() -> None:
+def test_invalid_input_is_rejected() -> None:
     with pytest.raises(TypeError, match="Your input type is not a numpy array"):
         bridge.cv2_to_imgmsg([[1]])  # type: ignore[arg-type]
     with pytest.raises(CvBridgeError, match="encoding specified as bgr8, but image has incompatible type 8UC1"):
@@ -78,6 +78,6 @@ def test_wrong_input() -> None:
 
 
 @pytest.mark.skipif(importlib.util.find_spec("cv2") is not None, reason="OpenCV is there")
-def test_compressed_images_report_what_they_need() -> None:
+def test_compressed_images_name_the_missing_package() -> None:
     with pytest.raises(ImportError, match=r"pip install 'bot-console\[opencv\]'"):
         bridge.compressed_imgmsg_to_cv2(CompressedImage())

@@ -1,4 +1,4 @@
-"""What turtles draw."""
+"""The canvas that turtles draw on."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from bot_console_demos.turtlesim.canvas import BLANK, Canvas, Pen
 RED = Pen((255, 0, 0), 3)
 
 
-def test_a_line_is_where_it_was_drawn_and_as_wide_as_the_pen() -> None:
+def test_line_has_the_width_of_the_pen() -> None:
     canvas = Canvas()
     canvas.line((1.0, 2.0), (3.0, 2.0), RED)
     for x in (1.0, 1.7, 2.5, 3.0):
@@ -20,7 +20,7 @@ def test_a_line_is_where_it_was_drawn_and_as_wide_as_the_pen() -> None:
     assert canvas.color((0.9, 2.0)) == BLANK
 
 
-def test_a_slanting_line_has_no_holes() -> None:
+def test_slanting_line_has_no_holes() -> None:
     canvas = Canvas()
     canvas.line((0.0, 0.0), (11.0, 7.0), Pen((1, 2, 3), 1))
     drawn = canvas.picture((0, 0, 0))[:, :, 3] == 255
@@ -28,13 +28,13 @@ def test_a_slanting_line_has_no_holes() -> None:
 
 
 @pytest.mark.parametrize("end", [(-5.0, 2.0), (40.0, 40.0), (math.inf, 1.0), (math.nan, 1.0)])
-def test_what_lies_outside_is_left_out(end: tuple[float, float]) -> None:
+def test_drawing_outside_the_canvas_is_ignored(end: tuple[float, float]) -> None:
     canvas = Canvas()
     canvas.line((1.0, 1.0), end, RED)
     assert canvas.picture((0, 0, 0)).shape == (500, 500, 4)
 
 
-def test_a_picture_has_the_background_where_nobody_drew_and_clearing_wipes() -> None:
+def test_picture_fills_the_background_and_clear_erases() -> None:
     canvas = Canvas()
     canvas.line((1.0, 1.0), (1.0, 1.0), RED)
     before = canvas.changes

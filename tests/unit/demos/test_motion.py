@@ -1,4 +1,4 @@
-"""A turtle moves as turtlesim's does: the same steps, the same walls."""
+"""A turtle moves as in turtlesim: the same steps, the same walls."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ velocities = st.floats(-20.0, 20.0)
 
 
 def reference(x: float, y: float, heading: float, steps: list[tuple[float, float]]) -> tuple[float, float, float]:
-    """The same way in another form: complex numbers, y upwards, the angle wrapped by arctangent."""
+    """The same path in another form: complex numbers, y upwards, the angle wrapped by arctangent."""
     place = complex(x, y)
     for forward, turn in steps:
         heading = math.atan2(math.sin(heading + turn * 0.016), math.cos(heading + turn * 0.016))
@@ -24,7 +24,7 @@ def reference(x: float, y: float, heading: float, steps: list[tuple[float, float
 
 
 @given(st.lists(st.tuples(velocities, velocities), max_size=60), st.floats(0, SIDE), st.floats(0, SIDE))
-def test_ways_are_those_of_a_model(steps: list[tuple[float, float]], x: float, y: float) -> None:
+def test_path_equals_the_reference_model(steps: list[tuple[float, float]], x: float, y: float) -> None:
     motion = Motion(x, SIDE - y, 0.3)
     for forward, turn in steps:
         motion.command(forward, 0.0, turn)
@@ -34,8 +34,8 @@ def test_ways_are_those_of_a_model(steps: list[tuple[float, float]], x: float, y
     assert math.remainder(motion.heading - heading, math.tau) == pytest.approx(0.0, abs=1e-6)
 
 
-def test_the_first_second_of_the_first_tutorial() -> None:
-    # 2 m/s and 1.8 rad/s, as the first tutorial publishes them: the turn of a frame comes before its way, so the
+def test_first_tutorial_circle_is_exact_after_a_second() -> None:
+    # 2 m/s and 1.8 rad/s, as published in the first tutorial. In each frame the turn comes before the step, so the
     # frames are the chords of a circle, and their sum is known.
     motion = Motion(SIDE / 2, SIDE / 2, 0.0)
     motion.command(2.0, 0.0, 1.8)
@@ -49,7 +49,7 @@ def test_the_first_second_of_the_first_tutorial() -> None:
     assert motion.heading == pytest.approx(frames * turn, abs=1e-6)
 
 
-def test_a_wall_reports_where_the_turtle_wanted_to_be() -> None:
+def test_wall_hit_returns_the_intended_position() -> None:
     motion = Motion(SIDE - 0.01, 3.0, 0.0)
     motion.command(2.0, 0.0, 0.0)
     assert motion.step() == pytest.approx((SIDE - 0.01 + 0.032, 3.0))
@@ -58,7 +58,7 @@ def test_a_wall_reports_where_the_turtle_wanted_to_be() -> None:
     assert motion.step() is None
 
 
-def test_only_a_turtle_that_may_goes_sideways() -> None:
+def test_holonomic_turtle_moves_sideways() -> None:
     motion = Motion(5.0, 5.0, 0.0)
     motion.command(0.0, 1.0, 0.0)
     motion.step()
@@ -66,11 +66,11 @@ def test_only_a_turtle_that_may_goes_sideways() -> None:
     assert motion.speed == 1.0
 
 
-def test_a_field_is_as_wide_as_turtlesims() -> None:
+def test_field_has_the_size_of_turtlesims() -> None:
     assert f"{np.float32(SIDE / 2):f}" == "5.544445"
 
 
-def test_a_jump_goes_ahead_and_a_teleport_stays_below_the_upper_edge() -> None:
+def test_jump_moves_forward_and_teleport_is_clamped_to_the_field() -> None:
     motion = Motion(5.0, SIDE - 5.0, 0.0)
     motion.jump(2.0, math.pi / 2)
     assert motion.position == pytest.approx((5.0, 7.0))
@@ -78,7 +78,7 @@ def test_a_jump_goes_ahead_and_a_teleport_stays_below_the_upper_edge() -> None:
     assert (motion.position, motion.heading) == (pytest.approx((1.0, SIDE)), 0.5)
 
 
-def test_a_rotation_turns_the_shorter_way_and_ends_near_its_goal() -> None:
+def test_rotation_takes_the_shorter_way_and_ends_near_its_goal() -> None:
     motion, rotation = Motion(5.0, 5.0, 3.0), Rotation(-3.0, 3.0)
     steps = 0
     while not rotation.drive(motion):

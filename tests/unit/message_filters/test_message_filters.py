@@ -1,4 +1,4 @@
-"""Filters: what comes out, and when."""
+"""Message filters: what they pass on, and when."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def heard(of: Any) -> list[list[float]]:
     return found
 
 
-def test_exact_times() -> None:
+def test_time_synchronizer_matches_exact_times() -> None:
     one, two, three = SimpleFilter(), SimpleFilter(), SimpleFilter()
     sets = heard(TimeSynchronizer([one, two, three], 2))
     for at in (1, 2, 3):
@@ -47,7 +47,7 @@ def test_exact_times() -> None:
     assert sets == [[3.0, 3.0, 3.0], [2.0, 2.0, 2.0]], "1 was pushed out of queues of two"
 
 
-def test_near_times_take_the_nearest() -> None:
+def test_approximate_synchronizer_takes_the_nearest_messages() -> None:
     one, two = SimpleFilter(), SimpleFilter()
     sets = heard(ApproximateTimeSynchronizer([one, two], 10, 0.5))
     for at in (1.0, 1.25, 3.0):
@@ -59,7 +59,7 @@ def test_near_times_take_the_nearest() -> None:
 
 
 @given(st.lists(st.tuples(st.integers(0, 2), st.integers(0, 40)), max_size=60))
-def test_no_set_is_wider_than_asked_and_no_message_is_in_two(arrivals: list[tuple[int, int]]) -> None:
+def test_approximate_sets_respect_slop_and_use_each_message_once(arrivals: list[tuple[int, int]]) -> None:
     filters = [SimpleFilter() for _ in range(3)]
     sync = ApproximateTimeSynchronizer(filters, 100, 0.3)
     sets: list[Any] = []
@@ -76,7 +76,7 @@ def test_no_set_is_wider_than_asked_and_no_message_is_in_two(arrivals: list[tupl
     assert len(members) == len(set(members))
 
 
-def test_messages_without_a_time(capfd: pytest.CaptureFixture[str]) -> None:
+def test_headerless_messages_need_allow_headerless(capfd: pytest.CaptureFixture[str]) -> None:
     one, two = SimpleFilter(), SimpleFilter()
     strict = heard_count(ApproximateTimeSynchronizer([one, two], 10, 5.0))
     relaxed = heard_count(ApproximateTimeSynchronizer([one, two], 10, 5.0, allow_headerless=True))
@@ -89,7 +89,7 @@ def test_messages_without_a_time(capfd: pytest.CaptureFixture[str]) -> None:
     assert "[message_filters_cache]: can not use message filters messages" in capfd.readouterr().err
 
 
-def test_exact_times_need_a_header() -> None:
+def test_exact_synchronizer_needs_a_header() -> None:
     one, two = SimpleFilter(), SimpleFilter()
     TimeSynchronizer([one, two], 10)
     with pytest.raises(AttributeError, match="'String' object has no attribute 'header'"):
@@ -102,7 +102,7 @@ def heard_count(of: Any) -> list[int]:
     return found
 
 
-def test_a_cache_answers_by_time() -> None:
+def test_cache_returns_messages_by_time() -> None:
     source = SimpleFilter()
     cache = Cache(source, 3)
     passed = heard(cache)
@@ -116,7 +116,7 @@ def test_a_cache_answers_by_time() -> None:
     assert times([cache.getLast()]) == [4.0]
 
 
-def test_a_chain_passes_on_what_its_last_filter_gives() -> None:
+def test_chain_passes_on_the_output_of_its_last_filter() -> None:
     source = SimpleFilter()
     chain = Chain(Cache(cache_size=2), Cache(cache_size=5))
     chain.connectInput(source)
@@ -126,7 +126,7 @@ def test_a_chain_passes_on_what_its_last_filter_gives() -> None:
     assert isinstance(chain.getFilter(1), Cache)
 
 
-def test_a_stamp_may_be_a_time_as_well_as_a_message() -> None:
+def test_stamp_may_be_a_time_object_or_a_message() -> None:
     cache = Cache(SimpleFilter(), 5)
     for second in (1.0, 2.0, 3.0):
         cache.add(SimpleNamespace(header=SimpleNamespace(stamp=at_second(second))))

@@ -1,4 +1,4 @@
-"""Costmaps, lines of cells and what an outline costs, as programs take them from `nav2_simple_commander`."""
+"""Costmaps, lines of cells and footprint costs, as programs import them from `nav2_simple_commander`."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from nav_msgs.msg import OccupancyGrid
 
 
 def grid(*costs: tuple[int, int, int]) -> PyCostmap2D:
-    """10 x 6 cells of half a metre, the first at (1, 2), with these costs at x, y."""
+    """Return a map of 10 x 6 cells of 0.5 m whose first cell is at (1, 2), with these costs at x, y."""
     message = OccupancyGrid()
     message.info.width, message.info.height, message.info.resolution = 10, 6, 0.5
     message.info.origin.position.x, message.info.origin.position.y = 1.0, 2.0
@@ -37,7 +37,7 @@ def square(side: float) -> Polygon:
     return Polygon(points=[Point32(x=x, y=y) for x, y in corners])
 
 
-def test_cells_and_places() -> None:
+def test_cells_are_converted_to_world_coordinates_and_back() -> None:
     map_ = grid((3, 1, 100), (4, 1, -1))
     assert (map_.getSizeInMetersX(), map_.getSizeInMetersY(), map_.getIndex(3, 1)) == (5.0, 3.0, 13)
     assert (map_.getCostXY(3, 1), map_.getCostXY(4, 1), map_.getCostIdx(0)) == (100, 255, 0)
@@ -53,7 +53,7 @@ def test_cells_and_places() -> None:
 
 @pytest.mark.parametrize("end", [(4, 1), (-4, 1), (1, 4), (1, -4), (0, 4), (-4, 0), (3, 3)])
 @pytest.mark.parametrize("step", [1, 0.5, 3, 10])
-def test_a_line_is_walked_along_its_longer_axis_to_its_very_end(end: tuple[int, int], step: float) -> None:
+def test_line_follows_its_longer_axis_and_includes_its_end(end: tuple[int, int], step: float) -> None:
     points = visited(LineIterator(0, 0, *end, step))
     assert points[0] == (0, 0) and points[-1] == end and points.count(end) == 1
     span = max(map(abs, end))
@@ -62,7 +62,7 @@ def test_a_line_is_walked_along_its_longer_axis_to_its_very_end(end: tuple[int, 
         assert x * end[1] == pytest.approx(y * end[0])
 
 
-def test_what_is_no_line() -> None:
+def test_invalid_lines_are_rejected() -> None:
     for wrong in ((0, 0, "1", 1, 1), (0, 0, 1, 1, None)):
         with pytest.raises(TypeError):
             LineIterator(*wrong)
@@ -71,7 +71,7 @@ def test_what_is_no_line() -> None:
             LineIterator(*bad)
 
 
-def test_an_outline_costs_what_its_dearest_cell_costs() -> None:
+def test_footprint_costs_as_much_as_its_most_expensive_cell() -> None:
     checker = FootprintCollisionChecker()
     with pytest.raises(ValueError, match="setCostmap"):
         checker.pointCost(0, 0)

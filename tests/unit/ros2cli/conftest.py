@@ -1,4 +1,4 @@
-"""A system with nodes of our own, that commands are asked of."""
+"""A system with nodes written in the test, on which commands run."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ class Asked(System):
     """A system whose nodes are written in the test."""
 
     def node(self, text: str, seconds: float = 0.1) -> Program:
-        """Start a program that has rclpy at hand; `node`, where it makes one, is spun."""
+        """Start a program that has rclpy imported; spin `node` if the program creates one."""
         spin = "\nrclpy.spin(node)" if "node =" in text else ""
         program = self.python("-c", f"{HEAD}{text}{spin}")
         self.run(seconds)
@@ -24,6 +24,6 @@ class Asked(System):
 
 @pytest.fixture
 def ros() -> Iterator[Asked]:
-    """Time stands still but while a command runs."""
+    """A system whose time advances only while a command runs."""
     with system() as running:
         yield Asked(running.clock)

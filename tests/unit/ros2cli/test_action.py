@@ -1,4 +1,4 @@
-"""`ros2 action send_goal` ends when the server that it waits for has ended."""
+"""`ros2 action send_goal` ends if the server that it waits for has ended."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ros2cli.verbs import action
 
 
 class Server:
-    """A client's view of an action server that has left at some looks and answers at one of them, if at all."""
+    """A client's view of an action server that is missing in some polls and answers in one of them, if ever."""
 
     def __init__(self, gone_at: range, answers_at: int) -> None:
         self._action_name = "/fibonacci"
@@ -45,16 +45,16 @@ def outcome(monkeypatch: pytest.MonkeyPatch) -> Any:
     return waited
 
 
-def test_a_server_that_has_ended_is_reported(outcome: Any) -> None:
+def test_ended_server_is_reported(outcome: Any) -> None:
     with pytest.raises(NoAnswer, match=r"^nobody answers /fibonacci: its server has ended since it was asked"):
         outcome(Server(range(3, 99), 99))
 
 
-def test_a_server_that_is_back_is_waited_for(outcome: Any) -> None:
+def test_returning_server_is_waited_for(outcome: Any) -> None:
     assert outcome(Server(range(3, 5), 40)) == "result"
 
 
-def test_a_server_that_has_ended_for_certain_is_reported_at_the_second_look(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_server_known_to_have_ended_is_reported_at_the_second_poll(monkeypatch: pytest.MonkeyPatch) -> None:
     server = Server(range(3, 99), 99)
     server._endpoints.goal.has_ended = True
     monkeypatch.setattr(action, "spin_until", server.polled)

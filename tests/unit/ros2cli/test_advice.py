@@ -1,4 +1,4 @@
-"""What a person at a terminal is told beyond `ros2`'s words, and nobody else."""
+"""Hints beyond the output of `ros2`, shown only to a person at a terminal."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ OUTPUT = [
 
 
 @pytest.mark.parametrize(("words", "reported"), OUTPUT)
-def test_a_mistake_is_reported_with_a_hint_where_a_person_reads(
+def test_mistake_gets_a_hint_at_a_terminal_only(
     ros, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], reported: str
 ) -> None:
     ros.node(NODE)
@@ -47,7 +47,7 @@ def test_a_mistake_is_reported_with_a_hint_where_a_person_reads(
         (("node", "info", "tuned"), "no node tuned runs; did you mean /tuned?"),
     ],
 )
-def test_a_mistyped_node_is_reported(
+def test_mistyped_node_name_gets_a_hint(
     ros, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], reported: str
 ) -> None:
     ros.node(NODE)
@@ -59,7 +59,7 @@ def test_a_mistyped_node_is_reported(
     assert asked.exit == silent.exit == 1
 
 
-def test_without_any_node_that_is_reported() -> None:
+def test_hint_says_if_no_node_runs() -> None:
     assert advice.no_node("/robot", []) == "no node runs in this ROS domain"
     assert advice.no_node("/robot", [f"/{each}" for each in range(99)]) == "no node /robot runs"
 
@@ -75,7 +75,7 @@ def test_without_any_node_that_is_reported() -> None:
         ("/cmd_vl", "geometry_msgs/Twist", "nobody subscribes to /cmd_vl; did you mean /cmd_vel?"),
     ],
 )
-def test_why_nobody_receives_is_reported_once(
+def test_reason_why_nobody_receives_is_reported_once(
     ros, monkeypatch: pytest.MonkeyPatch, topic: str, kind: str, reported: str
 ) -> None:
     ros.node(BASE)
@@ -84,7 +84,7 @@ def test_why_nobody_receives_is_reported_once(
     assert asked.stderr.count(reported) == 1 and asked.exit == 1
 
 
-def test_the_launch_files_of_a_package_are_named(ros, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_launch_files_of_the_package_are_listed(ros, monkeypatch: pytest.MonkeyPatch) -> None:
     words = ("launch", "bot_console_robot", "no.launch.py")
     monkeypatch.setattr(advice, "is_read", lambda: False)
     assert "has:" not in ros.ask(*words).stderr
@@ -94,6 +94,6 @@ def test_the_launch_files_of_a_package_are_named(ros, monkeypatch: pytest.Monkey
     assert asked.exit == 1
 
 
-def test_nothing_is_composed_where_nobody_reads(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_advice_is_not_composed_without_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "stderr", io.StringIO())
     advice.advise(lambda: pytest.fail("composed"))

@@ -1,4 +1,4 @@
-"""`main(argv)`: help, wrong words and exit codes."""
+"""`main(argv)`: help, invalid arguments and exit codes."""
 
 from __future__ import annotations
 
@@ -11,38 +11,38 @@ from ros2cli import main
 from ros2cli.command_line import COMMANDS, HelpFormatter
 
 
-def test_help_names_all_commands(capsys: pytest.CaptureFixture[str]) -> None:
+def test_help_lists_all_commands(capsys: pytest.CaptureFixture[str]) -> None:
     assert main([]) == 0
     shown = capsys.readouterr().out
     assert all(f"  {name} " in shown and text in shown for name, (_, text) in COMMANDS.items())
 
 
 @pytest.mark.parametrize("command", [name for name in COMMANDS if name not in ("run", "launch")])
-def test_a_command_alone_shows_its_verbs(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_command_without_verb_shows_usage(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main([command]) == 0
     assert f"usage: ros2 {command} [-h]" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("words", [["nope"], ["param", "nope"], ["param", "get"], ["node", "list", "--nope"]])
-def test_wrong_words(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_arguments_show_usage_and_return_2(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert main(words) == 2
     shown = capsys.readouterr()
     assert shown.out == ""
     assert shown.err.startswith("usage: ros2")
 
 
-def test_an_exception_in_a_verb_is_its_exit_code(capsys: pytest.CaptureFixture[str]) -> None:
+def test_exception_in_a_verb_returns_1(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["interface", "proto", "std_msgs/msg/Nope"]) == 1
     assert capsys.readouterr().err.splitlines()[-1] == "AttributeError: module 'std_msgs.msg' has no attribute 'Nope'"
 
 
-def test_the_verbs_need_no_arguments_list(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_main_reads_sys_argv_by_default(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setattr("sys.argv", ["ros2", "pkg", "prefix", "no_package"])
     assert main() == 1
     assert capsys.readouterr().err == "Package not found\n"
 
 
-def test_a_short_verb_does_not_import_what_it_rarely_needs() -> None:
+def test_param_verb_does_not_import_rarely_needed_modules() -> None:
     """`ros2 param set` in a second terminal: each of these would be a twentieth of its processor time, or more."""
     program = """
 import sys

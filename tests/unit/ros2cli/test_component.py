@@ -1,4 +1,4 @@
-"""`ros2 component` against a container of ours."""
+"""`ros2 component` with a component container."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_components_are_loaded_listed_and_unloaded(ros, monkeypatch: pytest.Monk
     )
 
 
-def test_what_cannot_be_loaded(ros) -> None:
+def test_failed_load_is_reported(ros) -> None:
     ros.node(CONTAINER)
     failed = ros.ask("component", "load", BOX, "composition", "composition::Talker")
     assert failed.exit == 1
@@ -62,7 +62,7 @@ def test_what_cannot_be_loaded(ros) -> None:
         assert (missing.exit, missing.stderr) == (1, "Unable to find container node '/box'\n")
 
 
-def test_types_that_packages_name(ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_types_come_from_the_resource_index(ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for kind, text in (("rclcpp_components", "some::Talker;lib/libtalker.so\n"), ("packages", "")):
         folder = tmp_path / "share/ament_index/resource_index" / kind
         folder.mkdir(parents=True)

@@ -1,4 +1,4 @@
-"""A request that cannot be answered any more ends with the name of who does not answer."""
+"""A request that can no longer be answered ends with an error that names the missing node."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ros2cli.direct_node import NoAnswer, answer
 
 
 class Asking:
-    """A node, a client and a request that is answered at the third look, if at all."""
+    """A node, a client and a request that is answered at the third poll, if ever."""
 
     def __init__(self, *, answers: bool) -> None:
         self.polls = 0
@@ -48,20 +48,20 @@ def asked(it: Any) -> Any:
     return answer(it, it, it)
 
 
-def test_an_answer_is_waited_for_beside_the_frozen_process_of_another() -> None:
+def test_frozen_process_of_another_node_does_not_end_the_wait() -> None:
     it = Asking(answers=True)
     it.frozen = {7: ["/left/arm"]}
     assert asked(it) == "answer"
 
 
-def test_a_frozen_process_is_named() -> None:
+def test_frozen_process_is_named() -> None:
     it = Asking(answers=False)
     it.frozen = {7: ["/left/arm", "/robot"]}
     with pytest.raises(NoAnswer, match=r"^/robot does not answer: its process 7 is stopped$"):
         asked(it)
 
 
-def test_a_node_that_ends_while_it_is_asked_is_reported() -> None:
+def test_node_that_ends_during_the_request_is_reported() -> None:
     it = Asking(answers=False)
     it.gone_at = (2, *range(4, 7))
     with pytest.raises(NoAnswer, match=r"^nobody answers /robot/get: its node has ended"):
@@ -69,7 +69,7 @@ def test_a_node_that_ends_while_it_is_asked_is_reported() -> None:
     assert it.polls == 6
 
 
-def test_a_node_that_has_ended_for_certain_is_reported_at_the_second_look(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_node_known_to_have_ended_is_reported_at_the_second_poll(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(direct_node, "GONE", 99)
     it = Asking(answers=False)
     it.gone_at, it.ended = tuple(range(1, 20)), True
@@ -78,13 +78,13 @@ def test_a_node_that_has_ended_for_certain_is_reported_at_the_second_look(monkey
     assert it.polls == 2
 
 
-def test_a_node_that_is_still_there_is_waited_for_whatever_is_known() -> None:
+def test_node_still_in_the_graph_is_waited_for() -> None:
     it = Asking(answers=True)
     it.ended = True
     assert asked(it) == "answer"
 
 
-def test_an_answer_is_waited_for_where_the_node_is_not_seen_once() -> None:
+def test_node_missing_in_a_single_poll_is_waited_for() -> None:
     it = Asking(answers=True)
     it.gone_at = (1,)
     assert asked(it) == "answer"

@@ -1,4 +1,4 @@
-"""`ros2 node` and `ros2 service` against nodes of our own."""
+"""`ros2 node` and `ros2 service` with nodes written in the test."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ client = node.create_client(SetBool, 'switch')
 """
 
 
-def test_nodes(ros) -> None:
+def test_node_list_counts_and_hides_hidden_nodes(ros) -> None:
     ros.node(SERVER)
     ros.node("node = Node('b')")
     ros.node("node = Node('_hidden')")
@@ -24,7 +24,7 @@ def test_nodes(ros) -> None:
     assert ros.ask("node", "list", "--no-daemon", "-a", "-c").stdout == "4\n"
 
 
-def test_nodes_of_one_name_are_warned_of(ros) -> None:
+def test_duplicate_node_names_are_warned_about(ros) -> None:
     for _ in range(2):
         ros.node("node = Node('twin')")
     listed = ros.ask("node", "list")
@@ -32,7 +32,7 @@ def test_nodes_of_one_name_are_warned_of(ros) -> None:
     assert listed.stderr.startswith("WARNING: Be aware that there are nodes in the graph that share an exact name")
 
 
-def test_info(ros) -> None:
+def test_node_info_lists_endpoints(ros) -> None:
     ros.node(SERVER)
     info = ros.ask("node", "info", "/math/adder").stdout
     assert info.startswith("/math/adder\n  Subscribers:\n\n  Publishers:\n    /parameter_events: ")
@@ -44,7 +44,7 @@ def test_info(ros) -> None:
     assert (missing.exit, missing.stdout, missing.stderr) == (1, "", "Unable to find node '/adder'\n")
 
 
-def test_services(ros) -> None:
+def test_service_list_type_find_and_info(ros) -> None:
     ros.node(SERVER)
     assert "/math/add [example_interfaces/srv/AddTwoInts]\n" in ros.ask("service", "list", "-t").stdout
     assert ros.ask("service", "type", "/math/add").stdout == "example_interfaces/srv/AddTwoInts\n"
@@ -57,7 +57,7 @@ def test_services(ros) -> None:
     assert "/math/_hidden" not in ros.ask("service", "list").stdout
 
 
-def test_call(ros) -> None:
+def test_call_prints_request_and_response(ros) -> None:
     ros.node(SERVER)
     called = ros.ask("service", "call", "/math/add", "example_interfaces/srv/AddTwoInts", "{a: 2, b: 3}")
     assert called.stdout == (
@@ -74,20 +74,20 @@ def test_call_waits_for_the_service(ros) -> None:
     assert ros.finish(waiting).stdout.endswith("AddTwoInts_Response(sum=2)\n\n")
 
 
-def test_a_service_that_appears_is_called_at_once(ros) -> None:
+def test_service_that_appears_is_called_at_once(ros) -> None:
     waiting = ros.ros2("service", "call", "/math/add", "example_interfaces/srv/AddTwoInts", "{a: 2}")
     ros.run(1.02)
     ros.node(SERVER, seconds=0.04)
     assert waiting.exit == 0
 
 
-def test_call_again_and_again(ros) -> None:
+def test_call_repeats_at_a_rate(ros) -> None:
     ros.node(SERVER)
     words = ("service", "call", "-r", "2", "/math/add", "example_interfaces/srv/AddTwoInts")
     assert ros.ask(*words, stop_after=1.7).stdout.count("response:\n") == 4
 
 
-def test_call_refuses_what_does_not_fit(ros) -> None:
+def test_call_rejects_invalid_requests_and_types(ros) -> None:
     ros.node(SERVER)
     wrong = ros.ask("service", "call", "/math/add", "example_interfaces/srv/AddTwoInts", "{c: 2}")
     assert wrong.exit == 1
@@ -95,7 +95,7 @@ def test_call_refuses_what_does_not_fit(ros) -> None:
     assert ros.ask("service", "call", "/x", "std_srvs/srv/Nope").stderr == "The passed service type is invalid\n"
 
 
-def test_hidden_things_are_found_when_requested(ros) -> None:
+def test_hidden_nodes_and_services_are_included_on_request(ros) -> None:
     ros.node(SERVER)
     ros.node("node = Node('_secret')")
     assert ros.ask("node", "info", "/_secret").stderr == "Unable to find node '/_secret'\n"
@@ -117,7 +117,7 @@ service.configure_introspection(node.get_clock(), qos_profile_system_default, Se
 """
 
 
-def test_service_echo(ros) -> None:
+def test_service_echo_prints_introspection_events(ros) -> None:
     ros.node(INTROSPECTED)
     echo = ros.ros2("service", "echo", "--flow-style", "/add")
     ros.run(0.5)
@@ -138,7 +138,7 @@ def test_service_echo_needs_a_type(ros) -> None:
     )
 
 
-def test_call_takes_a_type_without_srv_and_wants_a_map(ros) -> None:
+def test_call_accepts_type_without_srv_and_requires_a_map(ros) -> None:
     ros.node(SERVER)
     assert ros.ask("service", "call", "/math/add", "example_interfaces/AddTwoInts", "{a: 1}").exit == 0
     assert ros.ask("service", "call", "/x", "std_srvs/srv/Empty", "hello").stderr == (

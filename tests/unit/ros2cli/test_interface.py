@@ -1,11 +1,11 @@
-"""`ros2 interface`: definitions as they are written."""
+"""`ros2 interface` prints definitions as they are written."""
 
 from __future__ import annotations
 
 import pytest
 
 
-def test_show_with_comments_of_the_top_level_only(ros) -> None:
+def test_show_prints_comments_of_the_top_level_only(ros) -> None:
     shown = ros.ask("interface", "show", "geometry_msgs/msg/Twist").stdout
     assert shown.startswith("# ")
     nested = ros.ask("interface", "show", "nav_msgs/msg/Odometry").stdout
@@ -15,7 +15,7 @@ def test_show_with_comments_of_the_top_level_only(ros) -> None:
     assert "#" not in ros.ask("interface", "show", "nav_msgs/msg/Odometry", "--no-comments").stdout
 
 
-def test_show_of_services_and_actions(ros) -> None:
+def test_show_prints_services_and_actions(ros) -> None:
     assert (
         ros.ask("interface", "show", "example_interfaces/srv/AddTwoInts").stdout == "int64 a\nint64 b\n---\nint64 sum\n"
     )
@@ -24,7 +24,7 @@ def test_show_of_services_and_actions(ros) -> None:
     )
 
 
-def test_lists(ros) -> None:
+def test_list_groups_interfaces_and_packages_are_listed(ros) -> None:
     listed = ros.ask("interface", "list").stdout
     assert listed.startswith("Messages:\n    ")
     assert "\nServices:\n    " in listed
@@ -47,6 +47,6 @@ def test_lists(ros) -> None:
         ("geometry_msgs/msg/Quaternion", "x: 0.0\ny: 0.0\nz: 0.0\nw: 1.0\n"),
     ],
 )
-def test_proto(ros, name: str, text: str) -> None:
+def test_proto_prints_a_prototype(ros, name: str, text: str) -> None:
     assert ros.ask("interface", "proto", name).stdout == f'"{text}"\n'
     assert ros.ask("interface", "proto", name, "--no-quotes").stdout == f"{text}\n"

@@ -1,4 +1,4 @@
-"""`interface add`: what is kept, what is refused, and what goes first."""
+"""`interface add`: what is kept, what is refused, and which definition takes precedence."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.runtime.workspace import discover
 
 
 def package(folder: Path, name: str, **files: str) -> Path:
-    """A package of interfaces; `msg_Num="int32 a"` is `msg/Num.msg`."""
+    """Create a package of interfaces; `msg_Num="int32 a"` becomes `msg/Num.msg`."""
     for key, text in files.items():
         kind, _, stem = key.partition("_")
         path = folder / name / kind / f"{stem}.{kind}"
@@ -21,7 +21,7 @@ def package(folder: Path, name: str, **files: str) -> Path:
     return folder / name
 
 
-def test_added_interfaces_stay_when_their_folder_has_gone(ros, tmp_path: Path) -> None:
+def test_added_interfaces_stay_after_their_folder_is_deleted(ros, tmp_path: Path) -> None:
     checkout = tmp_path / "checkout"
     package(checkout, "kept_one_msgs", msg_Num="int32 number 7\n")
     package(checkout, "kept_two_msgs", srv_Ask="kept_one_msgs/Num num\n---\n")
@@ -40,7 +40,7 @@ def test_added_interfaces_stay_when_their_folder_has_gone(ros, tmp_path: Path) -
         ("empty", {}, "has no package with definitions"),
     ],
 )
-def test_what_cannot_be_added(ros, tmp_path: Path, name: str, files: dict[str, str], refusal: str) -> None:
+def test_invalid_packages_are_refused(ros, tmp_path: Path, name: str, files: dict[str, str], refusal: str) -> None:
     (tmp_path / name).mkdir()
     package(tmp_path, name, **files)
     refused = ros.ask("interface", "add", str(tmp_path / name))
@@ -49,11 +49,11 @@ def test_what_cannot_be_added(ros, tmp_path: Path, name: str, files: dict[str, s
     assert not further_interfaces.added_by_user()
 
 
-def test_a_folder_that_is_not_there(ros, tmp_path: Path) -> None:
+def test_missing_folder_is_reported(ros, tmp_path: Path) -> None:
     assert "is no folder" in ros.ask("interface", "add", str(tmp_path / "nowhere")).stderr
 
 
-def test_the_workspaces_own_definition_goes_first(ros, tmp_path: Path) -> None:
+def test_workspace_definition_takes_precedence(ros, tmp_path: Path) -> None:
     package(tmp_path, "nav2_msgs", msg_Particle="float64 only_mine\n")
     before = discover.workspace()
     discover.use(discover.Workspace([tmp_path]))
@@ -64,7 +64,7 @@ def test_the_workspaces_own_definition_goes_first(ros, tmp_path: Path) -> None:
     assert (shown.stdout, shown.stderr) == ("float64 only_mine\n", "")
 
 
-def test_what_was_not_compared_reports_it(ros) -> None:
+def test_show_warns_if_type_hash_was_not_compared(ros) -> None:
     shown = ros.ask("interface", "show", "nav2_msgs/msg/SpeedLimit")
     assert "float64 speed_limit\n" in shown.stdout
     assert "its type hash was not compared with ROS 2" in shown.stderr

@@ -1,4 +1,4 @@
-"""`ros2 launch`: texts and exit codes. Contract, section 3."""
+"""`ros2 launch`: output and exit codes. Contract, section 3."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ EMPTY = "from launch import LaunchDescription\ndef generate_launch_description()
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An installed package `pkg`, two launch files of one name in it, and files beside it."""
+    """An installed package `pkg` with two launch files of the same name, and launch files in the working directory."""
     import launch.logging
 
     share = tmp_path / "share" / "pkg"
@@ -91,7 +91,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture(autouse=True)
 def interrupts() -> Iterator[None]:
-    """What a launch does about them ends with the test."""
+    """Restores the handling of interrupts that a launch changed."""
     before = signal.getsignal(signal.SIGINT)
     yield
     signal.signal(signal.SIGINT, before)
@@ -109,11 +109,11 @@ def user_lines(text: str) -> list[str]:
 
 
 @pytest.mark.parametrize("option", ["-s", "--show-args", "--show-arguments"])
-def test_show_args(capsys: pytest.CaptureFixture[str], option: str) -> None:
+def test_show_args_lists_arguments_with_defaults(capsys: pytest.CaptureFixture[str], option: str) -> None:
     assert launched(capsys, "listed.launch.py", option) == (0, SHOWN, "")
 
 
-def test_no_arguments(capsys: pytest.CaptureFixture[str]) -> None:
+def test_show_args_reports_no_arguments(capsys: pytest.CaptureFixture[str]) -> None:
     shown = "Arguments (pass arguments as '<name>:=<value>'):\n\n  No arguments.\n"
     assert launched(capsys, "empty.launch.py", "-s") == (0, shown, "")
 
@@ -129,23 +129,23 @@ def test_no_arguments(capsys: pytest.CaptureFixture[str]) -> None:
         (["unknown:=1"], ["-"]),
     ],
 )
-def test_arguments(capsys: pytest.CaptureFixture[str], words: list[str], message: list[str]) -> None:
+def test_launch_arguments_are_passed(capsys: pytest.CaptureFixture[str], words: list[str], message: list[str]) -> None:
     code, out, err = launched(capsys, "says.launch.py", *words)
     assert (code, user_lines(out), err) == (0, message, "")
 
 
 @pytest.mark.parametrize("word", ["x", "x:=", ":=y"])
-def test_malformed_arguments(capsys: pytest.CaptureFixture[str], word: str) -> None:
+def test_malformed_argument_is_rejected(capsys: pytest.CaptureFixture[str], word: str) -> None:
     message = f"malformed launch argument '{word}', expected format '<name>:=<value>'\n"
     assert launched(capsys, "says.launch.py", word) == (1, "", message)
 
 
-def test_of_a_package(capsys: pytest.CaptureFixture[str]) -> None:
+def test_launch_file_is_found_in_a_package(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, _ = launched(capsys, "pkg", "deep.launch.py", "x:=1")
     assert (code, user_lines(out)) == (0, ["1"])
 
 
-def test_not_found(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
+def test_missing_packages_and_files_are_reported(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
     share = folder / "share" / "pkg"
     where = "in the share directory of package 'pkg'"
     rows: list[tuple[list[str], str]] = [
@@ -159,7 +159,7 @@ def test_not_found(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
     assert err.startswith(f"file 'same.launch.py' was found more than once {where}: [")
 
 
-def test_a_package_without_the_name_of_a_launch_file(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
+def test_package_without_file_name_lists_its_launch_files(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
     empty = folder / "share" / "empty"
     empty.mkdir()
     marker = folder / "share" / "ament_index" / "resource_index" / "packages" / "empty"
@@ -174,13 +174,13 @@ def test_a_package_without_the_name_of_a_launch_file(capsys: pytest.CaptureFixtu
 
 
 @pytest.mark.parametrize("path", ["./x.launch.py", "x.launch.py", "share/"])
-def test_a_mistyped_path(capsys: pytest.CaptureFixture[str], path: str) -> None:
+def test_mistyped_path_is_reported_as_invalid_package_name(capsys: pytest.CaptureFixture[str], path: str) -> None:
     code, _, err = launched(capsys, path)
     assert code == 1
     assert err.splitlines()[-1] == f"ValueError: '{path}' is not a valid package name"
 
 
-def test_usage(capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_options_show_usage(capsys: pytest.CaptureFixture[str]) -> None:
     for words, message in (
         (["says.launch.py", "-s", "x:=1"], "unrecognized arguments: x:=1"),
         (["says.launch.py", "-s", "-p"], "not allowed with argument"),
@@ -191,7 +191,7 @@ def test_usage(capsys: pytest.CaptureFixture[str]) -> None:
         assert message in err
 
 
-def test_shown_arguments_that_cannot_be_written_are_no_fault_of_the_launch_file(
+def test_write_error_of_show_args_is_not_blamed_on_the_launch_file(
     monkeypatch: pytest.MonkeyPatch, folder: Path
 ) -> None:
     class Full(io.StringIO):
@@ -203,12 +203,12 @@ def test_shown_arguments_that_cannot_be_written_are_no_fault_of_the_launch_file(
         show_args("says.launch.py")
 
 
-def test_a_filter_needs_a_prefix(capsys: pytest.CaptureFixture[str]) -> None:
+def test_prefix_filter_needs_a_prefix(capsys: pytest.CaptureFixture[str]) -> None:
     message = "--launch-prefix must be specified if --launch-prefix-filter is provided\n"
     assert launched(capsys, "says.launch.py", "--launch-prefix-filter", "x") == (1, "", message)
 
 
-def test_print(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
+def test_print_shows_the_launch_description(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
     (folder / "p.launch.py").write_text(
         "from launch import LaunchDescription\n"
         "from launch.actions import *\n"
@@ -232,7 +232,7 @@ def test_print(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
     ]
 
 
-def test_an_empty_file_prints_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+def test_print_of_an_empty_file_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, _ = launched(capsys, "empty.launch.py", "-p")
     assert (code, len(out.splitlines())) == (0, 1)
 
@@ -249,7 +249,7 @@ BAD: list[tuple[str, int, str]] = [
 
 @pytest.mark.parametrize(("text", "code", "message"), BAD, ids=[row[0] for row in BAD])
 @pytest.mark.parametrize("option", [[], ["-s"], ["-p"]], ids=["run", "-s", "-p"])
-def test_bad_files(
+def test_invalid_launch_files_are_reported_without_traceback(
     capsys: pytest.CaptureFixture[str], folder: Path, text: str, code: int, message: str, option: list[str]
 ) -> None:
     (folder / "bad.launch.py").write_text(text)
@@ -259,7 +259,7 @@ def test_bad_files(
     assert "Traceback" not in out + err
 
 
-def test_all_output(capsys: pytest.CaptureFixture[str], folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_show_all_output_option_shows_quiet_processes(capsys: pytest.CaptureFixture[str], folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "")
     (folder / "q.launch.py").write_text(
         "from launch import LaunchDescription\nfrom launch.actions import ExecuteProcess\n"
@@ -270,7 +270,7 @@ def test_all_output(capsys: pytest.CaptureFixture[str], folder: Path, monkeypatc
     assert os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] == "both"
 
 
-def test_screen_format(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_screen_format_comes_from_the_environment(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     import launch.logging
 
     monkeypatch.setenv("OVERRIDE_LAUNCH_SCREEN_FORMAT", "{levelname}|{name}|{msg}")
@@ -278,12 +278,12 @@ def test_screen_format(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.M
     assert "INFO|launch.user|-" in launched(capsys, "says.launch.py")[1].splitlines()
 
 
-def test_debug_logs_more(capsys: pytest.CaptureFixture[str]) -> None:
+def test_debug_option_logs_more(capsys: pytest.CaptureFixture[str]) -> None:
     _, out, _ = launched(capsys, "says.launch.py", "-d")
     assert "[DEBUG]" in out
 
 
-def test_exit_codes(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
+def test_exit_code_reflects_the_outcome(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
     template = (
         "from launch import LaunchDescription\nfrom launch.actions import *\nfrom launch.conditions import *\n"
         "def generate_launch_description():\n    return LaunchDescription([{}])\n"
@@ -318,7 +318,7 @@ RESOLVED = """
 """
 
 
-def test_print_resolved(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
+def test_print_resolved_shows_evaluated_nodes(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
     (folder / "f.yaml").write_text("/**:\n  ros__parameters: {speed: 2.5, names: [a, b]}\n")
     path = folder / "r.launch.xml"
     path.write_text(RESOLVED.format(file=folder / "f.yaml").lstrip())
@@ -347,11 +347,11 @@ def test_print_resolved(capsys: pytest.CaptureFixture[str], folder: Path) -> Non
     ]
 
 
-def test_resolved_goes_with_print(capsys: pytest.CaptureFixture[str]) -> None:
+def test_resolved_needs_print(capsys: pytest.CaptureFixture[str]) -> None:
     assert launched(capsys, "--resolved", "says.launch.py") == (1, "", "--resolved goes with --print\n")
 
 
-def test_an_interrupt_of_a_launch_that_is_over_changes_nothing_but_a_second_one_ends_the_program(
+def test_first_interrupt_after_the_launch_is_ignored_and_second_ends_program(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert launched(capsys, "empty.launch.py")[0] == 0

@@ -1,4 +1,4 @@
-"""`ros2 param` against nodes of our own."""
+"""`ros2 param` with nodes written in the test."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ LISTED = ["a.b.c", "count", "doubles", "fixed", "free", "gain", "list", "start_t
           "use_sim_time", "words"]  # fmt: skip
 
 
-def test_list(ros) -> None:
+def test_list_shows_parameters_of_all_nodes_or_one(ros) -> None:
     ros.node(NODE)
     ros.node("node = Node('plain', namespace='ns')")
     own = "\n".join(f"  {each}" for each in LISTED)
@@ -51,7 +51,7 @@ def test_list(ros) -> None:
         ("free", "Parameter not set."),
     ],
 )
-def test_get(ros, name: str, shown: str) -> None:
+def test_get_prints_type_and_value(ros, name: str, shown: str) -> None:
     ros.node(NODE)
     assert ros.ask("param", "get", "/tuned", name).stdout == f"{shown}\n"
 
@@ -72,7 +72,7 @@ def test_get(ros, name: str, shown: str) -> None:
         ("free", "seven", ""),
     ],
 )  # fmt: skip
-def test_set(ros, name: str, value: str, refusal: str) -> None:
+def test_set_reports_success_or_refusal(ros, name: str, value: str, refusal: str) -> None:
     ros.node(NODE)
     answer = ros.ask("param", "set", "/tuned", name, value)
     assert answer.exit == 0
@@ -90,7 +90,7 @@ def test_negative_numbers_need_no_quotes(ros) -> None:
     assert ros.ask("param", "get", "/n", "i", "--hide-type").stdout == "-4\n"
 
 
-def test_describe(ros) -> None:
+def test_describe_prints_type_description_and_constraints(ros) -> None:
     ros.node(NODE)
     assert ros.ask("param", "describe", "/tuned", "gain", "count", "fixed", "free").stdout == dedent("""\
         Parameter name: gain
@@ -116,7 +116,7 @@ def test_describe(ros) -> None:
         """)
 
 
-def test_dump_loads_again(ros, tmp_path: Path) -> None:
+def test_dumped_file_can_be_loaded(ros, tmp_path: Path) -> None:
     ros.node(NODE)
     ros.ask("param", "delete", "/tuned", "free")
     dumped = ros.ask("param", "dump", "/tuned").stdout
@@ -131,7 +131,7 @@ def test_dump_loads_again(ros, tmp_path: Path) -> None:
     assert ros.ask("param", "get", "/tuned", "gain").stdout == "Double value is: 2.0\n"
 
 
-def test_delete(ros) -> None:
+def test_delete_refuses_static_parameters(ros) -> None:
     ros.node(NODE)
     ros.ask("param", "set", "/tuned", "free", "1")
     assert ros.ask("param", "delete", "/tuned", "free").stdout == "Deleted parameter successfully\n"
@@ -139,7 +139,7 @@ def test_delete(ros) -> None:
     assert (refused.exit, refused.stderr) == (0, "Deleting parameter failed: Static parameter cannot be undeclared\n")
 
 
-def test_load_with_wildcard(ros, tmp_path: Path) -> None:
+def test_load_applies_wildcard_sections_by_default(ros, tmp_path: Path) -> None:
     ros.node(NODE)
     file = tmp_path / "all.yaml"
     file.write_text("/**:\n  ros__parameters:\n    gain: 0.5\n", "utf-8")
@@ -151,7 +151,7 @@ def test_load_with_wildcard(ros, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("verb", [["get"], ["describe"], ["delete"], ["set", "x"]])
-def test_a_node_that_comes_in_time_is_waited_for(ros, verb: list[str]) -> None:
+def test_late_node_is_waited_for_until_timeout(ros, verb: list[str]) -> None:
     late = ros.ros2("param", verb[0], "/late", "x", *verb[1:], "--timeout", "3")
     ros.run(1.0)
     assert late.exit is None
@@ -161,14 +161,14 @@ def test_a_node_that_comes_in_time_is_waited_for(ros, verb: list[str]) -> None:
     assert (missing.exit, missing.stderr) == (1, "Node not found\n")
 
 
-def test_hidden_nodes_are_asked_when_requested(ros) -> None:
+def test_hidden_nodes_are_included_on_request(ros) -> None:
     ros.node("node = Node('_hidden')\nnode.declare_parameter('x', 1)")
     assert ros.ask("param", "get", "/_hidden", "x").stderr == "Node not found\n"
     assert ros.ask("param", "get", "/_hidden", "x", "--include-hidden-nodes").stdout == "Integer value is: 1\n"
     assert ros.ask("param", "list").stdout == ""
 
 
-def test_a_refusal_by_a_callback_is_reported(ros) -> None:
+def test_refusal_by_a_callback_is_reported(ros) -> None:
     ros.node("""
 from rcl_interfaces.msg import SetParametersResult
 node = Node('strict')
@@ -179,7 +179,7 @@ node.add_on_set_parameters_callback(lambda parameters: SetParametersResult(succe
     assert ros.ask("param", "get", "/strict", "x", "--hide-type").stdout == "1\n"
 
 
-def test_a_node_that_ends_in_its_callback_is_reported(ros) -> None:
+def test_node_that_ends_in_its_callback_is_reported(ros) -> None:
     node = ros.node("""
 node = Node('careless')
 node.declare_parameter('x', 1)
@@ -195,7 +195,7 @@ node.add_on_set_parameters_callback(lambda parameters: 1 / 0)
 
 @pytest.mark.filterwarnings("ignore:Callback returned", "ignore:coroutine")
 @pytest.mark.parametrize("result", ["None", "True", "[SetParametersResult(successful=True)]", "wait()"])
-def test_a_callback_that_returns_something_else_refuses_the_set_and_the_node_lives(ros, result: str) -> None:
+def test_invalid_callback_result_refuses_the_set_and_node_survives(ros, result: str) -> None:
     node = ros.node(f"""
 from rcl_interfaces.msg import SetParametersResult
 async def wait(): return SetParametersResult(successful=True)
@@ -219,7 +219,7 @@ node.add_on_set_parameters_callback(lambda parameters: {result})
     ],
     ids=["long", "endless", "timestamp", "empty tag"],
 )
-def test_a_value_that_no_parameter_takes_is_refused_on_one_line(ros, tmp_path, value, words) -> None:
+def test_unsupported_value_is_refused_on_one_line(ros, tmp_path, value, words) -> None:
     ros.node(NODE)
     given = ros.ask("param", "set", "/tuned", "count", value)
     assert given.exit == 1
@@ -232,7 +232,7 @@ def test_a_value_that_no_parameter_takes_is_refused_on_one_line(ros, tmp_path, v
     ["9" * 30, "0x" + "f" * 5000, "!!int", "!!timestamp x"],
     ids=["long", "endless", "empty tag", "timestamp"],
 )
-def test_a_file_that_no_parameter_takes_is_refused_on_one_line(ros, tmp_path, value) -> None:
+def test_file_with_unsupported_value_is_refused_on_one_line(ros, tmp_path, value) -> None:
     ros.node(NODE)
     (tmp_path / "a.yaml").write_text(f"/**:\n  ros__parameters:\n    count: {value}\n")
     given = ros.ask("param", "load", "/tuned", str(tmp_path / "a.yaml"))
@@ -261,7 +261,7 @@ def test_a_file_that_no_parameter_takes_is_refused_on_one_line(ros, tmp_path, va
     ],
     ids=lambda value: value[:30] if isinstance(value, str) else "",
 )
-def test_a_file_that_holds_no_parameters_is_refused_on_one_line(ros, tmp_path, content, words) -> None:
+def test_file_without_parameters_is_refused_on_one_line(ros, tmp_path, content, words) -> None:
     ros.node(NODE)
     (tmp_path / "a.yaml").write_bytes(content)
     given = ros.ask("param", "load", "/tuned", str(tmp_path / "a.yaml"))

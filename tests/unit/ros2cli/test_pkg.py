@@ -1,4 +1,4 @@
-"""`ros2 pkg` and `ros2 run`: a package that is created can be run."""
+"""`ros2 pkg` and `ros2 run`: a created package can be run."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bot_console.runtime.workspace import discover
 
 @pytest.fixture
 def src(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """An empty workspace, read anew whenever it is asked for."""
+    """An empty workspace that is read again for each request."""
     before = discover.workspace()
     (tmp_path / "src").mkdir()
     monkeypatch.chdir(tmp_path / "src")
@@ -27,7 +27,7 @@ def use(folder: Path) -> None:
     discover.use(discover.Workspace([folder]))
 
 
-def test_a_created_package_runs(ros, src: Path) -> None:
+def test_created_package_runs(ros, src: Path) -> None:
     words = ("--build-type", "ament_python", "--node-name", "hello", "--dependencies", "rclpy", "std_msgs")
     made = ros.ask("pkg", "create", "my_first", *words)
     assert (made.exit, made.stderr) == (0, "")
@@ -39,7 +39,7 @@ def test_a_created_package_runs(ros, src: Path) -> None:
     assert Path(ros.ask("pkg", "prefix", "--share", "my_first").stdout.strip(), "package.xml").is_file()
 
 
-def test_what_is_created_is_reported_line_by_line(ros, src: Path) -> None:
+def test_create_reports_each_file(ros, src: Path) -> None:
     words = (
         "--build-type",
         "ament_python",
@@ -69,7 +69,7 @@ def test_what_is_created_is_reported_line_by_line(ros, src: Path) -> None:
         (["--build-type", "ament_python", "here"], "\nAborted!\nThe directory already exists: ./here\n"),
     ],
 )
-def test_a_package_that_cannot_be(ros, src: Path, words: list[str], refusal: str) -> None:
+def test_create_rejects_invalid_packages(ros, src: Path, words: list[str], refusal: str) -> None:
     Path("here").mkdir()
     made = ros.ask("pkg", "create", *words)
     assert (made.exit, made.stdout) == (1, "")
@@ -93,29 +93,29 @@ def package(src: Path, name: str, **modules: str) -> None:
     use(src)
 
 
-def test_run_gives_the_words_and_the_exit_code(ros, src: Path) -> None:
+def test_run_passes_arguments_and_exit_code(ros, src: Path) -> None:
     package(src, "p", report="import sys\ndef main():\n    print(sys.argv[1:])\n    return 3\n")
     reported = ros.ask("run", "p", "tell", "a", "--ros-args", "-p", "x:=1")
     assert reported.stdout == "['a', '--ros-args', '-p', 'x:=1']\n[ros2run]: Process exited with failure 3\n"
     assert reported.exit == 3
 
 
-def test_a_package_can_use_another_one(ros, src: Path) -> None:
+def test_package_can_import_from_another(ros, src: Path) -> None:
     package(src, "library", words="TEXT = 'from the library'\n")
     package(src, "user", show="from library.words import TEXT\ndef main():\n    print(TEXT)\n")
     assert ros.ask("run", "user", "show").stdout == "from the library\n"
 
 
 @pytest.mark.parametrize("name", ["intelligent_robot", "bot_console_robot"])
-def test_a_workspace_package_wins_over_ours(name: str, ros, src: Path) -> None:
+def test_workspace_package_takes_precedence_over_ours(name: str, ros, src: Path) -> None:
     assert "robot_node" in ros.ask("pkg", "executables", name).stdout
-    use(src)  # as in a new process: packages are looked for once
+    use(src)  # as in a new process: packages are searched for once
     package(src, name, robot_node="def main():\n    print('theirs')\n")
     assert ros.ask("run", name, "robot_node").stdout == "theirs\n"
     assert ros.ask("run", name, "sensor_node").stderr == "No executable found\n"
 
 
-def test_a_module_without_main_is_explained(ros, src: Path) -> None:
+def test_module_without_main_is_explained(ros, src: Path) -> None:
     package(src, "p", empty="TEXT = 1\n")
     failed = ros.ask("run", "p", "empty")
     assert failed.exit == 1
@@ -123,7 +123,7 @@ def test_a_module_without_main_is_explained(ros, src: Path) -> None:
     assert "setup.py" in failed.stderr.splitlines()[-1]
 
 
-def test_an_error_shows_the_users_lines_only(ros, src: Path) -> None:
+def test_traceback_shows_the_users_lines_only(ros, src: Path) -> None:
     package(src, "p", broken="def main():\n    return 1 / 0\n")
     failed = ros.ask("run", "p", "broken")
     assert failed.exit == 1
@@ -140,19 +140,19 @@ def test_ctrl_c_ends_the_node(ros, src: Path) -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a script of the system's shell")
-def test_a_prefix_makes_a_process_of_its_own(ros, src: Path) -> None:
+def test_prefix_runs_a_separate_process(ros, src: Path) -> None:
     package(src, "p", report="def main():\n    pass\n")
     assert ros.ask("run", "--prefix", "echo prefixed", "p", "tell").stdout.startswith("prefixed ")
 
 
 @pytest.mark.parametrize("program", ["rqt_plot", "rqt_reconfigure", "rqt_graph", "rqt_console"])
-def test_rqt_is_the_console(ros, program: str) -> None:
+def test_rqt_programs_name_the_pane(ros, program: str) -> None:
     answer = ros.ask("run", program, program)
     assert answer.exit == 1
     assert answer.stderr.startswith(f"{program} is the pane ")
 
 
-def test_launch_show_args_without_a_file_lists_the_launch_files(ros, src: Path) -> None:
+def test_launch_show_args_without_file_lists_launch_files(ros, src: Path) -> None:
     reported = ros.ask("launch", "bot_console_robot", "--show-args")
     assert (reported.exit, reported.stderr) == (0, "")
     assert "    robot_system.launch.py\n" in reported.stdout and "    environment_launch.py\n" in reported.stdout
@@ -160,7 +160,7 @@ def test_launch_show_args_without_a_file_lists_the_launch_files(ros, src: Path) 
     assert "package 'p' has no launch files" in ros.ask("launch", "p", "--show-args").stderr
 
 
-def test_a_package_of_interfaces_for_cmake(ros, src: Path) -> None:
+def test_created_cmake_package_has_interfaces_and_nodes(ros, src: Path) -> None:
     words = (
         "--build-type",
         "ament_cmake",
@@ -196,7 +196,7 @@ def test_a_package_of_interfaces_for_cmake(ros, src: Path) -> None:
     assert ros.ask("pkg", "xml", "cmake_made_msgs", "-t", "depend").stdout == "std_msgs\n"
 
 
-def test_a_plain_cmake_package(ros, src: Path) -> None:
+def test_created_plain_cmake_package_does_not_use_ament(ros, src: Path) -> None:
     assert ros.ask("pkg", "create", "--build-type", "cmake", "plain_cmake").exit == 0
     assert "ament" not in Path("plain_cmake/CMakeLists.txt").read_text("utf-8")
     assert "<build_type>cmake</build_type>" in Path("plain_cmake/package.xml").read_text("utf-8")
@@ -205,8 +205,8 @@ def test_a_plain_cmake_package(ros, src: Path) -> None:
 EVERYTHING = ("--license", "MIT", "--dependencies", "std_msgs", "--node-name", "hello", "--library-name", "my_lib")
 
 
-def test_what_a_package_with_everything_is_made_of(ros, src: Path) -> None:
-    """The folders and files of ROS 2, in its order; the license's text comes without a line."""
+def test_created_package_with_all_options_has_the_files_of_ros(ros, src: Path) -> None:
+    """The folders and files of ROS 2, in its order; no line is printed for the license file."""
     lines = ros.ask("pkg", "create", *EVERYTHING, "made").stdout.splitlines()
     assert lines[lines.index("creating folder ./made") :] == [
         "creating folder ./made",
@@ -232,7 +232,7 @@ def test_what_a_package_with_everything_is_made_of(ros, src: Path) -> None:
     assert "<buildtool_depend>ament_cmake_ros</buildtool_depend>" in Path("made/package.xml").read_text("utf-8")
 
 
-def test_licenses_are_listed(ros, src: Path) -> None:
+def test_license_question_mark_lists_licenses(ros, src: Path) -> None:
     reported = ros.ask("pkg", "create", "--license", "?", "nothing")
     assert reported.stdout.splitlines()[:3] == ["Supported licenses:", "Apache-2.0", "BSL-1.0"]
     assert (reported.exit, Path("nothing").exists()) == (0, False)
@@ -248,21 +248,21 @@ def test_licenses_are_listed(ros, src: Path) -> None:
         ("MIT-0", "Permission is hereby granted"),
     ],
 )
-def test_a_license_comes_with_its_text(ros, src: Path, license_name: str, begin: str) -> None:
+def test_license_file_is_written(ros, src: Path, license_name: str, begin: str) -> None:
     made = ros.ask("pkg", "create", "--build-type", "ament_python", "--license", license_name, "p")
     assert "WARNING" not in made.stdout
     assert Path("p/LICENSE").read_text("utf-8").lstrip().startswith(begin)
 
 
 @pytest.mark.parametrize("license_name", ["GPL-3.0-only", "my own", "../MIT"])
-def test_a_license_without_its_text_is_reported(ros, src: Path, license_name: str) -> None:
+def test_license_without_text_is_warned_about(ros, src: Path, license_name: str) -> None:
     made = ros.ask("pkg", "create", "--build-type", "ament_python", "--license", license_name, "p")
     assert f"'{license_name}'" in made.stdout.partition("[WARNING]: ")[2]
     assert not Path("p/LICENSE").exists()
 
 
 @pytest.mark.parametrize("build_type", ["ament_python", "ament_cmake"])
-def test_a_node_named_as_its_library_is_renamed(ros, src: Path, build_type: str) -> None:
+def test_node_named_like_its_library_is_renamed(ros, src: Path, build_type: str) -> None:
     made = ros.ask("pkg", "create", "--build-type", build_type, "--node-name", "x", "--library-name", "x", "p")
     assert "[WARNING] renaming node to x_node\n" in made.stderr
     assert "node_name: x_node\n" in made.stdout
@@ -272,7 +272,7 @@ def test_a_node_named_as_its_library_is_renamed(ros, src: Path, build_type: str)
 @pytest.mark.skipif(
     not all(map(shutil.which, ("cmake", "c++"))) or sys.platform == "win32", reason="needs cmake and a C++ compiler"
 )
-def test_a_plain_cmake_package_is_built_and_found(ros, src: Path) -> None:
+def test_created_plain_cmake_package_builds_and_is_found(ros, src: Path) -> None:
     ros.ask("pkg", "create", "--build-type", "cmake", "--node-name", "hello", "--library-name", "lib", "first")
     ros.ask("pkg", "create", "--build-type", "cmake", "--node-name", "hello", "second", "--dependencies", "first")
     prefix = src / "installed"

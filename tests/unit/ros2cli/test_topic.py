@@ -1,4 +1,4 @@
-"""`ros2 topic` against nodes of our own."""
+"""`ros2 topic` with nodes written in the test."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ node.create_subscription(String, 'chatter', lambda message: print('heard', messa
 """
 
 
-def test_list(ros) -> None:
+def test_list_hides_hidden_topics_and_shows_types(ros) -> None:
     ros.node(COUNTER)
     ros.node(LISTENER)
     ros.node("from std_msgs.msg import Empty\nnode = Node('h')\nhidden = node.create_publisher(Empty, '_hidden', 1)")
@@ -34,7 +34,7 @@ def test_list(ros) -> None:
     assert subscribed == " * /chatter [std_msgs/msg/String] 1 subscriber\n\n"
 
 
-def test_info(ros) -> None:
+def test_info_prints_counts_and_endpoints(ros) -> None:
     ros.node(COUNTER)
     assert ros.ask("topic", "info", "/count").stdout == (
         "Type: std_msgs/msg/Int32\nPublisher count: 1\nSubscription count: 0\n"
@@ -46,7 +46,7 @@ def test_info(ros) -> None:
     assert full.endswith("\n\nSubscription count: 0\n\n")
 
 
-def test_type_and_find(ros) -> None:
+def test_type_and_find_print_topics_and_types(ros) -> None:
     ros.node(COUNTER)
     assert ros.ask("topic", "type", "/count").stdout == "std_msgs/msg/Int32\n"
     assert ros.ask("topic", "type", "count").exit == 1
@@ -54,20 +54,20 @@ def test_type_and_find(ros) -> None:
     assert ros.ask("topic", "find", "std_msgs/msg/Int32", "-c").stdout == "1\n"
 
 
-def test_echo_goes_on_until_it_is_stopped(ros) -> None:
+def test_echo_continues_until_interrupted(ros) -> None:
     ros.node(COUNTER)
     echo = ros.ask("topic", "echo", "/count", stop_after=1.0)
     assert (echo.stdout, echo.stderr, echo.exit) == ("".join(f"data: {each}\n---\n" for each in range(4)), "", 2)
 
 
-def test_echo_filters_and_times_out(ros) -> None:
+def test_echo_filters_messages_and_times_out(ros) -> None:
     ros.node(COUNTER)
     even = ros.ask("topic", "echo", "/count", "--filter", "m.data % 2 == 0", "--csv", "--timeout", "1.6")
     assert even.stdout.split() == ["0", "2", "4"]
     assert ros.clock.steady_ns() == pytest.approx(1.7e9, abs=1e8)
 
 
-def test_echo_prints_long_fields_short(ros) -> None:
+def test_echo_truncates_long_arrays(ros) -> None:
     ros.node("""
 from std_msgs.msg import Int8MultiArray
 node = Node('long')
@@ -80,7 +80,7 @@ node.create_timer(0.1, lambda: publisher.publish(Int8MultiArray(data=[7] * 200))
     assert ros.ask("topic", "echo", "/long", "--once", "-l", "3").stdout.count("- 7\n") == 3
 
 
-def test_echo_takes_what_the_publisher_offers(ros) -> None:
+def test_echo_adopts_the_publishers_qos(ros) -> None:
     """A late subscriber with matching durability gets the last message of a publisher that keeps it."""
     ros.node("""
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -93,7 +93,7 @@ publisher.publish(String(data='kept'))
     assert ros.ask("topic", "echo", "/map", "--once", "--qos-durability", "volatile", "--timeout", "1").stdout == ""
 
 
-def test_echo_of_two_types_is_refused(ros) -> None:
+def test_echo_refuses_a_topic_with_two_types(ros) -> None:
     ros.node("from std_msgs.msg import Int32, String\nnode = Node('two')\n"
              "a, b = node.create_publisher(Int32, 't', 1), node.create_publisher(String, 't', 1)")  # fmt: skip
     assert ros.ask("topic", "echo", "/t").stderr == (
@@ -117,7 +117,7 @@ def test_pub_waits_for_a_subscriber(ros) -> None:
     assert listener.stdout == "heard hello\n"
 
 
-def test_pub_gives_up_waiting(ros) -> None:
+def test_pub_stops_waiting_after_max_wait_time(ros) -> None:
     given_up = ros.ask("topic", "pub", "-t", "2", "--max-wait-time-secs", "1.5", "/x", "std_msgs/msg/Empty")
     assert given_up.exit == 1
     assert given_up.stdout == "Waiting for at least 1 matching subscription(s)...\n" * 2
@@ -125,7 +125,7 @@ def test_pub_gives_up_waiting(ros) -> None:
     assert ros.clock.steady_ns() == pytest.approx(1.5e9, abs=1e8)
 
 
-def test_pub_at_a_rate(ros) -> None:
+def test_pub_publishes_at_a_rate(ros) -> None:
     listener = ros.node(LISTENER)
     published = ros.ask("topic", "pub", "-r", "4", "-p", "3", "/chatter", "std_msgs/msg/String", stop_after=1.9)
     assert listener.stdout.count("heard") == 8
@@ -143,7 +143,7 @@ def test_pub_fills_in_the_time(ros) -> None:
     assert now.exit == 1
 
 
-def test_hz(ros) -> None:
+def test_hz_prints_the_average_rate(ros) -> None:
     ros.node(COUNTER)
     measured = ros.ask("topic", "hz", "/count", stop_after=3.6)
     line = "average rate: 4.000\n\tmin: 0.250s max: 0.250s std dev: 0.00000s window: {}\n"
@@ -151,12 +151,12 @@ def test_hz(ros) -> None:
     assert ros.ask("topic", "hz", "/count", "-w", "2", stop_after=1.6).stdout == line.format(2)
 
 
-def test_hz_of_some_messages(ros) -> None:
+def test_hz_counts_filtered_messages_only(ros) -> None:
     ros.node(COUNTER)
     assert "average rate: 2.000\n" in ros.ask("topic", "hz", "/count", "--filter", "m.data % 2", stop_after=3.0).stdout
 
 
-def test_bw(ros) -> None:
+def test_bw_prints_bandwidth_and_message_sizes(ros) -> None:
     ros.node(COUNTER)
     reported = ros.ask("topic", "bw", "/count", stop_after=2.1).stdout.splitlines()
     assert reported[0] == "Subscribed to [/count]"
@@ -165,7 +165,7 @@ def test_bw(ros) -> None:
     assert len(reported) == 5
 
 
-def test_delay(ros) -> None:
+def test_delay_prints_the_age_of_messages(ros) -> None:
     ros.node("""
 from geometry_msgs.msg import PointStamped
 node = Node('old')
@@ -182,7 +182,7 @@ node.create_timer(0.5, publish)
     assert ros.ask("topic", "delay", "/rosout", stop_after=1.0).exit in (1, 2)
 
 
-def test_a_topic_to_measure_is_waited_for(ros) -> None:
+def test_hz_waits_for_a_topic_to_appear(ros) -> None:
     waiting = ros.ros2("topic", "hz", "/count")
     ros.run(1.0)
     assert waiting.stdout == "WARNING: topic [/count] does not appear to be published yet\n"
@@ -190,7 +190,7 @@ def test_a_topic_to_measure_is_waited_for(ros) -> None:
     assert "average rate: 4.000\n" in ros.finish(waiting, 3.0).stdout
 
 
-def test_spread() -> None:
+def test_spread_returns_mean_extremes_and_deviation() -> None:
     from ros2cli.verbs.topic_rate import spread
 
     assert spread([1, 2, 3, 4]) == (2.5, 1, 4, math.sqrt(1.25))
@@ -208,7 +208,7 @@ node.create_timer(0.25, tell)
 """
 
 
-def test_echo_filters_by_what_is_printed(ros) -> None:
+def test_echo_filters_by_the_selected_field(ros) -> None:
     ros.node(JOINTS)
     words = ("topic", "echo", "/joints", "--once", "--field", "name")
     assert ros.ask(*words, "--filter", "len(m) == 2").stdout == "['a', 'b']\n---\n"
@@ -218,18 +218,18 @@ def test_echo_filters_by_what_is_printed(ros) -> None:
 @pytest.mark.parametrize(
     ("field", "stdout", "stderr"),
     [
-        ("header..frame_id.", "\n---\n", ""),  # empty parts do not count
+        ("header..frame_id.", "\n---\n", ""),  # empty parts are ignored
         ("header.nope", "", "Invalid field 'header.nope': 'Header' object has no attribute 'nope'\n"),
         (".", "", "Invalid field value '.'\n"),
     ],
 )
-def test_echo_of_one_field(ros, field: str, stdout: str, stderr: str) -> None:
+def test_echo_prints_a_selected_field(ros, field: str, stdout: str, stderr: str) -> None:
     ros.node(JOINTS)
     asked = ros.ask("topic", "echo", "/joints", "--once", "--field", field)
     assert (asked.stdout, asked.stderr, asked.exit) == (stdout, stderr, int(bool(stderr)))
 
 
-def test_echo_with_the_message_s_times(ros) -> None:
+def test_echo_prints_message_info(ros) -> None:
     ros.node(COUNTER)
     block = ros.ask("topic", "echo", "/count", "--once", "-i").stdout.split("---\n")
     assert [line.split(":")[0] for line in block[0].splitlines()] == [
@@ -243,14 +243,14 @@ def test_echo_with_the_message_s_times(ros) -> None:
     assert field.startswith("---Got new message, message info:---\n{'source_timestamp': ")
 
 
-def test_delay_begins_with_the_second_message(ros) -> None:
+def test_delay_starts_with_the_second_message(ros) -> None:
     ros.node(JOINTS)
     assert ros.ask("topic", "delay", "/joints", stop_after=1.1).stdout == (
         "average delay: 0.000\n\tmin: 0.000s max: 0.000s std dev: 0.00000s window: 3\n"
     )
 
 
-def test_delay_without_a_header_is_one_line(ros) -> None:
+def test_delay_without_header_is_an_error_on_one_line(ros) -> None:
     ros.node(COUNTER)
     delay = ros.ask("topic", "delay", "/count")
     assert (delay.stdout, delay.stderr, delay.exit) == ("", "msg does not have header\n", 1)

@@ -1,4 +1,4 @@
-"""What `ros2 topic` verbs offer and ask for, and what they say where the two ends do not fit."""
+"""QoS of the `ros2 topic` verbs: what they offer and request, and their messages if the two ends are incompatible."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ FALLBACKS = (
 
 
 @pytest.mark.parametrize("words", [(), ("--qos-profile", "default")])
-def test_echo_reports_what_it_does_without(ros, words: tuple[str, ...]) -> None:
+def test_echo_reports_qos_fallbacks(ros, words: tuple[str, ...]) -> None:
     ros.node(OFFERS)
     assert ros.ask("topic", "echo", "/mixed", "--once", *words).stdout == "".join(FALLBACKS) + "data: x\n---\n"
 
 
 @pytest.mark.parametrize("words", [("--qos-depth", "3"), ("--qos-history", "keep_all")])
-def test_echo_asks_for_the_preset_beside_an_option(ros, words: tuple[str, ...]) -> None:
+def test_echo_keeps_the_preset_beside_an_option(ros, words: tuple[str, ...]) -> None:
     ros.node(OFFERS)
     echo = ros.ask("topic", "echo", "/mixed", "--once", "--qos-profile", "default", *words)
     assert echo.stdout == "data: x\n---\n"
@@ -45,13 +45,13 @@ def test_echo_asks_for_the_preset_beside_an_option(ros, words: tuple[str, ...]) 
         (("--qos-depth", "7"), "  History (Depth): KEEP_LAST (7)\n"),
     ],
 )
-def test_pub_offers_what_the_options_mean(ros, words: tuple[str, ...], shown: str) -> None:
+def test_pub_offers_the_selected_qos(ros, words: tuple[str, ...], shown: str) -> None:
     ros.ros2("topic", "pub", "/t", "std_msgs/msg/Empty", *words)
     ros.run(0.2)
     assert shown in ros.ask("topic", "info", "-v", "/t").stdout
 
 
-def test_pub_reports_a_subscription_that_gets_nothing(ros) -> None:
+def test_pub_reports_an_incompatible_subscription(ros) -> None:
     pub = ros.ros2("topic", "pub", "/t", "std_msgs/msg/Empty", "--qos-reliability", "best_effort")
     ros.node("from std_msgs.msg import Empty\nnode = Node('s')\nnode.create_subscription(Empty, 't', print, 1)")
     ros.run(1.0)
@@ -74,8 +74,8 @@ node.create_timer(0.25, tick)
 """
 
 
-def test_pub_goes_by_the_time_of_a_simulation(ros) -> None:
-    """It runs twice as fast: of 1 message a second, 5 take 2 s."""
+def test_pub_uses_simulation_time(ros) -> None:
+    """The simulation runs twice as fast: at 1 message per second, 5 messages take 2 s."""
     ros.node(SIMULATION)
     published = ros.ask(
         "topic", "pub", "-s", "-t", "5", "-w", "0", "/p", "geometry_msgs/msg/PointStamped", "header: auto"
@@ -86,14 +86,14 @@ def test_pub_goes_by_the_time_of_a_simulation(ros) -> None:
     assert max(seconds) < 10, "stamps are of the simulation"
 
 
-def test_bw_goes_by_the_time_of_a_simulation(ros) -> None:
+def test_bw_uses_simulation_time(ros) -> None:
     ros.node(SIMULATION)
     reported = ros.ask("topic", "bw", "-s", "/numbers", stop_after=4.0).stdout.splitlines()
     assert reported[-2].startswith(("11 B/s", "12 B/s", "13 B/s")), "5 B four times a second, in twice the time"
 
 
 @pytest.mark.parametrize("text", ["0", "-1"])
-def test_a_time_limit_is_positive(ros, text: str) -> None:
+def test_time_limit_must_be_positive(ros, text: str) -> None:
     refused = ros.ask("topic", "echo", "/t", "--timeout", text)
     assert (refused.exit, refused.stderr.splitlines()[-1]) == (
         2,
@@ -102,7 +102,7 @@ def test_a_time_limit_is_positive(ros, text: str) -> None:
 
 
 def test_echo_reports_lost_messages(ros, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Within one process none is lost: the subscription is told of one, as over a network."""
+    """Within one process no message is lost: the test reports a loss to the subscription, as over a network."""
     from rclpy.event_handler import QoSMessageLostInfo, SubscriptionEventCallbacks
 
     whole = SubscriptionEventCallbacks.__init__
