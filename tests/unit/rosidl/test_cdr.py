@@ -1,4 +1,4 @@
-"""CDR: known bytes, alignment and what is no message."""
+"""CDR: known bytes, alignment and invalid data."""
 
 from __future__ import annotations
 
@@ -26,19 +26,19 @@ KNOWN = [
     (AddTwoInts.Request(a=1, b=-1), "0001 0000 0100000000000000 ffffffffffffffff"),
     (WString(data="aä"), "0001 0000 02000000 61000000 e4000000"),
     (WString(data="😀"), "0001 0000 02000000 3dd80000 00de0000"),
-    # An empty sequence of 8-byte numbers is not followed by padding of its own.
+    # An empty sequence of 8-byte numbers is not followed by padding.
     (Float64MultiArray(), "0001 0000 00000000 00000000 00000000"),
     (Float64MultiArray(data=[1.0]), "0001 0000 00000000 00000000 01000000 00000000 000000000000f03f"),
 ]
 
 
 @pytest.mark.parametrize(("message", "digits"), KNOWN)
-def test_known_bytes(message: Any, digits: str) -> None:
+def test_messages_have_known_bytes(message: Any, digits: str) -> None:
     assert serialize(message) == bytes.fromhex(digits)
     assert deserialize(bytes.fromhex(digits), type(message)) == message
 
 
-def test_what_was_read_can_be_changed() -> None:
+def test_deserialized_messages_are_mutable() -> None:
     scan = deserialize(serialize(LaserScan(ranges=[1.0])), LaserScan)
     scan.ranges.append(2.0)
     pose = deserialize(serialize(PoseWithCovariance()), PoseWithCovariance)
@@ -46,7 +46,7 @@ def test_what_was_read_can_be_changed() -> None:
     assert (list(scan.ranges), pose.covariance[0]) == ([1.0, 2.0], 2.0)
 
 
-def test_the_types_of_sequences_are_those_of_the_class() -> None:
+def test_sequence_types_survive_a_round_trip() -> None:
     value = ParameterValue(
         bool_array_value=[True], byte_array_value=[b"a"], double_array_value=[1.0], string_array_value=["x", ""]
     )
@@ -74,18 +74,18 @@ def test_any_buffer_is_read() -> None:
         ("0001 0000 ffffffff 61", "no String: 4294967295 elements cannot be in the 1 bytes that are left"),
     ],
 )
-def test_what_is_no_message(digits: str, words: str) -> None:
+def test_invalid_data_is_rejected(digits: str, words: str) -> None:
     with pytest.raises(CdrError) as caught:
         deserialize(bytes.fromhex(digits), String)
     assert str(caught.value).startswith(words)
 
 
-def test_bytes_of_a_string_that_are_not_utf_8_are_replaced_as_in_rclpy() -> None:
+def test_invalid_utf_8_is_replaced_as_in_rclpy() -> None:
     assert deserialize(bytes.fromhex("0001 0000 04000000 61ff6200"), String).data == "a\ufffdb"
     names = bytes.fromhex("0001 0000 01000000 03000000 ff620000 00000000")
     assert deserialize(names, ListParametersResult).names == ["\ufffdb"]
 
 
-def test_a_wrong_field_is_refused_by_its_name() -> None:
+def test_field_of_wrong_type_is_rejected_by_name() -> None:
     with pytest.raises(FieldTypeError, match="field 'x' of geometry_msgs/msg/Vector3 must be a float"):
         serialize(Vector3(x=1))

@@ -1,4 +1,4 @@
-"""CDR is written and read in one pass: large arrays are copied once, and what changes meanwhile does no harm."""
+"""CDR is written and read in one pass: large arrays are copied once, and concurrent changes do no harm."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ SIZE = 1_000_000
 
 
 class Text(str):
-    """A string of a program's own."""
+    """A subclass of str defined by a program."""
 
 
 class Own(String):
-    """A message of a program's own."""
+    """A message subclass defined by a program."""
 
 
 class Changing:
-    """A whole number that does something when it is asked for."""
+    """An integer that calls a function when it is converted."""
 
     def __init__(self, do: Callable[[], Any]) -> None:
         self._do = do
@@ -38,7 +38,7 @@ class Changing:
 
 
 def peak_memory(do: Callable[[], Any]) -> int:
-    """The largest number of bytes that were allocated at once."""
+    """The largest number of bytes allocated at any time."""
     do()
     tracemalloc.start()
     try:
@@ -48,7 +48,7 @@ def peak_memory(do: Callable[[], Any]) -> int:
         tracemalloc.stop()
 
 
-def test_a_byte_array_is_copied_once() -> None:
+def test_byte_array_is_copied_once() -> None:
     image = Image(data=bytes(SIZE))
     written = serialize(image)
     assert peak_memory(lambda: serialize(image)) < 1.5 * SIZE
@@ -69,23 +69,23 @@ def test_a_byte_array_is_copied_once() -> None:
         (ParameterValue(byte_array_value=cast("list[bytes]", b"ab")), ParameterValue(byte_array_value=[b"a", b"b"])),
     ],
 )
-def test_what_is_not_of_the_very_type_is_written_as_a_copy_of_it(message: Any, same: Any) -> None:
+def test_values_of_similar_types_are_written_like_converted_copies(message: Any, same: Any) -> None:
     assert serialize(message) == serialize(message._copy_()) == serialize(same)
 
 
-def test_a_string_that_is_no_unicode_is_refused() -> None:
+def test_string_with_lone_surrogate_is_rejected() -> None:
     with pytest.raises(UnicodeEncodeError):
         serialize(String(data="\ud800"))
 
 
-def test_an_array_that_grows_meanwhile_is_written_as_it_is_then() -> None:
+def test_array_growing_during_serialization_is_written_consistently() -> None:
     point = JointTrajectoryPoint(positions=[1.0])
     point.time_from_start.sec = cast("int", Changing(lambda: point.positions.append(2.0)))
     read = deserialize(serialize(point), JointTrajectoryPoint)
     assert (read.time_from_start.sec, read.positions[0]) == (1, 1.0)
 
 
-def test_a_list_that_grows_meanwhile_is_written_as_it_was() -> None:
+def test_list_growing_during_serialization_is_written_as_it_was() -> None:
     cloud = PointCloud2(fields=[PointField(name="x")])
     cloud.fields[0].offset = cast("int", Changing(lambda: cloud.fields.append(PointField(name="y"))))
     assert deserialize(serialize(cloud), PointCloud2).fields == [PointField(name="x", offset=1)]

@@ -1,4 +1,4 @@
-"""Copies of messages whose fields hold something else than their definition says."""
+"""Copies of messages whose fields hold values of other types than those defined."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ def refused(message: Any) -> str:
     return str(caught.value)
 
 
-def test_the_path_leads_to_the_nested_field() -> None:
+def test_error_names_the_nested_field() -> None:
     twist = Twist()
     twist.linear.x = 1
     assert refused(twist) == "field 'linear.x' of geometry_msgs/msg/Twist must be a float, not int (1)"
 
 
-def test_the_path_leads_into_a_sequence() -> None:
+def test_error_path_leads_into_a_sequence() -> None:
     tree = TFMessage()
     from geometry_msgs.msg import TransformStamped
 
@@ -50,18 +50,18 @@ def test_the_path_leads_into_a_sequence() -> None:
         (ParameterDescriptor(integer_range=[1, 2]), "must be a sequence of at most 1"),
     ],
 )
-def test_what_cannot_be_sent_is_refused(message: Any, words: str) -> None:
+def test_values_that_cannot_be_sent_are_rejected(message: Any, words: str) -> None:
     assert words in refused(message)
 
 
-def test_a_fixed_array_of_wrong_length_is_refused() -> None:
-    Imu()._copy_()  # from the first good one on there is a shorter way
+def test_fixed_array_of_wrong_length_is_rejected() -> None:
+    Imu()._copy_()  # after the first valid message there is a faster path
     message = Imu()
     message.orientation_covariance = [0.0] * 8
     assert "must be a sequence of exactly 9" in refused(message)
 
 
-def test_a_fixed_array_is_copied_each_time() -> None:
+def test_fixed_array_is_copied_each_time() -> None:
     message = Imu()
     copies = [message._copy_() for _ in range(3)]
     message.orientation_covariance[0] = 1.0
@@ -70,14 +70,14 @@ def test_a_fixed_array_is_copied_each_time() -> None:
     assert {each.orientation_covariance.dtype for each in copies} == {numpy.dtype("float64")}
 
 
-def test_numbers_of_numpy_become_plain() -> None:
+def test_numpy_numbers_become_python_numbers() -> None:
     copy = Vector3(x=numpy.float64(1.5))._copy_()
     assert type(copy.x) is float
     assert type(Int8(data=numpy.int64(5))._copy_().data) is int
     assert Bool(data=numpy.bool_(True))._copy_().data is True
 
 
-def test_a_bool_counts_as_an_integer() -> None:
+def test_bool_counts_as_an_integer() -> None:
     assert Int8(data=True)._copy_().data == 1
 
 
@@ -90,7 +90,7 @@ def test_bytes_become_a_list_of_bytes() -> None:
     assert ParameterValue(byte_array_value=b"ab")._copy_().byte_array_value == [b"a", b"b"]
 
 
-def test_a_tuple_of_messages_becomes_a_list() -> None:
+def test_tuple_of_messages_becomes_a_list() -> None:
     from geometry_msgs.msg import Point32
 
     copy = Polygon(points=(Point32(x=1.0),))._copy_()
@@ -103,5 +103,5 @@ class Unwritable:
 
 
 @pytest.mark.parametrize("value", [Unwritable(), [16**5000]], ids=["own", "endless"])
-def test_a_value_that_cannot_be_written_is_reported_all_the_same(value: object) -> None:
+def test_value_without_a_working_repr_is_reported(value: object) -> None:
     assert refused(Bool(data=value)).endswith("(which cannot be written)")

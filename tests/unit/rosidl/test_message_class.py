@@ -1,4 +1,4 @@
-"""Generated message classes: constructors, assignment, checks, equality, repr. The words are those of Jazzy."""
+"""Generated message classes: constructors, assignment, checks, equality, repr. Error messages are those of Jazzy."""
 
 from __future__ import annotations
 
@@ -61,14 +61,14 @@ REFUSED = [
 
 
 @pytest.mark.parametrize(("cls", "field", "value", "words"), REFUSED)
-def test_checks_refuse_an_assignment(cls: type, field: str, value: object, words: str) -> None:
+def test_checks_reject_an_assignment(cls: type, field: str, value: object, words: str) -> None:
     message = cls(check_fields=True)
     with pytest.raises(AssertionError) as caught:
         setattr(message, field, value)
     assert str(caught.value) == words
 
 
-def test_without_checks_all_is_kept_as_it_is() -> None:
+def test_any_value_is_kept_without_checks() -> None:
     message = Vector3(x="a")
     message.y = None
     assert (message.x, message.y) == ("a", None)
@@ -82,13 +82,13 @@ def checking(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     read_checks_again()
 
 
-def test_the_environment_asks_for_checks_until_a_message_is_made(checking: None) -> None:
+def test_environment_enables_checks_until_a_message_is_created(checking: None) -> None:
     read_checks_again()
     with pytest.raises(AssertionError, match="must be of type 'int'"):
         Int8(data="x")
 
 
-def test_the_environment_is_read_again_when_a_module_was_imported(
+def test_environment_is_read_again_after_importing_a_module(
     checking: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     Int8(check_fields=False)
@@ -98,18 +98,18 @@ def test_the_environment_is_read_again_when_a_module_was_imported(
         Int8(data="x")
 
 
-def test_an_unknown_keyword_is_ignored_aloud() -> None:
+def test_unknown_keyword_is_ignored_with_a_warning() -> None:
     with pytest.warns(UserWarning, match="Vector3 has no field named w: the value is ignored") as caught:
         assert Vector3(w=1.0) == Vector3()
     assert caught[0].filename == __file__
 
 
-def test_an_unknown_keyword_is_refused_with_checks() -> None:
+def test_unknown_keyword_is_rejected_with_checks() -> None:
     with pytest.raises(AssertionError, match=r"^Invalid arguments passed to constructor: a, w$"):
         Vector3(w=1.0, a=2, check_fields=True)
 
 
-def test_numbers_are_copied_when_they_are_given() -> None:
+def test_numeric_arrays_are_copied_on_assignment() -> None:
     ranges, covariance = array("f", [1.0]), numpy.zeros(36)
     scan, pose = LaserScan(ranges=ranges, intensities=ranges), PoseWithCovariance(covariance=covariance)
     scan.ranges = ranges
@@ -117,14 +117,14 @@ def test_numbers_are_copied_when_they_are_given() -> None:
     assert (scan.ranges[0], scan.intensities[0], pose.covariance[0]) == (1.0, 1.0, 0.0)
 
 
-def test_with_checks_an_array_of_the_right_type_is_kept_itself() -> None:
+def test_array_of_the_right_type_is_kept_itself_with_checks() -> None:
     ranges = array("f", [1.0])
     scan = LaserScan(check_fields=True)
     scan.ranges = ranges
     assert scan.ranges is ranges
 
 
-def test_a_fixed_array_of_wrong_length_is_refused_by_the_constructor_alone() -> None:
+def test_fixed_array_of_wrong_length_is_rejected_by_constructor_only() -> None:
     with pytest.raises(AssertionError, match=r"^$"):
         Imu(orientation_covariance=[0.0] * 8)
     message = Imu()
@@ -132,7 +132,7 @@ def test_a_fixed_array_of_wrong_length_is_refused_by_the_constructor_alone() -> 
     assert message.orientation_covariance.shape == (8,)
 
 
-def test_two_messages_share_no_default() -> None:
+def test_messages_share_no_mutable_defaults() -> None:
     one, other = JointState(), JointState()
     one.name.append("a")
     one.position.append(1.0)
@@ -140,17 +140,17 @@ def test_two_messages_share_no_default() -> None:
     assert other == JointState()
 
 
-def test_defaults_of_definitions() -> None:
+def test_fields_have_default_values() -> None:
     assert Quaternion() == Quaternion(x=0.0, y=0.0, z=0.0, w=1.0)
     assert Quaternion.W__DEFAULT == 1.0
 
 
-def test_constants() -> None:
+def test_constants_are_attributes_of_class_and_instance() -> None:
     assert (ParameterType.PARAMETER_STRING_ARRAY, Log.INFO, ListParameters.Request.DEPTH_RECURSIVE) == (9, 20, 0)
     assert Log().WARN == 30
 
 
-def test_slots_types_and_fields() -> None:
+def test_slots_types_and_fields_are_those_of_rosidl() -> None:
     assert LaserScan.__slots__[-2:] == ["_intensities", "_check_fields"]
     assert JointState.get_fields_and_field_types()["name"] == "sequence<string>"
     assert (
@@ -163,25 +163,25 @@ def test_slots_types_and_fields() -> None:
     )
 
 
-def test_changing_the_answer_of_get_fields_changes_no_class() -> None:
+def test_fields_dict_is_a_copy() -> None:
     String.get_fields_and_field_types().clear()
     assert String.get_fields_and_field_types() == {"data": "string"}
 
 
-def test_repr() -> None:
+def test_repr_is_that_of_rosidl() -> None:
     assert repr(LaserScan(ranges=[1.0]).ranges) == "array('f', [1.0])"
     assert "ranges=[1.0], intensities=[])" in repr(LaserScan(ranges=[1.0]))
     assert repr(SetBool.Request(data=True)) == "std_srvs.srv.SetBool_Request(data=True)"
     assert repr(Fibonacci.Goal(order=3)) == "example_interfaces.action.Fibonacci_Goal(order=3)"
 
 
-def test_equality_is_of_the_class() -> None:
+def test_equality_requires_the_same_class() -> None:
     assert String(data="a") == String(data="a") != String(data="b")
     assert SetBool.Request() != Trigger.Request()
     assert Vector3() != (0.0, 0.0, 0.0)
 
 
-def test_fixed_arrays_differ_only_where_all_elements_do() -> None:
+def test_fixed_arrays_are_unequal_only_if_all_elements_differ() -> None:
     one, other = Imu(), Imu()
     other.orientation_covariance[0] = 1.0
     assert one == other
@@ -190,12 +190,12 @@ def test_fixed_arrays_differ_only_where_all_elements_do() -> None:
 
 
 @pytest.mark.parametrize("cls", [SetBool, Fibonacci])
-def test_services_and_actions_are_not_made(cls: type) -> None:
+def test_services_and_actions_cannot_be_instantiated(cls: type) -> None:
     with pytest.raises(NotImplementedError):
         cls()
 
 
-def test_pickle_and_typos() -> None:
+def test_messages_pickle_and_reject_misspelt_attributes_and_hashing() -> None:
     message = Twist(linear=Vector3(x=1.0))
     assert pickle.loads(pickle.dumps(message)) == message
     with pytest.raises(AttributeError, match="'Twist' object has no attribute 'liner'"):
@@ -209,10 +209,10 @@ def test_bytes_of_a_sequence_are_kept() -> None:
 
 
 class Marked(Twist):
-    """What a program may make of a message class."""
+    """A subclass of a message class, as a program may define it."""
 
 
-def test_a_subclass_is_sent_as_the_class_it_comes_from() -> None:
+def test_subclass_is_sent_as_its_message_class() -> None:
     message = Marked(linear=Vector3(x=1.0))
     assert type(message._copy_()) is Twist
     assert type_name(Marked) == "geometry_msgs/msg/Twist"
@@ -220,13 +220,13 @@ def test_a_subclass_is_sent_as_the_class_it_comes_from() -> None:
                                   "angular=geometry_msgs.msg.Vector3(x=0.0, y=0.0, z=0.0))")  # fmt: skip
 
 
-def test_a_string_ends_at_a_nul() -> None:
+def test_string_ends_at_a_nul() -> None:
     assert String(data="ab\0cd")._copy_().data == "ab"
     assert KeyValue(key="a\0b", value="c")._copy_() == KeyValue(key="a", value="c")
     assert JointState(name=["a\0b", "c"])._copy_().name == ["a", "c"]
 
 
-def test_defaults_of_the_definition() -> None:
+def test_nonzero_defaults_come_from_the_definition() -> None:
     assert (NavSatStatus().status, NavSatStatus().service) == (-2, 0)
 
 

@@ -1,4 +1,4 @@
-"""Definition files: what is read, and what is refused with file, line and fault."""
+"""Definition files: what is accepted, and errors with file, line and mistake."""
 
 from __future__ import annotations
 
@@ -35,16 +35,16 @@ CONSTANTS = [
 
 
 @pytest.mark.parametrize(("line", "field"), ROWS)
-def test_fields(line: str, field: Field) -> None:
+def test_field_lines_are_parsed(line: str, field: Field) -> None:
     assert list(parse(line, "my_msgs", "msg", "X").parts[0].fields) == [field]
 
 
 @pytest.mark.parametrize(("line", "constant"), CONSTANTS)
-def test_constants(line: str, constant: Constant) -> None:
+def test_constant_lines_are_parsed(line: str, constant: Constant) -> None:
     assert list(parse(line, "my_msgs", "msg", "X").parts[0].constants) == [constant]
 
 
-def test_parts_of_services_and_actions() -> None:
+def test_services_and_actions_have_parts() -> None:
     service = parse("int32 a\n---\n", "p", "srv", "Ask")
     assert [(each.name, len(each.fields)) for each in service.parts] == [("Ask_Request", 1), ("Ask_Response", 0)]
     action = parse("---\nint32 a\n---\n# none\n", "p", "action", "Do")
@@ -66,13 +66,13 @@ def test_parts_of_services_and_actions() -> None:
         ("int32 a\n---\nint32 b", "a .msg file has 0 lines with '---', not 1"),
     ],
 )
-def test_what_is_refused(text: str, words: str) -> None:
+def test_invalid_definitions_are_rejected(text: str, words: str) -> None:
     with pytest.raises(DefinitionError) as caught:
         parse(text, "my_msgs", "msg", "X", "X.msg")
     assert str(caught.value).startswith("X.msg:")
     assert words in str(caught.value)
 
 
-def test_the_name_of_an_interface_is_checked() -> None:
+def test_interface_name_is_checked() -> None:
     with pytest.raises(DefinitionError, match="'my_num' is no interface name"):
         parse("int32 a", "my_msgs", "msg", "my_num")

@@ -1,4 +1,4 @@
-"""Descriptions from definition files alone have the hashes of the classes that are generated from them."""
+"""Descriptions made from definition files alone have the same hashes as the generated classes."""
 
 from __future__ import annotations
 
@@ -39,6 +39,6 @@ def test_hash_of_the_texts_is_that_of_the_class(package: str) -> None:
         assert text_of_description(described) == text(cls), name
 
 
-def test_what_a_type_consists_of_must_be_there() -> None:
+def test_missing_definition_of_a_nested_type_is_rejected() -> None:
     with pytest.raises(DefinitionError, match="the definition of geometry_msgs/msg/Vector3 is missing"):
         describe_texts("my/msg/Speed", {"my/msg/Speed": "geometry_msgs/Vector3 linear\n"})

@@ -1,4 +1,4 @@
-"""The definition files that come along, and those that are added."""
+"""The included definition files, and those that are added."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def all_names() -> list[str]:
     return [f"{package}/{name}" for package in texts.standard_packages() for name in texts.interface_names(package)]
 
 
-def test_every_file_reports_what_its_class_has() -> None:
+def test_every_file_defines_the_fields_of_its_class() -> None:
     for full_name in all_names():
         package, kind, name = full_name.split("/")
         interface = parse(texts.definition_text(package, kind, name) or "", package, kind, name)
@@ -27,14 +27,14 @@ def test_every_file_reports_what_its_class_has() -> None:
                 assert repr(getattr(cls, constant.name)) == constant.value, full_name
 
 
-def test_what_is_written_is_read_as_the_same() -> None:
+def test_written_definitions_parse_as_the_same() -> None:
     for full_name in all_names():
         package, kind, name = full_name.split("/")
         interface = parse(texts.definition_text(package, kind, name) or "", package, kind, name)
         assert parse(written(interface), package, kind, name) == interface
 
 
-def test_packages_and_names() -> None:
+def test_packages_and_interfaces_are_listed() -> None:
     assert {"std_msgs", "std_srvs", "rcl_interfaces", "tf2_msgs"} <= set(texts.known_packages())
     assert texts.interface_names("std_srvs") == ["srv/Empty", "srv/SetBool", "srv/Trigger"]
     assert texts.interface_names("nope_msgs") == []

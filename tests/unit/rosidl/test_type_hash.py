@@ -1,4 +1,4 @@
-"""Type hashes: values that ROS 2 systems and other implementations have published."""
+"""Type hashes compared with values published by ROS 2 systems and other implementations."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ PUBLISHED = {
     "example_interfaces/srv/AddTwoInts": "e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a",
 }
 WRONG_IN_ROSBAGS = ("std_msgs/msg/Char", "service_msgs/msg/ServiceEventInfo", "rmw_dds_common/msg/")
-"""These have a `char`, which ROS 2 takes for a `uint8`."""
+"""These have a `char`, which ROS 2 treats as `uint8`."""
 
 
 def class_of(name: str) -> Any:
@@ -28,7 +28,7 @@ def class_of(name: str) -> Any:
 
 
 @pytest.mark.parametrize("name", PUBLISHED)
-def test_published_hashes(name: str) -> None:
+def test_hashes_equal_published_ones(name: str) -> None:
     assert text(class_of(name)) == f"RIHS01_{PUBLISHED[name]}"
 
 
@@ -47,18 +47,18 @@ def test_all_messages_have_the_hashes_of_rosbags() -> None:
     assert checked > 140
 
 
-def test_an_empty_structure_has_a_member() -> None:
+def test_empty_structure_has_a_member() -> None:
     (field,) = describe(Empty)["type_description"]["fields"]
     assert (field["name"], field["type"]["type_id"]) == ("structure_needs_at_least_one_member", 3)
 
 
-def test_a_service_has_three_members() -> None:
+def test_service_has_three_members() -> None:
     fields = describe(Trigger)["type_description"]["fields"]
     assert [each["name"] for each in fields] == ["request_message", "response_message", "event_message"]
     assert fields[2]["type"]["nested_type_name"] == "std_srvs/srv/Trigger_Event"
 
 
-def test_an_action_has_its_services() -> None:
+def test_action_has_its_services() -> None:
     description = describe(Fibonacci)
     assert [each["name"] for each in description["type_description"]["fields"]] == [
         "goal",
@@ -74,5 +74,5 @@ def test_an_action_has_its_services() -> None:
 
 
 @pytest.mark.parametrize("name", KNOWN)
-def test_the_hashes_that_are_written_down_are_what_would_be_computed(name: str) -> None:
+def test_stored_hashes_equal_computed_ones(name: str) -> None:
     assert digest_of_description(describe(class_of(name))).hex() == KNOWN[name] == digest(class_of(name)).hex()

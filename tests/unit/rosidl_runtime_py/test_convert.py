@@ -19,7 +19,7 @@ def test_yaml_keeps_the_order_of_the_fields() -> None:
     assert message_to_yaml(JointState(name=["a"])) == f"{HEADER}name:\n- a\nposition: []\nvelocity: []\neffort: []\n"
 
 
-def test_flow_style_is_for_what_is_inside() -> None:
+def test_flow_style_applies_to_nested_values_only() -> None:
     message = JointState(position=[0.5, float("inf")])
     assert message_to_yaml(message, flow_style=True).splitlines()[-3:] == [
         "position: [0.5, .inf]",
@@ -28,14 +28,14 @@ def test_flow_style_is_for_what_is_inside() -> None:
     ]
 
 
-def test_strings_and_sequences_are_shortened() -> None:
+def test_strings_and_sequences_are_truncated() -> None:
     assert message_to_yaml(String(data="abcdef"), truncate_length=3) == "data: abc...\n"
     scan = LaserScan(ranges=[1.0, 2.0, 3.0])
     assert "ranges:\n- 1.0\n- 2.0\n- '...'\n" in message_to_yaml(scan, truncate_length=2)
     assert message_to_csv(scan, truncate_length=2).endswith("1.0,2.0,...,")
 
 
-def test_sequences_and_strings_are_left_out() -> None:
+def test_sequences_and_strings_can_be_left_out() -> None:
     value = ParameterValue(string_value="abc", integer_array_value=[1, 2], string_array_value=["a"])
     fields = message_to_ordereddict(value, no_arr=True, no_str=True)
     assert fields["string_value"] == "<string length: <3>>"
@@ -56,7 +56,7 @@ def test_csv_is_flat() -> None:
     assert message_to_csv(Image(width=1, data=[1, 2])) == "0,0,,0,1,,0,0,1,2"
 
 
-def test_dictionaries_are_plain() -> None:
+def test_dictionaries_hold_plain_python_values() -> None:
     fields = message_to_ordereddict(PoseWithCovariance())
     assert isinstance(fields, OrderedDict)
     assert type(fields["covariance"]) is list
@@ -64,11 +64,11 @@ def test_dictionaries_are_plain() -> None:
     assert list(fields["pose"]) == ["position", "orientation"]
 
 
-def test_slot_types_by_name() -> None:
+def test_slot_types_are_returned_by_name() -> None:
     assert get_message_slot_types(String()) == {"data": UnboundedString()}
     assert get_message_slot_types(Vector3)["x"] == BasicType("double")
 
 
-def test_an_empty_array_at_the_beginning_of_a_csv_line_leaves_no_comma() -> None:
+def test_empty_array_at_the_start_of_csv_adds_no_comma() -> None:
     assert message_to_csv(Float64MultiArray()) == "0,"
     assert message_to_csv(Float64MultiArray(data=[1.0])) == "0,1.0"

@@ -19,20 +19,20 @@ def filled(message: Any, values: Any) -> Any:
     return message
 
 
-def test_nested_fields_and_conversion() -> None:
+def test_nested_fields_are_set_and_converted() -> None:
     twist = filled(TwistStamped(), {"header": {"frame_id": "map"}, "twist": {"linear": {"x": 1}}})
     assert (twist.header.frame_id, twist.twist.linear.x) == ("map", 1.0)
     assert filled(Int32(), {"data": "5"}).data == 5
     assert filled(String(), {"data": 5}).data == "5"
 
 
-def test_sequences() -> None:
+def test_sequences_are_set() -> None:
     assert filled(LaserScan(), {"ranges": [1, 2]}).ranges == array("f", [1.0, 2.0])
     assert filled(PoseWithCovariance(), {"covariance": [1] * 36}).covariance.dtype == "float64"
     assert filled(Polygon(), {"points": [{"x": 1.0}]}).points == [Point32(x=1.0)]
 
 
-def test_sequences_of_sequences() -> None:
+def test_nested_sequences_are_set_without_changing_the_values() -> None:
     values = {"parameters": [{"name": "a", "value": {"type": 3, "double_value": 2.0}}]}
     request = filled(SetParameters.Request(), values)
     assert request.parameters[0].value.double_value == 2.0
@@ -48,13 +48,13 @@ def test_sequences_of_sequences() -> None:
         (TwistStamped(), {"twist": 5}, TypeError, "Value '5' is expected to be a dictionary but is a int"),
     ],
 )
-def test_what_is_refused(message: Any, values: Any, error: type[Exception], words: str) -> None:
+def test_invalid_values_are_rejected(message: Any, values: Any, error: type[Exception], words: str) -> None:
     with pytest.raises(error) as caught:
         set_message_fields(message, values)
     assert str(caught.value) == words
 
 
-def test_auto_and_now_are_set_later() -> None:
+def test_auto_and_now_are_filled_in_later() -> None:
     twist, header = TwistStamped(), Header()
     (stamp,) = set_message_fields(twist, {"header": "auto"}, expand_header_auto=True)
     (now,) = set_message_fields(header, {"stamp": "now"}, expand_time_now=True)
@@ -63,6 +63,6 @@ def test_auto_and_now_are_set_later() -> None:
     assert (twist.header.stamp.sec, header.stamp.sec) == (5, 6)
 
 
-def test_now_is_no_time_unless_asked_for() -> None:
+def test_now_is_rejected_unless_enabled() -> None:
     with pytest.raises(TypeError, match="Value 'now' is expected to be a dictionary but is a str"):
         set_message_fields(Header(), {"stamp": "now"})

@@ -1,4 +1,4 @@
-"""Clouds of points as arrays and back."""
+"""Point clouds as arrays and back."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ def cloud() -> PointCloud2:
     return point_cloud2.create_cloud(Header(frame_id="lidar"), FIELDS, POINTS)
 
 
-def test_layout(cloud: PointCloud2) -> None:
+def test_cloud_has_the_expected_layout(cloud: PointCloud2) -> None:
     assert (cloud.height, cloud.width, cloud.point_step, cloud.row_step) == (1, 3, 18, 54)
     assert (cloud.header.frame_id, cloud.is_dense, len(cloud.data)) == ("lidar", False, 54)
 
 
-def test_reading(cloud: PointCloud2) -> None:
+def test_points_are_read_as_arrays_or_lists(cloud: PointCloud2) -> None:
     points = point_cloud2.read_points(cloud)
     assert points.dtype.names == ("x", "y", "z", "ring")
     assert points["ring"].tolist() == [4, 5, 6]
@@ -42,13 +42,13 @@ def test_reading(cloud: PointCloud2) -> None:
         point_cloud2.read_points(cloud, ["intensity"])
 
 
-def test_an_array_of_places() -> None:
+def test_cloud_is_created_from_an_array() -> None:
     places = np.random.default_rng(1).random((5, 3)).astype(np.float32)
     cloud = point_cloud2.create_cloud_xyz32(Header(), places)
     np.testing.assert_array_equal(point_cloud2.read_points_numpy(cloud), places)
 
 
-def test_padded_points_other_byte_order_and_vectors() -> None:
+def test_padded_big_endian_points_with_vectors_are_read() -> None:
     field = PointField(name="v", offset=4, datatype=PointField.FLOAT64, count=2)
     data = np.zeros(2, np.dtype({"names": ["v"], "formats": [(">f8", 2)], "offsets": [4], "itemsize": 24}))
     data["v"] = [[1, 2], [3, 4]]
@@ -58,7 +58,7 @@ def test_padded_points_other_byte_order_and_vectors() -> None:
     assert point_cloud2.dtype_from_fields([field]).names == ("v_0", "v_1")
 
 
-def test_a_structured_array_keeps_its_size() -> None:
+def test_structured_array_keeps_its_item_size() -> None:
     fields = [PointField(name="x", offset=0, datatype=PointField.FLOAT32, count=1)]
     padded = np.zeros(2, np.dtype({"names": ["x"], "formats": ["f4"], "offsets": [0], "itemsize": 20}))
     assert point_cloud2.create_cloud(Header(), fields, padded).point_step == 20

@@ -14,7 +14,7 @@ def shipped_world(request: pytest.FixtureRequest) -> World:
 
 @pytest.fixture
 def room() -> World:
-    """6 m by 4 m, one round pillar ahead of the start."""
+    """6 m by 4 m with one round pillar ahead of the start."""
     return parse_world(
         "room", {"size": [6.0, 4.0], "start": [1.0, 2.0, 0.0], "circles": [{"center": [4.0, 2.0], "radius": 0.5}]}
     )

@@ -33,13 +33,13 @@ def in_a_process(world: str, seed: int, hash_seed: str) -> str:
     return subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout
 
 
-def test_a_seed_gives_the_same_run_in_every_process() -> None:
+def test_same_seed_gives_the_same_run_in_every_process() -> None:
     first = in_a_process("outdoor", 1, "1")
     assert in_a_process("outdoor", 1, "2") == first
     assert in_a_process("outdoor", 2, "1") != first
 
 
-def test_the_report_is_json(shipped_world: World) -> None:
+def test_report_is_json(shipped_world: World) -> None:
     simulation = Simulation(shipped_world, 3)
     simulation.step()
     report = json.loads(json.dumps(simulation.report()))

@@ -29,7 +29,7 @@ def test_speed_and_acceleration_stay_within_limits() -> None:
     assert max(abs(dw) for _, dw in changes) == pytest.approx(3.0 * STEP)
 
 
-def test_the_outer_wheel_limits_a_curve_and_keeps_its_shape() -> None:
+def test_wheel_limit_slows_a_curve_and_keeps_its_radius() -> None:
     drive = DifferentialDrive(LIMITS)
     for _ in range(500):
         drive.command(2.0, 1.0)
@@ -38,7 +38,7 @@ def test_the_outer_wheel_limits_a_curve_and_keeps_its_shape() -> None:
     assert drive.linear / drive.angular == pytest.approx(2.0)
 
 
-def test_a_command_dies_after_its_time() -> None:
+def test_command_expires() -> None:
     simulation = Simulation(HALL, 1, Settings(limits=LIMITS))
     simulation.command(1.0, 0.0)
     for _ in range(30):
@@ -50,7 +50,7 @@ def test_a_command_dies_after_its_time() -> None:
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
-def test_commands_that_are_no_numbers_are_refused(value: float) -> None:
+def test_non_finite_commands_are_rejected(value: float) -> None:
     simulation = Simulation(HALL, 1)
     with pytest.raises(ValueError, match="finite"):
         simulation.command(value, 0.0)
@@ -58,7 +58,7 @@ def test_commands_that_are_no_numbers_are_refused(value: float) -> None:
         simulation.command(0.0, value)
 
 
-def test_a_circle_comes_back_to_its_start() -> None:
+def test_circle_returns_to_its_start() -> None:
     simulation = Simulation(HALL, 1)
     simulation.command(1.0, 1.0)
     for _ in range(100):
@@ -74,7 +74,7 @@ def test_a_circle_comes_back_to_its_start() -> None:
 
 
 @pytest.mark.parametrize("speed", [0.5, 2.0, 5.0])
-def test_walls_hold_the_robot_at_any_speed(room: World, speed: float) -> None:
+def test_walls_stop_the_robot_at_any_speed(room: World, speed: float) -> None:
     simulation = Simulation(room, 1, Settings(limits=DriveLimits(acceleration=20.0)))
     simulation.place(Pose(1.0, 1.0, -0.3))
     for _ in range(1000):
@@ -97,7 +97,7 @@ def test_scraping_along_a_wall_is_one_collision(room: World) -> None:
     assert simulation.collisions.last.speed > 0.5
 
 
-def test_a_second_touch_is_a_second_collision(room: World) -> None:
+def test_second_contact_is_a_second_collision(room: World) -> None:
     simulation = Simulation(room, 1)
     for speed in (1.0, -1.0, 1.0):
         for _ in range(400 if speed > 0 else 100):
@@ -108,7 +108,7 @@ def test_a_second_touch_is_a_second_collision(room: World) -> None:
     assert simulation.collisions.last.what == "an obstacle"
 
 
-def test_the_robot_can_be_put_only_where_it_fits(room: World) -> None:
+def test_robot_can_be_placed_only_where_it_fits(room: World) -> None:
     simulation = Simulation(room, 1)
     simulation.place(Pose(2.0, 3.0, 1.0))
     simulation.step()
@@ -119,7 +119,7 @@ def test_the_robot_can_be_put_only_where_it_fits(room: World) -> None:
     assert (simulation.pose.x, simulation.pose.y) == pytest.approx((2.0, 3.0))
 
 
-def test_odometry_without_noise_is_the_truth() -> None:
+def test_odometry_without_noise_is_exact() -> None:
     simulation = Simulation(HALL, 1, Settings(noise=OdometryNoise(0.0, 0.0)))
     for i in range(800):
         simulation.command(1.0, math.sin(i / 100))
@@ -130,7 +130,7 @@ def test_odometry_without_noise_is_the_truth() -> None:
     )
 
 
-def test_odometry_noise_grows_with_the_square_root_of_the_way() -> None:
+def test_odometry_noise_grows_with_the_square_root_of_the_distance() -> None:
     rng = np.random.default_rng(3)
     for steps in (100, 400):
         ends = []

@@ -1,4 +1,4 @@
-"""The physics engine's memory is freed by its owner: no Python function of pymunk's runs in the garbage collector."""
+"""The physics engine's memory is freed by its owner: no Python function of pymunk runs in the garbage collector."""
 
 from __future__ import annotations
 
@@ -32,20 +32,20 @@ sys.setprofile(None)
 assert gone() is None
 print(*(code.co_name for code in called if "pymunk" in code.co_filename))
 """
-"""In a program of its own: CPython 3.11 waits for ever in a profiled frame while a thread has an exception to take."""
+"""Runs in a separate process: CPython 3.11 can hang in a profiled frame while a thread has a pending exception."""
 FREEING = {
     "spacefree", "freebody", "shapefree",
     "ext_cpSpaceShapeIteratorFunc", "ext_cpSpaceBodyIteratorFunc", "ext_cpBodyShapeIteratorFunc",
 }  # fmt: skip
 
 
-def test_the_collector_frees_no_physics() -> None:
+def test_garbage_collector_frees_no_physics() -> None:
     done = subprocess.run([sys.executable, "-c", COLLECTED], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert not FREEING & set(done.stdout.split())
 
 
-def test_what_is_freed_twice_is_freed_once(room: World) -> None:
+def test_freeing_twice_is_harmless(room: World) -> None:
     simulation = Simulation(room, 1)
     memory = simulation._space._memory
     memory.free()

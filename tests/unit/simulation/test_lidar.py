@@ -16,7 +16,7 @@ def simulate(world: World, lidar: LidarSettings = EXACT, seed: int = 1) -> Simul
     return Simulation(world, seed, Settings(lidar=lidar))
 
 
-def test_no_beam_differs_from_the_physics_engine(shipped_world: World) -> None:
+def test_beams_agree_with_the_physics_engine(shipped_world: World) -> None:
     simulation = simulate(shipped_world, replace(EXACT, field_of_view=2 * math.pi))
     rng = np.random.default_rng(7)
     compared = 0
@@ -35,7 +35,7 @@ def test_no_beam_differs_from_the_physics_engine(shipped_world: World) -> None:
     assert compared > 4000
 
 
-def test_beams_look_from_right_to_left(room: World) -> None:
+def test_beams_go_from_right_to_left(room: World) -> None:
     ranges = simulate(room).scan().ranges
     assert len(ranges) == 360
     assert ranges[0] == pytest.approx(2.0)
@@ -52,13 +52,13 @@ def test_no_return_is_infinite_and_too_near_is_minus_infinite(room: World) -> No
     assert near[179] == pytest.approx(2.5, abs=1e-3)
 
 
-def test_moving_obstacles_are_seen() -> None:
+def test_moving_obstacles_are_detected() -> None:
     data = {"size": [6, 4], "start": [1, 2, 0], "moving": [{"radius": 0.3, "speed": 0, "route": [[3, 2], [4, 2]]}]}
     simulation = simulate(parse_world("w", data))
     assert simulation.scan().ranges[179] == pytest.approx(1.7, abs=1e-3)
 
 
-def test_a_wall_seen_end_on_gives_no_return_from_elsewhere() -> None:
+def test_wall_seen_end_on_gives_no_false_range() -> None:
     walls = [{"points": [[3.0, 2.0], [5.0, 2.0]]}, {"points": [[4.0, 1.0], [4.0, 1.7]]}]
     simulation = simulate(
         parse_world("w", {"size": [6, 4], "start": [1, 2, 0], "walls": walls}), replace(EXACT, beams=361)
@@ -67,7 +67,7 @@ def test_a_wall_seen_end_on_gives_no_return_from_elsewhere() -> None:
     assert ahead == pytest.approx([5.0] * 3, abs=2e-3) or ahead[1] == pytest.approx(2.0)
 
 
-def test_noise_has_the_asked_deviation(room: World) -> None:
+def test_noise_has_the_configured_deviation(room: World) -> None:
     exact = simulate(room).scan().ranges
     simulation = simulate(room, replace(EXACT, noise=0.05))
     errors = np.concatenate([simulation.scan().ranges - exact for _ in range(200)])
@@ -75,7 +75,7 @@ def test_noise_has_the_asked_deviation(room: World) -> None:
     assert errors.std() == pytest.approx(0.05, rel=0.02)
 
 
-def test_dropout_loses_the_asked_share_as_no_return(room: World) -> None:
+def test_dropout_removes_the_configured_share_of_returns(room: World) -> None:
     simulation = simulate(room, replace(EXACT, dropout=0.1))
     scans = [simulation.scan() for _ in range(100)]
     lost = np.concatenate([np.isinf(each.ranges) for each in scans])
@@ -103,7 +103,7 @@ def test_intensity_falls_with_distance_and_reflectivity(room: World) -> None:
     assert dark[179] == bright[179]
 
 
-def test_a_full_circle_and_a_single_beam_work(room: World) -> None:
+def test_full_circle_and_single_beam_work(room: World) -> None:
     around = simulate(room, replace(EXACT, field_of_view=2 * math.pi, beams=361)).scan().ranges
     assert around[0] == pytest.approx(around[-1])
     assert around[0] == pytest.approx(1.0)

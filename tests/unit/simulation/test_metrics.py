@@ -22,29 +22,29 @@ def test_distance_counts_both_directions_and_mean_speed_is_over_all_time() -> No
     assert metrics.duration == pytest.approx(4.0)
 
 
-def test_a_stop_is_driving_then_standing() -> None:
+def test_stop_is_counted_when_the_robot_halts_after_driving() -> None:
     assert run([0.0] * 5).stops == 0
     assert run([1.0, 0.0, 0.0, 1.0, 0.0]).stops == 2
     assert run([1.0, 0.03, 1.0, 0.03]).stops == 0
     assert run([0.0, 0.03, 0.0]).stops == 0
 
 
-def test_the_longest_standstill() -> None:
+def test_longest_standstill_is_reported() -> None:
     assert run([0.0] * 3 + [1.0] + [0.0] * 7 + [1.0]).longest_standstill == pytest.approx(0.7)
     assert run([1.0] * 3).longest_standstill == 0.0
 
 
-def test_nothing_near_is_none_in_the_report() -> None:
+def test_unknown_clearance_is_none_in_the_report() -> None:
     assert run([1.0], math.inf).report()["min_clearance"] is None
     assert run([1.0], 0.25).report()["min_clearance"] == 0.25
 
 
-def test_the_digest_is_of_the_poses() -> None:
+def test_digest_depends_on_the_poses_only() -> None:
     assert run([1.0, 2.0]).digest == run([2.0, 1.0]).digest
     assert run([1.0]).digest != run([1.0, 1.0]).digest
 
 
-def test_the_digest_is_the_hash_of_all_poses_whenever_it_is_asked_for() -> None:
+def test_digest_equals_the_hash_of_all_poses_at_any_time() -> None:
     digest, plain = PoseDigest(), hashlib.blake2b(digest_size=16)
     for number in range(1000):
         pose = 0.1 * number, -0.2 * number, math.sin(number)

@@ -9,7 +9,7 @@ def make(mover: dict[str, object], start: tuple[float, float, float] = (1.0, 5.0
     return Simulation(parse_world("w", {"size": [12, 10], "start": list(start), "moving": [mover]}), 1)
 
 
-def test_a_route_is_driven_at_its_speed_in_a_circle() -> None:
+def test_obstacle_follows_its_closed_route_at_its_speed() -> None:
     simulation = make({"radius": 0.3, "speed": 1.0, "route": [[4, 2], [8, 2], [8, 6]]})
     for _ in range(200):
         simulation.step()
@@ -22,7 +22,7 @@ def test_a_route_is_driven_at_its_speed_in_a_circle() -> None:
     assert simulation.moving()[0, :2] == pytest.approx([4.0, 2.0], abs=0.05)
 
 
-def test_it_waits_for_the_robot_then_turns_back() -> None:
+def test_obstacle_waits_for_the_robot_then_turns_back() -> None:
     simulation = make({"radius": 0.3, "speed": 1.0, "keep_off": 0.4, "route": [[8, 5], [1, 5]]})
     nearest = math.inf
     for _ in range(1200):
@@ -33,7 +33,7 @@ def test_it_waits_for_the_robot_then_turns_back() -> None:
     assert simulation.moving()[0, 0] > 5.0
 
 
-def test_an_area_is_wandered_by_the_seed() -> None:
+def test_wandering_depends_on_the_seed() -> None:
     mover = {"radius": 0.3, "speed": 1.0, "area": [4, 2, 10, 8]}
     tracks = []
     for seed in (1, 1, 2):

@@ -1,4 +1,4 @@
-"""What is nearest to the robot, which is looked for in a short reach first."""
+"""The nearest obstacle, which is searched for within a short range first."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def space() -> Space:
     return Space(parse_world("hall", data), [], Pose(10.0, 10.0, 0.0), RADIUS)
 
 
-def test_it_is_found_wherever_the_robot_was_searched_for_before(space: Space) -> None:
+def test_nearest_obstacle_does_not_depend_on_earlier_queries(space: Space) -> None:
     beside, far_off = math.sqrt(2.0) - 0.1 - RADIUS, 4.0 - RADIUS
     for x, y, gap, what in [
         (10.0, 10.0, beside, "an obstacle"),
@@ -34,7 +34,7 @@ def test_it_is_found_wherever_the_robot_was_searched_for_before(space: Space) ->
         assert (found[0], found[1]) == (pytest.approx(gap, abs=1e-6), what)
 
 
-def test_where_nothing_is_near_there_is_nothing() -> None:
+def test_no_obstacle_nearby_gives_infinity() -> None:
     world = parse_world("field", {"size": [40, 40], "start": [20, 20, 0.0]})
     space = Space(world, [], Pose(20.0, 20.0, 0.0), RADIUS)
     assert space.nearest(20.0, 20.0) == (math.inf, "")
@@ -43,7 +43,7 @@ def test_where_nothing_is_near_there_is_nothing() -> None:
 
 
 @pytest.mark.parametrize("speed", [0.3, 1.5])
-def test_the_least_room_of_a_run_is_that_of_its_every_step(speed: float) -> None:
+def test_minimum_clearance_of_a_run_covers_every_step(speed: float) -> None:
     people = [{"radius": 0.3, "speed": 1.2, "keep_off": 0.05, "area": [1, 1, 7, 5]} for _ in range(3)]
     world = parse_world("hall", {"size": [8, 6], "start": [4, 3, 0.3], "moving": people})
     simulation = Simulation(world, 5)

@@ -29,7 +29,7 @@ def test_outside_a_rounded_boundary_is_unknown() -> None:
 
 
 @pytest.mark.parametrize("resolution", [0.05, 0.2])
-def test_a_cell_is_occupied_where_something_is(shipped_world: World, resolution: float) -> None:
+def test_cell_is_occupied_exactly_where_an_obstacle_is(shipped_world: World, resolution: float) -> None:
     simulation = Simulation(replace(shipped_world, movers=()), 1)
     grid = occupancy_grid(simulation.world, resolution)
     rng = np.random.default_rng(5)

@@ -33,7 +33,7 @@ GOOD: dict[str, Any] = {"size": [6.0, 4.0], "start": [1.0, 1.0, 0.0]}
         ({"moving": [{"radius": 0.2, "speed": 1.0, "route": [[1, 1]]}]}, "moving[0] needs a route of two points"),
     ],
 )
-def test_a_mistake_is_named_with_its_place(change: dict[str, Any], words: str) -> None:
+def test_mistake_is_reported_with_its_place(change: dict[str, Any], words: str) -> None:
     with pytest.raises(WorldError) as caught:
         parse_world("w", {**GOOD, **change})
     assert words in str(caught.value)
@@ -51,7 +51,7 @@ def test_a_mistake_is_named_with_its_place(change: dict[str, Any], words: str) -
     ],
     ids=["list", "root", "tag", "hexadecimal", "whole", "long"],
 )
-def test_a_broken_file_is_named(tmp_path: Path, text: str, words: str) -> None:
+def test_broken_file_is_named(tmp_path: Path, text: str, words: str) -> None:
     path = tmp_path / "broken.yaml"
     path.write_text(text)
     with pytest.raises(WorldError) as caught:
@@ -60,30 +60,30 @@ def test_a_broken_file_is_named(tmp_path: Path, text: str, words: str) -> None:
     assert words in str(caught.value)
 
 
-def test_a_missing_file_is_named(tmp_path: Path) -> None:
+def test_missing_file_is_named(tmp_path: Path) -> None:
     with pytest.raises(WorldError, match="cannot be read"):
         load_world(tmp_path / "none.yaml")
 
 
-def test_clockwise_outlines_are_turned_round() -> None:
+def test_clockwise_outlines_are_reversed() -> None:
     world = parse_world("w", {**GOOD, "boundary": [[0, 0], [0, 4], [6, 4], [6, 0]]})
     assert world.boundary == ((6.0, 0.0), (6.0, 4.0), (0.0, 4.0), (0.0, 0.0))
 
 
-def test_a_start_within_an_obstacle_is_refused() -> None:
+def test_start_within_an_obstacle_is_rejected() -> None:
     world = parse_world("w", {**GOOD, "circles": [{"center": [1.3, 1.0], "radius": 0.2}]})
     with pytest.raises(WorldError, match="does not fit at the start, an obstacle is in its way"):
         Simulation(world, 1)
 
 
-def test_shipped_worlds_load_and_have_a_route_within(shipped_world: World) -> None:
+def test_shipped_worlds_have_a_route_that_fits(shipped_world: World) -> None:
     simulation = Simulation(replace(shipped_world, movers=()), 1)
     assert shipped_world.route
     for x, y in shipped_world.route:
         assert simulation.gap_at(x, y) > 0.1, (x, y)
 
 
-def test_scattered_obstacles_belong_to_the_seed(shipped_world: World) -> None:
+def test_scattered_obstacles_depend_on_the_seed(shipped_world: World) -> None:
     first, again, other = (Simulation(shipped_world, seed).world.discs for seed in (1, 1, 2))
     assert first == again
     assert (first != other) == bool(shipped_world.scatter)

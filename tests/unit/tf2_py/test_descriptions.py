@@ -17,12 +17,12 @@ def buffer() -> BufferCore:
     return found
 
 
-def test_lines(buffer: BufferCore) -> None:
+def test_frames_are_described_in_lines(buffer: BufferCore) -> None:
     text = "Frame laser exists with parent odom.\nFrame odom exists with parent map.\n"
     assert buffer.all_frames_as_string() == text
 
 
-def test_yaml(buffer: BufferCore) -> None:
+def test_frames_are_described_in_yaml(buffer: BufferCore) -> None:
     assert BufferCore().all_frames_as_yaml() == "{}"
     assert buffer.all_frames_as_yaml() == (
         "laser: \n"
@@ -42,7 +42,7 @@ def test_yaml(buffer: BufferCore) -> None:
     )
 
 
-def test_a_graph(buffer: BufferCore) -> None:
+def test_frames_are_described_as_a_dot_graph(buffer: BufferCore) -> None:
     assert buffer._allFramesAsDot() == (
         "digraph G {\n"
         '"odom" -> "laser"[label="Broadcaster: them\\nAverage rate: 10000.000"];\n'

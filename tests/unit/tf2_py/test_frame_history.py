@@ -1,4 +1,4 @@
-"""What is kept of one frame: for how long, in which order, and what waits unread."""
+"""The history of one frame: how long it is kept, in which order, and what is still unread."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import pytest
 from tf2_py.frame_history import DIGEST_AFTER, Entry, FrameHistory, Unread
 
 KEEP = 1000
-"""Times are whole numbers here, of no unit."""
+"""Times are integers here, without a unit."""
 
 
 def entry(time: int, parent: str = "map") -> Entry:
@@ -28,7 +28,7 @@ def x_at(found: FrameHistory, time: int) -> float:
     return found.at(time)[1][0]
 
 
-def test_what_comes_late_has_its_place() -> None:
+def test_late_entries_are_sorted_in_and_duplicates_ignored() -> None:
     found = history(entry(100), entry(300), entry(200))
     assert [x_at(found, time) for time in (100, 150, 200, 300, 0)] == [100.0, 150.0, 200.0, 300.0, 300.0]
     for again in (200, 300):
@@ -37,7 +37,7 @@ def test_what_comes_late_has_its_place() -> None:
 
 
 @pytest.mark.parametrize(("time", "refused"), [(1000, False), (999, True)])
-def test_what_is_older_than_is_kept_is_refused(time: int, refused: bool) -> None:
+def test_entries_older_than_the_history_are_refused(time: int, refused: bool) -> None:
     found = history(entry(2000))
     assert (found.insert(entry(time)) == "TF_OLD_DATA ignoring data from the past") is refused
 
@@ -49,25 +49,25 @@ def test_what_is_older_than_is_kept_is_refused(time: int, refused: bool) -> None
         (999, "into the past.  Requested time 0.000001 but the earliest data is at time 0.000001"),
     ],
 )
-def test_beyond_what_is_kept_there_is_nothing(time: int, words: str) -> None:
+def test_times_outside_the_history_raise_lookup_error(time: int, words: str) -> None:
     found = history(entry(900), entry(1000), entry(2000))
     assert x_at(found, 1000) == 1000.0 and x_at(found, 1001) == 1001.0
     with pytest.raises(LookupError, match=words):
         found.at(time)
 
 
-def test_a_frame_that_changes_its_parent_stays_where_it_was_until_then() -> None:
+def test_changed_parent_takes_effect_at_its_time() -> None:
     found = history(entry(100), entry(200, "odom"), entry(300, "odom"))
     assert [found.at(time)[0] for time in (100, 199, 200, 300)] == ["map", "map", "odom", "odom"]
     assert x_at(found, 199) == 100.0
 
 
-def test_a_fixed_frame_is_where_it_was_reported_last_at_any_time() -> None:
+def test_static_frame_has_its_last_transform_at_any_time() -> None:
     found = history(entry(500), entry(100), is_static=True)
     assert (x_at(found, 7), x_at(found, 10**9), found.latest()) == (100.0, 100.0, (0, "map"))
 
 
-def test_the_old_is_let_go() -> None:
+def test_old_entries_are_dropped() -> None:
     found = history()
     for time in range(0, 20 * KEEP, 10):
         found.insert(entry(time))
@@ -77,14 +77,14 @@ def test_the_old_is_let_go() -> None:
 
 
 @pytest.mark.parametrize("question", ["at", "latest"])
-def test_what_waits_is_read_when_somebody_asks(question: str) -> None:
+def test_unread_entries_are_read_on_demand(question: str) -> None:
     found = history(entry(100))
     found.waiting += [unread(200), unread(300)]
     assert x_at(found, 250) == 250.0 if question == "at" else found.latest() == (300, "map")
     assert found.waiting == []
 
 
-def test_what_waits_too_long_is_let_go_unread() -> None:
+def test_old_unread_entries_are_dropped() -> None:
     found = history(entry(1))
     found.waiting += [unread(time) for time in range(0, DIGEST_AFTER * 10, 10)]
     found.drop_old()
@@ -92,7 +92,7 @@ def test_what_waits_too_long_is_let_go_unread() -> None:
     assert [each[0] for each in found.waiting] == list(range(newest - KEEP, newest + 1, 10))
 
 
-def test_nothing_young_goes_where_what_waits_is_out_of_order() -> None:
+def test_recent_entries_are_kept_if_unread_ones_are_out_of_order() -> None:
     found = history(entry(1))
     found.waiting += [unread(time) for time in (10, 5000, 20, 30, 5010)]
     found.drop_old()

@@ -1,4 +1,4 @@
-"""Rigid transforms: what is written out for speed gives what the whole formulas give."""
+"""Rigid transforms: the formulas unrolled for speed equal the general ones."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ TURNS = {
 }
 AXIS = 0.36, 0.48, 0.8
 MIN_ANGLE = 2.0 * math.asin(math.sqrt(SMALL))
-"""The turn (rad) from which on the interpolation is no longer by its series."""
+"""The angle (rad) above which the interpolation does not use its series."""
 
 
 def turned(x: float, half: float, sign: float = 1.0) -> Rigid:
-    """At a place, turned about the axis by twice an angle (rad)."""
+    """A pose at x, rotated about the axis by twice the angle `half` (rad)."""
     a, b, c = (sign * math.sin(half) * each for each in AXIS)
     return x, 2.0 * x, 4.0 * x, a, b, c, sign * math.cos(half)
 
@@ -37,7 +37,7 @@ def matrix(of: Rigid) -> np.ndarray:
 
 
 @pytest.mark.parametrize(("first", "second"), itertools.product(TURNS, repeat=2))
-def test_one_after_another_is_the_product_of_matrices(first: str, second: str) -> None:
+def test_compose_is_the_product_of_matrices(first: str, second: str) -> None:
     one: Rigid = (1.5, 2.0, 3.0, *TURNS[first])
     other: Rigid = (-4.0, 0.5, 0.25, *TURNS[second])
     np.testing.assert_allclose(matrix(compose(one, other)), matrix(one) @ matrix(other), atol=1e-12)
@@ -46,7 +46,7 @@ def test_one_after_another_is_the_product_of_matrices(first: str, second: str) -
 
 @pytest.mark.parametrize("sign", [1.0, -1.0], ids=["", "the quaternion's other sign"])
 @pytest.mark.parametrize("turn", [0.0, 1e-4, MIN_ANGLE * 0.999, MIN_ANGLE * 1.001, 0.2, 3.0])
-def test_a_share_of_a_turn_is_that_share_of_its_angle(turn: float, sign: float) -> None:
+def test_interpolation_is_linear_in_the_angle(turn: float, sign: float) -> None:
     first, second = turned(0.0, 0.3), turned(1.0, 0.3 + turn / 2, sign)
     for share in (0.0, 0.25, 0.5, 1.0):
         expected = turned(share, 0.3 + turn / 2 * share)

@@ -1,4 +1,4 @@
-"""A node with an executor of its own."""
+"""A node with its own executor."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def node() -> Iterator[Node]:
 
 @pytest.fixture
 def serve(node: Node) -> Callable[[Callable[[], bool]], None]:
-    """Serve the node until something is so."""
+    """Spin the node until a condition holds."""
     executor = SingleThreadedExecutor(context=node.context)
     executor.add_node(node)
 

@@ -1,4 +1,4 @@
-"""The buffer: what it answers, and in whose words it refuses. Contract: upstream's tf2."""
+"""The buffer: its answers and its error messages. Contract: upstream's tf2."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def buffer() -> Buffer:
         ("base", "base", 7.0, (0.0, 0.0, 0.0)),
     ],
 )
-def test_places(buffer: Buffer, target: str, source: str, seconds: float, expected: tuple[float, ...]) -> None:
+def test_lookup_interpolates_between_transforms(buffer: Buffer, target: str, source: str, seconds: float, expected: tuple[float, ...]) -> None:
     found = buffer.lookup_transform(target, source, at(seconds))
     assert place(found) == pytest.approx(expected, abs=1e-8)
     assert (found.header.frame_id, found.child_frame_id) == (target, source)
@@ -58,24 +58,24 @@ def test_places(buffer: Buffer, target: str, source: str, seconds: float, expect
     assert turn.x**2 + turn.y**2 + turn.z**2 + turn.w**2 == pytest.approx(1.0)
 
 
-def test_the_newest_is_the_newest_that_all_frames_have(buffer: Buffer) -> None:
+def test_time_zero_means_newest_time_common_to_all_frames(buffer: Buffer) -> None:
     assert buffer.lookup_transform("map", "laser", Time()).header.stamp.sec == 2
     assert buffer.get_latest_common_time("map", "laser") == Time(seconds=2, nanoseconds=500_000_000)
     assert buffer.lookup_transform("base", "laser", Time()).header.stamp.sec == 0
 
 
-def test_a_frame_in_itself_has_its_newest_time(buffer: Buffer) -> None:
+def test_frame_relative_to_itself_has_its_newest_time(buffer: Buffer) -> None:
     assert buffer.lookup_transform("odom", "odom", Time()).header.stamp.sec == 3
     assert buffer.lookup_transform("odom", "odom", at(2)).header.stamp.sec == 2
     assert buffer.lookup_transform("map", "map", Time()).header.stamp == Time().to_msg()
 
 
-def test_clear_leaves_what_is_fixed(buffer: Buffer) -> None:
+def test_clear_keeps_static_transforms(buffer: Buffer) -> None:
     buffer.clear()
     assert buffer.can_transform("base", "laser", at(9)) and not buffer.can_transform("map", "odom", at(2))
 
 
-def test_names_that_are_not_known_are_refused_by_each_question(buffer: Buffer) -> None:
+def test_every_lookup_rejects_unknown_frames(buffer: Buffer) -> None:
     with pytest.raises(LookupException, match='"x" passed to lookupTransform argument fixed_frame does not exist'):
         buffer.lookup_transform_full("map", at(2), "odom", at(2), "x")
     for names, which in ((("x", "map"), "target_frame"), (("map", "x"), "source_frame")):
@@ -123,21 +123,21 @@ REFUSALS: list[tuple[tuple[Any, ...], type[Exception], str]] = [
 
 
 @pytest.mark.parametrize(("question", "kind", "words"), REFUSALS, ids=[row[1].__name__ for row in REFUSALS])
-def test_refusals(buffer: Buffer, question: Any, kind: type[Exception], words: str) -> None:
+def test_failed_lookups_raise_upstreams_errors(buffer: Buffer, question: Any, kind: type[Exception], words: str) -> None:
     with pytest.raises(kind) as caught:
         buffer.lookup_transform(*question)
     assert str(caught.value) == words
     assert buffer.can_transform(*question) is False
 
 
-def test_one_transform_alone_holds_at_its_time_only() -> None:
+def test_single_transform_is_valid_at_its_time_only() -> None:
     buffer = Buffer()
     buffer.set_transform(frame("a", "b", 1.0), "me")
     with pytest.raises(ExtrapolationException, match=r"at time 2\.000000, but only time 1\.000000 is in the buffer"):
         buffer.lookup_transform("a", "b", at(2))
 
 
-def test_what_is_too_old_is_forgotten() -> None:
+def test_transforms_older_than_cache_time_are_dropped() -> None:
     buffer = Buffer(cache_time=Duration(seconds=2))
     for second in range(1, 7):
         buffer.set_transform(frame("a", "b", second), "me")
@@ -149,7 +149,7 @@ def test_what_is_too_old_is_forgotten() -> None:
     assert usual.can_transform("a", "b", at(5)) and not usual.can_transform("a", "b", at(4.9))
 
 
-def test_what_waits_for_nobody_is_let_go() -> None:
+def test_unread_transforms_older_than_cache_time_are_dropped() -> None:
     buffer = Buffer(cache_time=Duration(seconds=2))
     for tenth in range(10 * DIGEST_AFTER):
         buffer.take_messages([frame("a", "b", tenth / 10)])
@@ -158,7 +158,7 @@ def test_what_waits_for_nobody_is_let_go() -> None:
     assert buffer.can_transform("a", "b", at(newest - 2)) and not buffer.can_transform("a", "b", at(newest - 2.1))
 
 
-def test_between_two_times_by_way_of_a_frame_that_stays(buffer: Buffer) -> None:
+def test_full_lookup_goes_between_two_times_via_a_fixed_frame(buffer: Buffer) -> None:
     found = buffer.lookup_transform_full("odom", at(3), "odom", at(1), "map")
     assert place(found) == (-3.0, 0.0, 0.0)
     assert found.header.stamp.sec == 3
@@ -177,7 +177,7 @@ def test_between_two_times_by_way_of_a_frame_that_stays(buffer: Buffer) -> None:
         (type(frame("a", "b"))(child_frame_id="b"), "TF_NO_FRAME_ID"),
     ],
 )
-def test_what_makes_no_sense_is_ignored(capfd: pytest.CaptureFixture[str], wrong: Any, words: str) -> None:
+def test_invalid_transforms_are_ignored_with_a_message(capfd: pytest.CaptureFixture[str], wrong: Any, words: str) -> None:
     buffer = Buffer()
     buffer.set_transform(wrong, "me")
     assert words in capfd.readouterr().err
@@ -186,7 +186,7 @@ def test_what_makes_no_sense_is_ignored(capfd: pytest.CaptureFixture[str], wrong
 
 @pytest.mark.parametrize(("length", "taken"), [(0.994, False), (0.9955, True), (1.0045, True), (1.006, False)])
 @pytest.mark.parametrize("axis", "xyzw")
-def test_how_far_from_one_a_quaternion_may_be(
+def test_quaternion_norm_has_upstreams_tolerance(
     capfd: pytest.CaptureFixture[str], axis: str, length: float, taken: bool
 ) -> None:
     buffer, message = Buffer(), frame("a", "b", 1.0)
@@ -199,7 +199,7 @@ def test_how_far_from_one_a_quaternion_may_be(
     assert (words in capfd.readouterr().err) is not taken
 
 
-def test_what_is_reported_twice_is_shown_once(capfd: pytest.CaptureFixture[str], buffer: Buffer) -> None:
+def test_repeated_transform_is_ignored_with_a_message(capfd: pytest.CaptureFixture[str], buffer: Buffer) -> None:
     buffer.set_transform(frame("map", "odom", 3.0, 9.0), "you")
     assert place(buffer.lookup_transform("map", "odom", Time()))[0] == 3.0
     assert (
@@ -208,7 +208,7 @@ def test_what_is_reported_twice_is_shown_once(capfd: pytest.CaptureFixture[str],
     ) in capfd.readouterr().err
 
 
-def test_a_loop_is_reported() -> None:
+def test_loop_is_reported() -> None:
     buffer = Buffer()
     for parent, child in (("a", "b"), ("b", "c"), ("c", "a")):
         buffer.set_transform_static(frame(parent, child), "me")
@@ -217,7 +217,7 @@ def test_a_loop_is_reported() -> None:
         buffer.lookup_transform("root", "a", Time())
 
 
-def test_geometry_in_another_frame() -> None:
+def test_geometry_is_transformed_into_another_frame() -> None:
     import tf2_geometry_msgs
 
     buffer = Buffer()
@@ -241,12 +241,12 @@ def test_geometry_in_another_frame() -> None:
     assert (round(covariance[0, 0], 9), round(covariance[1, 1], 9)) == (0.0, 4.0)
 
 
-def test_a_type_that_nobody_knows() -> None:
+def test_unknown_type_cannot_be_transformed() -> None:
     with pytest.raises(TypeException, match="if not loaded or supported"):
         Buffer().transform(Time(), "map")
 
 
-def test_the_stamp_of_a_message_is_a_time(buffer: Buffer) -> None:
+def test_message_stamp_is_accepted_as_time(buffer: Buffer) -> None:
     stamp = at(2.5).to_msg()
     wanted = buffer.lookup_transform("map", "laser", at(2.5))
     assert buffer.lookup_transform("map", "laser", stamp) == wanted

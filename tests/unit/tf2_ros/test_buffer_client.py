@@ -1,4 +1,4 @@
-"""The buffer that asks another process: what it takes for a time."""
+"""The buffer client, which queries another process: the times it accepts."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def client(node: Node) -> BufferClient:
     return BufferClient(node, "nobody_serves")
 
 
-def test_a_time_as_messages_have_it_is_taken_with_a_warning(client: BufferClient) -> None:
+def test_message_stamp_is_accepted_with_a_warning(client: BufferClient) -> None:
     stamp: Any = Time(seconds=1).to_msg()
     with (
         pytest.warns(UserWarning, match=r"builtin_interfaces\.msg\.Time argument is deprecated"),
@@ -24,7 +24,7 @@ def test_a_time_as_messages_have_it_is_taken_with_a_warning(client: BufferClient
         client.lookup_transform("foo", "bar", stamp)
 
 
-def test_another_time_is_refused(client: BufferClient) -> None:
+def test_other_time_types_are_rejected(client: BufferClient) -> None:
     second: Any = 1.0
     with pytest.raises(TypeError, match=r"Must pass a rclpy\.time\.Time object"):
         client.lookup_transform("foo", "bar", second)

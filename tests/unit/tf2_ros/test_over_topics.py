@@ -1,4 +1,4 @@
-"""Broadcasters, the listener, and those who wait for a transform."""
+"""Broadcasters, the listener, and waiting for a transform."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from tf2_ros import (
 Serve = Callable[[Callable[[], bool]], None]
 
 
-def test_what_is_broadcast_is_known(node: Node, serve: Serve) -> None:
+def test_listener_receives_broadcast_transforms(node: Node, serve: Serve) -> None:
     static = StaticTransformBroadcaster(node)
     static.sendTransform(frame("base", "laser", x=1.0))
     static.sendTransform([frame("base", "camera", x=2.0), frame("base", "laser", x=0.5)])
@@ -36,7 +36,7 @@ def test_what_is_broadcast_is_known(node: Node, serve: Serve) -> None:
     listener.unregister()
 
 
-def test_static_transforms_alone(node: Node, serve: Serve) -> None:
+def test_static_listener_receives_static_transforms_only(node: Node, serve: Serve) -> None:
     buffer = Buffer()
     listener = StaticTransformListener(buffer, node)
     TransformBroadcaster(node).sendTransform(frame("map", "base", 1.0))
@@ -46,7 +46,7 @@ def test_static_transforms_alone(node: Node, serve: Serve) -> None:
     listener.unregister()
 
 
-def test_a_message_changed_after_it_was_given_changes_nothing() -> None:
+def test_buffer_copies_messages() -> None:
     buffer = Buffer()
     message = frame("map", "base", 1.0, 1.0)
     buffer.set_transform(message, "me")
@@ -54,7 +54,7 @@ def test_a_message_changed_after_it_was_given_changes_nothing() -> None:
     assert place(buffer.lookup_transform("map", "base", Time())) == (1.0, 0.0, 0.0)
 
 
-def test_a_future_is_done_when_the_transform_comes(node: Node, serve: Serve) -> None:
+def test_future_is_done_when_the_transform_arrives(node: Node, serve: Serve) -> None:
     buffer = Buffer()
     future = buffer.wait_for_transform_async("map", "base", Time(seconds=2))
     buffer.set_transform(frame("map", "base", 1.0), "me")
@@ -66,7 +66,7 @@ def test_a_future_is_done_when_the_transform_comes(node: Node, serve: Serve) -> 
     assert buffer._new_data_callbacks == []
 
 
-def test_a_coroutine_gets_the_transform(node: Node, serve: Serve) -> None:
+def test_coroutine_gets_the_transform(node: Node, serve: Serve) -> None:
     buffer = Buffer(node=node)
     TransformListener(buffer, node)
     found: list[Any] = []
@@ -83,7 +83,7 @@ def test_a_coroutine_gets_the_transform(node: Node, serve: Serve) -> None:
     assert place(found[0]) == (4.0, 0.0, 0.0)
 
 
-def test_a_call_waits_as_long_as_it_may() -> None:
+def test_lookup_waits_until_its_timeout() -> None:
     buffer = Buffer()
     with pytest.raises(LookupException):
         buffer.lookup_transform("map", "base", Time(), timeout=Duration(seconds=0.03))
@@ -93,7 +93,7 @@ def test_a_call_waits_as_long_as_it_may() -> None:
     assert buffer.can_transform("map", "moon", Time(), return_debug_tuple=True)[1].startswith('"moon" passed to')
 
 
-def test_the_tree_is_offered_as_a_service(node: Node, serve: Serve) -> None:
+def test_tf2_frames_service_returns_the_tree(node: Node, serve: Serve) -> None:
     buffer = Buffer(node=node)
     buffer.set_transform(frame("map", "base", 1.0), "me")
     future = node.create_client(FrameGraph, "tf2_frames").call_async(FrameGraph.Request())

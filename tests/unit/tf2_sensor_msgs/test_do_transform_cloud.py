@@ -1,4 +1,4 @@
-"""Point clouds from one frame to another."""
+"""Point clouds transformed from one frame to another."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def quarter_turn() -> TransformStamped:
     return transform
 
 
-def test_points_are_turned_and_moved() -> None:
+def test_points_are_rotated_and_translated() -> None:
     cloud = create_cloud_xyz32(Header(frame_id="laser"), POINTS)
     moved = tf2_sensor_msgs.do_transform_cloud(cloud, quarter_turn())
     assert moved.header.frame_id == "map"
@@ -32,13 +32,13 @@ def test_points_are_turned_and_moved() -> None:
     assert read_points_numpy(cloud) == pytest.approx(np.array(POINTS))
 
 
-def test_a_buffer_takes_clouds() -> None:
+def test_buffer_transforms_clouds() -> None:
     buffer = Buffer()
     buffer.set_transform_static(quarter_turn(), "test")
     cloud = create_cloud_xyz32(Header(frame_id="laser", stamp=Time().to_msg()), POINTS)
     assert read_points_numpy(buffer.transform(cloud, "map"))[0] == pytest.approx((1.0, 1.0, 0.0), abs=1e-6)
 
 
-def test_arrays_of_points() -> None:
+def test_arrays_of_points_are_transformed() -> None:
     moved = tf2_sensor_msgs.transform_points(np.array(POINTS), quarter_turn().transform)
     assert moved == pytest.approx(np.array([(1.0, 1.0, 0.0), (-1.0, 0.0, 3.0)]))

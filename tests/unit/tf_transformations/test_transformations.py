@@ -1,4 +1,4 @@
-"""Angles, quaternions and matrices against what they mean."""
+"""Angles, quaternions and matrices checked against their definitions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ UNIT = dict(zip("xyz", np.identity(3), strict=True))
 
 
 @pytest.mark.parametrize("axes", [frame + order for frame in "sr" for order in AXES])
-def test_angles_are_turns_one_after_the_other(axes: str) -> None:
+def test_euler_matrix_is_the_product_of_axis_rotations(axes: str) -> None:
     random = np.random.default_rng(7)
     for angles in random.uniform(-3, 3, (20, 3)):
         expected = np.identity(4)
@@ -25,7 +25,7 @@ def test_angles_are_turns_one_after_the_other(axes: str) -> None:
         np.testing.assert_allclose(tf.euler_matrix(*back, axes), expected, atol=1e-9)
 
 
-def test_known_values() -> None:
+def test_conversions_give_known_values() -> None:
     np.testing.assert_allclose(tf.quaternion_from_euler(0, 0, math.pi / 2), [0, 0, math.sqrt(0.5), math.sqrt(0.5)])
     np.testing.assert_allclose(tf.euler_from_quaternion([0, 0, math.sqrt(0.5), math.sqrt(0.5)]), [0, 0, math.pi / 2])
     np.testing.assert_allclose(
@@ -35,7 +35,7 @@ def test_known_values() -> None:
     np.testing.assert_allclose(tf.rotation_matrix(math.pi / 2, [0, 0, 1]) @ [1, 0, 0, 1], [0, 1, 0, 1], atol=1e-12)
 
 
-def test_quaternions_and_matrices_are_the_same_turns() -> None:
+def test_quaternions_and_matrices_are_equivalent() -> None:
     random = np.random.default_rng(3)
     for numbers in random.random((30, 3)):
         quaternion = tf.random_quaternion(numbers)
@@ -47,13 +47,13 @@ def test_quaternions_and_matrices_are_the_same_turns() -> None:
         np.testing.assert_allclose(back, [0, 0, 0, 1], atol=1e-12)
 
 
-def test_halfway_between_two_turns() -> None:
+def test_slerp_interpolates_between_rotations() -> None:
     first, second = tf.quaternion_from_euler(0, 0, 0), tf.quaternion_from_euler(0, 0, 1.0)
     np.testing.assert_allclose(tf.quaternion_slerp(first, second, 0.5), tf.quaternion_from_euler(0, 0, 0.5))
     np.testing.assert_allclose(tf.quaternion_slerp(first, -second, 0.25), tf.quaternion_from_euler(0, 0, 0.25))
 
 
-def test_a_matrix_and_its_parts() -> None:
+def test_composed_matrix_decomposes_into_its_parts() -> None:
     random = np.random.default_rng(5)
     for _ in range(20):
         scale, shear, angles, move = (
@@ -64,7 +64,7 @@ def test_a_matrix_and_its_parts() -> None:
             np.testing.assert_allclose(found, given, atol=1e-9)
 
 
-def test_what_a_matrix_is_made_of() -> None:
+def test_matrices_are_decomposed_into_their_parameters() -> None:
     angle, axis, point = tf.rotation_from_matrix(tf.rotation_matrix(0.7, [1, 2, 3], [4, 5, 6]))
     assert tf.is_same_transform(tf.rotation_matrix(angle, axis, point), tf.rotation_matrix(0.7, [1, 2, 3], [4, 5, 6]))
     points = np.random.default_rng(2).random((3, 10))
@@ -81,6 +81,6 @@ def test_what_a_matrix_is_made_of() -> None:
     )
 
 
-def test_no_order_of_axes() -> None:
+def test_invalid_axis_order_is_rejected() -> None:
     with pytest.raises(ValueError, match="'xyz' is no order of axes"):
         tf.quaternion_from_euler(0, 0, 0, "xyz")
