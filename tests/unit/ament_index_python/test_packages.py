@@ -62,9 +62,7 @@ def test_unknown_package_error_lists_searched_prefixes(prefixes: list[Path]) -> 
     assert str(caught.value) == f"\"package 'nopkg' not found, searching: {[str(each) for each in prefixes]}\""
 
 
-def test_error_without_prefixes_lists_workspace_folders(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_error_without_prefixes_lists_workspace_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
     monkeypatch.setattr(discover, "_current", [discover.Workspace([tmp_path])])
     with pytest.raises(PackageNotFoundError) as caught:

@@ -259,7 +259,9 @@ def test_invalid_launch_files_are_reported_without_traceback(
     assert "Traceback" not in out + err
 
 
-def test_show_all_output_option_shows_quiet_processes(capsys: pytest.CaptureFixture[str], folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_show_all_output_option_shows_quiet_processes(
+    capsys: pytest.CaptureFixture[str], folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "")
     (folder / "q.launch.py").write_text(
         "from launch import LaunchDescription\nfrom launch.actions import ExecuteProcess\n"
@@ -270,7 +272,9 @@ def test_show_all_output_option_shows_quiet_processes(capsys: pytest.CaptureFixt
     assert os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] == "both"
 
 
-def test_screen_format_comes_from_the_environment(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_screen_format_comes_from_the_environment(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     import launch.logging
 
     monkeypatch.setenv("OVERRIDE_LAUNCH_SCREEN_FORMAT", "{levelname}|{name}|{msg}")

@@ -88,9 +88,7 @@ def test_environment_enables_checks_until_a_message_is_created(checking: None) -
         Int8(data="x")
 
 
-def test_environment_is_read_again_after_importing_a_module(
-    checking: None, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_environment_is_read_again_after_importing_a_module(checking: None, monkeypatch: pytest.MonkeyPatch) -> None:
     Int8(check_fields=False)
     monkeypatch.delitem(sys.modules, "example_interfaces.msg._char", raising=False)
     importlib.import_module("example_interfaces.msg._char")

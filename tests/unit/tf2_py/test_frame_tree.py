@@ -37,7 +37,9 @@ def buffer() -> BufferCore:
         ("under b", "lens", 0.0),
     ],
 )
-def test_lookup_at_time_zero_uses_the_newest_common_time(buffer: BufferCore, one: str, other: str, seconds: float) -> None:
+def test_lookup_at_time_zero_uses_the_newest_common_time(
+    buffer: BufferCore, one: str, other: str, seconds: float
+) -> None:
     expected = Time(nanoseconds=round(seconds * 1e9))
     assert buffer.get_latest_common_time(one, other) == buffer.get_latest_common_time(other, one) == expected
     stamp = buffer.lookup_transform_core(one, other, Time()).header.stamp

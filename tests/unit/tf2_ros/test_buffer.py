@@ -50,7 +50,9 @@ def buffer() -> Buffer:
         ("base", "base", 7.0, (0.0, 0.0, 0.0)),
     ],
 )
-def test_lookup_interpolates_between_transforms(buffer: Buffer, target: str, source: str, seconds: float, expected: tuple[float, ...]) -> None:
+def test_lookup_interpolates_between_transforms(
+    buffer: Buffer, target: str, source: str, seconds: float, expected: tuple[float, ...]
+) -> None:
     found = buffer.lookup_transform(target, source, at(seconds))
     assert place(found) == pytest.approx(expected, abs=1e-8)
     assert (found.header.frame_id, found.child_frame_id) == (target, source)
@@ -123,7 +125,9 @@ REFUSALS: list[tuple[tuple[Any, ...], type[Exception], str]] = [
 
 
 @pytest.mark.parametrize(("question", "kind", "words"), REFUSALS, ids=[row[1].__name__ for row in REFUSALS])
-def test_failed_lookups_raise_upstreams_errors(buffer: Buffer, question: Any, kind: type[Exception], words: str) -> None:
+def test_failed_lookups_raise_upstreams_errors(
+    buffer: Buffer, question: Any, kind: type[Exception], words: str
+) -> None:
     with pytest.raises(kind) as caught:
         buffer.lookup_transform(*question)
     assert str(caught.value) == words
@@ -177,7 +181,9 @@ def test_full_lookup_goes_between_two_times_via_a_fixed_frame(buffer: Buffer) ->
         (type(frame("a", "b"))(child_frame_id="b"), "TF_NO_FRAME_ID"),
     ],
 )
-def test_invalid_transforms_are_ignored_with_a_message(capfd: pytest.CaptureFixture[str], wrong: Any, words: str) -> None:
+def test_invalid_transforms_are_ignored_with_a_message(
+    capfd: pytest.CaptureFixture[str], wrong: Any, words: str
+) -> None:
     buffer = Buffer()
     buffer.set_transform(wrong, "me")
     assert words in capfd.readouterr().err
