@@ -1,1 +1,1 @@
-"""The panes' model of a ROS system, what they can ask of it, and the ROS node behind both."""
+"""The panes' model of a ROS system, the requests they can make of it, and the ROS node behind both."""

@@ -1,4 +1,4 @@
-"""The outcome of a command. Standard library only: the protocols build on it."""
+"""The outcome of a command. Uses only the standard library, since the protocols build on it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """The outcome of a command: whether it succeeded, and in words what was done or why it was not."""
+    """The outcome of a command: whether it succeeded, and a message that says what was done or why it was not."""
 
     ok: bool
     text: str = ""

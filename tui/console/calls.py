@@ -1,4 +1,4 @@
-"""Service calls of the console: from any thread, with a time limit, never blocking."""
+"""Service calls of the console: from any thread, with a timeout, never blocking."""
 
 from __future__ import annotations
 
@@ -17,27 +17,32 @@ from rclpy.task import Future as RosFuture
 
 T = TypeVar("T")
 ANSWER_TIMEOUT_S = 5.0
-"""Seconds to wait for an answer from when it is asked for; a slow link answers late, a hung node never."""
+"""Seconds to wait for a response: a slow link delivers it late, a hung node never sends it."""
 
 MIN_POLLS = 5
-"""How often at least one looks meanwhile. Each look counts once, however late it comes: while this program itself got
-no processor, nobody's answer could be taken, and none is overdue."""
+"""The least number of polls before a timeout.
+
+If this process itself got no processor time, it could not receive responses, so the delay must not count as the
+server's. A late poll counts once, however late it is.
+"""
 
 MAX_POLL_S = 1.0
-"""Seconds between two looks at most, so that a server that goes away is noticed soon."""
+"""The longest time between two polls, so that the disappearance of a server is noticed soon."""
 
 GONE = 2
-"""Looks in a row without a server, after which no answer comes: at one it may start anew, or answer as it leaves."""
+"""Consecutive polls without a server after which no response is expected. After one it may be restarting, or respond
+while it shuts down.
+"""
 
 READY = 2.0
-"""Seconds that a new client has to find a server that is in the graph: on a network that takes its time."""
+"""Seconds that a new client may take to discover a server that is in the graph, as on a slow network."""
 
 READY_POLL_S = 0.02
-"""Seconds between two looks whether it has."""
+"""Seconds between two checks whether it has."""
 
 
 class NoAnswer(Exception):
-    """A service did not answer in time; the text says which one."""
+    """A service did not respond in time; the message says which one."""
 
 
 def _raise(why: str) -> Any:
@@ -46,14 +51,14 @@ def _raise(why: str) -> Any:
 
 @dataclass(frozen=True)
 class _Pending:
-    """How to express a refusal of the outcome, and the coroutines that are to produce it."""
+    """How to express a refusal as a result, and the coroutines that are to produce the result."""
 
     refused: Callable[[str], Any]
     coroutines: tuple[Coroutine[Any, Any, Any], ...]
 
 
 class Calls:
-    """Runs coroutines in the console's executor, and calls services from within them."""
+    """Runs coroutines in the console's executor, and calls services from them."""
 
     def __init__(self, node: Node, executor: Executor) -> None:
         self._node = node
@@ -66,14 +71,14 @@ class Calls:
     def run(self, work: Coroutine[Any, Any, T], refused: Callable[[str], T] = _raise) -> Future[T]:
         """Start a coroutine in the executor, from any thread.
 
-        The future always gets an answer: when the console closes, `refused` turns the reason into one.
+        The future is always completed: when the console closes, `refused` turns the reason into a result.
         """
         outcome: Future[T] = Future()
 
         async def guarded() -> None:
             try:
                 result = await work
-            except Exception as error:  # the border to whoever holds the future
+            except Exception as error:  # goes to the holder of the future
                 if self._claim(outcome):
                     outcome.set_exception(error)
             else:
@@ -91,7 +96,7 @@ class Calls:
         return outcome
 
     def _claim(self, outcome: Future[Any]) -> _Pending | None:
-        """Take a pending entry: whoever takes it first answers it."""
+        """Remove a pending entry: the caller that gets it is the one to complete it."""
         with self._lock:
             return self._pending.pop(outcome, None)
 
@@ -101,14 +106,14 @@ class Calls:
             return
         for each in pending.coroutines:
             if inspect.getcoroutinestate(each) == inspect.CORO_CREATED:
-                each.close()  # else the interpreter complains that nobody has awaited it
+                each.close()  # otherwise the interpreter warns that it was never awaited
         try:
             outcome.set_result(pending.refused(why))
         except NoAnswer as error:
             outcome.set_exception(error)
 
     def close(self, why: str) -> None:
-        """Answer all pending and all later requests with the reason why nothing is served any more."""
+        """Refuse all pending and all later requests with this reason."""
         with self._lock:
             self._closed = why
             waiting = list(self._pending)
@@ -116,7 +121,7 @@ class Calls:
             self._refuse(outcome, why)
 
     async def ask(self, kind: Any, service: str, request: Any, timeout_s: float = ANSWER_TIMEOUT_S) -> Any:
-        """Call a service; raises `NoAnswer` when there is no server or none answers in time."""
+        """Call a service; raises `NoAnswer` when there is no server or none responds in time."""
         client = self._client(kind, service)
         if not (client.service_is_ready() or await self._gets_ready(client, service)):
             raise NoAnswer(f"no service {service} is offered; has its node ended?")
@@ -140,7 +145,7 @@ class Calls:
             self._node.destroy_timer(timer)
 
     async def _gets_ready(self, client: Any, service: str) -> bool:
-        """Wait for a server that is in the graph: a new client has to find it first."""
+        """Wait for a server that is in the graph: a new client has to discover it first."""
         if not self._node.count_services(service):
             return False
         found: RosFuture[bool] = RosFuture()
@@ -150,7 +155,7 @@ class Calls:
             try:
                 ready = client.service_is_ready()
                 over = ready or next(polls) * READY_POLL_S >= READY
-            except InvalidHandle:  # its node has left meanwhile, see `forget`
+            except InvalidHandle:  # its node has left in the meantime, see `forget`
                 ready, over = False, True
             if over and not found.done():
                 found.set_result(ready)
@@ -174,7 +179,7 @@ class Calls:
         return self._clients[key]
 
     def forget(self, prefix: str) -> None:
-        """Drop the clients of all services that begin with a prefix, as of a node that has left."""
+        """Destroy the clients of all services with a prefix, for example those of a node that has left."""
         for key in [key for key in self._clients if key[0].startswith(prefix)]:
             self._node.destroy_client(self._clients.pop(key))
 

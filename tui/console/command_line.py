@@ -13,7 +13,7 @@ class Stream(Protocol):
     """A command line that keeps printing until it is stopped."""
 
     def lines(self) -> Sequence[str]:
-        """The last lines it has printed; the same object until there are more."""
+        """The most recent lines printed; the same object until there are more."""
         ...
 
     @property
@@ -30,17 +30,21 @@ class CommandLine(Protocol):
     """Runs `ros2 ...` lines."""
 
     def run(self, line: str) -> Future[str]:
-        """Run a line; the future gives what it printed."""
+        """Run a line; the result is what it printed."""
         ...
 
     def stream(self, line: str) -> Stream | None:
-        """Start a line that keeps printing, as `ros2 topic hz /odom` does; None for any other, which is not run."""
+        """Start a line that keeps printing, such as `ros2 topic hz /odom`; returns None for any other, which is not
+        run.
+        """
         ...
 
     def commands(self) -> Sequence[str]:
-        """The commands a line may begin with, without `ros2` itself."""
+        """The commands that a line may begin with, without `ros2` itself."""
         ...
 
     def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
-        """Completions of the last word (empty, or the start of an option); `snapshot` says what runs."""
+        """Completions of the last word (empty, or the start of an option), with names of the nodes and topics in
+        `snapshot`.
+        """
         ...

@@ -55,7 +55,7 @@ def test_recorded_and_played(robot: Path) -> None:
     reported = typed(robot, "info", "mine")
     assert reported.returncode == 0 and "Topic: /odom | Type: nav_msgs/msg/Odometry" in reported.stdout
     again = typed(robot, "record", "/odom", "-o", "mine", "--duration", "1")
-    assert again.returncode == 1 and "is there already" in again.stderr
+    assert again.returncode == 1 and "exists already" in again.stderr
     line = [*PROGRAM, "bag", "play", "mine", "-m", "/odom:=/copy", "-l"]
     played = subprocess.Popen(line, cwd=robot, stderr=subprocess.PIPE, text=True)
     heard = [*PROGRAM, "topic", "echo", "--once", "/copy", "nav_msgs/msg/Odometry"]

@@ -1,1 +1,3 @@
-"""Bags: topics recorded to MCAP files in rosbag2's folder form, read, mended and played. ROS names and `mcap` alone."""
+"""Bags: topics recorded to MCAP files in rosbag2's folder layout, read, repaired and played. Uses only ROS and
+`mcap`.
+"""

@@ -21,7 +21,7 @@ from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.serialization import deserialize_message
 
 MAX_BYTES = 500_000_000
-"""Bytes of messages that are held; of what is beyond, topics of large messages are left out first."""
+"""Limit of the message bytes held in memory; above it, the topics with the largest messages are left out first."""
 LOG, EVENTS = "rcl_interfaces/msg/Log", "rcl_interfaces/msg/ParameterEvent"
 
 
@@ -31,9 +31,9 @@ class Contents:
     def __init__(self, bag: Bag) -> None:
         self.metadata = bag.metadata
         self.left_out: list[str] = []
-        """Topics of which nothing is held, since the bag is too large."""
+        """Topics whose messages are not held because the bag is too large."""
         self.damage = ""
-        """Why not all of it could be read."""
+        """Why part of the bag could not be read."""
         self.logs = LogStore()
         self.changes: list[Change] = []
         self.trees: dict[str, ParameterTree] = {}
@@ -70,8 +70,8 @@ class Contents:
     def messages(self, topic: str) -> Iterator[tuple[int, Any]]:
         """The messages of a topic, with the times (ns since the epoch) at which they were received.
 
-        Messages that do not decode as the topic's type are left out. Raises `ImportError` and the like if the type is
-        unknown.
+        Messages that cannot be decoded as the topic's type are skipped. Raises `ImportError` and the like if the type
+        is unknown.
         """
         kind = class_of(self.metadata.topics[topic].type)
         for stamp, data in self._messages[topic]:
@@ -82,12 +82,12 @@ class Contents:
             yield stamp, message
 
     def count(self, topic: str, stamp: int | None = None) -> int:
-        """The number of messages of a topic, up to a moment (ns since the epoch) if one is given."""
+        """The number of messages of a topic, up to a time (ns since the epoch) if one is given."""
         held = self._messages[topic]
         return len(held) if stamp is None else bisect_right(held, stamp, key=_stamp)
 
     def message(self, topic: str, at: int) -> Any:
-        """One message of a topic; raises what `messages` does."""
+        """One message of a topic, by index; raises the same exceptions as `messages`."""
         return deserialize_message(self._messages[topic][at][1], class_of(self.metadata.topics[topic].type))
 
     def size(self, topic: str) -> int:
@@ -118,7 +118,7 @@ class Contents:
         self.trees[event.node] = ParameterTree(event.node, tuple(known[name] for name in sorted(known)))
 
     def _find_world(self) -> None:
-        """Find the map, the trail and the robot's poses."""
+        """Find the map, the path and the robot's poses."""
         topics = {kind: best({*self.of_type(kind)}, wanted) for kind, wanted in PREFERRED.items()}
         maps = topics["nav_msgs/msg/OccupancyGrid"]
         grid = None
@@ -138,7 +138,7 @@ class Contents:
 
     @property
     def parameters(self) -> MappingProxyType[str, ParameterTree]:
-        """The parameters at the end, as far as events reported them."""
+        """The parameters at the end of the bag, as far as parameter events reported them."""
         return MappingProxyType(self.trees)
 
 

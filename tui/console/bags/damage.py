@@ -1,4 +1,4 @@
-"""Damaged files: errors while reading, and the repair of one that a killed program left without its end."""
+"""Damaged files: errors while reading, and the repair of a file that a killed program did not finish."""
 
 from __future__ import annotations
 
@@ -12,23 +12,25 @@ from typing import Any
 
 MAGIC = b"\x89MCAP0\r\n"
 MAX_CUT_BYTES = 16 * 1024 * 1024
-"""Bytes that a kill may cost: what a recorder writes at once. Where more would be lost, the file as it was is kept."""
+"""The most that a repair may discard: what a recorder writes at once. If more would be lost, the original is kept
+too.
+"""
 BACKUP_SUFFIX = ".damaged"
-"""What the name of such a file ends in."""
+"""File name suffix of such an original."""
 
 DAMAGED = (
     ValueError, LookupError, TypeError, OverflowError, MemoryError, EOFError, struct.error, sqlite3.Error,
 )  # fmt: skip
-"""What the libraries let fall over a file that was damaged, besides `McapError`: lengths and offsets lead nowhere."""
+"""Exceptions besides `McapError` that the libraries raise on a damaged file, whose lengths and offsets are wrong."""
 
 
 class NoBag(ValueError):
-    """A path that cannot be read as a bag; the text says which path and why."""
+    """A path that cannot be read as a bag; the message says which path and why."""
 
 
 @contextmanager
 def reading_errors(path: Path, where: Callable[[], str] = str) -> Generator[None]:
-    """Turn exceptions of the reading library into `NoBag`."""
+    """Convert exceptions of the reading library to `NoBag`."""
     from mcap.exceptions import McapError
 
     try:
@@ -42,10 +44,10 @@ def reading_errors(path: Path, where: Callable[[], str] = str) -> Generator[None
 
 
 def repair(path: Path) -> str:
-    """Complete a file that has no end; returns what was done, and an empty text for a complete file. Raises `NoBag`."""
+    """Complete an unfinished file; returns what was done, or an empty text if it was complete. Raises `NoBag`."""
     with reading_errors(path), path.open("rb") as file:
         if file.read(len(MAGIC)) != MAGIC:
-            raise NoBag(f"{path}: is no MCAP file")
+            raise NoBag(f"{path}: not an MCAP file")
         size = file.seek(0, os.SEEK_END)
         file.seek(max(len(MAGIC), size - len(MAGIC)))
         if file.read() == MAGIC:
@@ -67,7 +69,7 @@ def repair(path: Path) -> str:
 
 
 def _write_whole(source: Any, beside: Path) -> int:
-    """Copy the readable records to another file; returns the position after the last of them in the source."""
+    """Copy the readable records to another file; returns the position in the source after the last of them."""
     from mcap.exceptions import McapError
     from mcap.records import Channel, Message, Schema
     from mcap.stream_reader import StreamReader
@@ -83,7 +85,7 @@ def _write_whole(source: Any, beside: Path) -> int:
         while True:
             try:
                 each = next(records)
-            except (StopIteration, McapError, *DAMAGED):  # the cut
+            except (StopIteration, McapError, *DAMAGED):  # the end of the readable part
                 break
             behind = source.tell()
             if isinstance(each, Schema) and each.id not in schemas:

@@ -1,7 +1,7 @@
-"""Message definitions as MCAP wants them (`ros2msg`): the type, then all types it uses, separated by a line of `=`.
+"""Message definitions in MCAP's `ros2msg` encoding: the type, then all types it uses, separated by a line of `=`.
 
-They are made from the message classes, which describe their fields on every ROS 2, so no definition files are needed.
-Constants and comments are left out: a reader does not need them.
+They are derived from the message classes, which describe their fields in every ROS 2 distribution, so no definition
+files are needed. Constants and comments are left out because readers do not need them.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ from typing import Any
 
 BORDER = "=" * 80
 NAMES = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "float64"}
-"""Primitive types whose names in classes (IDL's) differ from those in definitions."""
+"""Primitive types that are named differently in classes (as in IDL) and in message definitions."""
 
 
 def definition(kind: Any) -> str:
-    """The definition of a message class, with all types it uses."""
+    """The definition of a message class, followed by all types it uses."""
     parts = [f"{_fields(kind)}"]
     parts += [f"{BORDER}\nMSG: {name}\n{_fields(each)}" for name, each in _needed(kind, {})]
     return "\n".join(parts)
@@ -28,8 +28,8 @@ def class_of(type_name: str) -> Any:
 
     try:
         return get_message(type_name)
-    except TypeError:  # of a name without a package
-        raise ValueError(f"'{type_name}' is no type of a message") from None
+    except TypeError:  # the name has no package
+        raise ValueError(f"'{type_name}' is not a message type") from None
 
 
 def interface_type_name(kind: Any) -> str:
@@ -48,7 +48,7 @@ def _needed(kind: Any, found: dict[str, Any]) -> Iterator[tuple[str, Any]]:
 
 
 def _class(name: str, user: Any) -> Any:
-    """The class of a field's type, which is next to the class with the field when both belong to an action."""
+    """The class of a field's type; it is in the module of the class with the field when both belong to an action."""
     import importlib
 
     package, _, message = name.partition("/")
@@ -64,13 +64,13 @@ def _fields(kind: Any) -> str:
 
 
 def _element(text: str) -> str:
-    """The type of a field, or of its elements."""
+    """The type of a field, or of its elements if it is an array or a sequence."""
     inside = re.fullmatch(r"sequence<(.*?)(?:, \d+)?>", text)
     return re.sub(r"\[\d+\]$", "", inside[1] if inside else text)
 
 
 def _written(text: str) -> str:
-    """A type of a class in the notation of definitions: `sequence<double, 3>` is `float64[<=3]`."""
+    """The type of a field in message definition syntax: `sequence<double, 3>` becomes `float64[<=3]`."""
     if sequence := re.fullmatch(r"sequence<(.*?)(?:, (\d+))?>", text):
         return f"{_simple(sequence[1])}[{f'<={sequence[2]}' if sequence[2] else ''}]"
     if array := re.fullmatch(r"(.*)\[(\d+)\]", text):

@@ -1,4 +1,4 @@
-"""`metadata.yaml` of a bag folder, in the form of rosbag2 (version 9, Jazzy)."""
+"""The `metadata.yaml` of a bag folder, in rosbag2's format (version 9, Jazzy)."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ FILE = "metadata.yaml"
 
 
 class _Plain(yaml.SafeDumper):
-    """Writes equal objects twice instead of using YAML references, which rosbag2's reader does not understand."""
+    """Repeats equal objects instead of writing YAML aliases, which rosbag2's reader does not understand."""
 
     def ignore_aliases(self, data: Any) -> bool:
-        """Never refer."""
+        """Never write an alias."""
         return True
 
 
 def metadata_yaml(data: object) -> str:
-    """Block YAML in the order given."""
+    """Block-style YAML that keeps the order of keys."""
     return yaml.dump(data, Dumper=_Plain, sort_keys=False)
 
 
@@ -40,7 +40,7 @@ class Topic:
 
 @dataclass
 class Metadata:
-    """The metadata of a bag folder; times in ns since the epoch."""
+    """The metadata of a bag folder; times are in ns since the epoch."""
 
     file: str
     begin: int = 0
@@ -53,7 +53,7 @@ class Metadata:
         return sum(each.count for each in self.topics.values())
 
     def seen(self, stamp: int) -> None:
-        """Count a message with that time."""
+        """Count a message received at that time."""
         self.begin = min(self.begin or stamp, stamp)
         self.end = max(self.end, stamp)
 

@@ -34,11 +34,11 @@ from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.traffic import Traffic
 from bot_console.tui.text.expression.tree import is_parameter
 
-WHY = "this is a recording: it can be looked at, and nothing can be changed in it"
+WHY = "this is a recording: it can be viewed, but nothing in it can be changed"
 
 
 class PastReading:
-    """What is known from a bag. The time axis starts with it."""
+    """The read-only data of a bag. The time axis begins with the bag."""
 
     def __init__(self, contents: Contents, name: str) -> None:
         self._contents = contents
@@ -60,31 +60,31 @@ class PastReading:
         )
 
     def snapshot(self) -> ConsoleSnapshot:
-        """All there is; always the same."""
+        """The whole recording; always the same object."""
         return self._snapshot
 
     def log(self, seq: int) -> LogRecord | None:
-        """A line of the log."""
+        """The log record with that number."""
         return self._contents.logs.record(seq)
 
     def matching_logs(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
-        """The lines that pass a filter."""
+        """Numbers of the records that pass a filter."""
         return matching(self._contents.logs, which, after, limit)
 
     def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
-        """Search for what passes a filter."""
+        """Search for records that pass a filter."""
         return self.views.open(which, instead_of)
 
     def open_log(self, path: str) -> LogSource:
-        """Read a saved log beside it."""
+        """Open a saved log to read it alongside the bag."""
         return open_log(path)
 
     def changes(self, after: int = 0) -> Sequence[Change]:
-        """The changes of parameters that events told."""
+        """The parameter changes that parameter events reported."""
         return self._contents.changes[max(0, after) :]
 
     def watch(self, path: str) -> Answer:
-        """Read a series; says why it cannot be plotted."""
+        """Read a series; the answer says why if it cannot be plotted."""
         if path not in self._series:
             try:
                 self._series[path] = self._parameter(path) if is_parameter(path) else self._field(path)
@@ -93,11 +93,11 @@ class PastReading:
         return Answer(True, path)
 
     def unwatch(self, path: str) -> None:
-        """Forget a series."""
+        """Discard a series."""
         self._series.pop(path, None)
 
     def samples(self, path: str, after: int = 0) -> Samples:
-        """All of a series, once."""
+        """All samples of a series, delivered once."""
         found = self._series.get(path)
         return found if found is not None and after < found.cursor else Samples((), (), after)
 
@@ -105,13 +105,13 @@ class PastReading:
         path = "/" + path.lstrip("/")
         topics = [each for each in self._contents.metadata.topics if path.startswith((f"{each}/", f"{each}."))]
         if not topics:
-            raise NotPlottable(f"no topic of that name is in the recording, or a field is missing: {path}")
+            raise NotPlottable(f"no topic of that name is in the recording, or the field does not exist: {path}")
         topic = max(topics, key=len)
         read = reader(*parse_path(path[len(topic) + 1 :]))
         found = [(stamp, read(message), _header(message)) for stamp, message in self._contents.messages(topic)]
         times = [self.plot_time(stamp) for stamp, _, _ in found]
         headers = [math.nan if at is None else self.plot_time(at) for _, _, at in found]
-        problem = "" if found else f"{topic} is too large to be held" * (topic in self._contents.left_out)
+        problem = "" if found else f"{topic} is too large to be kept in memory" * (topic in self._contents.left_out)
         return Samples(times, [value for _, value, _ in found], len(found), problem or "", headers)
 
     def _parameter(self, path: str) -> Samples:
@@ -119,7 +119,7 @@ class PastReading:
         tree = self._contents.trees.get(node)
         last = tree.get(name) if tree else None
         if last is None:
-            raise NotPlottable(f"the recording tells nothing of {path}")
+            raise NotPlottable(f"the recording contains no values of {path}")
         mine = [each for each in self._contents.changes if (each.node, each.name) == (node, name)]
         first = mine[0].old if mine else last.value
         points = [(self._begin, first), *((each.stamp, each.new) for each in mine)]
@@ -127,15 +127,15 @@ class PastReading:
         return Samples([time for time, _ in fine], [value for _, value in fine], len(fine))
 
     def plot_time(self, stamp: int | None = None) -> float:
-        """Seconds since the begin; None is the end."""
+        """Seconds since the start of the bag; None stands for its end."""
         return ((self._contents.metadata.end if stamp is None else stamp) - self._begin) / 1e9
 
     def pose_at(self, stamp: int) -> Pose | None:
-        """Where the robot was."""
+        """The robot's pose at a time."""
         return self._contents.past.at(stamp)
 
     def plottable(self) -> Sequence[str]:
-        """Paths to numbers."""
+        """Paths of numeric fields and parameters."""
         topics = self._contents.metadata.topics
         paths = [f"{name}/{field}" for name, topic in topics.items() for field in number_paths(topic.type)]
         paths += [
@@ -152,7 +152,7 @@ class PastReading:
 
 
 class OpenedBag(NoConsole):
-    """Shows a bag; everything that would change something is refused with the reason."""
+    """Shows a bag; every request that would change something is refused with the reason."""
 
     def __init__(self, contents: Contents, name: str) -> None:
         self._reading = PastReading(contents, name)
@@ -161,7 +161,7 @@ class OpenedBag(NoConsole):
 
     @property
     def traffic(self) -> Traffic:
-        """The messages."""
+        """The recorded messages."""
         return self.topics
 
     def watch(self, path: str, requester: str = "") -> Answer:
@@ -169,11 +169,11 @@ class OpenedBag(NoConsole):
         return self._reading.watch(path)
 
     def unwatch(self, path: str, requester: str = "") -> None:
-        """Forget a series."""
+        """Discard a series."""
         self._reading.unwatch(path)
 
     def close(self) -> None:
-        """Search no more."""
+        """End the search of the log."""
         self._reading.views.close()
 
 

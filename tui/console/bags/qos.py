@@ -1,4 +1,4 @@
-"""The QoS of publishers, as bags note it, and the QoS with which a player publishes."""
+"""The QoS of publishers as recorded in bags, and the QoS with which a player publishes."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
 FOREVER = {"sec": 9223372036, "nsec": 854775807}
-"""How ROS 2 writes a duration without an end."""
+"""How ROS 2 writes an infinite duration."""
 
 
 def noted(profiles: Iterable[QoSProfile]) -> list[dict[str, Any]]:
@@ -30,7 +30,9 @@ def noted(profiles: Iterable[QoSProfile]) -> list[dict[str, Any]]:
 
 
 def offered(entries: Iterable[Mapping[str, Any]]) -> QoSProfile:
-    """A profile that serves every subscriber the noted publishers served: reliable or latching if one of them was."""
+    """A profile compatible with every subscription of the recorded publishers: reliable or latched if any of them
+    was.
+    """
     found = list(entries)
     latching = any(each.get("durability") in ("transient_local", 1) for each in found)
     weak = bool(found) and all(each.get("reliability") in ("best_effort", 2) for each in found)

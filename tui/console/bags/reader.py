@@ -1,6 +1,6 @@
 """Reads bags: rosbag2 folders (MCAP or SQLite) and single files.
 
-One left behind by a killed program is repaired first.
+A file left unfinished by a killed program is repaired first.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from bot_console.tui.console.bags.missing_packages import check
 from bot_console.tui.text.yaml_faults import UNREADABLE
 
 LATEST = 2**63 - 1
-"""The last moment, in ns since the epoch, that a message may have come at."""
+"""The latest time of reception, in ns since the epoch, that is accepted."""
 
 
 class Entry(NamedTuple):
-    """A message of a bag: its time of arrival (ns since the epoch), topic, and CDR bytes."""
+    """A message of a bag: its time of reception (ns since the epoch), topic, and CDR bytes."""
 
     received: int
     topic: str
@@ -40,7 +40,7 @@ class Bag:
         self.path = path
         self.files = _files(path)
         self.repaired = [done for each in self.files if each.suffix == ".mcap" and (done := repair(each))]
-        """What was done to files whose end was missing."""
+        """What was done to files that were unfinished."""
         self.metadata = Metadata(self.files[0].name)
         for each in self.files:
             for topic in _topics(each, self.metadata):
@@ -50,9 +50,9 @@ class Bag:
             self.metadata.save(path)
 
     def messages(self, topics: Collection[str] | None = None, begin: int = 0) -> Iterator[Entry]:
-        """All messages from a time (ns since the epoch) on, in order of arrival.
+        """All messages received since a time (ns since the epoch), in order of reception.
 
-        Raises `NoBag` at a damaged place.
+        Raises `NoBag` when it reaches a damaged place.
         """
         return heapq.merge(*(_messages(each, topics, begin) for each in self.files), key=lambda entry: entry.received)
 
@@ -61,7 +61,7 @@ def _files(path: Path) -> list[Path]:
     if path.is_file():
         return [path]
     if not path.is_dir():
-        raise NoBag(f"{path}: there is no such bag")
+        raise NoBag(f"{path}: no such bag")
     found: list[Path] = []
     with suppress(OSError, *UNREADABLE):
         loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
@@ -70,7 +70,7 @@ def _files(path: Path) -> list[Path]:
         found = [each for each in named if each.is_file() and each.resolve().parent == path.resolve()]
     found = found or sorted((*path.glob("*.mcap"), *path.glob("*.db3")))
     if not found:
-        raise NoBag(f"{path}: no .mcap and no .db3 file in it")
+        raise NoBag(f"{path}: the folder contains no .mcap and no .db3 file")
     return found
 
 
@@ -85,7 +85,7 @@ def _messages(path: Path, topics: Collection[str] | None, begin: int) -> Iterato
     with reading_errors(path, lambda: f" after {came} messages"):
         for each in (_sqlite_messages if path.suffix == ".db3" else _mcap_messages)(path, topics, begin):
             if not 0 <= each.received <= LATEST:
-                raise ValueError(f"a message came at {each.received} ns since 1970")
+                raise ValueError(f"a message is dated {each.received} ns since 1970")
             came += 1
             yield each
 
@@ -96,7 +96,7 @@ def _mcap_topics(path: Path, metadata: Metadata) -> Iterable[Topic]:
     with reading_errors(path), path.open("rb") as file:
         summary = make_reader(file).get_summary()
     if summary is None or summary.statistics is None:
-        raise NoBag(f"{path}: says nothing of its messages")
+        raise NoBag(f"{path}: contains no information on its messages")
     counts = summary.statistics.channel_message_counts
     if summary.statistics.message_count:
         metadata.seen(_moment(path, summary.statistics.message_start_time))
@@ -135,7 +135,7 @@ def _sqlite_topics(path: Path, metadata: Metadata) -> Iterable[Topic]:
 def _moment(path: Path, stamp: object) -> int:
     if isinstance(stamp, int) and 0 <= stamp <= LATEST:
         return stamp
-    raise NoBag(f"{path} is damaged: a message came at {stamp!r} ns since 1970")
+    raise NoBag(f"{path} is damaged: a message is dated {stamp!r} ns since 1970")
 
 
 def _sqlite_messages(path: Path, topics: Collection[str] | None, begin: int) -> Iterator[Entry]:

@@ -13,15 +13,17 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 PACE_S = 0.1
-"""Seconds between two turns."""
+"""Seconds between two turns of the recorder."""
 TOPIC_POLL_S = 0.5
-"""Seconds between two looks for new topics."""
+"""Seconds between two searches for new topics."""
 ONE_CLOCK = 1_000_000_000
-"""Nanoseconds by which a message's time of sending may lie back and still be believed."""
+"""How far (ns) the time of sending may lie before the time of reception for the two clocks to count as synchronized."""
 CLOCK = "/clock"
-"""Left out by a console, a third of all messages: a bag has times of its own, which `bag play --clock` tells."""
+"""Not recorded by a console, since it is a third of all messages: `bag play --clock` derives it from the bag's
+times.
+"""
 OVERHEAD = 200
-"""Bytes that a kept message takes beside its own."""
+"""Bytes of memory that a kept message needs in addition to its data."""
 BEST = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -29,7 +31,7 @@ class Sink(Protocol):
     """Where recorded messages go."""
 
     def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
-        """Begin a topic."""
+        """Add a topic."""
         ...
 
     def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
@@ -37,14 +39,14 @@ class Sink(Protocol):
         ...
 
     def flush(self) -> None:
-        """Make what was written safe."""
+        """Pass what was written to the operating system."""
         ...
 
 
 class Recorder:
-    """Passes all messages of the wanted topics to a sink, each time it is asked to.
+    """Passes all messages of the wanted topics to a sink, each time `turn` is called.
 
-    Nobody spins its node: `turn` takes the waiting messages, a few times a second, at a fraction of the cost of
+    Its node is not spun: `turn` takes the waiting messages a few times a second, at a fraction of the cost of
     callbacks.
     """
 
@@ -62,13 +64,15 @@ class Recorder:
         self.turn()
 
     def close(self) -> None:
-        """Take what still waits and stop recording; the sink can be closed then."""
+        """Take the messages still waiting and stop recording; afterwards the sink can be closed."""
         self._take()
         for each in self.subscribed.values():
             each.destroy()
 
     def turn(self) -> None:
-        """Take what waits; from time to time look for new topics, and flush. To be called every `PACE` seconds."""
+        """Take waiting messages; from time to time search for new topics, and flush. To be called every `PACE_S`
+        seconds.
+        """
         self._take()
         if time.monotonic() - self._polled >= TOPIC_POLL_S:
             self._polled = time.monotonic()
@@ -99,8 +103,8 @@ class Recorder:
         try:
             kind = self._find(types[0])
             self._sink.topic(name, kind, noted(each.qos_profile for each in offers), _hash(offers))
-        except (ImportError, AttributeError, ValueError) as error:  # of it, or of what it is made of
-            self.unknown[name] = f"its type {types[0]} is not here ({error})"
+        except (ImportError, AttributeError, ValueError) as error:  # of the type itself or of a type it contains
+            self.unknown[name] = f"its type {types[0]} is not available here ({error})"
             return
         self.subscribed[name] = OfferedSubscription(
             self._node, kind, name, _nobody, BEST, eager=False, once_weak=True, raw=True
@@ -108,9 +112,10 @@ class Recorder:
 
 
 def in_order(found: Iterable[tuple[int, str, bytes]], now: int, last: int) -> Iterator[tuple[int, str, bytes, int]]:
-    """What was taken at once, each (sent, topic, data), as it came: (received, topic, data, sent), none before `last`.
+    """Assign times of reception to messages that were taken at once, each given as (sent, topic, data).
 
-    The time of sending tells better than that of taking when one came, unless clocks differ.
+    Yields (received, topic, data, sent) in order; no time is before `last`. The time of sending is closer to that of
+    reception than the time of taking, unless the clocks differ.
     """
     stamped = [(sent if 0 <= now - sent < ONE_CLOCK else now, name, data, sent) for sent, name, data in found]
     stamped.sort(key=_received)
@@ -124,14 +129,14 @@ def _received(entry: tuple[int, str, bytes, int]) -> int:
 
 
 def _nobody(data: bytes) -> None:
-    """The callback of subscriptions that are drained and never called back."""
+    """Callback of subscriptions whose messages are taken directly; it is never called."""
 
 
 class Ring:
-    """Keeps the last minutes in memory, so that an event can be saved after it has happened."""
+    """Keeps the last minutes in memory, so that they can be saved after something has happened."""
 
     def __init__(self, seconds: float, maximum: int) -> None:
-        """Limited to so many bytes."""
+        """Keeps at most this many seconds and `maximum` bytes."""
         self._seconds = seconds
         self._maximum = maximum
         self._held = 0
@@ -139,11 +144,11 @@ class Ring:
         self.topics: dict[str, tuple[Any, list[dict[str, Any]], str]] = {}
 
     def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
-        """Begin a topic."""
+        """Add a topic."""
         self.topics[name] = kind, qos, type_hash
 
     def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
-        """Add a message, and forget those that are too old or too many."""
+        """Add a message, and discard those that are too old or exceed the limit."""
         self._kept.append((received, topic, data))
         self._held += len(data) + OVERHEAD
         oldest = received - int(self._seconds * 1e9)
@@ -152,19 +157,19 @@ class Ring:
 
     @property
     def begin(self) -> int:
-        """The time (ns since the epoch) of the oldest message that is kept; 0 if there is none."""
+        """The time (ns since the epoch) of the oldest message kept; 0 if there is none."""
         return self._kept[0][0] if self._kept else 0
 
     @property
     def span(self) -> float:
-        """Seconds from the oldest message that is kept to the newest."""
+        """Seconds between the oldest and the newest message kept."""
         return (self._kept[-1][0] - self._kept[0][0]) / 1e9 if self._kept else 0.0
 
     def flush(self) -> None:
-        """Nothing to do: nothing is written before `pour`."""
+        """Do nothing: nothing is written before `pour`."""
 
     def pour(self, sink: Sink) -> int:
-        """Write everything that is kept; returns the number of messages."""
+        """Write all kept messages; returns their number."""
         kept: Iterable[tuple[int, str, bytes]] = list(self._kept)
         for name, (kind, qos, type_hash) in self.topics.items():
             sink.topic(name, kind, qos, type_hash)

@@ -1,4 +1,4 @@
-"""Where recorded messages go: into a bag, from start to stop, or into the ring of the last minutes."""
+"""Where recorded messages go: into a bag, from start to stop, or into the ring buffer of the last minutes."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.files.save_file import NotSaved
 
 LOG = "/rosout"
-"""A latching topic whose last message is no state: a line of the log."""
+"""A latched topic whose last message is not state but a line of the log."""
 
 
 class RecordingSink:
-    """A sink that knows how a bag must begin: with the topics, and the earlier messages of latching publishers."""
+    """A sink that keeps what every bag must begin with: the topics, and earlier messages of latching publishers."""
 
     def __init__(self) -> None:
         self._topics: dict[str, tuple[Any, list[dict[str, Any]], str]] = {}
@@ -23,7 +23,7 @@ class RecordingSink:
         self._latest: dict[str, tuple[bytes, int]] = {}
 
     def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
-        """Begin a topic."""
+        """Add a topic."""
         self._topics[name] = kind, qos, type_hash
         if name != LOG and any(each.get("durability") == "transient_local" for each in qos):
             self._latching.add(name)
@@ -49,7 +49,7 @@ class BagSink(RecordingSink):
         super().__init__()
         self.writer: BagWriter | None = None
         self.problem = ""
-        """Why a bag has ended by itself, for instance that the disk is full."""
+        """Why a bag was closed unrequested, for instance because the disk is full."""
 
     def begin(self, writer: BagWriter, now: int) -> None:
         """Start writing a bag (time in ns since the epoch)."""
@@ -57,23 +57,24 @@ class BagSink(RecordingSink):
         self.writer, self.problem = writer, ""
 
     def end(self) -> BagWriter | None:
-        """Close the bag and return it; raises `OSError` if the disk accepts no more."""
+        """Close the bag and return it; raises `OSError` if it cannot be written completely."""
         writer, self.writer = self.writer, None
         if writer is not None:
             writer.close()
         return writer
 
     def fail(self, problem: str) -> None:
-        """Close the bag with what it has, and note why."""
+        """Close the bag with what it contains, and note why."""
         with suppress(OSError, NotSaved):
             self.end()
         self.problem = problem
 
     def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
-        """Begin a topic."""
+        """Add a topic."""
         if self.writer is not None:
             self.writer.topic(name, kind, qos, type_hash)
-        super().topic(name, kind, qos, type_hash)  # after it: what no bag takes is in none that follows either
+        # only afterwards: a topic that a bag rejects must not be added to the next one either
+        super().topic(name, kind, qos, type_hash)
 
     def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
         """Add a message."""
@@ -85,7 +86,7 @@ class BagSink(RecordingSink):
                 self._fail(error)
 
     def flush(self) -> None:
-        """Hand what is held to the system."""
+        """Pass what is buffered to the operating system."""
         if self.writer is not None:
             try:
                 self.writer.flush()
@@ -95,7 +96,7 @@ class BagSink(RecordingSink):
     def _fail(self, error: OSError) -> None:
         writer, self.writer = self.writer, None
         folder = writer.folder if writer is not None else ""
-        self.problem = f"{folder} is recorded no further: {error.strerror or error}"
+        self.problem = f"recording into {folder} has ended: {error.strerror or error}"
 
 
 class RingSink(RecordingSink):
@@ -106,12 +107,12 @@ class RingSink(RecordingSink):
         self.ring = ring
 
     def pour(self, writer: BagWriter) -> int:
-        """Write what is kept as a bag; returns the number of messages."""
+        """Write the kept messages as a bag; returns their number."""
         self._open(writer, self.ring.begin, before=self.ring.begin)
         return self.ring.pour(writer)
 
     def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
-        """Begin a topic."""
+        """Add a topic."""
         super().topic(name, kind, qos, type_hash)
         self.ring.topic(name, kind, qos, type_hash)
 

@@ -1,4 +1,4 @@
-"""Recording in the console, in a node and a thread of its own, so that a slow disk delays nobody."""
+"""Recording in the console, in a separate node and thread, so that a slow disk delays nothing else."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ from rosidl_runtime_py.utilities import get_message
 
 NAME = "_bot_console_recorder"
 CLOSING = 3.0
-"""Seconds that a bag has to be finished when the console ends."""
+"""Seconds that a bag may take to be finished when the console ends."""
 
 
 class Recordings:
     """Records all topics; its methods may be called from any thread."""
 
     def __init__(self, buffer: Keeper | None = None) -> None:
-        """`buffer` keeps the last minutes, unless it is None. There is no node until something is recorded."""
+        """`buffer` keeps the last minutes; None: they are not kept. The node is created when recording first starts."""
         self._buffer = buffer
         self._sink = BagSink()
         self._info = RecordingInfo(kept_s=buffer.kept_s if buffer else 0.0)
@@ -53,12 +53,12 @@ class Recordings:
 
         def begin() -> Answer:
             if self._sink.writer is not None:
-                return Answer(False, f"{self._sink.writer.folder} is being recorded already")
+                return Answer(False, f"{self._sink.writer.folder} is already being recorded")
             try:
                 self._sink.begin(BagWriter(typed_path(folder)), time.time_ns())
             except (Missing, NotSaved, OSError) as error:
                 return Answer(False, f"not recorded: {error}")
-            return Answer(True, f"records all topics into {folder}")
+            return Answer(True, f"recording all topics into {folder}")
 
         return self._order(begin)
 
@@ -71,7 +71,7 @@ class Recordings:
             try:
                 writer = self._sink.end()
             except (NotSaved, OSError) as error:
-                return Answer(False, f"the bag has no end, which `bag info` adds: {error}")
+                return Answer(False, f"the bag was not finished properly; `bag info` repairs it: {error}")
             if writer is None:
                 return Answer(False, self._sink.problem or "nothing is being recorded")
             about = writer.metadata
@@ -80,13 +80,13 @@ class Recordings:
         return self._order(end)
 
     def keep(self, folder: str) -> Future[Answer]:
-        """Save what is kept in memory."""
+        """Save the last minutes from memory."""
         if self._buffer is None:
-            return done(Answer(False, "nothing is kept in memory here (setting keep_minutes)"))
+            return done(Answer(False, "the last minutes are not kept in memory (setting keep_minutes)"))
         return self._buffer.keep(str(typed_path(folder).absolute()))
 
     def close(self) -> None:
-        """Finish what is being recorded, and leave the graph."""
+        """Finish the bag being recorded, and leave the graph."""
         self._closing.set()
         if self._thread is not None:
             self._thread.join(CLOSING)
@@ -122,12 +122,12 @@ class Recordings:
                     recorder = recorder if wanted else None
                 elif wanted:
                     recorder = Recorder(node, self._sink, CLOCK.__ne__, get_message)
-                self._obey()  # after the turn: a bag that is ended has all that came before
+                self._obey()  # after the turn, so that a bag which is closed now contains everything that came before
             if recorder is not None:
                 recorder.close()
             self._sink.end()
-        except Exception as error:  # the border of the thread: the bag ends here, the next one has a thread of its own
-            self._sink.fail(f"recording ended by a fault: {type(error).__name__}: {error}")
+        except Exception as error:  # the thread's outermost frame: this bag ends here, the next one gets a new thread
+            self._sink.fail(f"recording ended because of an error: {type(error).__name__}: {error}")
         finally:
             node.destroy_node()
             context.try_shutdown()
@@ -149,5 +149,5 @@ class Recordings:
                 return
             try:
                 future.set_result(Answer(False, "the console has closed") if self._closing.is_set() else work())
-            except Exception as error:  # the border of the thread: whoever asked is told
+            except Exception as error:  # the thread's outermost frame: report it to the requester
                 future.set_result(Answer(False, f"{type(error).__name__}: {error}"))

@@ -1,4 +1,4 @@
-"""The last minutes of what a process carries, kept while nobody asks, so that what has just happened can be saved."""
+"""Keeps the last minutes of the messages that a process handles, so that what has just happened can be saved."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from bot_console.tui.files.save_file import NotSaved, typed_path
 PACE = 0.25
 """Seconds between two turns."""
 MAX_WAITING_MESSAGES = 50_000
-"""Messages that may come between two turns; of more the oldest go."""
+"""Messages that may arrive between two turns; beyond that the oldest are dropped."""
 
 
 class Carried(Protocol):
@@ -33,10 +33,10 @@ class Carried(Protocol):
 
 
 class SnapshotBuffer:
-    """Keeps the messages that it is given; methods may be called from any thread.
+    """Keeps the messages passed to it; methods may be called from any thread.
 
-    The middleware passes on what it carries anyway, so this is no subscription: `topic info` does not count it, and a
-    node that publishes only while somebody listens does not start to.
+    The middleware hands over messages it handles anyway, so there is no subscription: `topic info` does not count one,
+    and a node that publishes only while it has subscribers does not start publishing.
     """
 
     def __init__(self, size: RingSize, serialize: Callable[[Any], bytes], hash_of: Callable[[Any], str]) -> None:
@@ -54,12 +54,16 @@ class SnapshotBuffer:
         threading.Thread(target=self._serve, name="snapshot-buffer", daemon=True).start()
 
     def hear(self, by: Carried, source: bytes, number: int, sent: int, message: Any) -> None:
-        """Keep a message: endpoint, the publisher's gid and sequence number, time of sending (ns), message or bytes."""
+        """Keep a message, given its endpoint, the publisher's gid and sequence number, time of sending (ns), and
+        content.
+
+        `message` is a message object or serialized bytes.
+        """
         if by.topic != CLOCK:
             self._waiting.append((by, source, number, sent, message))
 
     def keep(self, folder: str) -> Future[Answer]:
-        """Save what is kept as a new bag, and go on keeping."""
+        """Save the kept messages as a new bag, and continue keeping."""
         outcome: Future[Answer] = Future()
         threading.Thread(target=lambda: outcome.set_result(self._pour(folder)), daemon=True).start()
         return outcome
@@ -86,11 +90,13 @@ class SnapshotBuffer:
                 self._turn()
 
     def _turn(self) -> None:
-        """Process what has arrived: messages become bytes, which are smaller and cost the garbage collector nothing."""
+        """Process what has arrived: serialize messages, since bytes are smaller and cost the garbage collector
+        nothing.
+        """
         found: list[tuple[int, str, bytes]] = []
         for _ in range(len(self._waiting)):
             by, source, number, sent, message = self._waiting.popleft()
-            if number <= self._numbers.get(source, 0):  # it has come to another subscription here, too
+            if number <= self._numbers.get(source, 0):  # already received through another subscription of this process
                 continue
             self._numbers[source] = number
             if by.topic not in self._known:

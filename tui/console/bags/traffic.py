@@ -11,7 +11,7 @@ from bot_console.tui.console.traffic import LiveMessage, Measure
 
 
 class BagTraffic(IdleTraffic):
-    """Shows the last message up to the moment in view; refuses to send, with the reason."""
+    """Shows the last message up to the time being viewed; refuses to send, with the reason."""
 
     def __init__(self, contents: Contents, why: str) -> None:
         super().__init__(why)
@@ -22,11 +22,11 @@ class BagTraffic(IdleTraffic):
         self._measured: Mapping[str, Measure] | None = None
 
     def time_moved(self, stamp: int | None) -> None:
-        """Show the messages at a moment (ns since the epoch); None is the end."""
+        """Show the messages at a time (ns since the epoch); None stands for the end."""
         self._stamp = stamp
 
     def measured(self) -> Mapping[str, Measure]:
-        """Rates (Hz) and bytes per second over the whole bag."""
+        """Mean rates (Hz) and bytes per second over the whole bag."""
         if self._measured is None:
             about = self._contents.metadata
             span = (about.end - about.begin) / 1e9 or 1.0
@@ -41,16 +41,16 @@ class BagTraffic(IdleTraffic):
         self._topic = topic
 
     def heard(self) -> LiveMessage:
-        """The message in view; the same object until it is another one."""
+        """The message being shown; the same object until another one is shown."""
         topic, known = self._topic, self._contents.metadata.topics.get(self._topic)
         if known is None:
             return LiveMessage(topic, problem=f"{topic} is not in the recording" if topic else "")
         count = self._contents.count(topic, self._stamp)
         if (self._heard.topic, self._heard.count) == (topic, count):
             return self._heard
-        problem = "nothing has come up to this moment"
+        problem = "no message has been recorded up to this time"
         if topic in self._contents.left_out:
-            problem = "it is too large to be held"
+            problem = "it is too large to be kept in memory"
         try:
             message = self._contents.message(topic, count - 1) if count else None
             fields = tree(message, known.type) if message is not None else ()

@@ -13,11 +13,11 @@ from bot_console.tui.console.bags.missing_packages import check
 from bot_console.tui.files.save_file import NotSaved
 
 FLUSH = 0.5
-"""Seconds after which what is held in memory is written at the latest."""
+"""Seconds after which buffered data is written at the latest."""
 
 
 class BagWriter:
-    """A new bag folder. Raises `Missing` without `mcap`, and `NotSaved` if the folder exists or cannot be made."""
+    """A new bag folder. Raises `Missing` without `mcap`, and `NotSaved` if the folder exists or cannot be created."""
 
     def __init__(self, folder: Path) -> None:
         check()
@@ -29,7 +29,7 @@ class BagWriter:
             folder.mkdir(parents=True)
             self._file = (folder / self.metadata.file).open("xb")
         except FileExistsError:
-            raise NotSaved(f"{folder} is there already; give another name") from None
+            raise NotSaved(f"{folder} exists already; choose another name") from None
         except OSError as error:
             raise NotSaved(f"{folder}: {error.strerror or error}") from error
         self._writer = Writer(self._file, compression=CompressionType.NONE)
@@ -37,11 +37,11 @@ class BagWriter:
         self._channels: dict[str, int] = {}
         self._schemas: dict[str, int] = {}
         self._numbers: dict[int, int] = {}
-        self.flush()  # killed before its first message it is an empty bag, not a broken file
+        self.flush()  # so that a recorder killed before its first message leaves an empty bag instead of a broken file
         self.metadata.save(folder)
 
     def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
-        """Begin a topic, before its first message."""
+        """Add a topic; call it before its first message."""
         if name in self._channels:
             return
         type = interface_type_name(kind)

@@ -1,4 +1,4 @@
-"""A console that forwards everything to whichever console is behind it at the moment."""
+"""A console that forwards everything to the console currently behind it."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class ConsoleRelay:
 
     @property
     def sensors(self) -> Sensors:
-        """What the robot shows of itself."""
+        """The robot's sensor data."""
         return self._now.sensors
 
     def log(self, seq: int) -> LogRecord | None:
@@ -60,7 +60,7 @@ class ConsoleRelay:
         return self._now.matching_logs(which, after, limit)
 
     def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
-        """Search for what passes a filter."""
+        """Search for records that pass a filter."""
         return self._now.view_logs(which, instead_of)
 
     def open_log(self, path: str) -> LogSource:
@@ -68,11 +68,11 @@ class ConsoleRelay:
         return self._now.open_log(path)
 
     def clear_logs(self) -> None:
-        """Forget all log records."""
+        """Discard all log records."""
         self._now.clear_logs()
 
     def changes(self, after: int = 0) -> Sequence[Change]:
-        """Journal entries from a number on."""
+        """Journal entries after a number."""
         return self._now.changes(after)
 
     def set_parameters(
@@ -83,7 +83,7 @@ class ConsoleRelay:
         *,
         atomically: bool = False,
     ) -> Future[tuple[SetOutcome, ...]]:
-        """Ask a node to take values."""
+        """Request new values of a node's parameters."""
         return self._now.set_parameters(node, values, source, atomically=atomically)
 
     def set_all(
@@ -97,7 +97,7 @@ class ConsoleRelay:
         return self._now.undo()
 
     def redo(self) -> Future[Answer]:
-        """Repeat the change that was undone last."""
+        """Repeat the last undone change."""
         return self._now.redo()
 
     def watch(self, path: str, requester: str = "") -> Answer:
@@ -113,11 +113,11 @@ class ConsoleRelay:
         return self._now.samples(path, after)
 
     def plot_time(self, stamp: int | None = None) -> float:
-        """Where a moment lies on the time axis of all series."""
+        """The position of a time on the common axis of all series."""
         return self._now.plot_time(stamp)
 
     def pose_at(self, stamp: int) -> Pose | None:
-        """Where the robot was at a moment."""
+        """The robot's pose at a time."""
         return self._now.pose_at(stamp)
 
     def plottable(self) -> Sequence[str]:
@@ -129,27 +129,27 @@ class ConsoleRelay:
         self._now.drive(linear, angular)
 
     def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
-        """Lock the robot's emergency stop, or take this console's stop back, and zero velocity now."""
+        """Lock the robot's emergency stop and send zero velocity, or with `hold=False` withdraw this console's stop."""
         self._now.all_stop(hold, reason)
 
     def hold_early(self, press: str) -> None:
-        """Hold the robot for a key press whose turn has not come."""
+        """Stop the robot for a key press that is not processed yet."""
         self._now.hold_early(press)
 
     def settle_early(self, press: str, *, keep: bool) -> None:
-        """Keep that stop, or withdraw what was held for this press alone."""
+        """Keep that stop, or withdraw it if it was sent for this key press alone."""
         self._now.settle_early(press, keep=keep)
 
     def release(self, others: Sequence[str]) -> None:
-        """Take back this console's stop and the stops of others."""
+        """Withdraw this console's stop and those of others."""
         self._now.release(others)
 
     def choose_robot(self, robot: str) -> None:
-        """Steer another robot."""
+        """Drive another robot."""
         self._now.choose_robot(robot)
 
     def steer(self, hold: bool) -> None:
-        """Hold the steering, or hand it back."""
+        """Take control of the robot, or hand it back."""
         self._now.steer(hold)
 
     def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
@@ -169,23 +169,23 @@ class ConsoleRelay:
         return self._now.profile_differences(name)
 
     def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
-        """Set a profile's values live."""
+        """Set a profile's values in the running nodes."""
         return self._now.apply_profile(name, reset_world=reset_world)
 
     def fetch_profile(self, address: str) -> Future[Answer]:
-        """Take in what stands at an address as a profile."""
+        """Download a parameter file and add it as a profile."""
         return self._now.fetch_profile(address)
 
     def open_profile(self, path: str) -> Answer:
-        """Take a file in as a profile."""
+        """Add a file as a profile."""
         return self._now.open_profile(path)
 
     def save_profile(self, name: str, description: str = "") -> Answer:
-        """Save what runs as a profile."""
+        """Save the current values as a profile."""
         return self._now.save_profile(name, description)
 
     def rename_profile(self, name: str, to: str) -> Answer:
-        """Give a profile another name."""
+        """Rename a profile."""
         return self._now.rename_profile(name, to)
 
     def delete_profile(self, name: str) -> Answer:

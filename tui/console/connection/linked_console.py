@@ -1,4 +1,4 @@
-"""The console while it is linked to a ROS system by its node."""
+"""The console while its node connects it to a ROS system."""
 
 from __future__ import annotations
 
@@ -37,13 +37,13 @@ from bot_console.tui.console.sensors.model import Sensors
 from bot_console.tui.console.traffic import Traffic
 
 LAST_WORD = 0.15
-"""Seconds that the final zero Twist, or lock, has to reach the robot before anything is shut down."""
+"""Seconds allowed for the final zero Twist, or the lock, to reach the robot before anything is shut down."""
 PROFILE_STORE_POLL_S = 1.0
-"""Seconds between two looks whether a profile has come, gone or changed: editors and nodes write them, too."""
+"""Seconds between two checks for changed profiles: editors and nodes write them, too."""
 
 
 class LinkedConsole:
-    """Answers from what the node has observed, and sends requests through it."""
+    """Answers queries from what the node has observed, and sends requests through it."""
 
     def __init__(
         self,
@@ -62,7 +62,7 @@ class LinkedConsole:
         self._capabilities = capabilities
         self._recordings = Recordings(buffer)
         self._once_there: set[str] = set()
-        """Profiles that were on the shelf while they were the active one."""
+        """Profiles that were in the profile store while they were active."""
 
     @property
     def recording(self) -> Recording:
@@ -76,11 +76,11 @@ class LinkedConsole:
 
     @property
     def sensors(self) -> Sensors:
-        """What the robot shows of itself."""
+        """The robot's sensor data."""
         return self._node.sensors
 
     def snapshot(self) -> ConsoleSnapshot:
-        """What the node knows now; each unchanged part is the same object."""
+        """What the node knows now; each unchanged part is the same object as before."""
         node = self._node
         world = node.world.info
         active = self._active_profile()
@@ -99,7 +99,7 @@ class LinkedConsole:
         )
 
     def _active_profile(self) -> str:
-        """The active profile; none once its file has been deleted, by anyone."""
+        """The active profile; empty once its file has been deleted."""
         name = self._node.setter.profile
         if self._profile(name) is not None:
             self._once_there.add(name)
@@ -116,7 +116,7 @@ class LinkedConsole:
         return matching(self._logs, which, after, limit)
 
     def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
-        """Search for what passes a filter."""
+        """Search for records that pass a filter."""
         return self._views.open(which, instead_of)
 
     def open_log(self, path: str) -> LogSource:
@@ -124,11 +124,11 @@ class LinkedConsole:
         return open_log(path)
 
     def clear_logs(self) -> None:
-        """Forget all log records."""
+        """Discard all log records."""
         self._logs.clear()
 
     def changes(self, after: int = 0) -> Sequence[Change]:
-        """Journal entries from a number on."""
+        """Journal entries after a number."""
         return self._node.journal.after(after)
 
     def set_parameters(
@@ -139,7 +139,7 @@ class LinkedConsole:
         *,
         atomically: bool = False,
     ) -> Future[tuple[SetOutcome, ...]]:
-        """Ask a node to take values."""
+        """Request new values of a node's parameters."""
         return self._node.set(node, values, source, atomically=atomically)
 
     def set_all(
@@ -153,7 +153,7 @@ class LinkedConsole:
         return self._node.undo()
 
     def redo(self) -> Future[Answer]:
-        """Repeat the change that was undone last."""
+        """Repeat the last undone change."""
         return self._node.redo()
 
     def watch(self, path: str, requester: str = "") -> Answer:
@@ -169,11 +169,11 @@ class LinkedConsole:
         return self._node.plots.samples(path, after)
 
     def plot_time(self, stamp: int | None = None) -> float:
-        """Where a moment lies on the time axis of all series."""
+        """The position of a time on the common axis of all series."""
         return self._node.plots.axis_time(stamp)
 
     def pose_at(self, stamp: int) -> Pose | None:
-        """Where the robot was at a moment."""
+        """The robot's pose at a time."""
         return self._node.world.past.at(stamp)
 
     def plottable(self) -> Sequence[str]:
@@ -185,34 +185,35 @@ class LinkedConsole:
         self._node.drive.drive(linear, angular)
 
     def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
-        """Lock the robot's emergency stop, or take this console's stop back, and zero velocity now."""
+        """Lock the robot's emergency stop and send zero velocity, or with `hold=False` withdraw this console's stop."""
         self._node.drive.stop(hold, reason)
         if hold:
-            self._node.traffic.stop()  # else it would drive on as soon as the robot is released
+            # otherwise repeated messages would drive the robot again as soon as it is released
+            self._node.traffic.stop()
 
     def hold_early(self, press: str) -> None:
-        """Hold the robot for a key press whose turn has not come."""
+        """Stop the robot for a key press that is not processed yet."""
         self._node.drive.hold_early(press)
         self._node.traffic.stop()
 
     def settle_early(self, press: str, *, keep: bool) -> None:
-        """Keep that stop, or withdraw what was held for this press alone."""
+        """Keep that stop, or withdraw it if it was sent for this key press alone."""
         self._node.drive.settle_early(press, keep=keep)
 
     def await_standing(self, timeout_s: float) -> None:
-        """Wait until the robot's locks hold it, so many seconds at most."""
+        """Wait until the robot's locks hold it, at most this long."""
         self._node.drive.await_standing(timeout_s)
 
     def release(self, others: Sequence[str]) -> None:
-        """Take back this console's stop and the stops of others."""
+        """Withdraw this console's stop and those of others."""
         self._node.drive.stop(False, "", others)
 
     def choose_robot(self, robot: str) -> None:
-        """Steer another robot, and show what it sees."""
+        """Drive another robot, and show its sensor data."""
         self._node.choose_robot(robot)
 
     def steer(self, hold: bool) -> None:
-        """Hold the steering, or hand it back."""
+        """Take control of the robot, or hand it back."""
         self._node.drive.steer(hold)
 
     def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
@@ -233,7 +234,7 @@ class LinkedConsole:
         return self._node.differences(profile) if profile else ()
 
     def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
-        """Set a profile's values live."""
+        """Set a profile's values in the running nodes."""
         profile = self._profile(name)
         why_not = f"there is no profile {name}"
         if profile is not None:
@@ -246,22 +247,22 @@ class LinkedConsole:
         return next((each for each in self._profile_store.profiles if each.name == name), None)
 
     def open_profile(self, path: str) -> Answer:
-        """Take a file in as a profile."""
+        """Add a file as a profile."""
         return self._profile_store.open(path)
 
     def fetch_profile(self, address: str) -> Future[Answer]:
-        """Take in what stands at an address as a profile, as soon as it has come."""
+        """Download a parameter file and add it as a profile."""
         return self._profile_store.fetch(address)
 
     def save_profile(self, name: str, description: str = "") -> Answer:
-        """Save what runs as a profile."""
+        """Save the current values as a profile."""
         answer = self._profile_store.save(name, description, self._node.parameters.trees)
         if answer.ok:
             self._node.journal.saved(())
         return answer
 
     def rename_profile(self, name: str, to: str) -> Answer:
-        """Give a profile another name; what runs on it is called so, too."""
+        """Rename a profile, including the active one."""
         answer = self._profile_store.rename(name, to)
         if answer.ok and self._node.setter.profile == name:
             self._node.setter.profile = to
@@ -276,7 +277,7 @@ class LinkedConsole:
         return self._node.save(path, nodes, only_changed)
 
     def close(self) -> None:
-        """Zero velocity, then leave the ROS system; whoever still waits for an answer is refused."""
+        """Send zero velocity, then leave the ROS system; pending requests are refused."""
         self._recordings.close()
         self._views.close()
         self._node.drive.close(LAST_WORD)

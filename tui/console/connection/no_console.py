@@ -1,4 +1,4 @@
-"""The console before there is a connection, or after it has ended: refuses every request, and says why."""
+"""The console before there is a connection, or after it has ended: refuses every request with the reason."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class _NoNumbers(tuple[int, ...]):
 
 
 class EarlyView:
-    """A search requested before there is a log: it finds nothing until it can be opened."""
+    """A search requested before the log exists: it finds nothing until it can be opened."""
 
     def __init__(self, which: LogFilter, open_view: OpenView) -> None:
         self._which = which
@@ -59,22 +59,22 @@ class EarlyView:
 
 
 class NothingKnown:
-    """What can be read before a console has connected; `open_view` opens searches once there is a log."""
+    """The data of a console that has not connected yet; `open_view` starts the pending searches once there is a log."""
 
     def __init__(self, snapshot: ConsoleSnapshot, open_view: OpenView) -> None:
         self._snapshot = snapshot
         self._open_view = open_view
 
     def snapshot(self) -> ConsoleSnapshot:
-        """An empty one."""
+        """An empty snapshot."""
         return self._snapshot
 
     def log(self, seq: int) -> LogRecord | None:
-        """There is no record."""
+        """None: there are no records."""
         return None
 
     def matching_logs(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
-        """No record passes."""
+        """Empty: there are no records."""
         return ()
 
     def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
@@ -82,36 +82,36 @@ class NothingKnown:
         return EarlyView(which, self._open_view)
 
     def open_log(self, path: str) -> LogSource:
-        """It is too early for that."""
+        """Refused until there is a log."""
         raise ValueError(STARTING)
 
     def changes(self, after: int = 0) -> Sequence[Change]:
-        """Nothing has changed."""
+        """Empty: nothing has changed."""
         return ()
 
     def samples(self, path: str, after: int = 0) -> Samples:
-        """No sample has come."""
+        """No samples."""
         return Samples((), (), after)
 
     def plot_time(self, stamp: int | None = None) -> float:
-        """The begin of the axis."""
+        """The start of the axis."""
         return 0.0
 
     def pose_at(self, stamp: int) -> Pose | None:
-        """Nobody knows."""
+        """None: the pose is unknown."""
         return None
 
     def plottable(self) -> Sequence[str]:
-        """Nothing can be plotted."""
+        """Empty: nothing can be plotted."""
         return ()
 
     def profile_differences(self, name: str) -> Sequence[ProfileDifference]:
-        """Nothing would change."""
+        """Empty: nothing would change."""
         return ()
 
 
 class NoRecording:
-    """Records nothing and says why."""
+    """Refuses to record, with the reason."""
 
     info = RecordingInfo()
 
@@ -132,7 +132,7 @@ class NoRecording:
 
 
 class NoConsole:
-    """Refuses every request with the reason; what can be read is `known`."""
+    """Refuses every request with the reason; queries are answered by `known`."""
 
     def __init__(self, why: str, known: ConsoleReading) -> None:
         self._why = why
@@ -154,21 +154,21 @@ class NoConsole:
 
     @property
     def recording(self) -> Recording:
-        """Records into bags."""
+        """Refuses to record."""
         return self._no_recording
 
     @property
     def traffic(self) -> Traffic:
-        """Refuses, too."""
+        """Refuses to send messages."""
         return self._idle
 
     @property
     def sensors(self) -> Sensors:
-        """Nothing is seen."""
+        """No sensor data."""
         return self._blind
 
     def clear_logs(self) -> None:
-        """There is nothing to forget."""
+        """Do nothing: there are no records."""
 
     def set_parameters(
         self,
@@ -202,28 +202,28 @@ class NoConsole:
         return self._refusal
 
     def unwatch(self, path: str, requester: str = "") -> None:
-        """Nothing is collected."""
+        """Do nothing: no series are collected."""
 
     def drive(self, linear: float, angular: float) -> None:
-        """Nobody drives."""
+        """Do nothing: there is no robot."""
 
     def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
-        """Nothing: there is nobody to tell it to."""
+        """Do nothing: there is no connection to a robot."""
 
     def hold_early(self, press: str) -> None:
-        """Nothing."""
+        """Do nothing."""
 
     def settle_early(self, press: str, *, keep: bool) -> None:
-        """Nothing."""
+        """Do nothing."""
 
     def release(self, others: Sequence[str]) -> None:
-        """Nobody is there to be asked."""
+        """Do nothing: there is no connection to a robot."""
 
     def choose_robot(self, robot: str) -> None:
-        """Nothing."""
+        """Do nothing."""
 
     def steer(self, hold: bool) -> None:
-        """Nobody steers."""
+        """Do nothing."""
 
     def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
         """Refused."""
@@ -268,26 +268,26 @@ class NoConsole:
         return self._refusal
 
     def close(self) -> None:
-        """There is nothing to close."""
+        """Do nothing: there is nothing to close."""
 
 
 class NoCommandLine:
     """The command line where no `ros2` line can be run."""
 
     def run(self, line: str) -> Future[str]:
-        """Say so."""
+        """Say that there is no command line."""
         return done("no ros2 command line is available here")
 
     def stream(self, line: str) -> Stream | None:
-        """There is none."""
+        """None: no line can be run."""
         return None
 
     def commands(self) -> Sequence[str]:
-        """There are none."""
+        """Empty: there are no commands."""
         return ()
 
     def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
-        """Nothing may follow."""
+        """No completions."""
         return done(())
 
 

@@ -1,4 +1,4 @@
-"""A read-only console: everything that would change something is refused, with the reason."""
+"""A read-only console: every request that would change something is refused with the reason."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from bot_console.tui.console.sensors.model import Sensors
 from bot_console.tui.console.topics.reading import ReadingTraffic
 from bot_console.tui.console.traffic import Traffic
 
-WHY = "this console only looks on (--read-only)"
+WHY = "this console is read-only (--read-only)"
 
 READING: Mapping[str, frozenset[str]] = {
     "action": frozenset(("info", "list", "type")),
@@ -30,14 +30,14 @@ READING: Mapping[str, frozenset[str]] = {
     "service": frozenset(("find", "info", "list", "type")),
     "topic": frozenset(("bw", "delay", "echo", "find", "hz", "info", "list", "type")),
 }
-"""The lines that change nothing: verb and what follows it."""
+"""Lines that change nothing: commands with their harmless subcommands."""
 
 
 class ReadOnlyConsole(NoConsole):
-    """Reads, plots and saves to files; the one request it sends is to stop the robot, which anybody may."""
+    """Reads, plots and saves to files; the only request it sends is to stop the robot, which anyone may do."""
 
     def __init__(self, console: Console, report: Callable[[str], None]) -> None:
-        """`tell` receives refusals of requests that have no answer."""
+        """`report` receives refusals of requests that return no answer."""
         super().__init__(WHY, console)
         self._console = console
         self._report = report
@@ -46,7 +46,7 @@ class ReadOnlyConsole(NoConsole):
         self.snapshot = self._last_poll
 
     def _last_poll(self) -> ConsoleSnapshot:
-        """The newest snapshot, which says that nothing is changed from here; the same object when nothing changed."""
+        """The newest snapshot, marked as read-only; the same object when nothing changed."""
         seen = self._console.snapshot()
         if seen.capabilities is not self._can:
             self._can, self._cannot = seen.capabilities, replace(seen.capabilities, change=WHY)
@@ -62,12 +62,12 @@ class ReadOnlyConsole(NoConsole):
 
     @property
     def traffic(self) -> Traffic:
-        """Topics are seen; nothing is sent."""
+        """Shows topics; refuses to send messages."""
         return ReadingTraffic(WHY, self._console.traffic)
 
     @property
     def sensors(self) -> Sensors:
-        """All that the robot shows."""
+        """The robot's sensor data."""
         return self._console.sensors
 
     def watch(self, path: str, requester: str = "") -> Answer:
@@ -79,23 +79,23 @@ class ReadOnlyConsole(NoConsole):
         self._console.unwatch(path, requester)
 
     def clear_logs(self) -> None:
-        """Forget the records of this console."""
+        """Discard this console's log records."""
         self._console.clear_logs()
 
     def fetch_profile(self, address: str) -> Future[Answer]:
-        """Take in what stands at an address, to see what it would change."""
+        """Download a parameter file and add it as a profile, to see what it would change."""
         return self._console.fetch_profile(address)
 
     def open_profile(self, path: str) -> Answer:
-        """Take a file in, to see what it would change."""
+        """Add a file as a profile, to see what it would change."""
         return self._console.open_profile(path)
 
     def save_profile(self, name: str, description: str = "") -> Answer:
-        """Save what runs as a profile."""
+        """Save the current values as a profile."""
         return self._console.save_profile(name, description)
 
     def rename_profile(self, name: str, to: str) -> Answer:
-        """Give a profile another name."""
+        """Rename a profile."""
         return self._console.rename_profile(name, to)
 
     def delete_profile(self, name: str) -> Answer:
@@ -114,11 +114,11 @@ class ReadOnlyConsole(NoConsole):
             self._report(f"the robot stays locked: {WHY}")
 
     def hold_early(self, press: str) -> None:
-        """Hold the robot for a key press whose turn has not come."""
+        """Stop the robot for a key press that is not processed yet."""
         self._console.hold_early(press)
 
     def settle_early(self, press: str, *, keep: bool) -> None:
-        """Keep that stop, or withdraw it: the key was none that stops."""
+        """Keep that stop, or withdraw it because the key was not a stop."""
         self._console.settle_early(press, keep=keep)
 
     def release(self, others: Sequence[str]) -> None:
@@ -131,7 +131,7 @@ class ReadOnlyConsole(NoConsole):
 
 
 class ReadOnlyLauncher:
-    """Refuses to start or end anything."""
+    """Refuses to start or end processes."""
 
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
         """Refused."""
@@ -169,23 +169,23 @@ class ReadOnlyCommandLine:
         self._lines = lines
 
     def stream(self, line: str) -> Stream | None:
-        """Begin a line that goes on; those that there are only read."""
+        """Start a line that keeps printing; all lines of that kind only read."""
         return self._lines.stream(line)
 
     def commands(self) -> Sequence[str]:
-        """The words that a line may begin with."""
+        """The commands that a line may begin with."""
         return self._lines.commands()
 
     def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
-        """What the last of the words may become."""
+        """Completions of the last word."""
         return self._lines.complete(words, snapshot)
 
     def run(self, line: str) -> Future[str]:
-        """Run a line that only reads; any other is refused in its place."""
+        """Run a line that only reads; print a refusal for any other."""
         try:
             words = shlex.split(line)
         except ValueError:
-            return self._lines.run(line)  # which says what is wrong with it
+            return self._lines.run(line)  # prints what is wrong with the line
         words = words[1:] if words[:1] == ["ros2"] else words
         reads = len(words) > 1 and words[1] in READING.get(words[0], ())
         return self._lines.run(line) if reads or len(words) == 1 else done(f"refused: {WHY}")

@@ -1,7 +1,7 @@
-"""`RosConsole`: the `Console` protocol over a `ConsoleNode` in a thread of its own.
+"""`RosConsole`: the `Console` protocol over a `ConsoleNode` in a separate thread.
 
-Making one is cheap: rclpy and numpy are imported by the thread, so that the first frame need not wait for them. Until
-then, and after it was closed, a `NoConsole` stands in the place of the `LinkedConsole`.
+Creating one is cheap: rclpy and numpy are imported in the thread, so that the first frame need not wait for them.
+Until then, and after it was closed, a `NoConsole` takes the place of the `LinkedConsole`.
 """
 
 from __future__ import annotations
@@ -47,10 +47,12 @@ LABEL = "bot-console"
 NOTHING_LAUNCHED = LaunchInfo()
 NO_LINK = LinkInfo()
 NOT_YET = DriveInfo(
-    stopped=True, stopped_here=True, unsent="the console still connects; it is sent as soon as that is done"
+    stopped=True,
+    stopped_here=True,
+    unsent="the console is still connecting; the stop is sent as soon as it is connected",
 )
 NOT_CONNECTED = DriveInfo(
-    stopped=True, stopped_here=True, unsent="this console has no link; run bot-console stop in another terminal"
+    stopped=True, stopped_here=True, unsent="this console is not connected; run bot-console stop in another terminal"
 )
 
 
@@ -76,15 +78,14 @@ class RosConsole(ConsoleRelay):
         types: TypeSource | None = None,
         stop_means: Sequence[ConfiguredMeans] = (),
     ) -> None:
-        """`own_profiles` is where profiles are saved, `workspace_profiles` finds more folders that may hold some.
+        """`own_profiles` is where profiles are saved; `workspace_profiles` finds further folders with profiles.
 
         `history` is the file that keeps parameter changes for later runs; None: they are not kept.
 
-        `fetch` gives the copy of a parameter file on a server, or raises `OSError`; in any thread.
+        `fetch` returns the local copy of a remote parameter file, or raises `OSError`; it may run in any thread.
 
-        `link` tells how a network is; `foreign` that the system is not ours, see `ConsoleNode`; `buffer` keeps the
-        last minutes, None: nobody does; `frozen` which nodes' processes are stopped; `types` makes the types that this
-        program does not have; `stop_means` hold robots that have no lock.
+        `link` returns the state of the network; `foreign`: see `ConsoleNode`; `buffer` keeps the last minutes; `frozen`
+        returns nodes of stopped processes; `types` builds missing message types; `stop_means` stop robots without lock.
         """
         self._profile_store_of = profile_folders, own_profiles, workspace_profiles, fetch
         self._launch_info = launch_info
@@ -96,14 +97,15 @@ class RosConsole(ConsoleRelay):
         self._foreign = foreign
         self._buffer = buffer
         self._zeroed = False
-        self._linking = threading.RLock()  # a signal that ends the console stops too, amid a stop
+        # Reentrant: a signal that ends the console stops the robot too, even during a stop.
+        self._linking = threading.RLock()
         self._early_stop: tuple[bool, str] | None = None
-        """The newest stop, or its release, that was asked for before there was a link."""
+        """The newest stop, or release, requested before the console was connected."""
         self._early_presses: set[str] = set()
         self._problem = ""
         self._faults: set[str] = set()
         self._robot: DriveNode | None = None
-        """What stops the robot, whatever else works."""
+        """The node that stops the robot, whatever else works."""
         self._ready = threading.Event()
         self._linked: LinkedConsole | None = None
         self._thread = threading.Thread(target=self._serve, name="bot-console", daemon=True)
@@ -114,7 +116,7 @@ class RosConsole(ConsoleRelay):
         self._heard: Container[str] = ()
         self._profile_names: dict[str, str] = {}
         self._provenance = Provenance(lambda path: self._profile_names.get(os.path.realpath(path), ""))
-        self._learn: Learn = self._provenance.learn  # what is told before there is a node counts for it, too
+        self._learn: Learn = self._provenance.learn  # what is reported before the node exists is passed to it, too
         self._nothing = NothingKnown(self._snapshot, lambda which: self._views.open(which) if self._views else None)
         super().__init__(NoConsole(STARTING, self._nothing))
 
@@ -136,14 +138,14 @@ class RosConsole(ConsoleRelay):
                 self._now = self._linked
             self._ready.set()
             node.spin()
-        except Exception as error:  # the border of the thread: the panes show what ended it
+        except Exception as error:  # the thread's outermost frame: the panes show what ended it
             self._problem = f"the console's link to ROS has ended: {_placed(error)}"
             self._only_stop(robot, node)
         finally:
             self._ready.set()
 
     def _reach_robot(self) -> DriveNode:
-        """The link that stops the robot: first, so that no fault of anything else can prevent a stop."""
+        """Connect to the robot's stop: first, so that no fault elsewhere can prevent a stop."""
         import rclpy
         from bot_console.tui.console.connection.stop_console import StopConsole
         from bot_console.tui.console.robot.drive_node import DriveNode
@@ -163,7 +165,7 @@ class RosConsole(ConsoleRelay):
         return robot
 
     def _join(self, robot: DriveNode) -> tuple[ConsoleNode, LinkedConsole]:
-        """All other links to the ROS system."""
+        """Set up everything else."""
         from bot_console.tui.console.connection.linked_console import LinkedConsole
         from bot_console.tui.console.logs.store import LogStore
         from bot_console.tui.console.logs.view import LogViews
@@ -190,7 +192,7 @@ class RosConsole(ConsoleRelay):
         return node, LinkedConsole(node, logs, self._views, profile_store, self._capabilities, self._buffer)
 
     def _guarded(self, name: str, make: Callable[[], T]) -> T | None:
-        """A part that the console can be without; None, and a line in the log, if it cannot be made."""
+        """Make a part that the console can do without; if that fails, log it and return None."""
         try:
             return make()
         except Exception as error:
@@ -201,14 +203,14 @@ class RosConsole(ConsoleRelay):
         self._add(time.time_ns(), Severity.WARN, LABEL, text, NOWHERE)
 
     def _report_fault(self, error: Exception) -> None:
-        """Take in an exception of the link that stops the robot, which goes on; the same one is told once."""
-        text = f"a fault of the link to the robot, which goes on: {_placed(error)}"
+        """Log an exception of the node that stops the robot, which keeps running; the same one is logged once."""
+        text = f"an error in the connection to the robot, which stays up: {_placed(error)}"
         if text not in self._faults:
             self._faults.add(text)
             self._add(time.time_ns(), Severity.ERROR, LABEL, text, NOWHERE)
 
     def _only_stop(self, robot: DriveNode | None, node: ConsoleNode | None) -> None:
-        """Go on with what can still stop the robot, after everything else has failed."""
+        """Keep running what can still stop the robot, after everything else has failed."""
         if robot is None:
             self._now = NoConsole(self._problem, self._nothing)
             return
@@ -234,27 +236,27 @@ class RosConsole(ConsoleRelay):
         return ProfileStore(folders, own, workspace(), fetch)
 
     def wait_ready(self, timeout: float) -> bool:
-        """Wait until connected, or the connection failed; whether it is connected."""
+        """Wait until the console is connected or has failed to; returns whether it is connected."""
         return self._ready.wait(timeout) and self._linked is not None
 
     def record(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
-        """Add a log record that a process wrote to its output and that does not come over `/rosout`."""
+        """Add a log record that a process printed and that does not come over `/rosout`."""
         self._add(stamp, severity, name, text, site)
 
     def heard(self, name: str) -> bool:
-        """Whether a line of the logger of that name has come over `/rosout`."""
+        """Whether any line of the logger with that name has come over `/rosout`."""
         return name in self._heard
 
     def learn(self, kind: str, facts: Mapping[str, Any]) -> None:
-        """Take in what a program or a launch reports about the origin of parameters."""
+        """Receive what a program or a launch reports about the origin of parameters."""
         self._learn(kind, facts)
 
     def start_values(self) -> Mapping[tuple[str, str], Value]:
-        """The start values of nodes, by node and parameter, as far as the nodes have reported them."""
+        """The start values that nodes have reported, by node and parameter."""
         return self._provenance.starts()
 
     def printed(self, severity: int, label: str, text: str) -> None:
-        """Take a line that a process printed."""
+        """Receive a line that a process printed."""
         self._add(time.time_ns(), severity, label, text, NOWHERE)
 
     def snapshot(self) -> ConsoleSnapshot:
@@ -277,49 +279,49 @@ class RosConsole(ConsoleRelay):
             self._zero_again()
             super().drive(linear, angular)
         elif not self._zeroed:
-            # What waits in a link that is cut comes late: a zero is to be the last of it.
+            # Commands queued while the link is cut arrive late: the last of them has to be a zero.
             self._zeroed = True
             super().drive(0.0, 0.0)
 
     def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
-        """Stop the robot, or withdraw the stop; without a link it is done as soon as there is one."""
+        """Stop the robot, or withdraw the stop; before the console is connected, the request is kept until it is."""
         with self._linking:
             if self._robot is None:
                 self._early_stop = (hold, reason)
             super().all_stop(hold, reason)
 
     def hold_early(self, press: str) -> None:
-        """Hold the robot for a key press whose turn has not come; without a link as soon as there is one."""
+        """Stop the robot for a key press that is not processed yet; kept until the console is connected."""
         with self._linking:
             if self._robot is None:
                 self._early_presses.add(press)
             super().hold_early(press)
 
     def settle_early(self, press: str, *, keep: bool) -> None:
-        """Keep that stop, or withdraw what was held for this press alone."""
+        """Keep that stop, or withdraw it if it was sent for this key press alone."""
         with self._linking:
             self._early_presses.discard(press)
             super().settle_early(press, keep=keep)
 
     @property
     def _unsent(self) -> bool:
-        """Whether a stop has been asked for that nothing could be sent for."""
+        """Whether a stop was requested that could not be sent."""
         stopped = self._early_stop is not None and self._early_stop[0]
         return self._robot is None and (stopped or bool(self._early_presses))
 
     def await_standing(self, timeout_s: float) -> None:
-        """Wait until a stop holds the robot, so many seconds at most; without a link nothing is waited for."""
+        """Wait until a stop holds the robot, at most this long; returns at once when there is no connection."""
         if self._robot is not None:
             self._robot.link.await_standing(timeout_s)
 
     def _zero_again(self) -> None:
-        """Repeat the zero velocity after a long silence, in which whatever waited in the link was lost."""
+        """Repeat the zero velocity after a long silence, in which queued messages were lost."""
         if self._zeroed:
             self._zeroed = False
             super().drive(0.0, 0.0)
 
     def close(self) -> None:
-        """Zero velocity, then leave the ROS system; a second call does nothing."""
+        """Send zero velocity, then leave the ROS system; a second call does nothing."""
         if self._closed:
             return
         self._closed = True
@@ -330,13 +332,13 @@ class RosConsole(ConsoleRelay):
 
 
 def _placed(error: Exception) -> str:
-    """What has failed, and where."""
+    """The error message, with the place in the source where it was raised."""
     place = traceback.extract_tb(error.__traceback__)[-1]
     return f"{error} ({place.filename}:{place.lineno})"
 
 
 def _nobody_reads(stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
-    """The answer to reading before there is a log."""
+    """Discard a record that arrives before there is a log."""
 
 
 def _parts(snapshot: ConsoleSnapshot) -> dict[str, object]:

@@ -1,4 +1,4 @@
-"""The console when only its link to the robot's emergency stop exists: before everything else, and after a failure."""
+"""The console when only its connection to the robot's stop exists: before everything else, and after a failure."""
 
 from __future__ import annotations
 
@@ -27,19 +27,19 @@ class StopConsole(NoConsole):
         return replace(self._known.snapshot(), drive=self._robot.link.info(_UNKNOWN))
 
     def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
-        """Lock the robot's emergency stop, or take this console's stop back."""
+        """Lock the robot's emergency stop, or with `hold=False` withdraw this console's stop."""
         self._robot.link.stop(hold, reason)
 
     def hold_early(self, press: str) -> None:
-        """Hold the robot for a key press whose turn has not come."""
+        """Stop the robot for a key press that is not processed yet."""
         self._robot.link.hold_early(press)
 
     def settle_early(self, press: str, *, keep: bool) -> None:
-        """Keep that stop, or withdraw what was held for this press alone."""
+        """Keep that stop, or withdraw it if it was sent for this key press alone."""
         self._robot.link.settle_early(press, keep=keep)
 
     def release(self, others: Sequence[str]) -> None:
-        """Take back this console's stop and the stops of others."""
+        """Withdraw this console's stop and those of others."""
         self._robot.link.stop(False, "", others)
 
     def close(self) -> None:

@@ -79,7 +79,7 @@ PARTS: dict[str, tuple[object, str]] = {
     "the history": (History, "__init__"),
     "reading the history": (History, "earlier"),
     "the journal": (Journal, "__init__"),
-    "the profiles": (RosConsole, "_shelf"),
+    "the profiles": (RosConsole, "_profile_store"),
     "the log": (RosoutWatch, "__init__"),
     "the warnings about the graph": (GraphWarnings, "follow"),
     "the profiles, later": (ProfileStore, "reload_if_changed"),
@@ -151,7 +151,7 @@ def test_a_fault_in_what_the_robot_reports_is_reported_once_and_the_link_goes_on
 
 @pytest.mark.parametrize(
     ("fails", "message_of"),
-    [(False, "STOP NOT SENT: the console still connects"), (True, "STOP NOT SENT: this console has no link")],
+    [(False, "STOP NOT SENT: the console is still connecting"), (True, "STOP NOT SENT: this console is not connected")],
 )
 def test_a_stop_that_reaches_nobody_reports_it_at_once(
     fails: bool, message_of: str, base: Base, console: RosConsole, monkeypatch: pytest.MonkeyPatch

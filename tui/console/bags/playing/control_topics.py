@@ -1,4 +1,6 @@
-"""Which recorded topics command a robot, release its stop or acknowledge one: a bag is not played on them unasked."""
+"""Recorded topics that command a robot, release its stop or acknowledge one. They are played only on explicit
+request.
+"""
 
 from __future__ import annotations
 
@@ -15,19 +17,19 @@ COMMAND_TYPES = frozenset(
         "control_msgs/msg/JointJog",
     }
 )
-"""Types whose messages move a robot under whatever name; robots are found by the first two of them."""
+"""Types whose messages move a robot whatever the topic is called; the first two of them also identify robots."""
 SURE_WORDS = frozenset(["cmd", "command", "commands", "release", "steer", "teleop"])
 COMMAND_WORDS = frozenset(["goal", "goals", "initialpose", "joy", "request", "route", "trajectory", "waypoints"])
 STOP_WORDS = frozenset(
     ["emergency", "estop", "lock", "locked", "locks", "locking", "pause", "protective", "stop", "stopped"]
 )
-"""Words in the last part of a topic's name: locks of twist_mux, for example, are `pause_navigation` and `e_stop`.
+"""Words in the last part of a topic name: the locks of twist_mux, for example, are `pause_navigation` and `e_stop`.
 
-`SURE_WORDS` count with every type, the others only where the type is no measurement.
+`SURE_WORDS` count with every type, the others only if the type is not a measurement.
 """
 STOP_FOLDER = "emergency_stop"
 FIGURES = re.compile(r"(std_msgs/msg/(U?Int|Float)|sensor_msgs/msg/(?!Joy$)|nav_msgs/msg/Odometry)")
-"""Types of measurements: a counter named `stops`, or a scan, locks and commands nothing."""
+"""Types of measurements: a counter named `stops`, or a laser scan, neither locks nor commands anything."""
 
 
 def controls(topic: str, type_name: str) -> bool:
@@ -45,9 +47,9 @@ def controls(topic: str, type_name: str) -> bool:
 
 
 def left_out_warning(topics: Sequence[str]) -> str:
-    """What is said about topics that are left out of a bag that is played."""
+    """The warning about topics that are left out when a bag is played."""
     names = " ".join(sorted(topics))
     return (
-        f"Not played, since they command a robot or concern its emergency stop: {names}. To play topics of this kind, "
-        f"name everything that is to be played: --topics {names} ..."
+        f"Not played because they command a robot or concern its emergency stop: {names}. To play topics of this kind, "
+        f"list every topic to play: --topics {names} ..."
     )

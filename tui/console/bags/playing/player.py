@@ -1,4 +1,4 @@
-"""Plays a bag: publishes its messages in their order and with their original timing."""
+"""Plays a bag: publishes its messages in order and with their original timing."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ class Playing:
     """The options for playing a bag."""
 
     rate: float = 1.0
-    """How many seconds of the bag pass in one."""
+    """Seconds of the bag that pass in one second."""
     offset: float = 0.0
-    """Seconds of the bag that are left out at its begin."""
+    """Seconds to skip at the start of the bag."""
     loop: bool = False
     topics: Collection[str] | None = None
-    """Those that are played; None: all except those that control a robot, see `control_topics`."""
+    """Topics to play; None: all except those that control a robot, see `control_topics`."""
     remaps: Mapping[str, str] = field(default_factory=dict[str, str])
-    """Other names for topics."""
+    """New names by recorded topic name."""
     clock: float = 0.0
-    """Hz at which the bag's time is published on /clock; 0: not at all."""
+    """Rate (Hz) at which the bag's time is published on /clock; 0: never."""
 
 
 class Player:
-    """Publishes the messages of a bag by a node."""
+    """Publishes the messages of a bag through a node."""
 
     def __init__(self, node: Node, bag: Bag, how: Playing, find: Callable[[str], Any]) -> None:
         """`find` returns the class of a type name; topics of unknown types are listed in `unknown` and left out.
@@ -58,13 +58,13 @@ class Player:
             try:
                 kind = find(topic.type)
             except (ImportError, AttributeError, ValueError) as error:
-                self.unknown[name] = f"its type {topic.type} is not here ({error})"
+                self.unknown[name] = f"its type {topic.type} is not available here ({error})"
                 continue
             self._publishers[name] = node.create_publisher(kind, target, offered(topic.qos))
         self._clock = Clock(node, how.clock) if how.clock > 0 else None
 
     def run(self, stopped: threading.Event) -> None:
-        """Play until the end, or until stopped; blocks."""
+        """Play until the end, or until `stopped` is set; blocks."""
         while not stopped.is_set():
             self._once(stopped)
             if not self._how.loop:
@@ -105,7 +105,7 @@ class Clock:
         self._reported = 0
 
     def report(self, stamp: int) -> None:
-        """Publish a time (ns), unless one was published less than a period before it."""
+        """Publish a time (ns), unless another was published less than one period before it."""
         if 0 <= stamp - self._reported < self.period * 1e9:
             return
         self._reported = stamp

@@ -170,7 +170,7 @@ def test_what_is_no_bag_is_refused(tmp_path: Path) -> None:
     for name, message_of in (
         ("none", "no such bag"),
         ("empty", "no .mcap"),
-        ("bad.mcap", "no MCAP"),
+        ("bad.mcap", "not an MCAP"),
         ("bad.db3", "database"),
     ):
         with pytest.raises(NoBag, match=message_of):
@@ -201,7 +201,7 @@ def test_a_message_from_no_time_is_reported(tmp_path: Path, stamp: str) -> None:
     base.execute(f"insert into messages (topic_id, timestamp, data) values (1, {stamp}, x'00')")
     base.commit()
     base.close()
-    with pytest.raises(NoBag, match="is damaged: a message came at"):
+    with pytest.raises(NoBag, match="is damaged: a message is dated"):
         Bag(tmp_path)
 
 
@@ -236,7 +236,7 @@ def test_metadata_lead_nowhere_else(tmp_path: Path) -> None:
 
 def test_a_bag_is_never_written_over(tmp_path: Path) -> None:
     words(tmp_path / "bag", "a")
-    with pytest.raises(NotSaved, match="is there already"):
+    with pytest.raises(NotSaved, match="exists already"):
         BagWriter(tmp_path / "bag")
 
 

@@ -63,7 +63,7 @@ def test_a_bag_is_recorded_from_begin_to_end(tmp_path: Path, node: rclpy.node.No
     answer = reported(room.stop())
     assert answer.ok and "messages of" in answer.text and room.info.folder == ""
     again = reported(room.start(str(tmp_path / "bag")))
-    assert not again.ok and "is there already" in again.text
+    assert not again.ok and "exists already" in again.text
     assert texts(tmp_path / "bag") == [str(number) for number in range(20)]
     room.close()
     assert texts(tmp_path / "bag", "/map_name") == ["office"]

@@ -45,6 +45,6 @@ def test_a_folder_that_is_there_is_refused_and_keeping_goes_on(tmp_path: Path) -
     buffer = SnapshotBuffer(SIZE, serialize_message, str)
     buffer.hear(endpoint("/words"), ONE, 1, time.time_ns(), String(data="word"))
     refused = buffer.keep(str(tmp_path)).result(10)
-    assert not refused.ok and "is there already" in refused.text
+    assert not refused.ok and "exists already" in refused.text
     assert buffer.keep(str(tmp_path / "bag")).result(10).ok
     buffer.close()
