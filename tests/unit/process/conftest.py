@@ -12,11 +12,11 @@ from bot_console.runtime.process import ClockSource, NodeProcess, SteppedTime, s
 from bot_console.runtime.process.virtual.install import uninstall_virtual_process
 
 LONG = 20.0
-"""How long (s) a test waits for what it expects, before it fails."""
+"""How long (s) a test waits for an expected event before it fails."""
 
 
 class Started:
-    """A running node process and what it has printed."""
+    """A running node process and its output."""
 
     def __init__(self, process: NodeProcess, target: Callable[[], object], **options: Any) -> None:
         self.process = process
@@ -53,7 +53,9 @@ class Started:
 
 @pytest.fixture
 def start() -> Iterator[Callable[..., Started]]:
-    """Start a callable as a node process; kills what a test leaves behind and takes all wraps away."""
+    """Start a callable as a node process; afterwards kill what a test has left running and restore all patched
+    modules.
+    """
     processes: weakref.WeakSet[NodeProcess] = weakref.WeakSet()
 
     def start_one(
@@ -71,7 +73,7 @@ def start() -> Iterator[Callable[..., Started]]:
 
 @pytest.fixture
 def run(start: Callable[..., Started]) -> Callable[..., Started]:
-    """Run a callable as a node process to its end."""
+    """Run a callable as a node process until it ends."""
 
     def run_one(target: Callable[[], object], **options: Any) -> Started:
         started = start(target, **options)

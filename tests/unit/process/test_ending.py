@@ -1,4 +1,4 @@
-"""The last words of a process that ends without taking its interpreter apart."""
+"""Output and exit code of a process that ends without finalizing its interpreter."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ def ended(output: Any) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, stdout=output, stderr=subprocess.PIPE, text=True, check=False, env=buffered)
 
 
-def test_exit_functions_are_called_and_what_was_printed_is_written() -> None:
+def test_exit_functions_run_and_output_is_flushed() -> None:
     end = ended(subprocess.PIPE)
     assert (end.returncode, end.stdout, end.stderr) == (3, "first word\n", "last word\n")
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
-def test_output_that_cannot_be_written_has_the_exit_code_of_the_interpreter() -> None:
+def test_unwritable_output_gives_the_exit_code_of_the_interpreter() -> None:
     with open("/dev/full", "w") as full:
         assert ended(full).returncode == 120

@@ -1,4 +1,4 @@
-"""Processes forked from a server: what they are born with, what they tell, and how they end."""
+"""Processes forked from a server: their initial state, their reports, and their end."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ FILE_PROGRAM = "bot_console.runtime.process.program:file_program"
 
 
 class Forked:
-    """A child and all that has come from it."""
+    """A child process and all its output."""
 
     def __init__(self, server: ForkServer, job: Job) -> None:
         self._pipes = [os.pipe() for _ in range(4)]
@@ -38,7 +38,7 @@ class Forked:
         self._open = {self._report_end: "", self._out: "out", self._err: "err", self._data: "told"}
 
     def until(self, condition: Callable[[], Any]) -> None:
-        """Read until something is so, or nothing can come any more."""
+        """Read until the condition holds, or nothing more can come."""
         while self._open and not condition():
             ready, _, _ = select.select(list(self._open), [], [], LONG)
             assert ready, (self.out, self.err)
@@ -56,13 +56,13 @@ class Forked:
             setattr(self, name, getattr(self, name) + data.decode())
 
     def end(self) -> int | None:
-        """Read to the end; the exit code."""
+        """Read to the end and return the exit code."""
         self.until(lambda: False)
         return self.report.exit_code
 
     @property
     def news(self) -> list[dict[str, Any]]:
-        """What it has told."""
+        """What the child has reported."""
         return [json.loads(line) for line in self.reported.splitlines()]
 
 
@@ -75,11 +75,11 @@ def server() -> Iterator[ForkServer]:
 
 @pytest.fixture
 def fork(server: ForkServer, tmp_path: Path) -> Callable[..., Forked]:
-    """Fork a program of this text."""
+    """Fork a program with the given source."""
 
     def forked(text: str, *words: str, on: ForkServer = server, cwd: str = str(tmp_path), **env: str) -> Forked:
         path = tmp_path / "program.py"
-        if not path.is_file() or path.read_text() != text:  # another child of this text may just be reading it
+        if not path.is_file() or path.read_text() != text:  # another child with this source may be reading it
             path.write_text(text)
         job = Job("a-long-name-of-a-process-1", FILE_PROGRAM, [str(path)], [str(path), *words], env, cwd)
         return Forked(on, job)
@@ -87,7 +87,7 @@ def fork(server: ForkServer, tmp_path: Path) -> Callable[..., Forked]:
     return forked
 
 
-def test_it_has_what_the_job_reports_and_nothing_of_the_server(fork: Any, tmp_path: Path) -> None:
+def test_child_has_what_the_job_states_and_nothing_of_the_server(fork: Any, tmp_path: Path) -> None:
     child = fork(
         "import os, signal, sys, threading\n"
         "print(sys.argv[1:], dict(os.environ), os.getcwd(), __name__, __file__)\n"
@@ -112,7 +112,7 @@ def test_it_has_what_the_job_reports_and_nothing_of_the_server(fork: Any, tmp_pa
 
 
 @pytest.mark.skipif(not Path("/proc/self/fd").is_dir(), reason="needs /proc")
-def test_it_holds_no_descriptor_but_its_own(fork: Any) -> None:
+def test_child_inherits_no_descriptors(fork: Any) -> None:
     child = fork("import os\nprint(len(os.listdir('/proc/self/fd')), open('/proc/self/comm').read())")
     child.end()
     # Three streams, the data pipe, the file of its stacks, and the listing itself.
@@ -133,11 +133,11 @@ def test_it_holds_no_descriptor_but_its_own(fork: Any) -> None:
         ("x = [0] * 10 ** 12", 1),
     ],
 )
-def test_exit_codes(fork: Any, text: str, code: int) -> None:
+def test_exit_code_is_reported(fork: Any, text: str, code: int) -> None:
     assert fork(text).end() == code
 
 
-def test_threads_and_exit_functions_come_before_the_end(fork: Any) -> None:
+def test_threads_and_exit_functions_finish_before_the_end(fork: Any) -> None:
     child = fork(
         "import atexit, threading\n"
         "go_on = threading.Event()\n"
@@ -148,17 +148,17 @@ def test_threads_and_exit_functions_come_before_the_end(fork: Any) -> None:
     assert (child.end(), child.out) == (0, "thread\nbye\n")
 
 
-def test_the_interpreter_is_not_taken_apart_below_threads_that_are_not_its_own(fork: Any) -> None:
+def test_interpreter_is_not_finalized(fork: Any) -> None:
     child = fork("import ctypes\nctypes.pythonapi.Py_AtExit(ctypes.CDLL(None).abort)\nprint('last')\n")
     assert (child.end(), child.out, child.err) == (0, "last\n", "")
 
 
-def test_what_c_has_printed_is_written(fork: Any) -> None:
+def test_buffered_c_output_is_flushed(fork: Any) -> None:
     child = fork("import ctypes\nctypes.CDLL(None).printf(b'from C')\n")
     assert (child.end(), child.out) == (0, "from C")
 
 
-def test_an_exception_hook_of_the_programs_own(fork: Any) -> None:
+def test_excepthook_of_the_program_is_respected(fork: Any) -> None:
     own = "import sys\nsys.excepthook = lambda kind, *rest: print('seen', kind.__name__)\n1 / 0\n"
     child = fork(own)
     assert (child.end(), child.out, child.err) == (1, "seen ZeroDivisionError\n", "")
@@ -167,7 +167,7 @@ def test_an_exception_hook_of_the_programs_own(fork: Any) -> None:
     assert "ZeroDivisionError" in child.err
 
 
-def test_an_exception_begins_in_the_program_and_is_reported(fork: Any, tmp_path: Path) -> None:
+def test_traceback_begins_in_the_program_and_is_reported(fork: Any, tmp_path: Path) -> None:
     child = fork("def f():\n    raise ValueError('the fault')\n\nf()\n")
     assert child.end() == 1
     path = str(tmp_path / "program.py")
@@ -175,13 +175,13 @@ def test_an_exception_begins_in_the_program_and_is_reported(fork: Any, tmp_path:
     assert child.news == [{"kind": "uncaught", "text": child.err, "frames": [[path, 4, "<module>"], [path, 2, "f"]]}]
 
 
-def test_a_crash_in_c_leaves_the_line(fork: Any, tmp_path: Path) -> None:
+def test_crash_in_c_reports_the_line(fork: Any, tmp_path: Path) -> None:
     child = fork("import os\n\nos.abort()\n")
     assert child.end() == -signal.SIGABRT
     assert f'File "{tmp_path / "program.py"}", line 3 in <module>' in child.reported
 
 
-def test_an_interrupt_right_after_the_start_is_not_lost(fork: Any) -> None:
+def test_interrupt_right_after_the_start_is_not_lost(fork: Any) -> None:
     children = [fork("import time\ntime.sleep(60)\n") for _ in range(10)]
     for each in children:
         each.until(lambda each=each: each.report.pid)
@@ -190,12 +190,12 @@ def test_an_interrupt_right_after_the_start_is_not_lost(fork: Any) -> None:
     assert "fork_server" not in "".join(each.err for each in children)
 
 
-def test_the_zone_of_its_times_is_that_of_its_environment(fork: Any) -> None:
+def test_time_zone_comes_from_the_childs_environment(fork: Any) -> None:
     child = fork("import time\nprint(time.localtime(0).tm_hour, time.tzname[0])\n", TZ="XYZ-7")
     assert child.end() == 0 and child.out == "7 XYZ\n"
 
 
-def test_random_numbers_are_its_own(fork: Any) -> None:
+def test_random_numbers_differ_between_children(fork: Any) -> None:
     text = "import random\nprint(random.random())\n"
     numbers = [fork(text) for _ in range(3)]
     for each in numbers:
@@ -204,7 +204,7 @@ def test_random_numbers_are_its_own(fork: Any) -> None:
 
 
 @pytest.mark.parametrize("warm_up", ["numpy:get_include", "numpy.random:seed"])
-def test_numbers_of_numpy_are_its_own_and_it_imports_no_more_than_the_server(fork: Any, warm_up: str) -> None:
+def test_numpy_random_numbers_differ_without_importing_more_in_the_server(fork: Any, warm_up: str) -> None:
     has_random = "import sys\nprint('numpy.random' in sys.modules)\n"
     module = warm_up.partition(":")[0]
     alone = subprocess.run([sys.executable, "-c", f"import {module}\n{has_random}"], capture_output=True, check=True)
@@ -220,18 +220,18 @@ def test_numbers_of_numpy_are_its_own_and_it_imports_no_more_than_the_server(for
     assert len({each.out for each in children}) == 3
 
 
-def test_a_folder_that_is_not_there(fork: Any) -> None:
+def test_missing_working_directory_is_reported(fork: Any) -> None:
     with pytest.raises(FileNotFoundError, match="/nowhere"):
         fork("", cwd="/nowhere")
 
 
-def test_many_at_once_each_with_its_own_output(fork: Any) -> None:
+def test_many_children_run_at_once_each_with_its_own_output(fork: Any) -> None:
     text = "import sys\nprint(sys.argv[1])\nsys.exit(int(sys.argv[1]))"
     children = [fork(text, str(number)) for number in range(20)]
     assert [(each.end(), each.out) for each in children] == [(number, f"{number}\n") for number in range(20)]
 
 
-def test_closing_ends_the_children_as_a_terminal_does(fork: Any) -> None:
+def test_closing_the_server_interrupts_the_children(fork: Any) -> None:
     server = ForkServer("gc:collect")
     child = fork("import time\nprint('up')\ntime.sleep(60)\n", on=server)
     child.until(lambda: child.out)
@@ -239,7 +239,7 @@ def test_closing_ends_the_children_as_a_terminal_does(fork: Any) -> None:
     assert child.end() == -signal.SIGINT and not server.is_alive
 
 
-def test_children_end_with_a_parent_that_was_killed(tmp_path: Path) -> None:
+def test_children_end_if_the_parent_is_killed(tmp_path: Path) -> None:
     parent = (
         "import os, sys, time\n"
         "from bot_console.runtime.process.fork_server import ForkServer, Job\n"
@@ -255,7 +255,7 @@ def test_children_end_with_a_parent_that_was_killed(tmp_path: Path) -> None:
         assert started.stdout is not None
         assert started.stdout.readline() == "up\n"
         started.kill()
-        assert started.stdout.read() == ""  # at its end when the child has gone, too
+        assert started.stdout.read() == ""  # ends once the child has ended, too
 
 
 LEAVES = """
@@ -282,7 +282,7 @@ def is_there(pid: int) -> bool:
 
 @pytest.mark.skipif(sys.platform != "linux", reason="a system that hands over no orphans")
 @pytest.mark.parametrize("deaf", [("SIGINT",), ("SIGINT", "SIGTERM", "SIGHUP")], ids=" ".join)
-def test_what_a_child_has_left_behind_ends_with_the_server(fork: Any, deaf: tuple[str, ...]) -> None:
+def test_orphans_of_a_child_end_with_the_server(fork: Any, deaf: tuple[str, ...]) -> None:
     with closing(ForkServer("gc:collect")) as server:
         child = fork(LEAVES, *deaf, on=server)
         child.until(lambda: child.out.endswith("\n") and child.report.exit_code is not None)
@@ -292,7 +292,7 @@ def test_what_a_child_has_left_behind_ends_with_the_server(fork: Any, deaf: tupl
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="a system that hands over no orphans")
-def test_a_daemon_that_a_child_has_made_stays(fork: Any) -> None:
+def test_daemon_started_by_a_child_survives(fork: Any) -> None:
     with closing(ForkServer("gc:collect")) as server:
         child = fork(LEAVES, on=server)
         child.until(lambda: child.out.endswith("\n") and child.report.exit_code is not None)

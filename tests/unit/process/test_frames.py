@@ -1,4 +1,4 @@
-"""How an exception that nobody caught is printed."""
+"""How an uncaught exception is printed."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ except AttributeError as error:
 """
 
 
-def test_a_mistyped_name_comes_with_the_interpreter_s_suggestion() -> None:
+def test_mistyped_name_has_the_interpreters_suggestion() -> None:
     printed = subprocess.run([sys.executable, "-c", UNCAUGHT], check=True, capture_output=True, text=True).stderr
     assert printed.endswith(
         "AttributeError: 'Node' object has no attribute 'create_publsher'. Did you mean: 'create_publisher'?\n"
@@ -28,7 +28,7 @@ def test_a_mistyped_name_comes_with_the_interpreter_s_suggestion() -> None:
 
 
 class Node:
-    """Something with a name to mistype."""
+    """A class with a method name to mistype."""
 
     create_publisher = 1
 
@@ -40,7 +40,7 @@ class Node:
         (lambda: 1 // 0, "ZeroDivisionError: integer division or modulo by zero\n"),
     ],
 )
-def test_the_text_of_an_exception_is_what_the_interpreter_prints(mistyped: Callable[[], object], end: str) -> None:
+def test_formatted_exception_equals_what_the_interpreter_prints(mistyped: Callable[[], object], end: str) -> None:
     with pytest.raises(Exception) as caught:
         mistyped()
     text = formatted(caught.value)

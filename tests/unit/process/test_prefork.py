@@ -1,4 +1,4 @@
-"""The fork server as a fork of a program that has just begun: its children have nothing of that program."""
+"""The fork server forked early from the running program: its children inherit nothing of that program."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def ran(
     return subprocess.run(command, capture_output=True, text=True, check=False, timeout=60, start_new_session=True)
 
 
-def test_a_child_has_nothing_of_the_program_that_was_forked(tmp_path: Path) -> None:
+def test_child_inherits_nothing_of_the_forked_program(tmp_path: Path) -> None:
     done = ran(tmp_path, CHILD)
     assert (done.returncode, done.stderr) == (0, "")
     lines = done.stdout.splitlines()
@@ -79,13 +79,13 @@ def test_a_child_has_nothing_of_the_program_that_was_forked(tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize("text", ["raise SystemExit(3)", "1 / 0", "import os; os.kill(os.getppid(), 9)"])
-def test_no_end_of_a_child_or_of_the_server_goes_on_in_the_parents_program(tmp_path: Path, text: str) -> None:
+def test_ending_child_or_server_does_not_continue_the_parents_program(tmp_path: Path, text: str) -> None:
     done = ran(tmp_path, text)
     assert done.stdout.count("end of the parent") == 1 and done.stdout.count("once") == 1
     assert done.returncode == 0 or "kill" in text  # the parent asserts that the server lives
 
 
-def test_a_process_with_threads_is_not_to_be_forked() -> None:
+def test_process_with_several_threads_is_not_forked() -> None:
     text = (
         "import threading, os\n"
         "from bot_console.runtime.process.fork_server import has_one_thread\n"
@@ -102,7 +102,7 @@ def test_a_process_with_threads_is_not_to_be_forked() -> None:
     assert done.stdout == "[True, False, False]\n"
 
 
-def test_ctrl_c_is_for_the_parent_alone(tmp_path: Path) -> None:
+def test_ctrl_c_reaches_the_parent_only(tmp_path: Path) -> None:
     begun = "    raise\n"
     interrupted = "try:\n    os.killpg(0, 2)\n    while True:\n        pass\nexcept KeyboardInterrupt:\n    pass\n"
     done = ran(tmp_path, "print('child')", PARENT.replace(begun, begun + interrupted))
@@ -111,7 +111,7 @@ def test_ctrl_c_is_for_the_parent_alone(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("how", ["True", "False"])
 @pytest.mark.parametrize("closed", ["<&-", ">&-", "<&- >&-"])
-def test_a_child_has_its_streams_where_those_of_the_program_are_closed(tmp_path: Path, closed: str, how: str) -> None:
+def test_child_has_its_streams_even_if_the_programs_are_closed(tmp_path: Path, closed: str, how: str) -> None:
     parent = PARENT.replace("stdout=1", "stdout=2").replace('sys.stdout.write("once\\n")', "")
     parent = parent.replace('held = os.open("/", os.O_RDONLY)', "held = os.dup(2)").replace("here=True", f"here={how}")
     parent = parent.replace("server.close()", "server.close(); assert server._process.returncode == 0")
@@ -120,7 +120,7 @@ def test_a_child_has_its_streams_where_those_of_the_program_are_closed(tmp_path:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="shown by Linux")
-def test_a_signal_to_all_programs_of_its_command_line_is_for_the_parent_alone(tmp_path: Path) -> None:
+def test_server_and_children_do_not_share_the_parents_command_line(tmp_path: Path) -> None:
     shown = "print(*open(f'/proc/{pid}/cmdline').read().split('\\0'))\n"
     done = ran(tmp_path, f"import os\nfor pid in ('self', os.getppid()): {shown}")
     assert {"x", "bot-console fork server"} < {each.strip() for each in done.stdout.splitlines()}

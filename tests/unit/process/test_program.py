@@ -21,7 +21,7 @@ def script(tmp_path):
     return write
 
 
-def test_a_file_runs_as_main_with_its_arguments(run, script):
+def test_file_runs_as_main_with_its_arguments(run, script):
     path = script("""
         import sys
         print(__name__, __file__ == sys.argv[0], sys.argv[1:], sys.path[0] in __file__)
@@ -33,7 +33,7 @@ def test_a_file_runs_as_main_with_its_arguments(run, script):
     assert ended.process.exit_code == 3
 
 
-def test_modules_beside_the_file_are_its_own(run, script):
+def test_modules_beside_the_file_are_fresh_for_each_run(run, script):
     script("value = []", "helper_of_test.py")
     path = script("""
         import helper_of_test
@@ -44,7 +44,7 @@ def test_modules_beside_the_file_are_its_own(run, script):
         assert run(file_program(path)).stdout == "[1]\n"
 
 
-def test_folders_that_the_file_adds_are_its_own(run, script, tmp_path):
+def test_folders_added_to_sys_path_are_fresh_for_each_run(run, script, tmp_path):
     (tmp_path / "lib").mkdir()
     script("value = []", "lib/library_of_test.py")
     path = script("""
@@ -63,7 +63,7 @@ def test_folders_that_the_file_adds_are_its_own(run, script, tmp_path):
     assert sys.path == before
 
 
-def test_traceback_shows_the_file_alone(run, script):
+def test_traceback_shows_only_the_file(run, script):
     path = script("""
         def main():
             raise RuntimeError('no battery')
@@ -80,13 +80,13 @@ def test_traceback_shows_the_file_alone(run, script):
     """)
 
 
-def test_an_edited_file_shows_its_new_lines(run, script):
+def test_traceback_shows_the_lines_of_an_edited_file(run, script):
     run(file_program(script("raise ValueError('first')")))
     ended = run(file_program(script("x = 1\nraise ValueError('second')")))
     assert "raise ValueError('second')" in ended.stderr
 
 
-def test_syntax_error_as_the_interpreter_prints_it(run, script):
+def test_syntax_error_is_printed_as_by_the_interpreter(run, script):
     path = script("x = = 1\n")
     ended = run(file_program(path))
     assert ended.process.exit_code == 1
@@ -103,7 +103,7 @@ def test_syntax_error_as_the_interpreter_prints_it(run, script):
         ("wants_of_test:main", None),
     ],
 )
-def test_an_entry_point_that_leads_nowhere_is_explained(tmp_path, monkeypatch, entry_point, message):
+def test_invalid_entry_point_is_explained(tmp_path, monkeypatch, entry_point, message):
     (tmp_path / "entered_of_test.py").write_text("from textwrap import dedent\ndef main():\n    pass\n")
     (tmp_path / "wants_of_test.py").write_text("import nowhere_of_test\n")
     monkeypatch.syspath_prepend(str(tmp_path))
@@ -113,7 +113,7 @@ def test_an_entry_point_that_leads_nowhere_is_explained(tmp_path, monkeypatch, e
     assert (reported is None) if message is None else (message in reported)
 
 
-def test_missing_file(run, tmp_path):
+def test_missing_file_is_reported_as_by_the_interpreter(run, tmp_path):
     path = str(tmp_path / "no.py")
     ended = run(file_program(path))
     assert ended.process.exit_code == 2
@@ -133,7 +133,7 @@ def test_exit_functions_of_the_file_run_at_its_end(run, script):
     assert run(file_program(path)).stdout == "main\nsecond\nfirst\n"
 
 
-def test_dataclasses_and_type_hints_in_a_file(run, script):
+def test_dataclasses_and_type_hints_work_in_a_file(run, script):
     path = script("""
         from __future__ import annotations
         from dataclasses import dataclass, field
@@ -148,7 +148,7 @@ def test_dataclasses_and_type_hints_in_a_file(run, script):
     assert run(file_program(path)).stdout == "Pose(x=1.0, tags=[]) map\n"
 
 
-def test_a_file_finds_itself_and_its_modules_in_the_table(run, script):
+def test_file_finds_itself_and_its_modules_in_sys_modules(run, script):
     script("value = 1", "sibling_of_test.py")
     path = script("""
         import sys, json, sibling_of_test, typing
@@ -163,19 +163,19 @@ def test_a_file_finds_itself_and_its_modules_in_the_table(run, script):
 
 
 @pytest.mark.parametrize(("returned", "code", "err"), [("None", 0, ""), ("4", 4, ""), ("'sorry'", 1, "sorry\n")])
-def test_what_an_entry_point_returns_is_the_exit_code(run, script, tmp_path, returned, code, err):
+def test_return_value_of_an_entry_point_is_the_exit_code(run, script, tmp_path, returned, code, err):
     script(f"class App:\n    @staticmethod\n    def main():\n        return {returned}", "entry_of_test.py")
     ended = run(entry_point_program("entry_of_test:App.main", FreshModules([str(tmp_path)])))
     assert (ended.process.exit_code, ended.stderr) == (code, err)
 
 
 @pytest.mark.parametrize("entry_point", ["module", "module:", ":main", ""])
-def test_bad_entry_points(entry_point):
+def test_malformed_entry_points_are_rejected(entry_point):
     with pytest.raises(ValueError, match="must have the form 'module:function'"):
         entry_point_program(entry_point)
 
 
-def test_a_missing_function_is_named(run, script, tmp_path):
+def test_missing_function_of_an_entry_point_is_named(run, script, tmp_path):
     script("", "empty_of_test.py")
     ended = run(entry_point_program("empty_of_test:main", FreshModules([str(tmp_path)])))
     assert ended.err[-2] == "AttributeError: module 'empty_of_test' has no attribute 'main'\n"

@@ -1,4 +1,4 @@
-"""Temporary files go with their process; what a killed one left goes when the next one starts."""
+"""Temporary files are deleted with their process; the next process deletes those of a killed one."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def started(base: Path) -> tuple[subprocess.Popen[str], Path]:
     return process, Path(process.stdout.readline().strip())
 
 
-def test_they_go_with_their_process_and_those_of_a_killed_one_with_the_next(tmp_path: Path) -> None:
+def test_files_are_deleted_at_exit_and_those_of_a_killed_process_by_the_next(tmp_path: Path) -> None:
     base = tmp_path / f"bot-console-{os.geteuid()}"
     killed, left = started(tmp_path)
     living, kept = started(tmp_path)
@@ -46,7 +46,7 @@ def test_they_go_with_their_process_and_those_of_a_killed_one_with_the_next(tmp_
     assert list((base / "files").iterdir()) == []
 
 
-def test_a_folder_of_somebody_else_is_not_used(tmp_path: Path) -> None:
+def test_folder_of_another_user_is_not_used(tmp_path: Path) -> None:
     theirs = tmp_path / "theirs"
     theirs.mkdir()
     (tmp_path / f"bot-console-{os.geteuid()}").symlink_to(theirs)
@@ -76,7 +76,7 @@ print(len(list(module.scratch().parent.glob("*/launch_params_*"))), len(list(mod
 """
 
 
-def test_launches_that_begin_at_once_have_one_folder(tmp_path: Path) -> None:
+def test_simultaneous_launches_share_one_folder(tmp_path: Path) -> None:
     done = run(TWO_LAUNCHES, tmp_path)
     assert done.stdout.split() == ["2", "1"], done.stderr
     assert list((tmp_path / f"bot-console-{os.geteuid()}" / "files").iterdir()) == []
@@ -102,7 +102,7 @@ module._delete = write_into_the_old_one
 """
 
 
-def test_what_is_written_at_the_end_leaves_nothing(tmp_path: Path) -> None:
+def test_files_written_during_exit_leave_nothing(tmp_path: Path) -> None:
     done = run(WRITES_AT_THE_END, tmp_path)
     assert done.stdout == "the folder is gone\nthe process is ending\n", done.stderr
     assert list((tmp_path / f"bot-console-{os.geteuid()}" / "files").iterdir()) == []

@@ -1,4 +1,4 @@
-"""In the real process nothing is virtual: signals, arguments and modules are the interpreter's own."""
+"""In the real process nothing is virtual: signals, arguments and modules are those of the interpreter."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bot_console.runtime.process import MAIN
 
 
 def run_python(program, *arguments):
-    """Run a program in an interpreter of its own."""
+    """Run a program in a separate interpreter."""
     return subprocess.run(
         [sys.executable, "-c", textwrap.dedent(program), *arguments],
         capture_output=True,
@@ -25,7 +25,7 @@ def run_python(program, *arguments):
     )
 
 
-def test_hooks_are_real_handlers_before_the_earlier_one_and_can_go():
+def test_interrupt_hook_runs_before_the_earlier_handler_and_can_be_removed():
     seen = []
     earlier = signal.signal(signal.SIGUSR1, lambda signum, frame: seen.append(("earlier", signum)))
     remove = MAIN.on_interrupt(lambda signum: seen.append(("hook", signum)), [signal.SIGUSR1])
@@ -38,7 +38,7 @@ def test_hooks_are_real_handlers_before_the_earlier_one_and_can_go():
     assert seen == [("hook", signal.SIGUSR1), ("earlier", signal.SIGUSR1), ("earlier", signal.SIGUSR1)]
 
 
-def test_hooks_from_other_threads_leave_the_real_handlers():
+def test_hook_set_in_another_thread_leaves_the_real_handler():
     before = signal.getsignal(signal.SIGUSR2)
     thread = threading.Thread(target=MAIN.on_interrupt, args=(lambda signum: None, [signal.SIGUSR2]))
     thread.start()
@@ -64,7 +64,7 @@ def test_sigint_raises_after_the_hook_and_sigterm_only_calls_it(signum, out, cod
     assert (ended.stdout, ended.returncode) == (out, code), ended.stderr
 
 
-def test_a_file_runs_as_the_real_main_program(tmp_path):
+def test_file_runs_as_the_real_main_program(tmp_path):
     (tmp_path / "beside.py").write_text("value = 1")
     path = tmp_path / "node.py"
     path.write_text(
@@ -79,7 +79,7 @@ def test_a_file_runs_as_the_real_main_program(tmp_path):
     assert ended.returncode == 3
 
 
-def test_ctrl_c_breaks_a_stepped_run_and_closes_it():
+def test_ctrl_c_interrupts_a_stepped_run_and_closes_it():
     ended = run_python("""
         import signal, sys, time
         from bot_console.runtime.process import NodeProcess, stepped
@@ -103,7 +103,7 @@ def test_ctrl_c_breaks_a_stepped_run_and_closes_it():
     assert ended.stdout == "interrupted True -9 True\n", ended.stderr
 
 
-def test_importing_the_package_wraps_nothing():
+def test_importing_the_package_patches_nothing():
     ended = run_python("""
         import time, sys
         before = dict(vars(time))

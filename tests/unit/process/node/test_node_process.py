@@ -1,4 +1,4 @@
-"""A node process ends as a Python process does, and can be stopped as one."""
+"""A node process ends as a Python process does, and can be stopped like one."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def interrupt_self():
         (interrupt_self, -2, "KeyboardInterrupt\n"),
     ],
 )
-def test_exit_code(run, target, code, last_line):
+def test_exit_code_follows_from_how_the_target_ends(run, target, code, last_line):
     ended = run(target)
     assert ended.process.exit_code == code
     assert ended.process.state is ProcessState.EXITED
@@ -69,7 +69,7 @@ def test_traceback_begins_in_user_code(run):
     assert lines[-1] == "ValueError: broken wheel"
 
 
-def test_each_has_its_own_pid_and_locals(run):
+def test_each_process_has_its_own_pid_and_locals(run):
     seen = []
     counter = ProcessLocal(list)
 
@@ -84,12 +84,12 @@ def test_each_has_its_own_pid_and_locals(run):
     assert counter.get() == []
 
 
-def test_threads_without_node_process_belong_to_main():
+def test_threads_outside_node_processes_belong_to_main():
     assert current() is MAIN
     assert MAIN.is_alive
 
 
-def test_starts_once(run):
+def test_process_starts_only_once(run):
     process = run(lambda: None).process
     with pytest.raises(RuntimeError, match="already started"):
         process.start(lambda: None)
@@ -115,7 +115,7 @@ def start_sleeper():
 
 
 @pytest.mark.parametrize("block", BLOCKED_IN.values(), ids=BLOCKED_IN.keys())
-def test_interrupt_wakes_whatever_waits(start, block):
+def test_interrupt_wakes_any_blocking_call(start, block):
     def target():
         print("ready")
         block()
@@ -127,7 +127,7 @@ def test_interrupt_wakes_whatever_waits(start, block):
     assert started.err[-1] == "KeyboardInterrupt\n"
 
 
-def test_interrupt_comes_once(start):
+def test_interrupt_is_delivered_once(start):
     def target():
         print("ready")
         try:
@@ -157,7 +157,7 @@ def test_interrupt_reaches_a_busy_loop(start):
     assert started.end() == -2
 
 
-def test_terminate_without_handler_ends_with_its_signal_and_no_words(start):
+def test_sigterm_without_handler_ends_the_process_silently(start):
     def target():
         print("ready")
         try:
@@ -172,7 +172,7 @@ def test_terminate_without_handler_ends_with_its_signal_and_no_words(start):
     assert (started.stdout, started.stderr) == ("ready\n", "")
 
 
-def test_hooks_come_before_keyboard_interrupt_and_know_the_signal(start):
+def test_interrupt_hooks_run_before_keyboard_interrupt_and_get_the_signal(start):
     seen = []
 
     def target():
@@ -190,7 +190,7 @@ def test_hooks_come_before_keyboard_interrupt_and_know_the_signal(start):
     assert seen == [(15, True), (2, True)]
 
 
-def test_a_hook_can_be_taken_away(start):
+def test_interrupt_hook_can_be_removed(start):
     seen = []
 
     def target():
@@ -206,7 +206,7 @@ def test_a_hook_can_be_taken_away(start):
     assert seen == []
 
 
-def test_exit_callbacks_newest_first_and_late_ones_at_once(start):
+def test_exit_callbacks_run_newest_first_and_late_ones_at_once(start):
     order = []
     go = threading.Event()
 
@@ -249,7 +249,7 @@ def test_wait_times_out(start):
     assert started.process.is_alive
 
 
-def test_kill_leaves_the_graph_first_then_ends(start):
+def test_kill_leaves_the_graph_before_the_process_ends(start):
     order = []
 
     def target():
@@ -271,7 +271,7 @@ def test_kill_leaves_the_graph_first_then_ends(start):
     assert started.process.state is ProcessState.EXITED
 
 
-def test_what_does_not_unwind_is_abandoned_and_its_line_named(start, monkeypatch):
+def test_process_that_does_not_unwind_is_abandoned_and_its_line_reported(start, monkeypatch):
     monkeypatch.setattr(node_process_module, "KILL_TIMEOUT_S", 0.01)
     reported = threading.Event()
     notices = []
@@ -285,7 +285,7 @@ def test_what_does_not_unwind_is_abandoned_and_its_line_named(start, monkeypatch
 
     def target():
         print("ready")
-        stubborn_lock.acquire()  # hangs here
+        stubborn_lock.acquire()  # blocks here
 
     line = target.__code__.co_firstlineno + 2
     remove = on_notice(hook)
@@ -303,7 +303,7 @@ def test_what_does_not_unwind_is_abandoned_and_its_line_named(start, monkeypatch
     assert f"{__file__}:{line}, in target" in notices[0][1]
 
 
-def test_stop_escalates_until_it_has_ended(start):
+def test_stop_escalates_until_the_process_has_ended(start):
     def target():
         current().on_interrupt(lambda signum: None)
         print("ready")
@@ -319,7 +319,7 @@ def test_stop_escalates_until_it_has_ended(start):
     assert "ignored\n" in started.out
 
 
-def test_signals_after_the_end_do_nothing(run):
+def test_signals_after_the_end_are_ignored(run):
     process = run(lambda: None).process
     process.interrupt()
     process.terminate()
@@ -335,8 +335,8 @@ def test_many_processes_leave_no_thread(run):
     assert threading.active_count() == before
 
 
-def test_an_ended_process_leaves_nothing_behind(run, monkeypatch):
-    monkeypatch.setattr(busy_watch, "watch", lambda process: None)  # it looks again some seconds later
+def test_ended_process_leaves_no_objects_behind(run, monkeypatch):
+    monkeypatch.setattr(busy_watch, "watch", lambda process: None)  # its next poll comes some seconds later
     started = run(lambda: (start_sleeper(), ThreadPoolExecutor(1).submit(print).result()))
     reference = weakref.ref(started.process)
     thread = weakref.ref(started.process.main_state.thread)
@@ -350,7 +350,7 @@ def test_an_ended_process_leaves_nothing_behind(run, monkeypatch):
     assert reference() is None
 
 
-def test_the_clock_is_that_of_the_maker():
+def test_process_inherits_the_clock_of_its_creator():
     clock = RealTime()
     maker = NodeProcess("maker", clock)
     with running_as(maker):

@@ -1,4 +1,4 @@
-"""Signal handlers that a node sets are its own, and run in its main thread."""
+"""Signal handlers set by a node belong to its process and run in its main thread."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from bot_console.runtime.process import current, on_notice
 LONG = 20.0
 
 
-def test_handler_runs_in_the_main_thread_and_the_wait_goes_on(start):
+def test_handler_runs_in_the_main_thread_and_the_wait_continues(start):
     go_on = threading.Event()
 
     def target():
@@ -56,7 +56,7 @@ def test_handler_may_exit(start):
     assert started.end() == 5
 
 
-def test_handler_of_a_busy_thread_may_exit(start):
+def test_handler_may_exit_from_a_busy_loop(start):
     def target():
         signal.signal(signal.SIGTERM, lambda *_: sys.exit(6))
         print("ready")
@@ -69,7 +69,7 @@ def test_handler_of_a_busy_thread_may_exit(start):
     assert started.end() == 6
 
 
-def test_ignored_signal(start):
+def test_ignored_signal_does_not_end_the_process(start):
     go_on = threading.Event()
 
     def target():
@@ -85,21 +85,21 @@ def test_ignored_signal(start):
 
 
 @pytest.mark.parametrize(("signum", "code"), [(signal.SIGHUP, -1), (signal.SIGUSR1, -10), (signal.SIGQUIT, -3)])
-def test_signals_without_handler_end_it(start, signum, code):
+def test_signal_without_handler_ends_the_process(start, signum, code):
     started = start(lambda: (print("ready"), time.sleep(1000)))
     started.until_printed("ready")
     started.process.send_signal(signum)
     assert started.end() == code
 
 
-def test_signals_that_the_system_ignores_are_ignored(start):
+def test_signals_ignored_by_default_are_ignored(start):
     started = start(lambda: (print("ready"), time.sleep(1000)))
     started.until_printed("ready")
     started.process.send_signal(signal.SIGWINCH)
     assert started.process.is_alive
 
 
-def test_pausing_is_reported_not_done(start):
+def test_stop_signal_is_reported_but_not_carried_out(start):
     notices = []
     remove = on_notice(lambda process, text: notices.append(text))
     started = start(lambda: (print("ready"), time.sleep(1000)))
@@ -110,7 +110,7 @@ def test_pausing_is_reported_not_done(start):
     assert len(notices) == 1 and "pause" in notices[0]
 
 
-def test_setting_a_handler_replaces_hooks_as_a_later_sigaction_does(start):
+def test_new_handler_replaces_earlier_hooks(start):
     seen = []
 
     def target():
@@ -129,7 +129,7 @@ def test_setting_a_handler_replaces_hooks_as_a_later_sigaction_does(start):
     assert seen == [("early", 15), ("late", 2), "handler"]
 
 
-def test_signal_only_in_main_thread(run):
+def test_signal_works_only_in_the_main_thread(run):
     def target():
         def child():
             try:
@@ -144,7 +144,7 @@ def test_signal_only_in_main_thread(run):
     assert run(target).stdout == "signal only works in main thread of the main interpreter\n"
 
 
-def test_kill_oneself(run):
+def test_process_may_send_signals_to_itself(run):
     def target():
         try:
             os.kill(os.getpid(), signal.SIGINT)
@@ -158,20 +158,20 @@ def test_kill_oneself(run):
     assert ended.process.exit_code == -15
 
 
-def test_kill_a_neighbour_by_its_pid(start):
+def test_process_may_signal_another_by_its_pid(start):
     sleeper = start(lambda: (print("ready"), time.sleep(1000)), name="sleeper")
     sleeper.until_printed("ready")
     start(lambda: os.kill(sleeper.process.pid, signal.SIGINT), name="killer").end()
     assert sleeper.end() == -2
 
 
-def test_pid_of_an_ended_process_is_nobody(run):
+def test_pid_of_an_ended_process_is_unknown(run):
     pid = run(lambda: None).process.pid
     with pytest.raises(ProcessLookupError):
         os.kill(pid, 0)
 
 
-def test_wakeup_descriptor_gets_the_number(start):
+def test_wakeup_descriptor_gets_the_signal_number(start):
     read_end, write_end = os.pipe()
 
     def target():
@@ -190,7 +190,7 @@ def test_wakeup_descriptor_gets_the_number(start):
     os.close(write_end)
 
 
-def test_asyncio_handles_signals_of_the_node(start):
+def test_asyncio_signal_handlers_work_in_a_node(start):
     def target():
         async def main():
             loop = asyncio.get_running_loop()

@@ -9,7 +9,7 @@ from bot_console.runtime.process import NodeProcess, stepped
 from bot_console.runtime.process.stepping.event_loop import SteppedEventLoop
 
 
-def test_sleeps_and_timers_are_virtual_and_nodes_run_meanwhile():
+def test_loop_sleeps_in_virtual_time_while_nodes_run():
     order = []
 
     async def main():

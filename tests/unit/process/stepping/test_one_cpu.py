@@ -1,4 +1,4 @@
-"""What a stepped run asks of the system for its threads, and that it gives it back."""
+"""What a stepped run requests from the system for its threads, and that it is restored afterwards."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from bot_console.runtime.process import NodeProcess, stepped
 pytestmark = pytest.mark.skipif(not hasattr(os, "sched_setaffinity"), reason="only Linux offers this")
 
 
-def test_the_threads_of_a_run_take_turns_on_one_processor_and_interrupt_nobody() -> None:
+def test_threads_run_on_one_processor_with_batch_scheduling_until_the_end() -> None:
     before = os.sched_getscheduler(0)
     seen: list[int] = []
     with stepped() as clock:
@@ -23,11 +23,11 @@ def test_the_threads_of_a_run_take_turns_on_one_processor_and_interrupt_nobody()
     assert os.sched_getscheduler(0) == before
 
 
-def test_a_turn_is_one_switch_of_the_system() -> None:
+def test_one_turn_costs_one_context_switch() -> None:
     import resource
 
     def switches() -> int:
-        """How often a thread has waited; what else runs on the machine takes the processor away as often as it likes.
+        """Return how often a thread has waited, which does not depend on other load on the machine.
 
         Threads that interrupted one another, or ran side by side, would wait for the interpreter in every turn.
         """
@@ -43,11 +43,11 @@ def test_a_turn_is_one_switch_of_the_system() -> None:
         clock.run_for(0.1)
         before = switches()
         clock.run_for(2.0)
-        # Two turns in each ms; who loses the processor within one lets another wait for it.
+        # Two turns per ms; a thread preempted within its turn lets another one wait for it.
         assert switches() - before < 1.4 * 4000
 
 
-def test_numpy_starts_no_threads_for_other_processors_and_the_environment_stays() -> None:
+def test_numpy_starts_no_worker_threads_and_environment_is_restored() -> None:
     code = (
         "import os, sys; from bot_console.runtime.process.stepping.one_cpu import import_numpy; import_numpy(); "
         "print(len(os.listdir('/proc/self/task')), 'numpy.random' in sys.modules, 'OPENBLAS_NUM_THREADS' in os.environ)"

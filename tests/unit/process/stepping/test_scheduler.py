@@ -1,4 +1,4 @@
-"""The scheduler by itself: when a wait may jump in time, because nothing comes before its end."""
+"""The scheduler alone: a wait may jump in time only if nothing can happen before its end."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ def wait_in_a_thread(scheduler: Scheduler, task: ScheduledTask) -> threading.Thr
     return thread
 
 
-def test_a_lone_wait_jumps_to_its_end() -> None:
+def test_single_wait_jumps_to_its_end() -> None:
     scheduler = Scheduler(0)
     assert not scheduler.wait(scheduler.driver_task(), None, DUE)
     assert scheduler.now == DUE
 
 
-def test_time_waits_for_a_start_that_blocks_also_where_nobody_else_is_ready() -> None:
+def test_time_waits_for_a_blocking_start_even_if_nobody_else_is_ready() -> None:
     scheduler = Scheduler(0)
     driver = scheduler.driver_task()
     scheduler.starting.add(ScheduledTask(scheduler, 1, None))
@@ -36,7 +36,7 @@ def test_time_waits_for_a_start_that_blocks_also_where_nobody_else_is_ready() ->
     assert scheduler.now == DUE
 
 
-def test_a_thread_that_was_taken_for_hanging_moves_no_time_of_the_running_thread() -> None:
+def test_detached_thread_does_not_move_the_time_of_the_running_one() -> None:
     scheduler = Scheduler(0)
     driver = scheduler.driver_task()
     scheduler.holder = other = ScheduledTask(scheduler, 1, None)
@@ -48,7 +48,7 @@ def test_a_thread_that_was_taken_for_hanging_moves_no_time_of_the_running_thread
     assert scheduler.now == DUE
 
 
-def test_who_is_called_between_the_beginning_of_a_wait_and_its_entry_waits_no_time() -> None:
+def test_task_woken_before_its_wait_begins_waits_no_time() -> None:
     scheduler = Scheduler(0)
     called: Any = SimpleNamespace(called=True)
     scheduler.holder = task = scheduler.tasks[LAST] = ScheduledTask(scheduler, LAST, called)

@@ -1,4 +1,4 @@
-"""Stepped time beside threads that hang, compute or start slowly, as real threads do it."""
+"""Stepped time with threads that block, compute or start slowly, in real threads."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ BURN = "import time\nwhile time.process_time() < 0.3: pass"
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems tell too little")
 
 
-def test_a_long_computation_releases_nobody():
+def test_long_computation_lets_no_other_thread_run():
     trace = []
 
     def compute():
@@ -35,7 +35,7 @@ def test_a_long_computation_releases_nobody():
     assert trace == [(0, "computed"), (100_000_000, "other")]
 
 
-def test_an_endless_computation_is_named(notices):
+def test_endless_computation_is_reported(notices):
     trace, stop = [], []
 
     def compute():
@@ -55,7 +55,7 @@ def test_an_endless_computation_is_named(notices):
     assert "has computed for long without waiting" in notices[0]
 
 
-def test_waiting_for_a_child_process_that_computes_releases_nobody():
+def test_waiting_for_a_computing_child_process_lets_no_other_thread_run():
     with stepped(stall_s=STALL) as clock:
         process = NodeProcess("calling", clock)
         process.start(lambda: subprocess.run([sys.executable, "-S", "-c", BURN], check=True))
@@ -64,7 +64,7 @@ def test_waiting_for_a_child_process_that_computes_releases_nobody():
         assert clock.steady_ns() == 0
 
 
-def test_time_stands_still_until_a_slow_start_has_come_to_its_first_wait(notices):
+def test_time_stops_until_a_slow_start_reaches_its_first_wait(notices):
     lock = threading.Lock()
     lock.acquire()
     trace = []
@@ -85,11 +85,11 @@ def test_time_stands_still_until_a_slow_start_has_come_to_its_first_wait(notices
 
 
 def release_after(clock, lock):
-    """Release the lock a while after the thread that wants it was judged to hang."""
+    """Release the lock some time after the thread that waits for it was judged to be blocked."""
     real.later(STALL, lock.release if clock.stalls else lambda: release_after(clock, lock))
 
 
-def test_a_signal_comes_at_the_next_wait_however_long_the_turn_takes():
+def test_signal_arrives_at_the_next_wait_however_long_the_turn_takes():
     trace = []
 
     def compute():

@@ -11,7 +11,7 @@ from bot_console.runtime.process.stepping import lock as module
 
 
 class Interrupted:
-    """A built-in lock right after whose acquisition something else runs in the same thread, once."""
+    """A built-in lock that runs a function in the same thread once, right after it was acquired."""
 
     def __init__(self, lock: Any, finalizer: Callable[[], None]) -> None:
         self._lock = lock
@@ -27,8 +27,8 @@ class Interrupted:
         return getattr(self._lock, name)
 
 
-def test_a_finalizer_may_take_a_lock_that_its_thread_is_just_taking() -> None:
-    """As the built-in lock's, the acquisition has no middle in which the lock is taken and the owner is not known."""
+def test_finalizer_may_take_a_lock_during_its_acquisition() -> None:
+    """Like the built-in lock, it has no intermediate state in which it is taken but has no owner."""
     lock = module.SteppedRLock()
     taken: list[bool] = []
 
@@ -43,7 +43,7 @@ def test_a_finalizer_may_take_a_lock_that_its_thread_is_just_taking() -> None:
     assert not lock.locked()
 
 
-def test_a_condition_gives_all_levels_back_and_takes_them_again() -> None:
+def test_condition_releases_all_levels_and_reacquires_them() -> None:
     message: list[str] = []
     with stepped() as clock:
 
@@ -67,7 +67,7 @@ def test_a_condition_gives_all_levels_back_and_takes_them_again() -> None:
     assert message == ["other", "woken", "done"]
 
 
-def test_only_the_owner_gives_it_back() -> None:
+def test_only_the_owner_may_release() -> None:
     lock = module.SteppedRLock()
     lock.acquire()
     failures: list[type[BaseException]] = []

@@ -1,4 +1,4 @@
-"""Stepped time: one thread at a time, in a fixed order, and time jumps when all wait."""
+"""Stepped time: one thread runs at a time, in a fixed order, and time jumps when all wait."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SECOND = 10**9
 LONG = 20.0
 
 
-def test_time_stands_still_until_it_is_run(clock):
+def test_time_advances_only_when_run(clock):
     assert (clock.steady_ns(), clock.system_ns()) == (0, DEFAULT_START_NS)
     clock.run_for(1.5)
     assert (clock.steady_ns(), clock.system_ns()) == (SECOND * 3 // 2, DEFAULT_START_NS + SECOND * 3 // 2)
@@ -25,7 +25,7 @@ def test_time_stands_still_until_it_is_run(clock):
     assert clock.steady_ns() == 2 * SECOND
 
 
-def test_everything_up_to_the_end_of_the_run_happens(clock):
+def test_run_includes_everything_up_to_its_end(clock):
     trace = []
     NodeProcess("a", clock).start(ticker(trace, "a", 0.5, 10))
     assert trace == []
@@ -33,7 +33,7 @@ def test_everything_up_to_the_end_of_the_run_happens(clock):
     assert trace == [(SECOND // 2, "a"), (SECOND, "a")]
 
 
-def test_same_time_means_order_of_creation(clock):
+def test_simultaneous_timers_fire_in_order_of_creation(clock):
     trace = []
     for name in "abc":
         NodeProcess(name, clock).start(ticker(trace, name, 1.0, 2))
@@ -41,7 +41,7 @@ def test_same_time_means_order_of_creation(clock):
     assert [name for _time, name in trace] == list("abcabc")
 
 
-def test_order_of_becoming_ready(clock):
+def test_ready_threads_run_in_order_of_becoming_ready(clock):
     order = []
     addresses = {name: clock.wakeup() for name in "abc"}
 
@@ -62,7 +62,7 @@ def test_order_of_becoming_ready(clock):
     assert order == list("cab")
 
 
-def test_a_wait_reports_whether_it_was_set_or_timed_out(clock):
+def test_wait_returns_whether_it_was_set_or_timed_out(clock):
     results = []
     address = clock.wakeup()
 
@@ -79,7 +79,7 @@ def test_a_wait_reports_whether_it_was_set_or_timed_out(clock):
     assert results == [(False, SECOND), (True, 3 * SECOND), (False, False)]
 
 
-def test_the_time_module_reports_virtual_time_in_nodes(clock):
+def test_time_module_reports_virtual_time_in_nodes(clock):
     seen = []
 
     def target():
@@ -97,7 +97,7 @@ def test_the_time_module_reports_virtual_time_in_nodes(clock):
     assert seen[2] == (2023, 1970, True)
 
 
-def test_real_time_is_back_afterwards():
+def test_real_time_is_restored_afterwards():
     before = (time.time, time.sleep, time.monotonic, MAIN.clock)
     with stepped():
         assert time.time() == DEFAULT_START_NS * 1e-9
@@ -106,7 +106,7 @@ def test_real_time_is_back_afterwards():
     assert isinstance(MAIN.clock, RealTime)
 
 
-def test_without_virtual_main_only_the_clock_is_virtual():
+def test_without_virtual_main_only_nodes_have_virtual_time():
     with stepped(virtual_main=False) as clock:
         assert time.time() > DEFAULT_START_NS * 1e-9
         thread = threading.Thread(target=lambda: None)
@@ -119,7 +119,7 @@ def test_without_virtual_main_only_the_clock_is_virtual():
         assert len(trace) == 2
 
 
-def test_polls_move_time(clock):
+def test_polling_advances_time(clock):
     polls = []
 
     def target():
@@ -135,7 +135,7 @@ def test_polls_move_time(clock):
     assert len(polls) == 100
 
 
-def test_a_loop_that_reads_the_clock_ends(clock):
+def test_loop_that_reads_the_clock_ends(clock):
     def target():
         while time.time_ns() < DEFAULT_START_NS + SECOND // 100:
             pass
@@ -146,7 +146,7 @@ def test_a_loop_that_reads_the_clock_ends(clock):
     assert FREE_READS > 1000
 
 
-def test_nodes_that_keep_each_other_awake_do_not_stop_time(clock):
+def test_nodes_that_keep_waking_each_other_do_not_stop_time(clock):
     addresses = clock.wakeup(), clock.wakeup()
     turns = []
 
@@ -167,7 +167,7 @@ def test_nodes_that_keep_each_other_awake_do_not_stop_time(clock):
     assert len(turns) > INSTANT_WAITS // 2
 
 
-def test_idle_jumps_to_the_end(clock):
+def test_idle_run_jumps_to_its_end(clock):
     NodeProcess("n", clock).start(lambda: clock.wakeup().wait())
     clock.run_for(1e6)
     assert clock.steady_ns() == 10**15
@@ -184,7 +184,7 @@ def test_random_numbers_are_seeded_and_restored():
     assert random.getstate() == before
 
 
-def test_starting_processes_from_a_node(clock):
+def test_node_may_start_processes(clock):
     trace = []
 
     def mother():
@@ -200,7 +200,7 @@ def test_starting_processes_from_a_node(clock):
     assert trace == [(2 * SECOND, "child"), (3 * SECOND, "child"), 3.0]
 
 
-def test_many_timers_leave_no_heap(clock):
+def test_cancelled_timers_do_not_accumulate(clock):
     address = clock.wakeup()
 
     def target():

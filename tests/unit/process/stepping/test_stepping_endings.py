@@ -1,4 +1,4 @@
-"""Stepped time: signals, the end of processes and of the run, and threads that block past the clock."""
+"""Stepped time: signals, the end of processes and of the run, and threads that block outside the clock."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ SECOND = 10**9
 LONG = 20.0
 
 
-def test_signals_in_virtual_time(clock):
+def test_signals_arrive_in_virtual_time(clock):
     order = []
 
     def target():
@@ -33,7 +33,7 @@ def test_signals_in_virtual_time(clock):
     assert order[-1] == "KeyboardInterrupt\n"
 
 
-def test_what_is_thrown_at_a_thread_that_waits_ends_its_wait(clock):
+def test_exception_raised_in_a_waiting_thread_ends_its_wait(clock):
     states = []
 
     def target():
@@ -62,7 +62,7 @@ def test_stop_escalates_in_virtual_time(clock):
     assert time.monotonic() == 10.0
 
 
-def test_kill_lets_it_unwind_without_time_passing(clock):
+def test_kill_unwinds_without_advancing_time(clock):
     unwound = []
 
     def target():
@@ -80,7 +80,7 @@ def test_kill_lets_it_unwind_without_time_passing(clock):
     assert unwound == [1.0]
 
 
-def test_closing_ends_what_still_runs():
+def test_closing_ends_running_processes():
     ended = threading.Event()
 
     def target():
@@ -97,7 +97,7 @@ def test_closing_ends_what_still_runs():
     assert process.exit_code == -9
 
 
-def test_what_blocks_past_the_clock_is_named_and_others_go_on():
+def test_thread_blocked_outside_the_clock_is_reported_and_others_continue():
     notices = []
     remove = on_notice(lambda process, text: notices.append((process.name, text)))
     lock = threading.Lock()
@@ -123,7 +123,7 @@ def test_what_blocks_past_the_clock_is_named_and_others_go_on():
     assert notices[0][0] == "stuck" and f"{__file__}:{line}" in notices[0][1]
 
 
-def test_a_detached_thread_takes_turns_again():
+def test_detached_thread_takes_turns_again():
     release = threading.Lock()
     release.acquire()
     trace = []

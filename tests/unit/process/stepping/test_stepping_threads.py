@@ -1,4 +1,4 @@
-"""Stepped time: who takes part, and what threads wait for: each other, locks, conditions, pools."""
+"""Stepped time: which threads take part, and what they wait for: each other, locks, conditions, pools."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SECOND = 10**9
 LONG = 20.0
 
 
-def test_the_driver_waits_as_the_nodes_do(clock):
+def test_driver_waits_as_nodes_do(clock):
     box = queue.Queue()
 
     def target():
@@ -47,7 +47,7 @@ def test_threads_of_the_driver_take_part(clock):
     assert not any(thread.is_alive() for thread in threads)
 
 
-def test_threads_and_pools_and_conditions_of_a_node(clock):
+def test_threads_pools_and_conditions_of_a_node_take_part(clock):
     trace = []
 
     def target():
@@ -90,7 +90,7 @@ def test_outside_threads_may_wake_and_wait():
     assert woken == [True]
 
 
-def test_only_who_takes_part_can_run(clock):
+def test_outside_threads_cannot_run_the_clock(clock):
     errors = []
 
     def outside():
@@ -139,7 +139,7 @@ def test_locks_are_handed_over_in_order_and_in_virtual_time(clock):
         reentrant.release()
 
 
-def test_an_interrupted_wait_for_a_lock_passes_the_turn_on(clock):
+def test_interrupted_wait_for_a_lock_passes_it_on(clock):
     lock = threading.Lock()
     got = []
 
@@ -159,7 +159,7 @@ def test_an_interrupted_wait_for_a_lock_passes_the_turn_on(clock):
     assert got == ["second"]
 
 
-def test_conditions_on_locks_of_the_run(clock):
+def test_conditions_work_on_stepped_locks(clock):
     condition = threading.Condition()
     seen = []
 

@@ -48,7 +48,7 @@ def test_threads_of_main_stay_with_main(run):
     assert seen == ["main"]
 
 
-def test_the_end_waits_for_non_daemon_threads(start):
+def test_process_waits_for_its_non_daemon_threads(start):
     release = threading.Event()
 
     def target():
@@ -67,7 +67,7 @@ def test_the_end_waits_for_non_daemon_threads(start):
     assert started.stdout == "main done\nchild done\n"
 
 
-def test_interrupt_ends_the_waiting_for_threads(start):
+def test_interrupt_ends_the_wait_for_threads(start):
     def target():
         threading.Thread(target=threading.Event().wait).start()
         print("main done")
@@ -92,7 +92,7 @@ def test_daemon_threads_end_with_their_process(run):
     assert not threads[0].is_alive()
 
 
-def test_daemon_flag_is_what_the_node_asked_for(run):
+def test_daemon_flag_is_as_requested(run):
     def target():
         def child():
             print(threading.current_thread().daemon, threading.Thread().daemon)
@@ -106,7 +106,7 @@ def test_daemon_flag_is_what_the_node_asked_for(run):
     assert run(target).stdout == "False False\nFalse\nTrue True\nTrue\n"
 
 
-def test_thread_lists_know_only_the_own_process(start, run):
+def test_thread_lists_contain_only_the_own_process(start, run):
     release = threading.Event()
     start(release.wait, name="neighbour")
 
@@ -140,7 +140,7 @@ def test_uncaught_exception_is_printed_as_threading_does(run):
     assert ended.process.exit_code == 0
 
 
-def test_own_hook_for_uncaught_exceptions(run):
+def test_threading_excepthook_is_per_process(run):
     before = threading.excepthook
 
     def target():
@@ -153,7 +153,7 @@ def test_own_hook_for_uncaught_exceptions(run):
     assert threading.excepthook is before
 
 
-def test_join_with_timeout(run):
+def test_join_times_out(run):
     def target():
         thread = threading.Thread(target=threading.Event().wait, daemon=True)
         thread.start()
@@ -164,7 +164,7 @@ def test_join_with_timeout(run):
     assert run(target).stdout == "True\n"
 
 
-def test_a_thread_starts_once(run):
+def test_thread_starts_only_once(run):
     def target():
         thread = threading.Thread(target=lambda: None)
         thread.start()
@@ -175,7 +175,7 @@ def test_a_thread_starts_once(run):
     assert run(target).err[-1] == "RuntimeError: threads can only be started once\n"
 
 
-def test_subclass_with_its_own_run(run):
+def test_subclass_may_override_run(run):
     class Wheel(threading.Thread):
         def run(self):
             print("turns in", current().name)
@@ -188,7 +188,7 @@ def test_subclass_with_its_own_run(run):
     assert run(target, name="cart").stdout == "turns in cart\n"
 
 
-def test_the_threads_of_a_pool_that_is_kept_end_once_their_work_is_done(start):
+def test_threads_of_a_kept_pool_end_after_their_work(start):
     kept = []
 
     def target():

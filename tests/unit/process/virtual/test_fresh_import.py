@@ -1,4 +1,4 @@
-"""The node's own modules are imported anew for each node process and shared with nobody."""
+"""The node's own modules are imported separately for each node process."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def write(folder, files):
         path.write_text(textwrap.dedent(text))
 
 
-def test_two_sets_share_nothing_of_their_own_and_all_of_the_rest(folder):
+def test_two_sets_share_only_foreign_modules(folder):
     first, second = (FreshModules([str(folder)]) for _ in range(2))
     a, b = first.load("rover.wheels"), second.load("rover.wheels")
     a.turns.append(1)
@@ -51,7 +51,7 @@ def test_two_sets_share_nothing_of_their_own_and_all_of_the_rest(folder):
     assert vars(first.load("rover.dynamic"))["importlib"] is importlib
 
 
-def test_relative_and_deep_imports_find_the_own_modules(folder):
+def test_relative_and_nested_imports_find_own_modules(folder):
     modules = FreshModules([str(folder)])
     down = modules.load("rover.deep.down")
     assert down.owner is modules.load("rover")
@@ -65,12 +65,12 @@ def test_circular_imports_work(folder):
     assert axle.w.front is axle
 
 
-def test_star_import(folder):
+def test_star_import_respects_all(folder):
     names = vars(FreshModules([str(folder)]).load("rover.uses_star"))
     assert "a" in names and "b" not in names
 
 
-def test_late_imports_find_the_own_module_too(folder, run):
+def test_late_imports_find_own_modules(folder, run):
     sets = [FreshModules([str(folder)]) for _ in range(2)]
     assert sets[0].load("rover.lazy").axle() is sets[0].load("rover.axle")
     assert sets[1].load("rover.lazy").axle() is sets[1].load("rover.axle")
@@ -86,7 +86,7 @@ def test_late_imports_find_the_own_module_too(folder, run):
     assert found == [sets[0].load("rover.axle")]
 
 
-def test_a_change_of_the_file_is_seen_by_the_next_set(folder):
+def test_next_set_sees_changed_files(folder):
     assert FreshModules([str(folder)]).load("rover").count == 0
     write(folder, {"rover/__init__.py": "count = 12345", "added.py": "here = True"})
     modules = FreshModules([str(folder)])
@@ -99,20 +99,20 @@ def test_folders_without_init_are_packages(folder):
     assert modules.load("loose.part").name == "namespace package"
 
 
-def test_owned_are_only_names_in_the_folders(folder):
+def test_only_names_in_the_folders_are_owned(folder):
     modules = FreshModules([str(folder)], shared=lambda name: name == "broken")
     assert modules.owns("rover.wheels")
     assert not modules.owns("json")
     assert not modules.owns("broken")
 
 
-def test_the_interpreters_table_stays_free_of_them(folder):
+def test_sys_modules_does_not_contain_them(folder):
     before = set(sys.modules)
     FreshModules([str(folder)]).load("rover.wheels")
     assert not any(name.startswith("rover") for name in set(sys.modules) - before)
 
 
-def test_packages_are_found_by_the_installed_finders():
+def test_installed_packages_can_be_owned():
     modules = FreshModules(packages=["json"])
     own = modules.load("json.decoder")
     assert own is not importlib.import_module("json.decoder")
@@ -127,20 +127,20 @@ def test_packages_are_found_by_the_installed_finders():
         ("needs_missing", "No module named 'does_not_exist_anywhere'"),
     ],
 )
-def test_missing_modules(folder, name, message):
+def test_missing_modules_raise_import_errors(folder, name, message):
     with pytest.raises(ModuleNotFoundError) as caught:
         FreshModules([str(folder)]).load(name)
     assert str(caught.value) == message
 
 
-def test_a_failed_import_is_forgotten(folder):
+def test_failed_import_is_forgotten(folder):
     modules = FreshModules([str(folder)])
     for _ in range(2):
         with pytest.raises(ValueError, match="broken"):
             modules.load("broken")
 
 
-def test_traceback_of_a_failing_import_shows_the_users_files_alone(folder, run):
+def test_traceback_of_a_failing_import_shows_only_user_files(folder, run):
     write(folder, {"rover/main.py": "import broken\ndef main(): pass"})
     ended = run(entry_point_program("rover.main:main", FreshModules([str(folder)])))
     lines = ended.stderr.splitlines()

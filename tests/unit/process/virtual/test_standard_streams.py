@@ -1,4 +1,4 @@
-"""Each node process has its own standard streams; nothing it prints reaches the real ones."""
+"""Each node process has its own standard streams; none of its output reaches the real ones."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import pytest
 from bot_console.runtime.process.virtual.install import install_virtual_process, reinstall_stdio
 
 
-def test_whole_lines_arrive_at_once_and_the_rest_at_the_end(start):
+def test_complete_lines_arrive_at_once_and_the_rest_at_the_end(start):
     go_on = threading.Event()
 
     def target():
@@ -31,7 +31,7 @@ def test_whole_lines_arrive_at_once_and_the_rest_at_the_end(start):
     assert started.out == ["one line\n", "another\n", "unfinished"]
 
 
-def test_both_streams_and_their_byte_sides(run):
+def test_both_streams_have_text_and_byte_sides(run):
     def target():
         sys.stdout.write("out\n")
         sys.stderr.write("err\n")
@@ -48,7 +48,7 @@ def test_only_text_can_be_written(run):
     assert run(lambda: sys.stdout.write(b"x")).err[-1] == "TypeError: write() argument must be str, not bytes\n"
 
 
-def test_two_processes_and_main_do_not_mix(start, capsys):
+def test_output_of_processes_and_main_does_not_mix(start, capsys):
     both = threading.Barrier(3)
 
     def target():
@@ -66,7 +66,7 @@ def test_two_processes_and_main_do_not_mix(start, capsys):
     assert capsys.readouterr().out == "".join(f"main {number}\n" for number in range(20))
 
 
-def test_without_a_sink_output_goes_to_the_real_stream(capsys):
+def test_output_without_a_sink_goes_to_the_real_stream(capsys):
     from bot_console.runtime.process import NodeProcess
 
     process = NodeProcess("plain")
@@ -75,7 +75,7 @@ def test_without_a_sink_output_goes_to_the_real_stream(capsys):
     assert capsys.readouterr().out == "through\n"
 
 
-def test_redirection_by_the_user_interface_leaves_nodes_alone(start):
+def test_redirection_in_main_does_not_affect_nodes(start):
     release = threading.Event()
     started = start(lambda: (release.wait(), print("from node")))
     screen = io.StringIO()
@@ -91,7 +91,7 @@ def test_redirection_by_the_user_interface_leaves_nodes_alone(start):
     assert started.stdout == "from node\n"
 
 
-def test_redirection_by_a_node_is_its_own(start, capsys):
+def test_redirection_in_a_node_affects_only_that_node(start, capsys):
     inside, seen = threading.Event(), threading.Event()
 
     def target():
@@ -111,7 +111,7 @@ def test_redirection_by_a_node_is_its_own(start, capsys):
     assert capsys.readouterr().out == "main prints\n"
 
 
-def test_routing_returns_after_the_streams_were_replaced_behind_its_back(start):
+def test_routing_is_restored_after_the_streams_were_replaced(start):
     install_virtual_process()
     routing = sys.__dict__["stdout"]
     sys.__dict__["stdout"] = io.StringIO()
@@ -146,7 +146,7 @@ def test_libraries_write_to_the_stderr_of_the_process(run, speak):
     assert ended.stdout == ""
 
 
-def test_a_handler_made_by_main_writes_where_the_logging_thread_belongs(run):
+def test_handler_created_in_main_writes_to_the_logging_process(run):
     install_virtual_process()
     logger = logging.getLogger("shared")
     logger.addHandler(handler := logging.StreamHandler())
@@ -160,7 +160,7 @@ def ask():
     return input("name? ")
 
 
-def test_input_is_at_its_end(run):
+def test_stdin_is_empty(run):
     ended = run(ask)
     assert ended.process.exit_code == 1
     assert ended.err[-1] == "EOFError: EOF when reading a line\n"
@@ -180,7 +180,7 @@ def test_child_processes_print_into_the_node(run):
     assert ended.err == ["child err\n"]
 
 
-def test_own_excepthook(run):
+def test_excepthook_is_per_process(run):
     def target():
         sys.excepthook = lambda kind, value, trace: print("hooked", kind.__name__)
         raise ValueError

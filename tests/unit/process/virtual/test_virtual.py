@@ -1,4 +1,4 @@
-"""Arguments, environment and operating system calls are the node process's own; all wraps can be taken away."""
+"""Arguments, environment and operating-system calls are per node process; all patches can be removed."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def contents():
     return {owner: dict(vars(owner)) for owner in OWNERS}
 
 
-def test_everything_can_be_taken_away():
+def test_uninstall_restores_everything():
     uninstall_virtual_process()
     before = contents()
     install_virtual_process()
@@ -51,7 +51,7 @@ def test_everything_can_be_taken_away():
         assert changed <= {"__class_getitem__"}, (owner, changed)
 
 
-def test_arguments(run):
+def test_arguments_are_per_process(run):
     real = list(sys.argv)
 
     def target():
@@ -83,15 +83,15 @@ def test_environment_is_a_copy(run, monkeypatch):
     assert "DOORS" not in os.environ
 
 
-def test_environment_given_is_the_whole_environment(run):
+def test_given_environment_replaces_the_inherited_one(run):
     assert run(lambda: print(dict(os.environ)), env={"ONLY": "this"}).stdout == "{'ONLY': 'this'}\n"
 
 
-def test_environment_takes_only_text(run):
+def test_environment_accepts_only_text(run):
     assert run(lambda: os.environ.update(X=1)).err[-1] == "TypeError: str expected, not int\n"
 
 
-def test_pid_and_parent(run):
+def test_pid_and_parent_pid_are_virtual(run):
     ended = run(lambda: print(os.getpid(), os.getppid()))
     assert ended.stdout == f"{ended.process.pid} {os.getpid()}\n"
 
@@ -108,7 +108,7 @@ def abort():
         (lambda: os.execv(sys.executable, [sys.executable, "-c", "exit(9)"]), 9),
     ],
 )
-def test_leaving_at_once_ends_the_node_alone(run, leave, code):
+def test_immediate_exit_ends_only_the_node(run, leave, code):
     def target():
         try:
             leave()
@@ -119,7 +119,7 @@ def test_leaving_at_once_ends_the_node_alone(run, leave, code):
     assert (ended.process.exit_code, ended.stdout) == (code, "")
 
 
-def test_exit_from_a_child_thread_ends_the_whole_node(start):
+def test_os_exit_in_a_thread_ends_the_whole_node(start):
     def target():
         threading.Thread(target=lambda: os._exit(4)).start()
         time.sleep(1000)
@@ -127,19 +127,19 @@ def test_exit_from_a_child_thread_ends_the_whole_node(start):
     assert start(target).end() == 4
 
 
-def test_system_and_working_directory(run, tmp_path):
+def test_os_system_runs_in_the_nodes_working_directory(run, tmp_path):
     def target():
         print(os.system("pwd; exit 3") >> 8)
 
     assert run(target, cwd=str(tmp_path)).out == [f"{tmp_path.resolve()}\n", "3\n"]
 
 
-def test_children_do_not_read_the_keyboard(run):
+def test_child_processes_have_empty_stdin(run):
     program = "import sys; print(repr(sys.stdin.read()))"
     assert run(lambda: subprocess.run([sys.executable, "-c", program], check=True)).stdout == "''\n"
 
 
-def test_change_of_directory_is_reported_with_its_line(run):
+def test_chdir_is_reported_with_its_line(run):
     notices = []
     remove = on_notice(lambda process, text: notices.append(text))
 
@@ -152,7 +152,7 @@ def test_change_of_directory_is_reported_with_its_line(run):
     assert f"{__file__}:{target.__code__.co_firstlineno + 1}, in target" in notices[0]
 
 
-def test_a_notice_without_hook_goes_to_the_stderr_of_the_node(run):
+def test_notice_without_hook_goes_to_stderr_of_the_node(run):
     assert run(lambda: os.chdir(os.getcwd()), name="n").stderr.startswith("[WARN] [n]: os.chdir(")
 
 
@@ -163,14 +163,14 @@ def test_exit_functions_of_libraries_stay_with_the_real_process(run):
     assert called == []
 
 
-def test_sleep_refuses_what_it_always_refuses(run):
+def test_sleep_rejects_invalid_values(run):
     assert "must be non-negative" in run(lambda: time.sleep(-1)).err[-1]
     assert run(lambda: time.sleep("1")).err[-1].startswith("TypeError")
     assert run(lambda: time.sleep(0)).process.exit_code == 0
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
-def test_a_forked_child_is_a_real_process_that_prints_into_the_node(run):
+def test_forked_child_is_a_real_process_that_prints_into_the_node(run):
     def target():
         os.environ["WHEELS"] = "3"
         pid = os.fork()
@@ -186,7 +186,7 @@ def test_a_forked_child_is_a_real_process_that_prints_into_the_node(run):
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
-def test_multiprocessing(run):
+def test_multiprocessing_works(run):
     def work(queue):
         print("works")
         queue.put(6 * 7)
@@ -205,7 +205,7 @@ def test_multiprocessing(run):
 
 
 @pytest.mark.parametrize("module", [sys, threading])
-def test_the_class_of_a_virtual_module_stands_for_that_of_all_modules(start, module):
+def test_class_of_a_virtual_module_acts_as_module_type(start, module):
     install_virtual_process()
     kind = type(module)
     made = kind("made", "its text")
@@ -214,14 +214,14 @@ def test_the_class_of_a_virtual_module_stands_for_that_of_all_modules(start, mod
     assert not isinstance("text", kind)
 
     class Own(kind):
-        """A program's own kind of module."""
+        """A program's own module class."""
 
     own = Own("own")
     own.path, own.argv = "mine", ["mine"]
     assert (own.path, own.argv, vars(own)["path"]) == ("mine", ["mine"], "mine")
 
 
-def test_modules_made_in_a_node_process_have_no_variables_of_sys(run, tmp_path):
+def test_modules_created_in_a_node_have_no_attributes_of_sys(run, tmp_path):
     names = [name for name in dir(type(sys)) if not name.startswith("_")] + ["stdout", "argv", "path", "modules"]
     (tmp_path / "named_like_sys.py").write_text("".join(f"{name} = {name!r}\n" for name in names))
 

@@ -1,4 +1,4 @@
-"""Who holds the interpreter's lock, by what the interpreter has written of all stacks."""
+"""Which thread holds the interpreter lock, found from the interpreter's dump of all stacks."""
 
 import os
 import subprocess
@@ -11,7 +11,7 @@ from bot_console.runtime.process.watch.gil_holder import GilHolder, held_in_stac
 RUNTIME = os.path.dirname(os.path.dirname(os.path.dirname(sys.modules[GilHolder.__module__].__file__ or "")))
 LIBRARY = os.path.dirname(os.__file__)
 TIMEOUT_S = 120.0
-"""Seconds after which a test gives up; nothing is measured by it."""
+"""Seconds until a test gives up; nothing is measured with it."""
 
 WAITS = f"""Thread 0x00007f0000000001 (most recent call first):
   File "{LIBRARY}/threading.py", line 320 in wait
@@ -36,7 +36,7 @@ OURS = f"""Thread 0x00007f0000000005 (most recent call first):
 
 
 def written(*threads: str, after_s: float = 1.25, woken: int = 200) -> tuple[str, int, float]:
-    """The file's text, and what of its thread and of the clock belongs to it."""
+    """Return the file's text, the thread it belongs to, and the time."""
     return "17 1000 50.0\nTimeout (0:00:01.250000)!\n" + "\n".join(threads), 1000 + woken, 50.0 + after_s
 
 
@@ -45,37 +45,37 @@ def line(*threads: str, after_s: float = 1.25, woken: int = 200) -> str | None:
     return held and held.line
 
 
-def test_the_thread_that_does_not_wait_holds_it() -> None:
+def test_running_thread_is_the_holder() -> None:
     held = held_in_stacks(*written(WAITS, HOLDS, SPINS))
     assert held is not None
     assert (held.ident, held.line) == (0x00007F0000000003, "/home/me/holds.py:12, in tick")
 
 
-def test_nobody_holds_it_while_the_beat_comes() -> None:
+def test_there_is_no_holder_while_dumps_are_recent() -> None:
     assert held_in_stacks("17 1000 50.0\n", 1000, 50.4) is None
     assert held_in_stacks("", 1000, 50.4) is None
 
 
-def test_a_process_that_is_frozen_or_gets_no_processor_is_not_blamed() -> None:
+def test_frozen_or_starved_process_is_not_blamed() -> None:
     assert line(HOLDS, woken=3) is None
     assert line(HOLDS, after_s=100.0, woken=200) is None
 
 
-def test_a_library_that_is_being_imported_is_not_blamed() -> None:
+def test_import_of_a_library_is_not_blamed() -> None:
     assert line(IMPORTS, SPINS) is None
 
 
-def test_two_that_cannot_be_distinguished_are_both_named() -> None:
+def test_indistinguishable_threads_are_both_named() -> None:
     other = HOLDS.replace("holds.py", "other.py")
     assert line(HOLDS, other, WAITS) == "/home/me/holds.py:12, in tick or /home/me/other.py:12, in tick"
 
 
-def test_what_comes_along_is_named_only_when_there_is_nobody_else() -> None:
+def test_own_code_is_named_only_without_another_candidate() -> None:
     assert line(OURS, HOLDS) == "/home/me/holds.py:12, in tick"
     assert "robot_node.py:5" in (line(OURS) or "")
 
 
-def test_a_name_with_other_characters_is_read_back() -> None:
+def test_escaped_characters_in_paths_are_decoded() -> None:
     assert line(HOLDS.replace("/me/", "/Jos\\xe9/\\u5357/")) == "/home/José/南/holds.py:12, in tick"
 
 
@@ -114,7 +114,7 @@ def begin(folder: str, seconds: int) -> "subprocess.Popen[str]":
 
 
 @needs_a_file_in_memory
-def test_it_is_reported_afterwards(tmp_path: os.PathLike[str]) -> None:
+def test_holding_is_reported_afterwards(tmp_path: os.PathLike[str]) -> None:
     with begin(str(tmp_path), 3) as process:
         message, _ = process.communicate(timeout=TIMEOUT_S)
     reported = next(each for each in message.splitlines() if each != "holds")
@@ -122,7 +122,7 @@ def test_it_is_reported_afterwards(tmp_path: os.PathLike[str]) -> None:
 
 
 @needs_a_file_in_memory
-def test_others_see_it_meanwhile(tmp_path: os.PathLike[str]) -> None:
+def test_other_processes_can_see_it_meanwhile(tmp_path: os.PathLike[str]) -> None:
     with begin(str(tmp_path), 100_000) as process:
         try:
             assert process.stdout is not None

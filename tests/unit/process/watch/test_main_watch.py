@@ -1,4 +1,4 @@
-"""A main thread that computes without ever waiting is told with its line, once each time."""
+"""A main thread that computes without ever waiting is reported with its line, once per occurrence."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bot_console.runtime.process.watch.processor_time import wanted_seconds
 
 
 class Time:
-    """A clock that goes from one look to the next, and what the main thread has wanted of a processor meanwhile."""
+    """A clock that advances from poll to poll, with the processor time that the main thread has demanded."""
 
     def __init__(self, patch: pytest.MonkeyPatch) -> None:
         self.now = self.ran = 100.0
@@ -30,7 +30,9 @@ class Time:
         self.next = action
 
     def polls(self, count: int, share: float, waited: float = 0.0) -> int:
-        """So many looks, while it ran, or waited for a processor, these shares of the time; how often one told."""
+        """Poll so many times while the thread ran, or waited for a processor, for these shares; return how often it
+        reported.
+        """
         for _ in range(count):
             self.now += PERIOD_S
             self.ran += share * PERIOD_S
@@ -47,7 +49,7 @@ def time(monkeypatch: pytest.MonkeyPatch) -> Time:
 POLLS = round(REPORT_S / PERIOD_S)
 
 
-def test_who_never_waits_is_reported_after_a_second_and_once_until_it_has_waited(time: Time) -> None:
+def test_computing_for_a_second_is_reported_once_until_a_wait(time: Time) -> None:
     MainWatch(time.reported.append).begin()
     assert time.polls(POLLS - 1, 1.0) == 0
     assert time.polls(5, 1.0) == 1
@@ -56,24 +58,24 @@ def test_who_never_waits_is_reported_after_a_second_and_once_until_it_has_waited
     assert time.polls(1, 0.5) == 1 and time.polls(POLLS, 1.0) == 2
 
 
-def test_waiting_for_a_busy_processor_is_no_wait_and_no_computing(time: Time) -> None:
+def test_waiting_for_a_busy_processor_is_neither_wait_nor_computing(time: Time) -> None:
     MainWatch(time.reported.append).begin()
     assert time.polls(4 * POLLS - 1, 0.25, waited=0.75) == 0
     assert time.polls(2, 0.25, waited=0.75) == 1
 
 
-def test_an_import_that_takes_long_is_no_hogging(time: Time, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_slow_import_is_not_reported(time: Time, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(main_watch.frames, "is_importing", lambda ident: True)
     MainWatch(time.reported.append).begin()
     assert time.polls(10 * POLLS, 1.0) == 0
 
 
-def test_who_waits_now_and_then_is_not_reported(time: Time) -> None:
+def test_thread_that_waits_now_and_then_is_not_reported(time: Time) -> None:
     MainWatch(time.reported.append).begin()
     assert time.polls(50, 0.8) == 0
 
 
-def test_nobody_looks_where_the_system_does_not_report(time: Time, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_is_reported_without_system_statistics(time: Time, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(main_watch, "ran_and_waited", lambda task: None)
     MainWatch(time.reported.append).begin()
     time.next()
@@ -81,7 +83,7 @@ def test_nobody_looks_where_the_system_does_not_report(time: Time, monkeypatch: 
 
 
 @pytest.mark.skipif(not os.path.exists("/proc/self/schedstat"), reason="needs /proc")
-def test_the_system_reports_what_this_thread_has_wanted() -> None:
+def test_wanted_seconds_counts_processor_time_of_the_thread() -> None:
     before = wanted_seconds("self") or 0.0
     sum(range(300_000))
     assert (wanted_seconds("self") or 0.0) > before > 0.0

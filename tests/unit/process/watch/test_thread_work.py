@@ -1,4 +1,4 @@
-"""What a thread does is judged by what the operating system says of it, not by the time that passes."""
+"""Whether a thread is blocked is judged by the operating system's statistics, not by elapsed time."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ FUTEX = "futex_do_wait"
 
 
 class Machine:
-    """A machine's word about one thread, set by a test."""
+    """The operating system's statistics of one thread, set by a test."""
 
     def __init__(self, patch):
         self.state, self.seconds, self.switches, self.place = "S", 0.0, 0, FUTEX
@@ -43,39 +43,39 @@ def machine(monkeypatch):
 
 
 @pytest.mark.parametrize("state", ["R", "D"])
-def test_a_thread_that_gets_no_processor_or_no_disk_is_not_blocked(machine, state):
+def test_thread_without_processor_or_disk_is_not_blocked(machine, state):
     machine.state = state
     work = machine.poll(1000)
     assert not work.is_blocked() and not work.is_busy(1.0)
 
 
-def test_one_that_waits_for_the_interpreter_wakes_and_is_not_blocked(machine):
+def test_thread_waiting_for_the_interpreter_is_not_blocked(machine):
     assert not machine.poll(1000, switches=50).is_blocked()
 
 
-def test_a_lock_that_never_comes_blocks(machine):
+def test_lock_that_is_never_released_blocks(machine):
     assert not machine.poll(CHECKS_PER_STALL).is_blocked()
     assert machine.poll(1).is_blocked()
 
 
-def test_a_thread_that_wakes_to_poll_a_device_is_blocked(machine):
+def test_thread_polling_a_device_is_blocked(machine):
     machine.place = "do_select"
     assert machine.poll(CHECKS_PER_STALL, switches=2).is_blocked()
 
 
-def test_where_the_system_hides_the_place_only_sleep_without_waking_counts(machine):
+def test_only_sleep_without_wakeups_counts_if_the_system_hides_the_place(machine):
     machine.place = "0"
     assert not machine.poll(1000, switches=2).is_blocked()
     assert machine.poll(CHECKS_PER_STALL + 1).is_blocked()
 
 
-def test_an_import_from_a_slow_disk_gets_much_longer(machine):
+def test_import_from_a_slow_disk_gets_more_time(machine):
     machine.place, machine.importing = "request_wait_answer", True
     assert not machine.poll(CHECKS_PER_STALL * MAX_BLOCKED_CHECKS).is_blocked()
     assert machine.poll(1).is_blocked()
 
 
-def test_a_child_process_that_gets_on_is_worth_waiting_for(machine):
+def test_child_process_that_makes_progress_is_waited_for(machine):
     machine.place = "do_wait"
     machine.children = {"99": ("S", 0.0)}
     for _ in range(100):
@@ -87,7 +87,7 @@ def test_a_child_process_that_gets_on_is_worth_waiting_for(machine):
     assert machine.poll(CHECKS_PER_STALL + 1).is_blocked()
 
 
-def test_computing_is_reported_from_importing(machine):
+def test_long_computation_is_busy_and_an_import_only_after_longer(machine):
     machine.state = "R"
     assert not machine.poll(10, seconds=1.0).is_busy(1.0)
     assert machine.poll(1).is_busy(1.0)
@@ -98,7 +98,7 @@ def test_computing_is_reported_from_importing(machine):
     assert machine.poll(1).is_busy(1.0) and other is machine.work
 
 
-def test_a_system_that_reports_nothing_gets_the_longest_timeout(monkeypatch):
+def test_system_without_statistics_gets_the_longest_timeout(monkeypatch):
     monkeypatch.setattr(thread_work, "state_and_seconds", lambda task: None)
     monkeypatch.setattr(thread_work.time, "process_time", lambda: 1.0)
     work = ThreadWork(7, 7)

@@ -1,4 +1,4 @@
-"""Lines that hang or hog are named; processor time is told."""
+"""Lines that block or hog the interpreter are reported, and processor time is measured."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ linux_only = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="ot
 
 
 @linux_only
-def test_a_busy_loop_is_named_once(start, monkeypatch):
+def test_busy_loop_is_reported_once(start, monkeypatch):
     monkeypatch.setattr(busy_watch_module, "PERIOD_S", 0.02)
     monkeypatch.setattr(busy_watch_module, "BUSY_SHARE", 0.0)
     monkeypatch.setattr(busy_watch_module, "TOLD_S", 0.02)
@@ -26,7 +26,7 @@ def test_a_busy_loop_is_named_once(start, monkeypatch):
     stop = []
 
     def hook(process, text):
-        if process.name == "hog":  # others that the worker has may be busy as well
+        if process.name == "hog":  # other processes of this worker may be busy as well
             notices.append((process.name, text))
             reported.set()
 
@@ -46,7 +46,7 @@ def test_a_busy_loop_is_named_once(start, monkeypatch):
 
 
 @linux_only
-def test_processor_time_of_running_and_ended_threads(start):
+def test_processor_time_includes_ended_threads(start):
     burnt, go_on = threading.Event(), threading.Event()
 
     def burn():
@@ -68,7 +68,7 @@ def test_processor_time_of_running_and_ended_threads(start):
     assert started.process.cpu_seconds() >= 0.03
 
 
-def test_line_of_a_thread_is_that_of_the_users_code(start):
+def test_line_of_a_thread_is_in_the_users_code(start):
     release = threading.Event()
 
     def target():
@@ -103,7 +103,7 @@ def test_trimming_keeps_causes_and_their_order():
     assert names == ["test_trimming_keeps_causes_and_their_order", "inner"]
 
 
-def test_library_frames_are_not_the_users():
+def test_library_frames_are_not_user_code():
     assert frames.is_library(threading.__file__)
     assert frames.is_library(pytest.__file__)
     assert frames.is_library(frames.__file__)
