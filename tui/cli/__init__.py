@@ -1,1 +1,1 @@
-"""The command `bot-console`: the one place that knows the console and the runtime."""
+"""The `bot-console` command: the only part that imports both the console and the runtime."""

@@ -41,7 +41,7 @@ def appearance_of(options: Options) -> Appearance:
 
 
 def _system(options: Options) -> str:
-    """An id of the system shown, so that each has its own memory of how the screen was left."""
+    """An id of the system shown: how its screen was left is remembered separately for each system."""
     if options.attach:
         return f"attach {options.reached_by}"
     return str(Path(options.launch).resolve()) if options.launch else "robot"

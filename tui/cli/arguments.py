@@ -19,12 +19,12 @@ examples:
   bot-console                              a robot in a room, with its parameters, log and map
   bot-console outdoor                      the same robot in the open
   bot-console --launch my.launch.py a:=1   any ROS 2 launch file; also --launch my_package my.launch.py
-  bot-console run my_node.py               a node of yours, alone in this terminal
+  bot-console run my_node.py               your own node, alone in this terminal
   bot-console run --watch my_node.py       the same, with the console open on it
   bot-console launch my_package x.launch.py
-  bot-console attach                       the console on what runs already, without a robot of its own
+  bot-console attach                       the console on a running system, without starting a robot
   bot-console attach --connect tcp/robot:7447
-  bot-console doctor                       what is wrong with terminal, machine, link and graph, and how to mend it
+  bot-console doctor                       what is wrong with terminal, machine, link and graph, and how to fix it
   bot-console --headless --fast --profile warehouse --duration 600 --seed 7
 
 other commands: attach, doctor, up, down, status, router, run, launch, lint, check, tune, test, launch_test, export,
@@ -36,13 +36,13 @@ exit codes: 0 done, 1 failed (one line says why), 2 wrong usage
 
 @dataclass
 class Options:
-    """What was asked for."""
+    """The options given."""
 
     profile: str = "indoor"
     launch: str = ""
-    """The path of a launch file, or with `launch_file` the package that has it."""
+    """The path of a launch file; with `launch_file`, the package that contains it."""
     launch_file: str = ""
-    """The name of a package's launch file."""
+    """The name of a launch file in that package."""
     launch_arguments: dict[str, str] = field(default_factory=dict[str, str])
     opening: Opening = field(default_factory=Opening)
     workspace: list[Path] = field(default_factory=list[Path])
@@ -52,32 +52,32 @@ class Options:
     seed: int | None = None
     world: str = ""
     profile_folders: list[Path] = field(default_factory=list[Path])
-    """Where else profiles are looked for."""
+    """Further folders in which to look for profiles."""
     simulator: bool | None = None
-    """Whether the simulated robot runs beside a launch file; None: when its nodes want a robot and nobody gives one."""
+    """Whether to run the simulated robot beside a launch file; None: if its nodes need a robot and there is none."""
     layout: str = ""
-    """The layout to begin with; empty: what the settings say."""
+    """The layout to start with; empty: the one in the settings."""
     theme: str = ""
     plain: bool | None = None
-    """Whether ASCII letters take the place of lines and braille; None: what the settings and the locale say."""
+    """Whether to draw with ASCII characters instead of lines and braille; None: as the settings and the locale say."""
     attach: bool = False
-    """Whether the console shows what runs in the domain, and starts nothing."""
+    """Whether the console shows what is already running in the domain, and starts nothing."""
     reached_by: str = ""
-    """With `attach`: the endpoints of a robot on a network; empty for this machine."""
+    """With `attach`: the endpoints of a robot on the network; empty for this machine."""
     read_only: bool = False
-    """Whether it may change nothing."""
+    """Whether the console may not change anything."""
 
 
 def attach_parser() -> argparse.ArgumentParser:
-    """The options that every way to attach has."""
+    """The options that all ways of attaching have in common."""
     parser = argparse.ArgumentParser(
         "bot-console attach",
-        description="The console on what runs already, without a robot of its own; also by rqt's names.",
+        description="Open the console on a running system, without starting a robot; also by the names of rqt's tools.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("--pane", default="overview", help="the pane to begin with")
-    parser.add_argument("--workspace", action="append", type=Path, metavar="DIR", help="where packages are")
-    parser.add_argument("--read-only", action="store_true", help="look on: nothing is set, driven, started or ended")
+    parser.add_argument("--pane", default="overview", help="pane to open first")
+    parser.add_argument("--workspace", action="append", type=Path, metavar="DIR", help="folder with packages")
+    parser.add_argument("--read-only", action="store_true", help="only watch: set, drive, start and end nothing")
     _add_appearance(parser)
     return parser
 
@@ -96,10 +96,17 @@ def parse_attach(words: Sequence[str], parser: argparse.ArgumentParser) -> tuple
 
 def _add_appearance(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("--layout", default="", metavar="NAME", help="the layout to begin with; overview is what a new user sees")
+    add("--layout", default="", metavar="NAME", help="layout to start with; overview is what a new user sees")
     add("--perspective-file", default="", metavar="FILE", help="a layout file, or a perspective of rqt")
-    add("--theme", default="", choices=THEME_NAMES, help="colours; else what `bot-console config` says")
-    add("--plain", action=argparse.BooleanOptionalAction, help="ASCII letters in place of lines and braille")
+    add(
+        "--theme",
+        default="",
+        choices=THEME_NAMES,
+        help="colour theme; default: the one in the settings (`bot-console config`)",
+    )
+    add(
+        "--plain", action=argparse.BooleanOptionalAction, help="draw with ASCII characters instead of lines and braille"
+    )
 
 
 def _appearance(given: argparse.Namespace) -> dict[str, Any]:
@@ -123,7 +130,7 @@ def parse(words: Sequence[str]) -> Options:
         parser.error("--launch: give the name of a launch file")
     if given.allow_missing:
         if not given.launch:
-            parser.error("--allow-missing goes with --launch: of the robot system nothing is missing")
+            parser.error("--allow-missing goes with --launch: the robot system has no missing executables")
         pairs["allow_missing"] = "true"
     if given.fast and not given.headless:
         parser.error("--fast goes with --headless: a screen shows real time")
@@ -177,7 +184,7 @@ def _words(parser: argparse.ArgumentParser, given: argparse.Namespace) -> tuple[
 
 
 def _launch_file(parser: argparse.ArgumentParser, words: Sequence[str], given: argparse.Namespace) -> str:
-    """The word behind a package; a path has none, and nothing else goes with either."""
+    """The launch file named after a package; a path has none, and nothing else may follow either."""
     if given.profile is not None or (words and words[0] in profile_names()):
         parser.error("a launch file brings its own settings: give either a profile or --launch")
     left = [*words] if os.path.isfile(given.launch) else words[1:]  # `Path` raises where the name is too long
@@ -192,7 +199,7 @@ def profile_names() -> list[str]:
     return sorted(path.stem for path in folder.glob("*.yaml"))
 
 
-SIMULATOR_HELP = "whether the simulated robot runs beside it; else it does when nodes want a robot and nobody gives one"
+SIMULATOR_HELP = "run the simulated robot beside it, or not; default: if its nodes need a robot and there is none"
 
 
 def option_parser() -> argparse.ArgumentParser:
@@ -206,18 +213,26 @@ def option_parser() -> argparse.ArgumentParser:
     add = parser.add_argument
     add("words", nargs="*", metavar="PROFILE | NAME:=VALUE", help=f"a profile ({', '.join(profile_names())})")
     add("--launch", metavar="FILE", help="open the console on this launch file instead; also: --launch PACKAGE FILE")
-    add("--pane", default="overview", help="the pane to begin with")
-    add("--workspace", action="append", type=Path, metavar="DIR", help="where packages are; may be repeated")
+    add("--pane", default="overview", help="pane to open first")
+    add("--workspace", action="append", type=Path, metavar="DIR", help="folder with packages; may be repeated")
     add("--headless", action="store_true", help="no screen: logs on stderr, a JSON report on stdout at the end")
-    add("--fast", action="store_true", help="with --headless: simulated time, as fast as it goes, repeatable")
-    add("--profiles", action="append", type=Path, metavar="DIR", help="more profiles for the Profiles pane; repeatable")
+    add("--fast", action="store_true", help="with --headless: simulated time, as fast as possible, reproducible")
+    add(
+        "--profiles",
+        action="append",
+        type=Path,
+        metavar="DIR",
+        help="folder with more profiles for the Profiles pane; may be repeated",
+    )
     add("--profile", metavar="NAME", help="the same as PROFILE")
     add("--duration", type=float, metavar="S", help="with --headless: seconds to run")
     add("--seed", type=int, metavar="N", help="seed of the world")
     add("--world", metavar="NAME", help="world of the simulated robot")
     add("--simulator", action=argparse.BooleanOptionalAction, help=SIMULATOR_HELP)
     add(
-        "--allow-missing", action="store_true", help="with --launch: go on without nodes whose executables are not here"
+        "--allow-missing",
+        action="store_true",
+        help="with --launch: continue without nodes whose executables are missing",
     )
     _add_appearance(parser)
     add("--version", action="version", version=f"bot-console {__version__}")

@@ -1,6 +1,6 @@
 """Completion of command lines for shells.
 
-Names come from the same verbs that a person would use, so that what is offered is what the verbs know.
+Names come from the same verbs that a person would use, so that every completion is a name that the verbs know.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class Names(Protocol):
 
 
 Source = Callable[[Names, Sequence[str]], Iterable[str]]
-"""Gives the candidates for a place, from the words before it."""
+"""Returns the candidates for a place, given the words before it."""
 
 
 def run(words: Sequence[str]) -> int:
@@ -44,7 +44,7 @@ def candidates(words: Sequence[str], names: Names | None = None) -> list[str]:
     if before and before[0] == "ros2":
         before = before[1:]
     found = {each for each in _offered(names or ShellNames(), before, begun) if each.startswith(begun)}
-    return sorted(each for each in found if each != begun or not each.endswith(":="))  # its value comes next
+    return sorted(each for each in found if each != begun or not each.endswith(":="))  # The value comes next.
 
 
 def _offered(names: Names, before: list[str], begun: str) -> Iterable[str]:
@@ -76,10 +76,10 @@ def _options(arguments: Callable[[argparse.ArgumentParser], None]) -> list[str]:
 
 
 class ShellNames:
-    """Names for a shell: this process ends at once, and must print nothing else."""
+    """Names for a shell: this process ends right away, and must print nothing else."""
 
     def asked(self, *words: str) -> list[str]:
-        """The lines that a verb prints; none where it fails."""
+        """The lines that a verb prints; none if it fails."""
         from ros2cli.command_line import main
 
         printed = io.StringIO()
@@ -88,7 +88,7 @@ class ShellNames:
         return [] if failed else [line.strip() for line in printed.getvalue().splitlines()]
 
     def live(self, *words: str) -> list[str]:
-        """The same for what runs in the domain; returns nothing, at once, if the domain is empty."""
+        """The same for what is running in the domain; returns nothing, immediately, if the domain is empty."""
         from bot_console.tui.cli.system.domain import others_take_part, take_part
 
         return self.asked(*words) if others_take_part() and not take_part() else []
@@ -130,12 +130,12 @@ def _launch_files(names: Names, given: Sequence[str]) -> Iterable[str]:
 
 
 def _type_of(command: str) -> Source:
-    """The types of the topic, service or action named before; all types of interfaces if none is there."""
+    """The types of the topic, service or action named before; all interface types if none was named."""
     return lambda names, given: names.live(command, "type", given[0]) or names.asked("interface", "list")
 
 
 def _launch_arguments(names: Names, given: Sequence[str]) -> Iterable[str]:
-    """The arguments of the launch file of a package, up to the value."""
+    """The arguments of a package's launch file, up to `:=`."""
     reported = names.asked("launch", given[0], given[1], "--show-args")
     return [f"{line[1:-2]}:=" for line in reported if line.startswith("'") and line.endswith("':")]
 
@@ -182,7 +182,7 @@ _OUR_SOURCES: dict[str, Source] = {
     "rqt_reconfigure": _NODE,
     "up": lambda names, given: profile_names(),
 }
-"""Those of them after which names of what is there may follow."""
+"""Of these, the ones that names of running things may follow."""
 
 _PLACES: dict[tuple[str, str], Sequence[Source]] = {
     ("action", "send_goal"): (_ACTION, _type_of("action")),
@@ -210,4 +210,4 @@ _PLACES: dict[tuple[str, str], Sequence[Source]] = {
     ("topic", "pub"): (_TOPIC, _type_of("topic")),
     ("topic", "*"): (_TOPIC,),
 }
-"""What stands at each place of a verb's words; `*` is for the verbs that are not named."""
+"""The candidates at each position after a verb; `*` stands for all verbs without an entry."""

@@ -1,4 +1,4 @@
-"""Runs work in a thread of its own, with a future for the result."""
+"""Runs work in a separate thread, with a future for the result."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def in_background(work: Callable[[], T], name: str) -> Future[T]:
     def do() -> None:
         try:
             outcome.set_result(work())
-        except Exception as error:  # the border of the thread
+        except Exception as error:  # Outermost frame of the thread: the future carries the exception.
             outcome.set_exception(error)
 
     threading.Thread(target=do, name=name, daemon=True).start()

@@ -22,7 +22,7 @@ def without_collector() -> Generator[None]:
     try:
         yield
     finally:
-        collect_from_now_on()  # else the end would begin with a look through all that was made up to now
+        collect_from_now_on()  # Otherwise the end would start with a traversal of everything made so far.
 
 
 def collect_from_now_on() -> None:

@@ -1,4 +1,4 @@
-"""Waiting in a main thread for which signals end the program."""
+"""Waits in a main thread that signals can end."""
 
 from __future__ import annotations
 
@@ -6,14 +6,15 @@ import threading
 import time
 
 SLICE = 0.5
-"""Seconds after which the main thread looks whether a signal has come."""
+"""Seconds after which the main thread checks whether a signal has arrived."""
 
 
 def wait_interruptibly(event: threading.Event, seconds: float | None = None) -> bool:
-    """Wait for an event as its `wait` does, and run the handlers of signals meanwhile, whoever has got them.
+    """Wait for an event like `Event.wait`, and run signal handlers meanwhile, whichever thread received the signal.
 
-    A signal that comes while the process is frozen (SIGSTOP, Ctrl-Z) is handed to any of its threads when it goes on.
-    Only the main thread runs Python's handlers, and one that waits for a lock is woken by its own signals alone.
+    A signal that arrives while the process is frozen (SIGSTOP, Ctrl-Z) is delivered to any of its threads when it
+    continues. Only the main thread runs Python's handlers, and a thread that waits for a lock is woken by its own
+    signals alone.
     """
     deadline = None if seconds is None else time.monotonic() + seconds
     while True:

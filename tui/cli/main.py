@@ -40,7 +40,7 @@ _COMMANDS = {
     "tune": "tune.run:run",
     "up": "verbs.background:up",
 }
-"""By its name, the module below this package and the function that is given the words; imported when it is named."""
+"""Each command's module below this package and its function, which takes the words; imported when needed."""
 
 _ROS2 = {
     "bag": _COMMANDS["bag"],
@@ -50,7 +50,7 @@ _ROS2 = {
     "run": _COMMANDS["run"],
     "wtf": "doctor:run_as_ros2",
 }
-"""What `ros2` has that is not among the recorded verbs, or does more than they do."""
+"""Commands of `ros2` that are not among the recorded verbs, or do more than those."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -72,7 +72,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if sent and (problem := undecodable(words)):
         print(f"bot-console: {problem}", file=sys.stderr)
         return 2
-    if words and words[0] in ros2.VERBS:  # the quickest first
+    if words and words[0] in ros2.VERBS:  # The fastest path first.
         return ros2.taking_part(words)
     from bot_console.tui.opening import is_rqt, names_system
 
@@ -83,7 +83,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _imported(_COMMANDS[words[0]])(words[1:])
     from bot_console.tui.cli.arguments import parse
 
-    os.getcwd()  # raises where the folder was deleted, which is said in one line; nodes could not be started in it
+    os.getcwd()  # Raises if the folder was deleted, which is reported in one line; nodes could not be started in it.
     options = parse(words)
     if options.headless:
         from bot_console.tui.cli.headless.run import run
@@ -100,7 +100,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _in_workspace(words: Words) -> Words:
-    """Take the option that names the workspace of a command; raises `ValueError` if there is no such folder."""
+    """Process the option that names the workspace of a command; raises `ValueError` if there is no such folder."""
     if not any(each.partition("=")[0] == "--workspace" for each in words):
         return words
     from bot_console.tui.cli.workspace_option import without_workspace
@@ -127,7 +127,7 @@ def _program() -> int:
 
 
 def _has_screen() -> bool:
-    """Whether the console can be displayed on this operating system; says so where it cannot."""
+    """Whether the console can be displayed on this operating system; prints a message if not."""
     try:
         import termios  # noqa: F401  # pyright: ignore[reportUnusedImport] -- whether it is there
     except ImportError:
@@ -148,7 +148,7 @@ def _attach(words: Words) -> int:
 
 
 def _imported(place: str) -> Callable[[Words], int]:
-    from importlib import import_module  # not for `--version`, which needs nothing
+    from importlib import import_module  # Imported late: `--version` does not need it.
 
     module, _, function = place.partition(":")
     return getattr(import_module(f"bot_console.tui.cli.{module}"), function)

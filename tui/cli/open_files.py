@@ -5,11 +5,11 @@ from __future__ import annotations
 import sys
 
 MIN_OPEN_FILES = 256
-"""A console has some 90 descriptors open, and its own ones begin at 100."""
+"""A console has about 90 descriptors open, and its own start at 100."""
 
 
 def too_few_files() -> str:
-    """Why a console cannot open, in one line; a limit that this process may raise itself is raised."""
+    """Why a console cannot open enough files, in one line; raises the soft limit if that is allowed."""
     if sys.platform == "win32":
         return ""
     import resource

@@ -1,4 +1,4 @@
-"""A program that a person names, as arguments for the launch file that runs it."""
+"""A program named by the user, as arguments for the launch file that runs it."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from bot_console.runtime.workspace.not_found import no_executable, no_package
 
 
 def program(words: list[str], hint: Callable[[str], None]) -> tuple[dict[str, str], str]:
-    """What `program.launch.py` is launched with, and why that cannot be; the words are as `run` takes them.
+    """The launch arguments for `program.launch.py`, and the reason if it cannot run; `words` are those of `run`.
 
-    `hint` is told what is odd about a file that can be run nevertheless.
+    `hint` is called with warnings about a file that can run nevertheless.
     """
     from bot_console.runtime.importer import install
 
@@ -35,7 +35,7 @@ def program(words: list[str], hint: Callable[[str], None]) -> tuple[dict[str, st
 def _fault(file: Path, hint: Callable[[str], None]) -> str:
     from bot_console.runtime.plain_file import examine
 
-    if not os.path.isfile(file):  # `Path` raises where the name is too long
+    if not os.path.isfile(file):  # `Path` raises if the name is too long.
         return f"{file} does not exist"
     found = examine(file)
     if found.hint:

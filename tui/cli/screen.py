@@ -1,4 +1,4 @@
-"""`bot-console` with a screen: what it shows, and whether it starts a robot of its own."""
+"""`bot-console` with a screen: what it shows, and whether it starts a robot."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from bot_console.tui.settings.settings import read_settings
 if TYPE_CHECKING:
     from bot_console.tui.cli.system.connected import Connected
 
-ATTACHED = "Attached to ROS domain {}: q ends the console alone, and what was started from it."
+ATTACHED = "Attached to ROS domain {}: q ends only the console, and what was started from it."
 HOST_LOG = "launch-host.log"
 
 
@@ -60,7 +60,7 @@ def run(options: Options) -> int:
                 if there and not _attach_instead(there, robot=bool(robot)):
                     return 1
                 if there:
-                    claim.release()  # once that robot has gone, another console may bring one
+                    claim.release()  # Once that robot is gone, another console may start one.
                 options = replace(options, attach=bool(there))
 
         def start() -> Host:
@@ -69,12 +69,12 @@ def run(options: Options) -> int:
             return host
 
         together = not alone and is_in_range()
-        own = start() if together and not options.attach else None  # while this process imports the screen
+        own = start() if together and not options.attach else None  # While this process imports the screen.
         return Session(options, partial(_connect, options, alone, own, start)).run()
 
 
 def _prepare(options: Options) -> None:
-    """Make the ROS names mean the runtime, and join the domain."""
+    """Install the runtime under the ROS names, and join the domain."""
     from bot_console.runtime.importer import install
     from bot_console.tui.cli.system.workspaces import choose
 
@@ -91,7 +91,7 @@ def _connect(options: Options, alone: str, own: Host | None, start: Callable[[],
     from bot_console.tui.cli.system.connected import Connected
     from bot_console.tui.console.model import Severity
 
-    message = [(Severity.WARN, f"No second terminal reaches this system: {alone}")] if alone else []
+    message = [(Severity.WARN, f"Other terminals cannot reach this system: {alone}")] if alone else []
     if options.attach:
         message.append((Severity.INFO, ATTACHED.format(domain())))
         return Connected(options, message, attached(start))
@@ -121,7 +121,7 @@ def _host(options: Options) -> Host:
     try:
         log.parent.mkdir(parents=True, exist_ok=True)
         log.open("ab").close()
-    except OSError:  # a home that cannot be written is no reason to have no robot
+    except OSError:  # A read-only home folder is no reason not to start the robot.
         log = Path(os.devnull)
     words = [word for each in options.workspace for word in ("--workspace", str(each))]
     if size := read_settings().kept:
@@ -130,7 +130,7 @@ def _host(options: Options) -> Host:
 
 
 def _attach_instead(there: list[str], *, robot: bool) -> bool:
-    """Ask whether to attach to a robot, or to nodes that have names of ours.
+    """Ask whether to attach to a running robot, or to nodes that have names of ours.
 
     Two robots in one domain would obey each other's commands, and two nodes of one name share their parameters and log.
     """
@@ -139,15 +139,15 @@ def _attach_instead(there: list[str], *, robot: bool) -> bool:
 
     number = domain()
     if robot:
-        print(f"A robot runs already in ROS domain {number}: {', '.join(there)}.")
-        print(f"`ROS_DOMAIN_ID={number + 1} bot-console` starts another one apart from it.")
-        question = "Attach the console to the one that runs? [Y/n] "
+        print(f"A robot is already running in ROS domain {number}: {', '.join(there)}.")
+        print(f"`ROS_DOMAIN_ID={number + 1} bot-console` starts another one in isolation.")
+        question = "Attach the console to the running one? [Y/n] "
     else:
-        print(f"Nodes named as our robot's run already in ROS domain {number}: {', '.join(there)}.")
+        print(f"Nodes named like our robot's run in ROS domain {number}: {', '.join(there)}.")
         if there == [NAVIGATOR]:
-            print("`bot-console navigator:=false` starts our robot without its own one,")
+            print("`bot-console navigator:=false` starts our robot without its navigator,")
         print(f"`bot-console --launch {NAME} simulator.launch.py` adds only a robot,")
-        print(f"`ROS_DOMAIN_ID={number + 1} bot-console` starts ours apart from them.")
+        print(f"`ROS_DOMAIN_ID={number + 1} bot-console` starts ours in isolation from them.")
         question = "Attach the console to them, without a robot? [Y/n] "
     try:
         return input(question).strip().lower() in ("", "y", "yes")

@@ -1,4 +1,4 @@
-"""The console's `ros2 run` and `ros2 launch` lines: what they start stays, and is listed in the Launch pane."""
+"""The console's `ros2 run` and `ros2 launch` lines: what they start keeps running, and is listed in the Launch pane."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH
 
 @dataclass(frozen=True)
 class Wanted:
-    """A launch file and its arguments, or why there is none."""
+    """A launch file and its arguments, or the reason why there is none."""
 
     name: str = ""
     file: str = ""

@@ -12,9 +12,9 @@ WRITTEN = ("--output-dir", "--destination-directory", "--report", "--output", "-
 
 
 def undecodable(words: Sequence[str]) -> str:
-    """What is wrong with the first word that is neither UTF-8 nor a path; empty where there is none."""
+    """What is wrong with the first word that is neither UTF-8 nor a path; empty if there is none."""
     for before, word in zip(["", *words], words, strict=False):
-        path = word.rpartition("=")[2]  # also of `params_file:=PATH`
+        path = word.rpartition("=")[2]  # Also for `params_file:=PATH`.
         if encodable(word) != word and not (os.path.lexists(path) or before in WRITTEN):
-            return f"{encodable(word)}: bytes that are not UTF-8 are no name or value of ROS, and no such file exists"
+            return f"{encodable(word)}: not UTF-8, as names and values of ROS must be, and no file has this name"
     return ""

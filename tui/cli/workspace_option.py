@@ -7,19 +7,19 @@ from pathlib import Path
 
 OPTION = "--workspace"
 ANYWHERE = ("launch",)
-"""Commands whose own words cannot be this option, wherever it stands; the others may hand it to a program."""
+"""Commands whose own words cannot be this option, wherever it stands; others may pass it on to a program."""
 THEIR_OWN = ("attach", "up")
-"""Commands with parsers that know it."""
+"""Commands whose parsers know the option."""
 
 
 class NoWorkspaceError(ValueError):
-    """The folder of a workspace is not given, or does not exist."""
+    """A workspace folder is missing from the command line, or does not exist."""
 
 
 def without_workspace(words: Sequence[str], is_command: Callable[[str], object]) -> list[str]:
-    """The words of a command without the option, whose folders become this run's; any other words as they are.
+    """The words of a command without the option, whose folders become this run's workspace.
 
-    Raises `NoWorkspaceError`.
+    Words that do not belong to the option stay as they are. Raises `NoWorkspaceError`.
     """
     before, rest = _leading(words)
     if not rest or not is_command(rest[0]):
@@ -47,7 +47,7 @@ def use_folders(folders: Collection[str]) -> None:
 
 
 def _leading(words: Sequence[str]) -> tuple[list[str], list[str]]:
-    """The folders that the first words name, and the words behind."""
+    """The folders that the first words name, and the remaining words."""
     folders: list[str] = []
     rest = [*words]
     while rest and (rest[0] == OPTION or rest[0].startswith(f"{OPTION}=")):
@@ -71,7 +71,7 @@ def _all(words: Sequence[str]) -> tuple[list[str], list[str]]:
 
 
 def _folder(words: Sequence[str]) -> tuple[str, int]:
-    """The folder that the first word names, maybe with the second, and the number of words."""
+    """The folder that the first word names, possibly with the second, and the number of words used."""
     if words[0] == OPTION:
         return (words[1], 2) if len(words) > 1 else ("", 1)
     return words[0].partition("=")[2], 1

@@ -59,7 +59,7 @@ def test_a_robot_in_the_background(state: Path) -> None:
     again = typed("up")
     assert again.returncode == 1 and "runs already" in again.stderr
     apart = typed("--headless", "--duration", "0.5")
-    assert "runs apart" in apart.stderr and apart.returncode == 0
+    assert "runs in isolation" in apart.stderr and apart.returncode == 0
     ended = typed("down")
     assert ended.returncode == 0 and ended.stdout.startswith("ended: ")
     assert typed("status").returncode == 1

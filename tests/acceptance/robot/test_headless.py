@@ -142,7 +142,7 @@ def test_parameters_that_end_the_simulator_end_the_run_at_once(tmp_path, content
     line = [sys.executable, "-m", "bot_console.tui", *words]
     done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 1
-    assert f"the simulator has ended with exit code {code}, before its report" in done.stderr.splitlines()[-1]
+    assert f"the simulator ended with exit code {code} before it reported" in done.stderr.splitlines()[-1]
     assert "[1700000001." not in done.stderr, "no second was simulated after that"
 
 

@@ -86,7 +86,7 @@ def later(period, *actions):
 
 
 BRINGING = "Node(package='bot_console_robot', executable='simulator_node', name='simulator')"
-WAITS = "the launch file starts more later, which is waited for, at most 30 s, before a simulated robot comes"
+WAITS = "waiting at most 30 s for what the launch file starts later, before a simulated robot is started"
 
 
 @pytest.mark.parametrize(

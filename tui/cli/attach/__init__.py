@@ -1,4 +1,4 @@
-"""`bot-console attach`: the console on a system that is already running: ours, the machine's ROS 2, or a remote one."""
+"""`bot-console attach`: the console on a running system: an embedded one, the machine's ROS 2, or a remote one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which system of this machine the console attaches to, when there may be two."""
+"""Which system of this machine the console attaches to, if there may be two."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from dataclasses import dataclass
 from bot_console.tui.cli.attach.machine_ros import MachineRos, find_machine_ros, how_to_install
 
 NO_ROS = (
-    "no rclpy of a ROS 2 is found by this Python: source it first (`source /opt/ros/jazzy/setup.bash`), and let "
-    "bot-console be installed for the same Python (docs/your-robot.md)"
+    "this Python finds no rclpy of a ROS 2: source it first (`source /opt/ros/jazzy/setup.bash`), and "
+    "install bot-console for the same Python (docs/your-robot.md)"
 )
 
 
 @dataclass(frozen=True)
 class Kind:
-    """The choice: the machine's ROS 2, or a system of ours; an exit code other than 0 when nothing was chosen."""
+    """The choice: the machine's ROS 2, or an embedded system; an exit code other than 0 if nothing was chosen."""
 
     ros: MachineRos | None = None
     code: int = 0
@@ -32,7 +32,9 @@ def choose(
     ask: Callable[[str], str] = input,
     interactive: Callable[[], bool] = lambda: sys.stdin.isatty() and sys.stdout.isatty(),
 ) -> Kind:
-    """Choose a system; `ros` and `embedded` are explicit requests, `system_there`: one of ours runs in the domain."""
+    """Choose a system. `ros` and `embedded` are explicit requests; `system_there`: an embedded system runs in the
+    domain.
+    """
     if embedded:
         return Kind()
     found = find()
@@ -46,9 +48,9 @@ def choose(
         return Kind(found) if found.usable else Kind(code=1, text=how_to_install(found))
     if not found.usable:
         return Kind()
-    listed = f"Two systems are here:\n  1  {found}\n  2  a system of bot-console in this ROS domain\n"
+    listed = f"There are two systems here:\n  1  {found}\n  2  a system of bot-console in this ROS domain\n"
     if not interactive():
-        return Kind(code=2, text=f"{listed}Say which: --ros or --embedded.")
+        return Kind(code=2, text=f"{listed}Choose one with --ros or --embedded.")
     return _asked(found, listed, ask)
 
 

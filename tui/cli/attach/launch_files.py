@@ -8,17 +8,17 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 ENDINGS = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
-"""As `ros2 launch` has them: `talker.launch.py`, and `talker_launch.py` of Nav2 and of many others."""
+"""The endings that `ros2 launch` knows: `talker.launch.py`, and `talker_launch.py` as in Nav2 and many others."""
 SEARCH_TIMEOUT_S = 2.0
-"""Seconds that who asks first waits at most."""
+"""Seconds that the first caller waits at most."""
 
 
 def launch_files() -> Sequence[str]:
-    """The launch files of all packages in the environment; none if no prefix is sourced."""
+    """The launch files of all packages in the environment; empty if no prefix is sourced."""
     from ament_index_python.packages import get_packages_with_prefixes
 
     if not os.environ.get("AMENT_PREFIX_PATH"):
-        return ()  # the index raises OSError then: an rclpy installed by pip has no prefix
+        return ()  # The index raises OSError then: an rclpy installed by pip has no prefix.
     found: list[str] = []
     for name, prefix in sorted(get_packages_with_prefixes().items()):
         share = Path(prefix) / "share" / name
@@ -27,7 +27,7 @@ def launch_files() -> Sequence[str]:
 
 
 class LaunchFiles:
-    """The result of the last search; may be asked from any thread."""
+    """The result of the last search; thread-safe."""
 
     def __init__(self, poll: Callable[[], Sequence[str]] = launch_files) -> None:
         """Start the first search at once."""
@@ -39,7 +39,7 @@ class LaunchFiles:
         self._begin()
 
     def now(self) -> Sequence[str]:
-        """What is known; starts another search for whoever asks next."""
+        """What is known now; starts another search for the next caller."""
         if self._polled.wait(SEARCH_TIMEOUT_S):
             self._begin()
         return self._found

@@ -1,6 +1,7 @@
-"""The process that runs one launch file on a real ROS 2: its LaunchService can run in a main thread only.
+"""The process that runs one launch file on a real ROS 2, because LaunchService runs only in a main thread.
 
-`python -m bot_console.tui.cli.attach.launch_host --owner DESCRIPTOR`. It serves what `tui.console.launch_host` defines.
+`python -m bot_console.tui.cli.attach.launch_host --owner DESCRIPTOR`. It serves the protocol of
+`tui.console.launch_host`.
 """
 
 from __future__ import annotations
@@ -28,9 +29,10 @@ SWITCH = "bot_console.tui.cli.attach.launch_host"
 
 
 def start_ros_host() -> tuple[subprocess.Popen[bytes], socket.socket]:
-    """Start a host that this process owns: when it hangs up, the host ends all that it has started, then itself.
+    """Start a host that this process owns: when the owner hangs up, the host ends everything it has started, then
+    itself.
 
-    What launch writes to its screen comes by the process's standard output.
+    What launch prints comes through the process's standard output.
     """
     ours, theirs = socket.socketpair()
     with theirs:
@@ -54,7 +56,7 @@ class Turn:
         self.done = threading.Event()
 
     def join(self, timeout: float | None = None) -> object:
-        """Wait for its end, at most so many seconds."""
+        """Wait for its end, at most `timeout` seconds."""
         return self.done.wait(timeout)
 
 
@@ -65,13 +67,13 @@ class MainThread:
         self._turns: queue.SimpleQueue[Turn | None] = queue.SimpleQueue()
 
     def spawn(self, work: Callable[[], None], file: str) -> Turn:
-        """Queue a launch, to run when the one before it has ended."""
+        """Queue a launch, to run once the previous one has ended."""
         turn = Turn(work)
         self._turns.put(turn)
         return turn
 
     def serve(self) -> None:
-        """Work until `end`."""
+        """Run queued work until `end` is called."""
         while (turn := self._turns.get()) is not None:
             try:
                 turn.work()
@@ -84,7 +86,7 @@ class MainThread:
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Serve until everything has ended, because a console asked for that or the owner is gone."""
+    """Serve until everything has ended because a console requested it, or until the owner is gone."""
     parser = argparse.ArgumentParser("launch_host")
     parser.add_argument("--owner", type=int, required=True, metavar="DESCRIPTOR", help="the socket of the console")
     given = parser.parse_args(words)

@@ -17,7 +17,7 @@ Printed = Callable[[int, str, str], None]
 
 
 def launcher_of_machine(record: Add, printed: Printed) -> CombinedLauncher:
-    """A launcher whose launch files each get a host, as launch runs only in the main thread of a process there."""
+    """A launcher that gives each launch file its own host, since launch runs only in a process's main thread there."""
 
     def start() -> tuple[str, HostedLauncher]:
         process, connection = start_ros_host()

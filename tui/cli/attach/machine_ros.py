@@ -12,7 +12,7 @@ from pathlib import Path
 
 RUNTIME = Path(__file__).resolve().parents[3] / "runtime"
 OLDEST = (3, 10)
-"""The oldest Python that this program runs on."""
+"""The oldest Python that bot-console runs on."""
 _EXTENSION = re.compile(r"_rclpy_pybind11\.(?:cpython-)?(\d)(\d+)")
 _FOLDER = re.compile(r"python(\d)\.(\d+)$")
 
@@ -35,7 +35,7 @@ class MachineRos:
 
 
 def find_machine_ros(path: Iterable[str] | None = None) -> MachineRos | None:
-    """The `rclpy` that an import would find without our finder, else one from the sourced prefixes."""
+    """The `rclpy` that an import would find without our finder, or else one from the sourced prefixes."""
     found = _importable(path)
     if found is not None:
         return found
@@ -48,7 +48,7 @@ def find_machine_ros(path: Iterable[str] | None = None) -> MachineRos | None:
 
 def how_to_install(ros: MachineRos) -> str:
     """One line of advice when the machine's ROS 2 is for another Python."""
-    whose = f"{ros} is sourced, and it is for Python {ros.other_python}, while this bot-console runs on {_running()}"
+    whose = f"{ros} is sourced; it is for Python {ros.other_python}, while this bot-console runs on {_running()}"
     if _is_too_old(ros.other_python):
         return (
             f"{whose}, and needs {OLDEST[0]}.{OLDEST[1]} or newer: reach the robot over the network instead, if its "
@@ -73,12 +73,12 @@ def _importable(path: Iterable[str] | None) -> MachineRos | None:
         return None
     origin = Path(spec.origin)
     if origin.name != "__init__.py" or RUNTIME in origin.resolve().parents:
-        return None  # ours, or one of the modules that stand in for it in processes that we start
+        return None  # Ours, or one of the shims for it in processes that we start.
     return MachineRos(origin.parent, _other_python(origin.parent))
 
 
 def _other_python(folder: Path) -> str:
-    """The Python that its extension module was built for, if this one cannot load it."""
+    """The Python that its extension module was built for, if the running one cannot load it."""
     extensions = [*folder.glob("_rclpy_pybind11*"), *folder.parent.glob("_rclpy_pybind11*")]
     names = [each.name for each in extensions if each.suffix in (".so", ".pyd")]
     suffixes = tuple(importlib.machinery.EXTENSION_SUFFIXES)

@@ -25,7 +25,7 @@ CAPABILITIES = Capabilities(
 )
 OUTPUT = (
     "Connected to {} in ROS domain {}: q ends the console, not the robot. If the link is lost, the robot has to stop "
-    "by itself: `bot-console doctor` looks whether it has a time-out for commands."
+    "by itself: `bot-console doctor` checks whether it has a time-out for commands."
 )
 
 
@@ -67,7 +67,7 @@ def run_network(options: AttachOptions) -> int:
 
 
 class LinkWords:
-    """The state of the link, in steps that are worth drawing; the same object until it changes."""
+    """The state of the link, in steps worth drawing; returns the same object until it changes."""
 
     def __init__(self, buses: NetworkBuses) -> None:
         self._buses = buses
@@ -82,7 +82,9 @@ class LinkWords:
 
 
 def words_of(state: LinkState, now: float) -> LinkInfo:
-    """The state of the link at a moment; delays are rounded to a tenth of themselves, so that the display is calm."""
+    """The state of the link at a given time; delays are rounded to about a tenth of their value so that the display is
+    calm.
+    """
     silent = 0 if state.heard is None else int(now - state.heard)
     delay = None if state.delay is None else max(1, round(state.delay * 1000))
     if delay is not None and delay > 20:

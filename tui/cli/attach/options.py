@@ -30,9 +30,9 @@ class AttachOptions:
     """The options given: one of the three ways to attach, or none."""
 
     appearance: Options
-    """What every console is asked for."""
+    """The options that every console has."""
     way: Way | None = None
-    """To a robot on a network."""
+    """The route to a robot on the network."""
     ros: bool = False
     embedded: bool = False
 
@@ -46,16 +46,21 @@ def add_network_options(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         const="",
         metavar="ENDPOINT",
-        help=f"a robot's Zenoh router, such as tcp/robot:7447; without one {CONFIG_VARIABLE} names it",
+        help=f"a robot's Zenoh router, such as tcp/robot:7447; default: the one that {CONFIG_VARIABLE} names",
     )
-    add("--tls-ca", default="", metavar="FILE", help="the authority that has signed the router's certificate")
-    add("--tls-certificate", default="", metavar="FILE", help="a certificate to show (mutual TLS)")
+    add(
+        "--tls-ca",
+        default="",
+        metavar="FILE",
+        help="certificate of the authority that has signed the router's certificate",
+    )
+    add("--tls-certificate", default="", metavar="FILE", help="certificate to present (mutual TLS)")
     add("--tls-key", default="", metavar="FILE", help="its private key")
-    add("--tls-any-name", action="store_true", help="the router's certificate may be for another name")
+    add("--tls-any-name", action="store_true", help="accept a certificate that is for another host name")
 
 
 def network_way(parser: argparse.ArgumentParser, given: argparse.Namespace) -> Way | None:
-    """The route to a router, from an option or the environment; exits for a text that is not an endpoint."""
+    """The route to a router, from an option or the environment; exits if a text is not an endpoint."""
     asked: list[str] | None = given.connect
     if asked is None:
         from_environment = os.environ.get(CONNECT_VARIABLE, "")
@@ -67,7 +72,7 @@ def network_way(parser: argparse.ArgumentParser, given: argparse.Namespace) -> W
         return None
     endpoints = tuple(filter(None, asked))
     if not endpoints and not os.environ.get(CONFIG_VARIABLE):
-        parser.error(f"--connect without an endpoint needs {CONFIG_VARIABLE}, which names a configuration of Zenoh")
+        parser.error(f"--connect without an endpoint needs {CONFIG_VARIABLE}, which names a Zenoh configuration")
     for each in endpoints:
         try:
             place_of(each)
@@ -84,8 +89,8 @@ def parse(words: Sequence[str]) -> AttachOptions:
     parser.epilog = EPILOG
     add_network_options(parser)
     which = parser.add_mutually_exclusive_group()
-    which.add_argument("--ros", action="store_true", help="the ROS 2 of this machine, by its own rclpy")
-    which.add_argument("--embedded", action="store_true", help="a system of this program, where ROS 2 is there as well")
+    which.add_argument("--ros", action="store_true", help="the ROS 2 of this machine, through its own rclpy")
+    which.add_argument("--embedded", action="store_true", help="a system of bot-console, even if ROS 2 is installed")
     appearance, given = parse_attach(words, parser)
     way = None if given.ros or given.embedded else network_way(parser, given)
     if given.connect is not None and way is None:

@@ -1,4 +1,4 @@
-"""The console on this machine's ROS 2: its rclpy, launch and `ros2`, and nothing of the embedded runtime."""
+"""The console on this machine's ROS 2: uses its rclpy, launch and `ros2`, and nothing of the embedded runtime."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ OUTPUT = "On {}, RMW {}: q ends the console and what it has launched, not the ro
 
 
 def run_ros(options: AttachOptions, described: str) -> int:
-    """Show the console; the ROS names mean the machine's packages."""
+    """Show the console; ROS package names refer to the machine's packages."""
 
     def launched() -> LaunchInfo:
         return launchers.info()

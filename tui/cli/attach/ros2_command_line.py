@@ -41,11 +41,11 @@ COMMANDS = (
 LINE_TIMEOUT_S = 15.0
 """Seconds after which a line that does not end by itself is interrupted, as by Ctrl-C."""
 INTERRUPT_TIMEOUT_S = 3.0
-"""Seconds that it then has to end."""
+"""Seconds that it has to end after the interrupt."""
 
 
 class _Streamed(RunningLine):
-    """A command in a process, and the last lines it has printed."""
+    """A command in its own process, and the last lines it has printed."""
 
     def __init__(self, words: Sequence[str]) -> None:
         super().__init__()
@@ -73,7 +73,7 @@ class MachineCommandLine:
         return COMMANDS
 
     def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
-        """Completions from what runs; only the machine's own shell knows the others."""
+        """Completions from what is running; only the machine's own shell knows the others."""
         if len(words) < 2:
             found: Sequence[str] = COMMANDS
         elif words[0] in ("node", "param", "lifecycle"):
@@ -92,12 +92,14 @@ class MachineCommandLine:
         return _Streamed(words) if goes_on(words[1:]) and shutil.which(words[0]) else None
 
     def run(self, line: str) -> Future[str]:
-        """Run a line beside the caller; what it printed, or the `ValueError` of a quotation mark without its twin."""
+        """Run a line in the background; the future has its output, or the `ValueError` of an unmatched quotation
+        mark.
+        """
         return in_background(lambda: printed_by(line), "ros2")
 
 
 def printed_by(line: str, limit: float = LINE_TIMEOUT_S) -> str:
-    """What a line printed, errors included."""
+    """The output of a line, including errors."""
     words = _words(line)
     if shutil.which(words[0]) is None:
         return f"there is no command '{words[0]}' on this machine's PATH: is its ROS 2 sourced?"

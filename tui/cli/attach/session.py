@@ -1,4 +1,4 @@
-"""A console session on a system that it did not start, and that continues after it."""
+"""A console session on a system that it did not start, and that outlives it."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class AttachedSession:
         self._foreground = Foreground(self.app, console.printed, self._end)
 
     def run(self) -> int:
-        """Show the console until it quits. A robot that it steers is left standing; everything else goes on."""
+        """Show the console until it quits. Stops the robot if this console steers it; everything else keeps running."""
         return self._foreground.run(self._close)
 
     def _close(self) -> None:

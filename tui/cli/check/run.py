@@ -14,7 +14,7 @@ from bot_console.tui.cli.system.reached_console import known, reached_console
 from bot_console.tui.format import counted, sanitize
 
 MAX_SCRIPT_BYTES = 1_000_000
-"""Bytes of a script."""
+"""The largest script that is accepted."""
 EPILOG = """a step a line, # begins a comment; what waits does so for 5 s, or as `within` says:
   set /robot_navigator max_speed 0.8
   expect-refused /robot_navigator max_speed 99 "out of range"
@@ -36,17 +36,17 @@ def run(words: list[str]) -> int:
     """Read the whole script, carry out its steps, print the report."""
     parser = argparse.ArgumentParser(
         "bot-console check",
-        description="Set, wait and expect on the system that runs in this domain, for graders and CI.",
+        description="Set parameters, wait and check expectations on the system in this domain, for graders and CI.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("script", metavar="SCRIPT", help="a file of steps; - reads them from standard input")
-    parser.add_argument("--json", action="store_true", help="the report as one JSON object")
-    parser.add_argument("--stop", action="store_true", help="end at the first step that fails")
+    parser.add_argument("script", metavar="SCRIPT", help="file of steps; - reads them from standard input")
+    parser.add_argument("--json", action="store_true", help="print the report as one JSON object")
+    parser.add_argument("--stop", action="store_true", help="stop at the first step that fails")
     parser.add_argument("--wait", type=float, default=10.0, metavar="S", help="seconds to wait for nodes (10)")
     given = parser.parse_args(words)
     if not given.script:
-        parser.error("give the name of a script")
+        parser.error("name a script")
     try:
         steps = read(_text(given.script))
     except (OSError, UnicodeDecodeError, ScriptError) as error:
@@ -73,7 +73,7 @@ def _text(script: str) -> str:
     with Path(script).open("rb") as file:
         content = file.read(MAX_SCRIPT_BYTES + 1)
     if len(content) > MAX_SCRIPT_BYTES:
-        raise ScriptError(f"larger than {MAX_SCRIPT_BYTES} bytes; no script is")
+        raise ScriptError(f"larger than the limit of {MAX_SCRIPT_BYTES} bytes")
     return content.decode("utf-8")
 
 
@@ -90,14 +90,14 @@ def _done(runner: Runner, steps: Sequence[Step], *, print_progress: bool, stop: 
 
 
 def step_line(outcome: Outcome) -> str:
-    """A step on one line, with its failure below."""
+    """A step on one line, with the reason for its failure below."""
     step = outcome.step
     head = f"{'FAIL' if outcome.why else 'ok  '} {step.line:>4}  {sanitize(step.text)}"
     return f"{head}\n           {sanitize(outcome.why)}" if outcome.why else head
 
 
 def summary(steps: Sequence[Step], outcomes: Sequence[Outcome]) -> str:
-    """How many steps succeeded."""
+    """The number of steps that succeeded, failed and were not run."""
     failed = sum(bool(each.why) for each in outcomes)
     left = len(steps) - len(outcomes)
     parts = [f"{len(outcomes) - failed} of {counted(len(steps), 'step')} as expected"]
@@ -105,7 +105,7 @@ def summary(steps: Sequence[Step], outcomes: Sequence[Outcome]) -> str:
 
 
 def report(script: str, steps: Sequence[Step], outcomes: Sequence[Outcome]) -> dict[str, object]:
-    """The same for programs."""
+    """The report as JSON data."""
     failed = sum(bool(each.why) for each in outcomes)
     return {
         "script": script,

@@ -18,11 +18,11 @@ from bot_console.tui.panes.alarms.alarm import Alarm, AlarmText
 
 T = TypeVar("T")
 POLL_S = 0.05
-"""Seconds between two looks."""
+"""Seconds between two checks."""
 ANSWER_TIMEOUT_S = 10.0
 """Seconds that a node may take to answer."""
 FIGURE = 3.0
-"""Seconds that a rate may take to be known beyond the time for which it is measured."""
+"""Seconds beyond the measuring time within which a rate has to be known."""
 REQUESTER = "check"
 SIGNS: Mapping[str, Callable[[float, float], bool]] = {
     "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq,
@@ -58,7 +58,7 @@ class Runner:
         return Outcome(step, why, self._clock() - began)
 
     def _until(self, seconds: float, poll: Callable[[], str]) -> str:
-        """Repeat a check until nothing is wrong, for so many seconds at most; returns what was wrong last."""
+        """Repeat a check until it passes, for at most so many seconds; returns the last failure, empty if it passed."""
         deadline = self._clock() + seconds
         while (why := poll()) and self._clock() < deadline:
             self._sleep(POLL_S)
@@ -71,7 +71,7 @@ class Runner:
         return future.result() if future.done() else None
 
     def _parameter(self, node: str, name: str) -> ParameterInfo | str:
-        """A parameter, waited for briefly, or why there is none."""
+        """A parameter, after a short wait if needed, or the reason why there is none."""
 
         def poll() -> str:
             tree = self._console.snapshot().parameters.get(node)
@@ -84,7 +84,7 @@ class Runner:
         return found or why
 
     def _try(self, node: str, name: str, text: str) -> SetOutcome | str:
-        """How a node answers a value, or why it could not be asked."""
+        """A node's answer to a value, or the reason why it could not be asked."""
         parameter = self._parameter(node, name)
         if isinstance(parameter, str):
             return parameter
@@ -107,11 +107,11 @@ class Runner:
         if isinstance(outcome, str):
             return outcome
         if outcome.accepted:
-            return f"it was taken: {name} is {value_text(outcome.value)} now"
+            return f"it was accepted: {name} is {value_text(outcome.value)} now"
         if outcome.refused_by in ("console", "node"):
-            return f"it was not judged: {outcome.reason}"
+            return f"it was neither accepted nor refused: {outcome.reason}"
         wanted = reason.lower() in outcome.reason.lower()
-        return "" if wanted else f"it was refused, but with other words: {outcome.reason}"
+        return "" if wanted else f"it was refused for another reason: {outcome.reason}"
 
     def _expect(self, step: Step) -> str:
         if len(step.words) == 3:
@@ -131,7 +131,7 @@ class Runner:
         if alarm.poll(self._console) or alarm.holds:
             return ""
         values = ", ".join(f"{path} = {alarm.values[path]:.6g}" for path in alarm.paths if path in alarm.values)
-        return alarm.problem or values or f"nothing has come on {', '.join(alarm.paths)}"
+        return alarm.problem or values or f"nothing was received on {', '.join(alarm.paths)}"
 
     def _expect_value(self, step: Step) -> str:
         path, sign, text = step.words
@@ -160,14 +160,14 @@ class Runner:
 
         def poll() -> str:
             found = traffic.measured().get(topic, Measure())
-            return found.problem or (f"nothing has come on {topic}" if found.rate is None else "")
+            return found.problem or (f"nothing was received on {topic}" if found.rate is None else "")
 
         why = self._until(FIGURE, poll)
         rate = traffic.measured().get(topic, Measure()).rate
         traffic.measure([], REQUESTER)
         if why or rate is None:
             return why
-        return "" if SIGNS[sign](rate, float(wanted)) else f"it comes at {rate:.4g} Hz"
+        return "" if SIGNS[sign](rate, float(wanted)) else f"its rate is {rate:.4g} Hz"
 
     def _expect_node(self, step: Step) -> str:
         def poll() -> str:
@@ -180,7 +180,7 @@ class Runner:
     def _expect_no_node(self, step: Step) -> str:
         def poll() -> str:
             there = any(each.name == step.words[0] for each in self._console.snapshot().graph.nodes)
-            return "it is there" if there else ""
+            return "it exists" if there else ""
 
         return self._until(step.seconds, poll)
 
@@ -203,7 +203,7 @@ class Runner:
                 found = self._console.matching_logs(which, 0, 1)
             except ValueError as error:
                 return str(error)
-            return "" if found else "no line of the log has these words"
+            return "" if found else "no line of the log matches"
 
         return self._until(step.seconds, poll)
 
@@ -211,7 +211,7 @@ class Runner:
         answer = self._answer(self._console.call(step.words[0], step.words[1], {}))
         if answer is None:
             return "no answer"
-        return "" if answer.ok else answer.text or "it answered: no success"
+        return "" if answer.ok else answer.text or "it answered without success"
 
     def _wait(self, step: Step) -> str:
         self._sleep(step.seconds)

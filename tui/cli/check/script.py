@@ -11,15 +11,15 @@ from bot_console.tui.format import cut
 from bot_console.tui.panes.alarms.condition import read as read_condition
 
 DEFAULT_TIMEOUT_S = 5.0
-"""Seconds that an expectation waits where the script says nothing else."""
+"""Seconds that an expectation waits unless the script says otherwise."""
 MAX_TIMEOUT_S = 3600.0
-"""Seconds that one line may take at most."""
+"""Seconds that a single line may take at most."""
 SPAN = re.compile(r"(\d+(?:\.\d+)?)\s*(ms|s|min)?")
 UNITS = {"ms": 0.001, "s": 1.0, "min": 60.0, "": 1.0}
 WITHIN = re.compile(r"\s+(?:within|for)\s+(\S+(?:\s+(?:ms|s|min))?)\s*$")
 RATE = re.compile(r"(\S+)\s*(<=|>=|<|>|==)\s*(\S+)")
 QUOTED = re.compile(r"""(/\S+:\S+)\s*(==|!=)\s*("[^"]*"|'[^']*'|[A-Za-z_][\w.-]*|\[.*\])""")
-"""A parameter that is no number, compared with what stands there."""
+"""A comparison of a parameter that is not a number."""
 
 
 class ScriptError(ValueError):
@@ -48,7 +48,7 @@ def read(text: str) -> list[Step]:
             except ValueError as error:
                 raise ScriptError(f"line {number}: {error}") from None
     if not found:
-        raise ScriptError("there is no step in it")
+        raise ScriptError("it contains no step")
     return found
 
 
@@ -56,10 +56,10 @@ def seconds_of(text: str) -> float:
     """A duration such as `2 s`, `500 ms` or `1 min` in s; raises `ValueError`."""
     found = SPAN.fullmatch(text.strip())
     if found is None:
-        raise ValueError(f"'{cut(text, 20)}' is no time; write for instance 2 s, 500 ms or 1 min")
+        raise ValueError(f"'{cut(text, 20)}' is not a duration; write for instance 2 s, 500 ms or 1 min")
     value = float(found[1]) * UNITS[found[2] or ""]
     if value > MAX_TIMEOUT_S:
-        raise ValueError(f"no line may take more than {MAX_TIMEOUT_S:g} s")
+        raise ValueError(f"a line may take at most {MAX_TIMEOUT_S:g} s")
     return value
 
 
@@ -67,7 +67,7 @@ def _step(number: int, text: str) -> Step:
     verb, _, rest = text.partition(" ")
     reader = VERBS.get(verb)
     if reader is None:
-        raise ValueError(f"'{cut(verb, 20)}' is none of {', '.join(VERBS)}")
+        raise ValueError(f"'{cut(verb, 20)}' is not one of {', '.join(VERBS)}")
     timed = WITHIN.search(rest) if verb not in ("set", "expect-refused", "wait") else None
     seconds = seconds_of(timed[1]) if timed else DEFAULT_TIMEOUT_S
     rest = rest[: timed.start()] if timed else rest
@@ -92,9 +92,9 @@ def _refused(rest: str) -> Read:
     try:
         words = shlex.split(rest)
     except ValueError as error:
-        raise ValueError(f"{error}; values with blanks stand in quotes") from None
+        raise ValueError(f"{error}; quote values that contain blanks") from None
     if len(words) < 3 or not words[0].startswith("/"):
-        raise ValueError("write expect-refused /node parameter value [a part of the reason]")
+        raise ValueError("write expect-refused /node parameter value [part of the reason]")
     return (*words[:3], " ".join(words[3:])), None
 
 
@@ -105,7 +105,7 @@ def _rate(rest: str) -> Read:
             raise ValueError
         float(found[3])
     except ValueError:
-        raise ValueError("write assert-rate /topic >= 10, perhaps with for 5 s") from None
+        raise ValueError("write assert-rate /topic >= 10, optionally with for 5 s") from None
     return (found[1], found[2], found[3]), None
 
 
@@ -133,7 +133,7 @@ def _words(least: int, maximum: int, usage: str) -> Callable[[str], Read]:
 
 def _log(rest: str) -> Read:
     if not rest:
-        raise ValueError("write expect-log and words as in the filter of the log, such as sev:>=warn obstacle")
+        raise ValueError("write expect-log and a filter as in the log, such as sev:>=warn obstacle")
     return (rest,), None
 
 
@@ -150,4 +150,4 @@ VERBS: Mapping[str, Callable[[str], Read]] = {
     "wait": _wait,
     "stop": _words(0, 0, "stop"),
 }
-"""What a line may begin with."""
+"""The words that a line may begin with."""

@@ -68,16 +68,21 @@ def run_as_ros2(words: Sequence[str]) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         "bot-console doctor",
-        description="Looks at everything that a console depends on, and says how to mend what is wrong.",
+        description="Check everything that a console depends on, and say how to fix what is wrong.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add_network_options(parser)
     add = parser.add_argument
-    add("--ros", action="store_true", help="ask the ROS 2 of this machine, by its own rclpy")
-    add("--json", action="store_true", help="a list of findings for scripts")
-    add("--seconds", type=float, default=2.0, metavar="S", help="how long to listen to messages")
-    add("--capture", type=Path, metavar="FILE", help="write tokens and attachments of what runs, as tests read them")
+    add("--ros", action="store_true", help="check the ROS 2 of this machine, through its own rclpy")
+    add("--json", action="store_true", help="print the findings as JSON, for scripts")
+    add("--seconds", type=float, default=2.0, metavar="S", help="seconds to listen to messages")
+    add(
+        "--capture",
+        type=Path,
+        metavar="FILE",
+        help="write the tokens and attachments of what runs, in the format of the tests",
+    )
     return parser
 
 
@@ -85,14 +90,15 @@ def _ros(report: Callable[[Sequence[DoctorFinding]], None]) -> None:
     ros = find_machine_ros()
     if ros is None or not ros.usable:
         hint = NO_ROS if ros is None else how_to_install(ros)
-        report([DoctorFinding(Level.FAIL, "ros", "no rclpy that this Python can import", hint)])
+        report([DoctorFinding(Level.FAIL, "ros", "this Python cannot import an rclpy", hint)])
         return
     try:
         from bot_console.tui.cli.doctor.nodes import node_findings
 
         report(node_findings())
-    except (ImportError, RuntimeError) as error:  # a library, or the middleware of RMW_IMPLEMENTATION, is not there
-        hint = "look whether `ros2 node list` works in this shell, and source its setup file again"
+    # A library, or the middleware that RMW_IMPLEMENTATION names, is missing.
+    except (ImportError, RuntimeError) as error:
+        hint = "check whether `ros2 node list` works in this shell, and source its setup file again"
         report([DoctorFinding(Level.FAIL, "ros", f"{ros} does not start: {error}", hint)])
 
 
@@ -103,7 +109,7 @@ def _zenoh(
     from bot_console.tui.cli.system.domain import others_take_part
 
     if way is None and not others_take_part():
-        report([DoctorFinding(Level.NOTE, "graph", "no system of this program runs in this ROS domain")])
+        report([DoctorFinding(Level.NOTE, "graph", "no system of bot-console runs in this ROS domain")])
         return
     install()
     from bot_console.tui.cli.doctor.system import examine
@@ -115,4 +121,4 @@ def _zenoh(
     except OSError as error:
         print(f"cannot write {capture}: {error.strerror}", file=sys.stderr)
         found = [DoctorFinding(Level.FAIL, "capture", f"cannot write {capture}: {error.strerror}")]
-    report(found)  # not above: a pipe that nobody reads is no fault of the capture
+    report(found)  # Outside the `try`: a closed pipe is not a fault of the capture.

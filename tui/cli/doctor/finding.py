@@ -22,7 +22,7 @@ MARKS = {Level.OK: "✓", Level.NOTE: "·", Level.WARN: "!", Level.FAIL: "✗"}
 
 @dataclass(frozen=True)
 class DoctorFinding:
-    """One line; `mend` says how to fix it, and is empty when there is nothing to fix."""
+    """One line; `hint` says how to fix it, and is empty if there is nothing to fix."""
 
     level: Level
     about: str
@@ -30,14 +30,14 @@ class DoctorFinding:
     hint: str = ""
 
     def line(self) -> str:
-        """For people; the word beside the mark serves those who cannot see the mark or its colour."""
+        """The finding as text; the word beside the mark is for those who cannot see the mark or its colour."""
         word = "" if self.level in (Level.OK, Level.NOTE) else f"{self.level.value.upper()}: "
         hint = f"\n    → {self.hint}" if self.hint else ""
         return f"{MARKS[self.level]} {self.about:<10} {word}{self.text}{hint}"
 
 
 def as_json(findings: Iterable[DoctorFinding]) -> list[dict[str, Any]]:
-    """As a script reads it."""
+    """The findings as JSON data."""
     # `mend` is the name that `hint` had in earlier releases; it is written for one more release.
     return [{**asdict(each), "level": each.level.value, "mend": each.hint} for each in findings]
 

@@ -1,4 +1,4 @@
-"""Whether the robot's emergency stop answers: each lock is asked, with a request that changes nothing."""
+"""Whether the robot's emergency stop answers: each lock is queried with a request that changes nothing."""
 
 from __future__ import annotations
 
@@ -18,31 +18,31 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
 Spin = Callable[..., None]
-"""Spins a node for so many seconds, or until something holds."""
+"""Spins a node for so many seconds, or until a condition holds."""
 ANSWER_TIMEOUT_S = 3.0
 REPEAT_S = 0.5
-"""Between two copies of a question, which may come before the lock has found us."""
+"""Seconds between two copies of a request; the first may be sent before the lock has discovered us."""
 REMEDY = (
-    "no stop would reach it: see whether its node is frozen or hangs (kill -CONT, or start it again), and until then "
-    "stop the robot by a switch of its own"
+    "a stop would not reach it: check whether its node is frozen or hangs (kill -CONT, or restart it); until then, "
+    "stop the robot with its own switch"
 )
 
 
 @dataclass
 class AskedLock:
-    """A lock that was asked: by its topic, with the nodes that publish it, and what came back."""
+    """A lock that was queried: its topic, the nodes that publish it, and the answer."""
 
     topic: str
     nodes: Sequence[str]
     reported: bool = False
-    """Whether its state has come."""
+    """Whether its state has been received."""
     older: bool = False
-    """Whether it is of a version that knows no questions."""
+    """Whether it is of a version that does not quote requests."""
     answered: bool = False
 
 
 def find_locks(node: Node) -> list[AskedLock]:
-    """The locks that somebody publishes; a topic that is only listened to is none."""
+    """The locks that have a publisher; a topic with subscriptions only is not a lock."""
     found: list[AskedLock] = []
     for topic, types in sorted(node.get_topic_names_and_types()):
         if STATUS in types and is_lock(topic):
@@ -52,7 +52,9 @@ def find_locks(node: Node) -> list[AskedLock]:
 
 
 def ask_locks(node: Node, locks: Sequence[AskedLock], spin: Spin) -> Sequence[AskedLock]:
-    """Ask every lock for its state; an older one, which quotes no question, is asked through its parameter services."""
+    """Query the state of every lock; an older one, which quotes no request, is queried through its parameter
+    services.
+    """
     question = uuid.uuid4().hex
 
     def heard(lock: AskedLock, message: DiagnosticStatus) -> None:
@@ -83,7 +85,7 @@ def ask_locks(node: Node, locks: Sequence[AskedLock], spin: Spin) -> Sequence[As
 
 
 def _question(question: str) -> DiagnosticStatus:
-    """A release of nothing: locks of every version leave everything as it is."""
+    """A release without stops: locks of every version ignore it."""
     nothing = json.dumps([question])
     values: Mapping[str, str] = {REQUEST: RELEASE, "ids": "[]", "of": nothing, "question": question}
     return DiagnosticStatus(
@@ -95,7 +97,7 @@ def _question(question: str) -> DiagnosticStatus:
 
 
 def _serves(node: Node, name: str, spin: Spin) -> bool:
-    """Whether a node answers a call; the thread that answers is the one that hears requests."""
+    """Whether a node answers a service call; the thread that answers also handles stop requests."""
     from rcl_interfaces.srv import ListParameters
 
     client: Any = node.create_client(ListParameters, f"{name}/list_parameters")
@@ -111,7 +113,7 @@ def _serves(node: Node, name: str, spin: Spin) -> bool:
 
 
 def lock_finding(locks: Sequence[AskedLock]) -> DoctorFinding:
-    """Whether all of them have answered."""
+    """Whether all of them answered."""
     silent = [each for each in locks if not each.answered]
     if not silent:
         return DoctorFinding(Level.OK, "time-out", f"the robot has an emergency stop that answers ({_listed(locks)})")

@@ -13,7 +13,7 @@ from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 
 NEWEST = (3, 13)
 MAX_DDS_DOMAIN = 101
-"""The greatest domain that every DDS takes on Linux."""
+"""The highest domain id that every DDS implementation accepts on Linux."""
 
 
 def machine_findings(environment: Mapping[str, str]) -> list[DoctorFinding]:
@@ -32,16 +32,16 @@ def python_finding(version: tuple[int, int] = sys.version_info[:2]) -> DoctorFin
     if OLDEST <= version <= NEWEST:
         return DoctorFinding(Level.OK, "python", text)
     tried = f"{OLDEST[0]}.{OLDEST[1]} to {NEWEST[0]}.{NEWEST[1]}"
-    return DoctorFinding(Level.WARN, "python", text, f"it is tried on {tried}: take one of these")
+    return DoctorFinding(Level.WARN, "python", text, f"it is tested on {tried}: use one of these")
 
 
 def ros_finding(ros: MachineRos | None, environment: Mapping[str, str]) -> DoctorFinding:
-    """Whether a real ROS 2 is there, and for which Python."""
+    """Whether a real ROS 2 is sourced, and for which Python."""
     rmw = environment.get("RMW_IMPLEMENTATION", "")
     if ros is None:
         text = "no ROS 2 is sourced; the embedded runtime needs none"
         if rmw or environment.get("AMENT_PREFIX_PATH"):
-            hint = "source its setup file again, and look whether `python3 -c 'import rclpy'` works"
+            hint = "source its setup file again, and check whether `python3 -c 'import rclpy'` works"
             return DoctorFinding(Level.WARN, "ros", "variables of a ROS 2 are set, but its rclpy is not found", hint)
         return DoctorFinding(Level.OK, "ros", text)
     if not ros.usable:
@@ -50,21 +50,21 @@ def ros_finding(ros: MachineRos | None, environment: Mapping[str, str]) -> Docto
 
 
 def domain_finding(text: str) -> DoctorFinding:
-    """What ROS_DOMAIN_ID says."""
+    """The domain that ROS_DOMAIN_ID names."""
     if not text:
         return DoctorFinding(Level.OK, "domain", "ROS_DOMAIN_ID is not set: 0")
     if not is_domain(text):
         return DoctorFinding(
-            Level.FAIL, "domain", f"ROS_DOMAIN_ID={text[:40]} is no number", "unset it, or set 0 to 101"
+            Level.FAIL, "domain", f"ROS_DOMAIN_ID={text[:40]} is not a number", "unset it, or set it to 0 to 101"
         )
     if int(text) > MAX_DDS_DOMAIN:
-        hint = "DDS takes 0 to 101 on every system; Zenoh takes any"
+        hint = "DDS accepts 0 to 101 on every system; Zenoh accepts any"
         return DoctorFinding(Level.WARN, "domain", f"ROS_DOMAIN_ID={text} is beyond {MAX_DDS_DOMAIN}", hint)
     return DoctorFinding(Level.OK, "domain", f"ROS_DOMAIN_ID={text}")
 
 
 def sockets_findings() -> list[DoctorFinding]:
-    """The programs in the domain's folder, and the sockets of those that are dead or stopped."""
+    """The programs in the domain's folder, and sockets of programs that are dead or stopped."""
     from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
     from bot_console.runtime.rmw.zenoh.domain.sockets import sockets
     from bot_console.tui.cli.system.domain import domain
@@ -72,7 +72,7 @@ def sockets_findings() -> list[DoctorFinding]:
     try:
         folder = domain_folder(domain())
     except FolderRefusedError as error:
-        return [DoctorFinding(Level.FAIL, "sockets", "programs of this user cannot meet", str(error))]
+        return [DoctorFinding(Level.FAIL, "sockets", "programs of this user cannot find each other", str(error))]
     found = sockets(folder)
     dead = [each for each in found if each.is_dead()]
     stopped = [each for each in found if each not in dead and each.is_stopped()]
@@ -80,13 +80,13 @@ def sockets_findings() -> list[DoctorFinding]:
     text = f"{alive} program{'' if alive == 1 else 's'} in {folder}"
     findings = [DoctorFinding(Level.OK, "sockets", text)]
     if dead:
-        text = f"{len(dead)} of programs that were killed are left over"
+        text = f"{len(dead)} left over from programs that were killed"
         findings.append(
             DoctorFinding(Level.NOTE, "sockets", text, "nothing: the next program that starts removes them")
         )
     for each in stopped:
         hint = f"`kill -CONT {each.pid}`, or end it"
         findings.append(
-            DoctorFinding(Level.WARN, "sockets", f"process {each.pid} is stopped: its nodes are not seen", hint)
+            DoctorFinding(Level.WARN, "sockets", f"process {each.pid} is stopped: its nodes are not visible", hint)
         )
     return findings

@@ -1,4 +1,4 @@
-"""Checks of the graph through the public rclpy API, on every middleware: blocked messages, and what stops the robot."""
+"""Checks of the graph through rclpy's public API, on every middleware: blocked messages, and what stops the robot."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 
 TWISTS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
 TIMEOUT = re.compile(r"(cmd|command|vel|twist|input|watchdog).*time_?out|time_?out.*(cmd|command|vel)|watchdog", re.I)
-"""Names of parameters of bases and controllers that stop a robot whose commands stay away."""
+"""Names of the parameters that stop a base or controller when commands cease."""
 SETTLE, TIMEOUT_S = 1.5, 3.0
-"""Seconds for the graph to be seen, and for a node to list its parameters."""
+"""Seconds for discovery, and for a node to list its parameters."""
 HOW = (
-    "let the base stop by itself when commands stay away (ros2_controllers: cmd_vel_timeout; or the emergency "
+    "let the base stop by itself when commands cease (ros2_controllers: cmd_vel_timeout; or the emergency "
     "stop of docs/safety.md; the timeout of twist_mux sends no zero): a console that has lost its link cannot stop it"
 )
 
@@ -59,7 +59,9 @@ def pair_findings(node: Node) -> list[DoctorFinding]:
         for text in unheard(topic, publishers, subscriptions):
             message, _, hint = text.rpartition("; " if "; " in text else ": ")
             found.append(DoctorFinding(Level.WARN, "topics", message, hint))
-    return found or [DoctorFinding(Level.OK, "topics", "types, hashes and QoS of all publishers and subscriptions fit")]
+    return found or [
+        DoctorFinding(Level.OK, "topics", "types, hashes and QoS of all publishers and subscriptions match")
+    ]
 
 
 def type_findings(node: Node) -> list[DoctorFinding]:
@@ -78,10 +80,10 @@ def type_findings(node: Node) -> list[DoctorFinding]:
     found: list[DoctorFinding] = []
     if other:
         hint = "install the same version of the interfaces on both sides"
-        found.append(DoctorFinding(Level.WARN, "types", f"defined otherwise here: {', '.join(sorted(other))}", hint))
+        found.append(DoctorFinding(Level.WARN, "types", f"defined differently here: {', '.join(sorted(other))}", hint))
     if unknown:
         hint = "put their package in the workspace (--workspace DIR) or source it, to see their fields"
-        found.append(DoctorFinding(Level.NOTE, "types", f"not known here: {', '.join(sorted(unknown))}", hint))
+        found.append(DoctorFinding(Level.NOTE, "types", f"unknown here: {', '.join(sorted(unknown))}", hint))
     return found or [DoctorFinding(Level.OK, "types", "all are known here")]
 
 
@@ -96,13 +98,14 @@ def own_hash(type_name: str) -> str | None:
         from bot_console.runtime.rosidl.type_hash import text
 
         return text(kind)
-    except (AttributeError, TypeError, KeyError):  # a class of a real ROS 2, which checks that itself
+    except (AttributeError, TypeError, KeyError):  # A class of a real ROS 2, which checks that itself.
         return ""
 
 
 def base_finding(node: Node) -> DoctorFinding:
     """Whether the robot stops by itself when commands cease."""
-    from bot_console.tui.cli.doctor.locks import ask_locks, find_locks, lock_finding  # of the rclpy that was started
+    # Imported late: it uses the rclpy that was chosen.
+    from bot_console.tui.cli.doctor.locks import ask_locks, find_locks, lock_finding
 
     bases = {
         node_name_of(each)
@@ -112,16 +115,16 @@ def base_finding(node: Node) -> DoctorFinding:
         if not str(each.node_name).startswith("_")
     }
     if not bases:
-        return DoctorFinding(Level.NOTE, "time-out", "no node obeys velocity commands")
+        return DoctorFinding(Level.NOTE, "time-out", "no node subscribes to velocity commands")
     if locks := find_locks(node):
         return lock_finding(ask_locks(node, locks, _spin))
     named = [(base, name, value) for base in sorted(bases) for name, value in time_outs(node, base).items()]
     if not named:
-        return DoctorFinding(Level.WARN, "time-out", f"none is seen in {', '.join(sorted(bases))}", HOW)
+        return DoctorFinding(Level.WARN, "time-out", f"none was found in {', '.join(sorted(bases))}", HOW)
     listed = ", ".join(f"{base} {name} {value:g}" for base, name, value in named[:3])
     if all(value <= 0 for _, _, value in named):
         return DoctorFinding(Level.WARN, "time-out", f"{listed}: it is switched off", HOW)
-    return DoctorFinding(Level.OK, "time-out", f"{listed}: look that it is short (0.5 s)")
+    return DoctorFinding(Level.OK, "time-out", f"{listed}: make sure that it is short (0.5 s)")
 
 
 def time_outs(node: Node, base: str) -> dict[str, float]:

@@ -21,7 +21,7 @@ PROBES = 3
 
 
 def examine(way: Way | None, seconds: float, capture: Path | None, made_with: str) -> list[DoctorFinding]:
-    """Check the link, the wire and the nodes; raises `SessionError` and, where nothing can be written, `OSError`."""
+    """Check the link, the wire and the nodes; raises `SessionError`, and `OSError` if the capture cannot be written."""
     session = open_session(domain()) if way is None else open_network_session(domain(), with_environment(way))
     try:
         await_answers(session)
@@ -43,7 +43,7 @@ def examine(way: Way | None, seconds: float, capture: Path | None, made_with: st
 
 
 def answer_time(session: Session) -> float | None:
-    """The shortest round-trip time to the other end (s); None if nothing answered."""
+    """The shortest round-trip time to the other end (s); None without any answer."""
     times: list[float] = []
     for _ in range(PROBES):
         began = time.monotonic()
@@ -53,11 +53,9 @@ def answer_time(session: Session) -> float | None:
 
 
 def link_finding(to: str, delay: float | None) -> DoctorFinding:
-    """How fast the router answers."""
+    """The latency of the router."""
     if delay is None:
-        return DoctorFinding(
-            Level.FAIL, "link", f"{to} is reached, but does not answer", "is it a router of Zenoh 1.x?"
-        )
+        return DoctorFinding(Level.FAIL, "link", f"{to} is reached, but does not answer", "is it a Zenoh 1.x router?")
     text = f"{to} answers after {delay * 1000:.1f} ms"
     if delay * 1000 > FAR_MS:
         return DoctorFinding(

@@ -17,18 +17,18 @@ from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 ABOUT = "terminal"
 ASK, ANSWER = b"\x1b[6n", re.compile(rb"\x1b\[\d+;\d+R")
 ANSWER_TIMEOUT_S = 3.0
-"""Seconds that the terminal's answer is waited for."""
+"""Seconds to wait for the terminal's answer."""
 BURST = b"\x1b[0m" * 4096
-"""16 kB that show nothing."""
+"""16 kB of output that shows nothing."""
 SLOW_DELAY_MS, SLOW_KB_S = 300, 20
 MAX_MEASURABLE_KB_S = 3000
-"""More than this a burst cannot tell: it takes no longer than the answers differ."""
+"""The highest rate that the burst can measure: beyond it, the burst takes less time than answers vary."""
 
 
 def terminal_findings(environment: Mapping[str, str]) -> list[DoctorFinding]:
     """All checks of the terminal a console would use."""
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
-        return [DoctorFinding(Level.NOTE, ABOUT, "there is none here: size, colours and delay were not looked at")]
+        return [DoctorFinding(Level.NOTE, ABOUT, "there is none here: size, colours and delay were not checked")]
     found = [size_finding(*shutil.get_terminal_size()), characters_finding(), colours_finding(environment)]
     if os.name != "nt":
         found.append(terminal_link_finding(*_measured()))
@@ -36,12 +36,12 @@ def terminal_findings(environment: Mapping[str, str]) -> list[DoctorFinding]:
 
 
 def size_finding(columns: int, lines: int) -> DoctorFinding:
-    """Whether it is large enough."""
+    """Whether the terminal is large enough."""
     if columns < 60 or lines < 20:
         return DoctorFinding(
             Level.FAIL, ABOUT, f"{columns}x{lines} is too small", "make it 60x20 or more; 80x24 is usual"
         )
-    more = "" if columns >= 100 and lines >= 30 else "; from 100x30 on several panes show at once"
+    more = "" if columns >= 100 and lines >= 30 else "; from 100x30, several panes are shown at once"
     return DoctorFinding(Level.OK, ABOUT, f"{columns}x{lines}{more}")
 
 
@@ -51,12 +51,15 @@ def characters_finding(encoding: str = "") -> DoctorFinding:
     if encoding.lower().replace("-", "") == "utf8":
         return DoctorFinding(Level.OK, ABOUT, "UTF-8")
     return DoctorFinding(
-        Level.WARN, ABOUT, f"its locale is {encoding}, so lines and curves are ASCII", "export LANG=C.UTF-8 before it"
+        Level.WARN,
+        ABOUT,
+        f"its locale is {encoding}, so lines and curves are drawn in ASCII",
+        "export LANG=C.UTF-8 before starting the console",
     )
 
 
 def colours_finding(environment: Mapping[str, str]) -> DoctorFinding:
-    """How many colours its name promises."""
+    """The number of colours that its name promises."""
     term = environment.get("TERM", "")
     if environment.get("COLORTERM", "") in ("truecolor", "24bit"):
         return DoctorFinding(Level.OK, ABOUT, f"{term}, 16 million colours")
@@ -67,10 +70,10 @@ def colours_finding(environment: Mapping[str, str]) -> DoctorFinding:
 
 
 def terminal_link_finding(delay: float | None, bytes_per_s: float | None) -> DoctorFinding:
-    """Its latency: seconds for an answer, and the cost per frame."""
+    """Its latency: seconds until it answers, and its throughput."""
     if delay is None or bytes_per_s is None:
         return DoctorFinding(
-            Level.NOTE, ABOUT, f"it did not say within {ANSWER_TIMEOUT_S:g} s where its cursor is: delay unknown"
+            Level.NOTE, ABOUT, f"it did not report its cursor position within {ANSWER_TIMEOUT_S:g} s: delay unknown"
         )
     rate = (
         f"{bytes_per_s / 1000:,.0f}"

@@ -23,9 +23,9 @@ from bot_console.runtime.rmw.zenoh.wire.tokens import (
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 
 PER_KEY = 3
-"""Attachments that are kept of each key."""
+"""Attachments that are kept per key."""
 SKEW_S = 1.0
-"""Seconds by which clocks may differ before that is worth a word."""
+"""Seconds by which clocks may differ before that is reported."""
 GRAPH_TIMEOUT_S = 5.0
 NAME = "_bot_console_doctor"
 _numbers = itertools.count(1)
@@ -62,7 +62,7 @@ def watch_wire(session: Session, seconds: float) -> Wire:
     threading.Event().wait(seconds)
     for each in listening:
         each.undeclare()
-    # Of a system that has just begun, or is busy, not all had reached the router.
+    # If the system has just started or is busy, not all of its tokens had reached the router.
     wire.tokens = sorted({*wire.tokens, *_tokens(session)})
     return wire
 
@@ -78,7 +78,7 @@ def _publishers(tokens: Sequence[Token]) -> list[Token]:
 
 
 def _listen(session: Session, wire: Wire, publisher: Token) -> Declaration:
-    """Subscribe as a node would, with a token of our own: some publishers send only to subscribers they can see."""
+    """Subscribe as a node would, with our own token: some publishers send only to subscribers they have discovered."""
     kept = wire.samples.setdefault(publisher.topic, [])
 
     def keep(payload: bytes, attachment: bytes | None) -> None:
@@ -101,12 +101,12 @@ def wire_findings(wire: Wire, delay: float) -> list[DoctorFinding]:
         DoctorFinding(Level.OK if nodes else Level.WARN, "graph", f"{nodes} nodes, {len(good) - nodes} endpoints")
     ]
     if not nodes:
-        hint = "is ROS_DOMAIN_ID the same there, and RMW_IMPLEMENTATION=rmw_zenoh_cpp?"
-        findings = [DoctorFinding(Level.WARN, "graph", f"no node is seen in ROS domain {wire.domain}", hint)]
+        hint = "does it use the same ROS_DOMAIN_ID, and RMW_IMPLEMENTATION=rmw_zenoh_cpp?"
+        findings = [DoctorFinding(Level.WARN, "graph", f"no node is visible in ROS domain {wire.domain}", hint)]
     if bad:
-        hint = "another version of rmw_zenoh, or another program: `--capture FILE` keeps them for a report"
+        hint = "another version of rmw_zenoh, or another program: `--capture FILE` saves them for a report"
         findings.append(
-            DoctorFinding(Level.WARN, "graph", f"{len(bad)} tokens are not of the format: {bad[0][:120]}", hint)
+            DoctorFinding(Level.WARN, "graph", f"{len(bad)} tokens do not follow the format: {bad[0][:120]}", hint)
         )
     return [*findings, *_attachment_findings(wire), *_clock_findings(wire, delay)]
 
@@ -135,12 +135,12 @@ def _clock_findings(wire: Wire, delay: float) -> list[DoctorFinding]:
         if (reported := _unpacked(attachment)) is not None
     ]
     if not offsets:
-        return [DoctorFinding(Level.NOTE, "clock", "no message came, so the clocks were not compared")]
+        return [DoctorFinding(Level.NOTE, "clock", "no message was received, so the clocks were not compared")]
     offset = min(offsets, key=abs)
     if abs(offset) < SKEW_S:
         return [DoctorFinding(Level.OK, "clock", f"differs by {abs(offset):.2f} s at most")]
     side = "behind" if offset > 0 else "ahead of"
-    hint = "set both by NTP or chrony: stamps, tf and logs are off by that much"
+    hint = "synchronise both with NTP or chrony: stamps, tf and logs are off by that much"
     return [DoctorFinding(Level.WARN, "clock", f"the robot's is {abs(offset):.1f} s {side} this one", hint)]
 
 
@@ -152,7 +152,7 @@ def _unpacked(attachment: bytes | None):
 
 
 def captured(wire: Wire, made_with: Sequence[str]) -> dict[str, object]:
-    """Everything observed, in the form in which a test reads it."""
+    """Everything observed, in the format of the tests."""
     return {
         "format": 1,
         "made_with": list(made_with),

@@ -1,1 +1,1 @@
-"""A program in the foreground of a terminal: its descriptors, its signals, the watch for hangs, hints it has given."""
+"""A program in the foreground of a terminal: descriptors, signals, the hang watch, and hints shown once."""

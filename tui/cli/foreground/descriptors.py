@@ -1,7 +1,8 @@
-"""The console's own way to its terminal: descriptors that nobody else has, and a restorer.
+"""The console's own access to its terminal: descriptors that no other code has, and a restorer.
 
-What C libraries write to descriptors 1 and 2, past Python, is lines for the log instead of holes in the screen. Who
-closes or redirects 0, 1 and 2 harms neither keys nor screen, and a child that inherits them cannot read the keys.
+What C libraries write to descriptors 1 and 2, bypassing Python, becomes lines of the log instead of damaging the
+screen. Code that closes or redirects 0, 1 and 2 affects neither keys nor screen, and a child that inherits them cannot
+read the keys.
 """
 
 from __future__ import annotations
@@ -19,24 +20,24 @@ from bot_console.tui.terminal.restorer_process import Restorer, restored_termina
 Printed = Callable[[int, str, str], None]
 LABEL = "stderr"
 MAX_LINE_BYTES = 1 << 16
-"""Bytes after which a line without an end is told as it is."""
+"""Bytes after which an unterminated line is logged as it is."""
 FIRST = 100
-"""Our descriptors begin here, beyond those that programs close or count."""
+"""Our descriptors start here, beyond those that programs usually close or count."""
 
 
 @contextlib.contextmanager
 def own_terminal(printed: Printed) -> Generator[Restorer]:
-    """Captured descriptors for the time of an app, and the terminal put right after it, however this process ends."""
+    """Capture descriptors while an app runs, and restore the terminal afterwards, however this process ends."""
     with captured_descriptors(printed) as keys, restored_terminal(keys) as watch:
         yield watch
 
 
 @contextlib.contextmanager
 def captured_descriptors(printed: Printed) -> Generator[int]:
-    """Give the screen duplicates of descriptors 0, 1 and 2; lines that are written to 1 and 2 are `printed`.
+    """Give the screen duplicates of descriptors 0, 1 and 2, and pass lines written to 1 and 2 to `printed`.
 
-    For the time of an app: it reads and writes through `sys.__stdin__`, `sys.__stdout__` and `sys.__stderr__`, which
-    are the duplicates then. Gives the one for reading.
+    While the app runs, it reads and writes through `sys.__stdin__`, `sys.__stdout__` and `sys.__stderr__`, which are
+    the duplicates. Yields the descriptor for reading.
     """
     with contextlib.ExitStack() as stack:
         keys = stack.enter_context(_withheld())
@@ -82,9 +83,9 @@ def _captured(number: int, name: str, printed: Printed) -> Generator[None]:
         yield
     finally:
         setattr(sys, name, before)
-        with contextlib.suppress(OSError):  # the terminal may have gone
+        with contextlib.suppress(OSError):  # The terminal may be gone.
             screen.flush()
-        os.dup2(saved, number)  # the last writing end is closed with it, unless a child of this process has one
+        os.dup2(saved, number)  # This closes the last writing end, unless a child of this process has one.
         os.close(saved)
         reader.join(0.5)
         with contextlib.suppress(OSError):
@@ -93,7 +94,7 @@ def _captured(number: int, name: str, printed: Printed) -> Generator[None]:
 
 def _report(descriptor: int, printed: Printed) -> None:
     for line in _lines(descriptor):
-        from bot_console.tui.console.model import Severity  # with the first line, which most runs never have
+        from bot_console.tui.console.model import Severity  # Imported with the first line, which most runs never have.
 
         printed(Severity.INFO, LABEL, line)
 

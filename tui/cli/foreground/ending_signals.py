@@ -1,4 +1,4 @@
-"""The signals that end a console, and how a terminal that vanishes without one (under some supervisors) is noticed."""
+"""The signals that end a console, and detection of a terminal that vanishes without one (under some supervisors)."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ from collections.abc import Callable, Generator
 from types import FrameType
 
 ENDING = [getattr(signal, each) for each in ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT") if hasattr(signal, each)]
-"""Signals that end a console in order."""
+"""Signals that shut a console down in order."""
 
 SIGNAL_POLL_MS = 1000
 END_TIMEOUT_S = 1.0
-"""How long what a signal has begun is waited for when the console has ended, in s."""
+"""Seconds to wait, after the console has ended, for what a signal handler has begun."""
 
 
 @contextlib.contextmanager
 def ended_by_signals(end: Callable[[int], None]) -> Generator[None]:
-    """Call `end` with the number of each signal that ends a console, in a thread of its own.
+    """Call `end` in a separate thread with the number of each signal that ends a console.
 
-    Ending needs locks, for the robot is stopped first, and the thread that a signal interrupts may hold any of them at
-    that moment; another signal may come in the midst of it, too.
+    Ending needs locks, because the robot is stopped first. The interrupted thread may hold any of them at that moment,
+    and another signal may arrive meanwhile.
     """
     reading, writing = os.pipe()
     os.set_blocking(writing, False)
 
     def serve() -> None:
-        # The former where a program of the person's own has closed all descriptors, the latter where the app has ended.
+        # OSError if a user's program has closed all descriptors, RuntimeError if the app has ended.
         with contextlib.suppress(OSError, RuntimeError):
             while number := os.read(reading, 1):
                 end(number[0])
@@ -75,7 +75,7 @@ def hangup_as_signal() -> Generator[None]:
 
 def _watch(terminal: int, over: threading.Event) -> None:
     poller = select.poll()
-    poller.register(terminal, 0)  # a hang-up is reported without being asked for
+    poller.register(terminal, 0)  # A hang-up is always reported, without being requested.
     while not over.is_set():
         with contextlib.suppress(InterruptedError):
             if poller.poll(SIGNAL_POLL_MS) and not over.is_set():

@@ -13,10 +13,10 @@ from bot_console.tui.files.folders import state_folder
 
 
 class Foreground:
-    """Shows an app; the terminal is put right after it, however this process ends."""
+    """Shows an app, and restores the terminal afterwards, however this process ends."""
 
     def __init__(self, app: BotConsoleApp, printed: Printed, end: Callable[[int], None]) -> None:
-        """`printed` is given lines for the log, `end` the number of a signal that ends the app."""
+        """`printed` receives lines for the log, `end` the number of a signal that ends the app."""
         self._app = app
         self._printed = printed
         self._end = end
@@ -24,13 +24,13 @@ class Foreground:
         self._hang_watch: HangWatch | None = None
 
     def begin(self) -> None:
-        """Note that the app has drawn its first frame: the terminal is set for it, and it may be watched."""
+        """Note that the app has drawn its first frame: the terminal is set up, and the app may be watched."""
         self._has_begun()
         if self._hang_watch is not None:
             self._hang_watch.accompany(self._app)
 
     def run(self, close: Callable[[], None]) -> int:
-        """Show the app until it ends, then `close` what it showed; returns the app's exit code."""
+        """Show the app until it ends, then call `close` to end what it showed; returns the app's exit code."""
         with (
             own_terminal(self._printed) as terminal,
             ended_by_signals(self._end),
@@ -50,6 +50,7 @@ class Foreground:
         return self._app.return_code or 0
 
     def _hung(self, line: str) -> None:
-        from bot_console.tui.console.model import Severity  # after the first frame, which must not wait for it
+        # Imported after the first frame, which must not wait for it.
+        from bot_console.tui.console.model import Severity
 
         self._printed(Severity.WARN, "bot-console", line)

@@ -1,12 +1,12 @@
-"""Writes to a file where each thread and task of a console is: when its screen hangs, and when SIGUSR1 asks.
+"""Writes the stacks of all threads and tasks of a console to a file if its screen hangs, or on SIGUSR1.
 
-A screen that hangs says nothing itself, and what it waits for is not known afterwards. A thread of ours writes the
-stacks while it has the interpreter's lock: to walk through those of threads that run meanwhile can end the process. So
-no timer writes them without that lock, as it would when a stopped process goes on. Where no thread gets it, a signal
-that ends the process, such as SIGABRT, has them written.
+A hung screen cannot report anything itself, and afterwards nobody can tell what it was waiting for. One of our threads
+writes the stacks while it holds the interpreter lock, because walking the stacks of running threads can crash the
+process. For that reason no timer writes them without the lock, as it would when a stopped process continues. If no
+thread gets the lock, a signal that ends the process, such as SIGABRT, has them written.
 
-An app also hangs when its event loop runs, but what deals with its messages waits for something that does not come, or
-a batch of changes stays open: then its tasks are written.
+An app also hangs if its event loop runs, but the task that handles its messages waits for something that never comes,
+or a batch of updates stays open. In that case, its tasks are written.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ from bot_console.tui.cli.foreground.waiting_tasks import waiting_tasks
 
 FILE = "console-stacks.txt"
 HANG_AFTER_S = 15.0
-"""Seconds after which a thread that draws and has done nothing counts as standing."""
+"""Seconds without activity after which a drawing thread counts as hung."""
 HEARTBEAT_S = 1.0
 MAX_MISSED_HEARTBEATS = round(HANG_AFTER_S / HEARTBEAT_S)
-"""Beats without an answer after which an app counts as standing though its loop runs.
+"""Unanswered heartbeats after which an app counts as hung although its loop runs.
 
-Beats and not seconds: of a process that was stopped, or had lent its terminal, only the clock has gone on.
+Heartbeats rather than seconds: for a process that was stopped, or had lent its terminal, only the clock went on.
 """
 FIRST = 100
-"""Our descriptors begin here, beyond those that programs close or count."""
+"""Our descriptors start here, beyond those that programs usually close or count."""
 
 
 class HangWatch:
@@ -61,7 +61,9 @@ class HangWatch:
             self.poll()
 
     def poll(self) -> None:
-        """Write the stacks if the drawing thread has been silent for long, once until it reports again."""
+        """Write the stacks, once, if the drawing thread has been silent for too long; again only after it has
+        reported.
+        """
         heard = self._heard
         if heard is None:
             return
@@ -73,8 +75,8 @@ class HangWatch:
         """Report that the drawing thread is running."""
         now = self._clock()
         if self._heard is not None and (stood := now - self._heard) >= HANG_AFTER_S:
-            self.note(f"the screen has stood for {stood:.0f} s, or the whole process was stopped")
-            self._report(f"the screen stood for {stood:.0f} s; what its threads did meanwhile is in {self._path}")
+            self.note(f"the screen has hung for {stood:.0f} s, or the whole process was stopped")
+            self._report(f"the screen hung for {stood:.0f} s; what its threads did meanwhile is in {self._path}")
         self._heard, self._written = now, False
 
     def rest(self) -> None:
@@ -92,11 +94,11 @@ class HangWatch:
         asyncio.get_running_loop().call_later(HEARTBEAT_S, self.follow)
 
     def accompany(self, app: Any) -> None:
-        """Beat in the running loop of an app (of Textual, which does not tell the types of its signals) from now on."""
+        """Send heartbeats from now on in the running loop of an app (of Textual, which does not type its signals)."""
         self.follow()
         asyncio.get_running_loop().call_soon(self._listen, app)
 
-        def left(_: object) -> None:  # an editor, or the shell, has the terminal
+        def left(_: object) -> None:  # An editor, or the shell, has the terminal.
             self.rest()
 
         def back(_: object) -> None:
@@ -110,13 +112,13 @@ class HangWatch:
         asyncio.get_running_loop().call_later(HEARTBEAT_S, self._listen, app)
 
     def observe(self, app: Any) -> None:
-        """Send the app a message, unless one is under way; write what its tasks wait for where that is not answered."""
+        """Send the app a message, unless one is pending; write what its tasks wait for if it stays unanswered."""
         if self._unanswered == 0:
             app.call_later(self._answer, app)
         self._unanswered += 1
         if self._unanswered == MAX_MISSED_HEARTBEATS:
             self.note(
-                f"the app has dealt with nothing for {HANG_AFTER_S:.0f} s: {app.how_it_draws()}\n{waiting_tasks()}"
+                f"the app has handled no message for {HANG_AFTER_S:.0f} s: {app.how_it_draws()}\n{waiting_tasks()}"
             )
 
     def _answer(self, app: Any) -> None:
@@ -124,8 +126,10 @@ class HangWatch:
             app.set_timer(HEARTBEAT_S, lambda: self._answer(app))
             return
         if self._unanswered >= MAX_MISSED_HEARTBEATS:
-            self.note(f"the app goes on after {self._unanswered * HEARTBEAT_S:.0f} s")
-            self._report(f"the console did nothing for {self._unanswered * HEARTBEAT_S:.0f} s; why is in {self._path}")
+            self.note(f"the app continues after {self._unanswered * HEARTBEAT_S:.0f} s")
+            self._report(
+                f"the console did nothing for {self._unanswered * HEARTBEAT_S:.0f} s; the reason is in {self._path}"
+            )
         self._unanswered = 0
 
     def note(self, text: str) -> None:
@@ -137,9 +141,9 @@ class HangWatch:
 
 @contextlib.contextmanager
 def hang_watch(folder: Path, state: Callable[[], str], report: Callable[[str], None]) -> Generator[HangWatch | None]:
-    """Keep stacks in a folder when they are wanted; `state` says in a line how the screen is, in the main thread.
+    """Write stacks into a folder when needed; `state` describes the screen in one line, in the main thread.
 
-    None where the file cannot be written.
+    Yields None if the file cannot be written.
     """
     path = folder / FILE
     try:
@@ -151,7 +155,8 @@ def hang_watch(folder: Path, state: Callable[[], str], report: Callable[[str], N
         return
     watching = HangWatch(path, descriptor, report)
 
-    def asked(number: int, frame: FrameType | None) -> None:  # in the thread that draws: else it was written before
+    # In the drawing thread: otherwise the file was written before.
+    def asked(number: int, frame: FrameType | None) -> None:
         faulthandler.dump_traceback(descriptor)
         watching.note(f"{state()}\n{waiting_tasks()}")
 

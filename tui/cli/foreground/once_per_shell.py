@@ -1,4 +1,4 @@
-"""Hints that one reading is enough for: a shell in a terminal is told the same only once."""
+"""Hints that are shown once per shell."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ import os
 import sys
 
 FOLDER = "told"
-"""The folder of the marks, beside those of the domains."""
+"""The folder of the markers, beside those of the domains."""
 
 
 def report_once(text: str) -> None:
-    """Print a text on stderr; on a terminal only if it was not printed in the same session of it before.
+    """Print a text on stderr; on a terminal only if it was not printed before in the same session.
 
-    Where nobody reads, as in scripts and logs, it is printed each time, and nothing is remembered.
+    If stderr is not a terminal, as in scripts and logs, the text is printed each time, and nothing is remembered.
     """
     from bot_console.runtime.exit_messages import is_read
 
@@ -23,7 +23,9 @@ def report_once(text: str) -> None:
 
 
 def _is_new(text: str) -> bool:
-    """Whether the shell of this terminal has not been told; from now on it has. Where that cannot be kept, it is."""
+    """Whether this terminal's shell has not shown the text yet; marks it as shown. True if the marker cannot be
+    saved.
+    """
     from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, runtime_folder
 
     try:
@@ -34,7 +36,7 @@ def _is_new(text: str) -> bool:
         os.close(os.open(os.path.join(folder, f"{shell}.{_start(shell)}.{digest}"), os.O_CREAT | os.O_EXCL, 0o600))
     except FileExistsError:
         return False
-    except (OSError, AttributeError, FolderRefusedError):  # AttributeError: Windows has no sessions
+    except (OSError, AttributeError, FolderRefusedError):  # AttributeError: Windows has no sessions.
         return True
     return True
 
@@ -50,7 +52,7 @@ def _forget_ended_shells(folder: str) -> None:
 
 
 def _start(pid: int) -> str:
-    """When a process began, which tells it from an earlier one of the same id; "0" if the system does not tell."""
+    """When a process started, which distinguishes it from an earlier one with the same id; "0" if unknown."""
     try:
         with open(f"/proc/{pid}/stat", "rb") as file:
             return file.read().rpartition(b")")[2].split()[19].decode()

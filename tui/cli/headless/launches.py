@@ -1,4 +1,4 @@
-"""The launches of a headless run: what was asked for, and the simulated robot alongside."""
+"""The launches of a headless run: the requested one, and the simulated robot alongside."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH, launch_environm
 from bot_console.tui.console.launch.delayed_starts import delayed_starts
 
 SIMULATOR = (NAME, "simulator_node")
-"""The last two parts of our simulator's path."""
+"""The last two parts of the path of our simulator."""
 
 
 class Launches:
@@ -36,9 +36,9 @@ class Launches:
         self._ending = False
         self._at_end: Callable[[], None] | None = None
         self.simulator_code: int | None = None
-        """The exit code of the simulator, where it ended before its time; nobody can give a report then."""
+        """The exit code of the simulator, if it ended early; no report can follow then."""
         self.died = ""
-        """The first process that ended with a fault before its time, and how; empty where none did."""
+        """The first process that ended early with an error, and how; empty if none did."""
 
     @property
     def exit_code(self) -> int | None:
@@ -51,7 +51,7 @@ class Launches:
         return self._robot is not None or not self._options.launch
 
     def begin(self) -> None:
-        """Start what was asked for."""
+        """Start what was requested."""
         options = self._options
         arguments = dict(options.launch_arguments)
         if not options.launch:
@@ -62,14 +62,16 @@ class Launches:
         self._watching = robot_starter.begin(options, system, self._clock)
 
     def on_end(self, call: Callable[[], None]) -> None:
-        """Call back when the launch ends before a robot started, or when the simulator ends: no report can follow."""
+        """Call back when the launch ends before a robot has started, or when the simulator ends: no report can
+        follow.
+        """
         self._at_end = call
         if self.simulator_code is not None:
             call()
         self._launch.on_exit(lambda _: None if self._robot else call())
 
     def stop(self, timeout_s: float) -> None:
-        """End all of them, each within so many seconds."""
+        """End all of them, each within `timeout_s` seconds."""
         self._ending = True
         for each in (self._watching, self._launch, self._robot):
             if each is not None:
@@ -97,7 +99,7 @@ class Launches:
             self._at_end()
 
     def _run(self, file: str, arguments: Mapping[str, str]) -> int:
-        """Run a launch file, in its own node process."""
+        """Run a launch file in its own node process."""
         from launch.actions import IncludeLaunchDescription, RegisterEventHandler
         from launch.event_handlers import OnProcessExit, OnProcessStart, OnShutdown
         from launch.launch_description_sources import AnyLaunchDescriptionSource

@@ -19,17 +19,17 @@ if TYPE_CHECKING:
     from bot_console.tui.console.plot.watch import PlotWatch
 
 ANSWER_TIMEOUT_S = 5.0
-"""Seconds for which an answer is waited for where the run ends before its time."""
+"""Seconds to wait for an answer if the run ends early."""
 PROBE_PERIOD_S = 0.1
-"""Seconds between two looks at how late a timer is called."""
+"""Seconds between two measurements of a timer's lateness."""
 STEPPED_PROBE_PERIOD_S = 1.0
-"""The same in a long stepped run, where no load makes a timer late and each look is a turn."""
+"""The same in a long stepped run, where load makes no timer late and each measurement costs a turn."""
 
 
 class Observer:
-    """Waits until a run of `duration` s is over, requests `report`, and keeps what it learns.
+    """Waits until a run of `duration` s is over, calls the service `report`, and keeps the result.
 
-    It listens to `paths`, fields of topics such as `/odom/twist.twist.linear.x`, as soon as the topics exist.
+    It subscribes to `paths`, fields of topics such as `/odom/twist.twist.linear.x`, as soon as the topics exist.
     """
 
     def __init__(self, duration: float, paths: Sequence[str] = ()) -> None:
@@ -39,7 +39,8 @@ class Observer:
         self._waited_for = list(paths)
         self._topics: PlotWatch | None = None
         self._figures: dict[str, Any] = {}
-        self._late: Counter[float] = Counter()  # by microseconds, so that a day of it takes no more than a minute
+        # Counted by microseconds, so that a day takes no more memory than a minute.
+        self._late: Counter[float] = Counter()
         self._collisions = 0
         self._node: Node | None = None
         self.done = threading.Event()
@@ -75,7 +76,9 @@ class Observer:
             rclpy.try_shutdown()
 
     def ask(self) -> None:
-        """Request the report now instead of at the end, and wait at most `PATIENCE` s; from any thread."""
+        """Request the report now instead of at the end, and wait at most `ANSWER_TIMEOUT_S`; may be called from any
+        thread.
+        """
         if self._node is not None:
             self._now.trigger()
             self.done.wait(ANSWER_TIMEOUT_S)
@@ -102,7 +105,7 @@ class Observer:
         if self._asked:
             return
         if not self._client.service_is_ready():
-            self._end.timer_period_ns = round(PROBE_PERIOD_S * 1e9)  # a simulator that is still starting, or none
+            self._end.timer_period_ns = round(PROBE_PERIOD_S * 1e9)  # A simulator that is still starting, or none.
             return
         self._asked = True
         self._end.cancel()
@@ -115,7 +118,7 @@ class Observer:
         self.done.set()
 
     def report(self) -> dict[str, Any]:
-        """What is known; times in s, lateness in ms."""
+        """What is known so far; times in s, lateness in ms."""
         late = sorted(self._late.elements())
         if late:
             self._figures["timer_lateness_ms"] = {

@@ -40,28 +40,29 @@ if TYPE_CHECKING:
     from bot_console.tui.cli.headless.observer import Observer
 
 Wait = Callable[[threading.Event, float], bool]
-"""How an event is waited for, so many seconds at most; a stepped run waits by its own clock."""
+"""Waits for an event, at most so many seconds; a stepped run uses its own clock."""
 
 DURATION = 60.0
-"""Seconds of a run for which no duration is given."""
+"""Seconds of a run without a given duration."""
 LAST_QUERY_TIMEOUT_S = 5.0
-"""Seconds that the last question may take."""
+"""Seconds that the last query may take."""
 LAUNCH_END_TIMEOUT_S = 12.0
-"""Seconds that the end of a launch may take: it sends SIGTERM after 5 and SIGKILL after 10, and whoever ended it before
-that would leave its processes behind."""
+"""Seconds that the end of a launch may take: launch sends SIGTERM after 5 and SIGKILL after 10, and ending it earlier
+would leave its processes behind.
+"""
 SETTLED = 0.1
-"""Seconds after which the nodes are up: from then on garbage is collected."""
+"""Seconds after which the nodes are up; garbage is collected from then on."""
 SLOW_START = 60.0
-"""Seconds that a simulator may take in all before it answers, on a machine that is busy otherwise."""
+"""Seconds that a simulator may take in total until it answers, on a busy machine."""
 
 
 def run(options: Options) -> int:
-    """Run the system for a while and print the report; 1 when there is nothing to report."""
+    """Run the system for a while and print the report; 1 if there is nothing to report."""
     options, problem = with_launch_file(options)
     if problem := unusable_domain() or problem:
         print(problem, file=sys.stderr)
         return 1
-    gc.disable()  # what is imported stays: to look it through again and again is a tenth of the start
+    gc.disable()  # What is imported stays: traversing it again and again takes a tenth of the start.
     install()
     choose(options.workspace)
     if not options.fast:
@@ -72,7 +73,7 @@ def run(options: Options) -> int:
 
 
 def simulated(options: Options, observer: Observer | None = None) -> tuple[dict[str, Any], Observer, Launches]:
-    """Run the system for a while; the observer's report, the observer, and what was launched.
+    """Run the system for a while; returns the observer's report, the observer, and the launches.
 
     `install` must have been called.
     """
@@ -101,7 +102,7 @@ def simulated(options: Options, observer: Observer | None = None) -> tuple[dict[
 
 
 def _meet_others(options: Options) -> None:
-    """Join the domain, unless another robot is in it: the two would obey each other's commands."""
+    """Join the domain, unless another robot is in it: both would obey each other's commands."""
     problem = take_part()
     if not problem and not options.launch and is_in_range():
         claim = robot_claim()
@@ -109,7 +110,7 @@ def _meet_others(options: Options) -> None:
         if why := why_no_robot(claim.seen(robot_there, report_of_other_start), options.launch_arguments):
             claim.release()
             run_in_worker()
-            problem = f"{why}; so this one runs apart"
+            problem = f"{why}; so this one runs in isolation"
     if problem:
         print(problem, file=sys.stderr)
         return
@@ -120,14 +121,14 @@ def _meet_others(options: Options) -> None:
 
 def _no_report(launches: Launches) -> int:
     if launches.simulator_code is not None:
-        ended = f"the simulator has ended with exit code {launches.simulator_code}, before its report"
+        ended = f"the simulator ended with exit code {launches.simulator_code} before it reported"
         print(f"{ended}; the log above says more", file=sys.stderr)
         return 1
     code = launches.exit_code
     ended = f"; the launch had ended with exit code {code}" if code is not None else ""
     unwanted = "" if launches.has_robot else "; no simulator was started beside it, --simulator starts one"
     print(
-        f"no simulator has answered the question for its report{ended}{unwanted}; the log above says more",
+        f"no simulator has answered the request for a report{ended}{unwanted}; the log above says more",
         file=sys.stderr,
     )
     return 1
@@ -139,11 +140,11 @@ def _time(options: Options) -> Generator[Any]:
     if not options.fast:
         yield MAIN.clock
         return
-    # Before the run, which seeds what is there; and its locks are then the interpreter's, which no draw waits for.
+    # Before the run, which seeds what exists; also, its locks are then the interpreter's, for which no draw waits.
     from bot_console.runtime.process.stepping.one_cpu import import_numpy
 
     import_numpy()
-    os.environ.pop(STOP_FILE_VARIABLE, None)  # of the domain that this run takes no part in
+    os.environ.pop(STOP_FILE_VARIABLE, None)  # It belongs to the domain, which this run does not join.
     with stepped(seed=options.seed or 0, virtual_main=True) as clock:
         yield clock
 

@@ -1,1 +1,3 @@
-"""`bot-console lint`: parameters without description, range or unit, in source and parameter files and in what runs."""
+"""`bot-console lint`: finds parameters without description, range or unit, in source, parameter files and running
+nodes.
+"""

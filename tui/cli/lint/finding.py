@@ -9,16 +9,16 @@ from bot_console.tui.console.parameters.lint import HINTS
 
 @dataclass(frozen=True, order=True)
 class LintFinding:
-    """A fault, its location, and its subject."""
+    """A fault, its location, and the parameter or key concerned."""
 
     place: str
     """A file, or a running node."""
     line: int
-    """0 where there is no line."""
+    """0 if there is no line."""
     fault: str
     subject: str
     known: str = ""
-    """How to fix this one, if more is known than of its kind."""
+    """How to fix this finding, if more is known than for its kind."""
 
     @property
     def hint(self) -> str:
@@ -26,6 +26,6 @@ class LintFinding:
         return self.known or HINTS[self.fault]
 
     def text(self) -> str:
-        """On one line."""
+        """The finding on one line."""
         where = f"{self.place}:{self.line}" if self.line else self.place
         return f"{where}: {self.subject}: {self.fault}; {self.hint}"

@@ -13,9 +13,9 @@ MANIFEST = "package.xml"
 
 
 def dead_parameters(path: Path, declared: frozenset[str]) -> Iterator[LintFinding]:
-    """The names in literal `parameters=[{...}]` of `Node(...)` that none of its package's nodes declares.
+    """The names in literal `parameters=[{...}]` of `Node(...)` that no node of its package declares.
 
-    Nodes of other packages declare what cannot be seen here; raises `SyntaxError` for a text that is no Python.
+    What nodes of other packages declare is not known here; raises `SyntaxError` for a text that is not Python.
     """
     package = _package_of(path)
     for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"), str(path))) if package else ():

@@ -1,4 +1,4 @@
-"""Parameter files: what ROS would refuse in them, and values that reach nobody."""
+"""Parameter files: what ROS would reject in them, and values that reach no parameter."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ _LINE = re.compile(r",?(?: Error)?(?: at| near)? line(?:_num)? (\d+)")
 
 
 def is_meant(path: Path) -> bool:
-    """Whether a YAML file is meant for parameters, well written or not."""
+    """Whether a YAML file is meant as a parameter file, well formed or not."""
     try:
         return _MEANT.search(path.read_text(encoding="utf-8-sig", errors="replace")) is not None
     except OSError:
-        return True  # and why it cannot be read is told by those who try
+        return True  # Reading it reports why it cannot be read.
 
 
 def refused(path: Path) -> Iterator[LintFinding]:
-    """Why a node does not start with this file, where that is so."""
+    """Why a node does not start with this file, if so."""
     from bot_console.runtime.rmw.parameter_file import read_parameter_file
     from bot_console.runtime.rmw.parameter_overrides import ParameterOverrides, ParameterYamlError
 
@@ -36,12 +36,12 @@ def refused(path: Path) -> Iterator[LintFinding]:
         place, _, hint = error.hint.removeprefix(str(path)).removeprefix(":").partition(": ")
         line = int(place) if place.isdigit() else int(named[1]) if named else 0
         if message.startswith(_NO_KEYWORD) and not hint:
-            hint = "a node's name stands there, below it ros__parameters, and below that name: value"
+            hint = "expected: a node's name, below it ros__parameters, and below that name: value"
         yield LintFinding(str(path), line, "refused", _LINE.sub("", message).rstrip("."), hint)
 
 
 def dead_values(path: Path, declared: Declared) -> Iterator[LintFinding]:
-    """Keys that match no node, and parameters that nobody declares."""
+    """Keys that match no node, and parameters that no node declares."""
     from bot_console.tui.console.parameters.file.node_keys import is_wildcard
     from bot_console.tui.console.parameters.file.text import KEYWORD, sections
 

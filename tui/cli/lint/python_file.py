@@ -22,7 +22,7 @@ class Declared:
     nodes: set[str] = field(default_factory=set[str])
     parameters: set[str] = field(default_factory=set[str])
     whole: bool = True
-    """Whether all names could be read; a name that is worked out while the program runs cannot."""
+    """Whether all names could be read; a name that is computed at run time cannot."""
 
 
 def lint(path: Path) -> tuple[list[LintFinding], Declared]:
@@ -51,7 +51,9 @@ def _last_name(of: ast.expr) -> str:
 
 
 def _learn(call: ast.Call, declared: Declared) -> None:
-    """Names of nodes (`super().__init__("name")`, `create_node("name")`, `Node(..., name="name")`) and parameters."""
+    """Collect names of nodes (`super().__init__("name")`, `create_node("name")`, `Node(..., name="name")`) and
+    parameters.
+    """
     name = _called(call)
     first = call.args[0] if call.args else None
     if name == "declare_parameter":
@@ -109,7 +111,7 @@ def _described(descriptor: ast.expr | None, tree: ast.AST) -> tuple[list[str], b
             return [], False, False
         descriptor = assigned[0]
     if not isinstance(descriptor, ast.Call) or _called(descriptor) != "ParameterDescriptor":
-        return [], False, False  # a helper makes it, of which nothing can be told from here
+        return [], False, False  # A helper makes it, so that nothing can be determined here.
     given = {each.arg: each.value for each in descriptor.keywords}
     text = given.get("description")
     texts = [text.value] if isinstance(text, ast.Constant) and isinstance(text.value, str) and text.value else []
@@ -119,7 +121,7 @@ def _described(descriptor: ast.expr | None, tree: ast.AST) -> tuple[list[str], b
 
 
 def _of_class(node: ast.ClassDef, path: str) -> Iterator[LintFinding]:
-    """The rules of a node class: whether it has any, and whether they can refuse."""
+    """The rules for a node class: whether it validates parameters, and whether the validation can refuse."""
     calls = [each for each in ast.walk(node) if isinstance(each, ast.Call)]
     names = {_called(each) for each in calls}
     if "declare_parameter" in names and "add_on_set_parameters_callback" not in names:

@@ -1,4 +1,4 @@
-"""The `lint` command: checks a file, a package, a folder, or what runs."""
+"""The `lint` command: checks a file, a package, a folder, or running nodes."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ from bot_console.tui.cli.lint.python_file import Declared
 from bot_console.tui.cli.lint.python_file import lint as lint_python
 
 READ_TIMEOUT_S = 5.0
-"""Seconds in which the parameters of running nodes are read."""
+"""Seconds within which the parameters of running nodes are read."""
 
 
 def run(words: list[str]) -> int:
     """Lint; 0 if nothing was found, 1 if something was, 2 for wrong usage."""
     parser = argparse.ArgumentParser(
         "bot-console lint",
-        description="What parameters leave unsaid: description, range, unit, validation; and values that reach nobody.",
+        description="Find parameters without description, range, unit or validation, and values that reach none.",
         epilog="exit codes: 0 nothing found, 1 something found, 2 wrong usage",
     )
     parser.add_argument("what", metavar="PACKAGE | FILE | FOLDER | running", help="running: the nodes of the domain")
     parser.add_argument(
         "--json",
         action="store_true",
-        help="a list for programs (`mend` is now `hint`, and is dropped in the next release)",
+        help="print the findings as JSON (`mend` is now `hint`, and is dropped in the next release)",
     )
     given = parser.parse_args(words)
     problem, found = _running() if given.what == "running" else _of_files(given.what)
@@ -54,7 +54,7 @@ def _of_files(what: str) -> tuple[str, list[LintFinding]]:
         return f"there is no file, folder or package '{what}' with Python or YAML files in it", []
     if files != [Path(what)]:
         return "", lint_files(files)
-    # What one file gives to nodes is compared with what its package declares.
+    # What one file passes to nodes is compared with what its package declares.
     package = folder_of_package(files[0])
     beside = [each for each in files_of(str(package)) if each.resolve() != files[0].resolve()] if package else []
     found = lint_files([*(each for each in beside if each.suffix == ".py"), *files], files[0])
@@ -84,7 +84,7 @@ def files_of(what: str) -> list[Path]:
 def lint_files(files: Iterable[Path], named: Path | None = None) -> list[LintFinding]:
     """The faults of files; parameter and launch files are compared with what the Python files declare.
 
-    `named` is a file that the user has named: it is read as a parameter file, whatever is in it.
+    `named` is a file that the user has named: it is read as a parameter file, whatever its content.
     """
     found: list[LintFinding] = []
     declared = Declared()

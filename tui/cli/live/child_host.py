@@ -18,7 +18,7 @@ from bot_console.tui.child_command import child_command
 
 SWITCH = "bot_console.tui.cli.live.launch_host"
 END_S = 15.0
-"""Seconds that a host may take to end, after its owner has hung up."""
+"""Seconds that a host may take to end after its owner has hung up."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Host:
     """Ends what the host leaves behind, however it ends."""
 
     def thaw(self) -> None:
-        """Let it go on if it is frozen: it could not end what it has started."""
+        """Let it continue if it is frozen: otherwise it could not end what it has started."""
         self.process.send_signal(signal.SIGCONT)
 
     def end(self, timeout_s: float = END_S) -> None:
@@ -50,9 +50,10 @@ class Host:
 
 
 def start_host(options: Sequence[str] = (), *, log: Path | None = None) -> Host:
-    """Start a host that this process owns: when it hangs up, the host ends all that it has started, then itself.
+    """Start a host that this process owns: when the owner hangs up, the host ends everything it has started, then
+    itself.
 
-    What the host itself prints, which should be nothing, goes to a file.
+    What the host itself prints, which should be nothing, goes to the file `log`.
     """
     ours, theirs = socket.socketpair()
     with theirs, open(log or os.devnull, "ab") as output:
@@ -70,6 +71,6 @@ def start_host(options: Sequence[str] = (), *, log: Path | None = None) -> Host:
 
 
 def _end_rest(host: subprocess.Popen[bytes]) -> None:
-    """Wait until a host has ended, and end the programs of one that was killed: any other has done so itself."""
+    """Wait until a host has ended. If it was killed, end its programs; otherwise it has done so itself."""
     if host.wait() != 0:
         end_session(host.pid)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Serve until everything has ended: because of a console, a signal, or because the owner is gone."""
+    """Serve until everything has ended: at a console's request, by a signal, or because the owner is gone."""
     given = _parser().parse_args(words)
     install()
     from bot_console.tui.cli.live.launchers import launcher_here
@@ -53,9 +53,9 @@ def main(words: Sequence[str] | None = None) -> int:
 
 
 def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], None] | None = None) -> None:
-    """Serve further consoles of the user, too, until everything was ended, or for so many seconds at most.
+    """Also serve further consoles of the user, until everything was ended, or for at most `seconds`.
 
-    `forget` ends the telling of news where that has begun already.
+    `forget` stops the reporting of process facts if that has already started.
     """
     from bot_console.runtime.process.session_end import end_session
     from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
@@ -77,7 +77,7 @@ def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], N
     host.close()
     close_fork_server()
     if os.getsid(0) == os.getpid():
-        end_session(os.getpid())  # what launched programs have started themselves
+        end_session(os.getpid())  # What launched programs have started themselves.
 
 
 def close_on_signals(close: Callable[[], None]) -> None:
@@ -94,9 +94,9 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser("launch_host")
     add = parser.add_argument
     add("--owner", type=int, required=True, metavar="DESCRIPTOR", help="the socket of the console that owns it")
-    add("--keep-seconds", type=float, default=0.0, help="how much of what is carried is kept in memory")
+    add("--keep-seconds", type=float, default=0.0, help="how much recorded traffic is kept in memory")
     add("--keep-bytes", type=int, default=0)
-    add("--workspace", action="append", default=[], metavar="DIR", help="where packages are")
+    add("--workspace", action="append", default=[], metavar="DIR", help="folder with packages")
     return parser
 
 

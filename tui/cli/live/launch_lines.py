@@ -1,4 +1,4 @@
-"""Launch's own screen output, as log lines."""
+"""What launch itself prints, as log lines."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from bot_console.tui.console.launch.process_output import marking
 from bot_console.tui.console.model import Severity
 
 OVERRIDE = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "own_log"}
-"""Launch does not repeat on its screen what processes print, since the console reads that from launch's events."""
+"""Keeps launch from repeating what processes print, since the console reads that from launch's events."""
 
 LAUNCH_LINE = re.compile(r"\[([A-Z]+)\] \[([^\]]+)\]: (.*)")
 LEVELS = {"DEBUG": Severity.DEBUG, "WARNING": Severity.WARN, "ERROR": Severity.ERROR, "CRITICAL": Severity.FATAL}
@@ -21,7 +21,7 @@ def launch_variables(environment: Mapping[str, str]) -> dict[str, str]:
 
 
 def notifier(printed: Callable[[int, str, str], None]) -> Callable[[str], None]:
-    """A callback that takes such lines."""
+    """A callback that logs such lines."""
 
     def report(text: str) -> None:
         line = LAUNCH_LINE.match(text)

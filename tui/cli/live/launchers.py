@@ -30,12 +30,12 @@ HANGS = (
     "kill -9 {0} ends all of them"
 )
 CONNECT_TIMEOUT_S = 20.0
-"""Seconds after which other hosts are looked for although the console has not connected."""
+"""Seconds after which other hosts are searched for even though the console has not connected."""
 Printed = Callable[[int, str, str], None]
 
 
 class ConsoleLauncher(Launcher, Protocol):
-    """What a console needs from a launcher, beyond what its panes see."""
+    """What a console needs from a launcher in addition to what its panes use."""
 
     def info(self) -> LaunchInfo:
         """What is known now; the same object until something changes."""
@@ -47,7 +47,7 @@ class ConsoleLauncher(Launcher, Protocol):
 
 
 def why_it_hangs(pid: int) -> Callable[[], str]:
-    """A function that says why a launch host does not respond; empty when it does."""
+    """A function that returns why a launch host does not respond; an empty text if it does."""
     lock = GilHolder(pid)
 
     def why() -> str:
@@ -63,7 +63,7 @@ def launcher_here(
     heard: Callable[[str], bool] = lambda name: True,
     every: Add | None = None,
 ) -> RosLauncher:
-    """A launcher of this process; a launch is a node process too, so that what it prints goes to the log."""
+    """A launcher in this process; a launch is a node process too, so that its output goes to the log."""
 
     def spawn(target: Callable[[], None], path: str) -> Launching:
         return Launching(target, printed, launch_environment(path))
@@ -72,12 +72,14 @@ def launcher_here(
 
 
 def embedded(console: RosConsole) -> RosLauncher:
-    """Everything in this process, with the nodes as threads: for pilots, and where programs cannot meet."""
+    """Everything in this process, with the nodes as threads: for pilot tests, and where programs cannot find each
+    other.
+    """
     return launcher_here(console.record, console.printed, console.heard)
 
 
 def hosted(host: Host, buffer: HostedSnapshotBuffer | None) -> Callable[[RosConsole], HostedLauncher]:
-    """Through a launch host that this process owns, and that keeps the last minutes."""
+    """Through a launch host that this process owns, and that keeps the last minutes of traffic."""
 
     def make(console: RosConsole) -> HostedLauncher:
         launcher = _of_own(host, console)

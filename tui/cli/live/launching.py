@@ -19,5 +19,5 @@ class Launching:
         self._process.start(target, env=launch_variables(env), stdout=report, stderr=report)
 
     def join(self, timeout: float | None = None) -> object:
-        """Wait for the end, at most so many seconds."""
+        """Wait for the end, at most `timeout` seconds."""
         return self._process.wait(timeout)

@@ -1,4 +1,4 @@
-"""What panes are given to act with: everything, or with `--read-only` only what does not change anything."""
+"""The services that panes get: all of them, or with `--read-only` wrappers that change nothing."""
 
 from __future__ import annotations
 

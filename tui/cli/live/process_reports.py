@@ -18,11 +18,11 @@ Printed = Callable[[int, str, str], None]
 
 
 def log_process_reports(printed: Printed, learn: Learn) -> Callable[[], None]:
-    """Log notices and crashes of all processes, and take in their facts, whether or not they are threads of this one.
+    """Log notices and crashes of all processes, and pass on their facts, whether or not they are threads of this one.
 
-    Returns a function that stops that.
+    Returns a function that ends the reporting.
     """
-    from launch.child import on_news  # ROS names answer only in a program that is composed
+    from launch.child import on_news  # ROS names can be imported only in a composed program.
 
     def noticed(process: Warned, text: str) -> None:
         printed(Severity.WARN, process.name, text)

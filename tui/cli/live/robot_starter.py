@@ -1,4 +1,4 @@
-"""Starts the simulated robot alongside a launch file or a program whose nodes need a robot that is missing."""
+"""Starts the simulated robot beside a launch file or a program whose nodes need a robot that is missing."""
 
 from __future__ import annotations
 
@@ -17,34 +17,34 @@ if TYPE_CHECKING:
 
 LAUNCH_FILE = str(ROOT / "launch" / "simulator.launch.py")
 GRAPH_POLL_S = 0.25
-"""Seconds between two looks at the graph."""
+"""Seconds between two polls of the graph."""
 SETTLED_S = 1.0
-"""Seconds without a change after which the nodes of a launch are up."""
+"""Seconds without a change after which the nodes of a launch count as up."""
 NODE_TIMEOUT_S = 10.0
-"""Seconds after which a process that has made no node is not waited for: it may be none of ROS."""
+"""Seconds to wait for a process to create a node; it may not be a ROS program."""
 MAX_DELAY_S = 30.0
-"""Seconds that starts which the launch file has put off are waited for: one of them may be a robot."""
+"""Seconds to wait for starts that the launch file delays: one of them may bring a robot."""
 
 
 @dataclass(frozen=True)
 class System:
-    """What is launched, as far as deciding on a robot requires."""
+    """What is launched, as far as the decision about a robot requires."""
 
     processes: Callable[[], tuple[int, int]]
-    """How many run now, and how many starts are put off to later."""
+    """The number of running processes, and of delayed starts."""
     report: Callable[[str], None]
-    """Put a line into the log."""
+    """Writes a line to the log."""
     start: Callable[[Mapping[str, str]], None]
-    """Launch `LAUNCH_FILE` with arguments."""
+    """Launches `LAUNCH_FILE` with arguments."""
     others: int = 0
-    """Visible nodes that were in the domain before the launch; none of its processes has made them."""
+    """Visible nodes that were in the domain before the launch, and so belong to none of its processes."""
 
 
 class RobotStarter:
-    """Looks at the graph until a robot is wanted, then starts one and tells why.
+    """Polls the graph until a robot is needed, then starts one and reports why.
 
-    The nodes are up when each running process has made one, no start is put off to later, and the graph rests. All
-    times are of the steady clock, so that a stepped run decides the same each time.
+    The nodes are up when each running process has created one, no start is delayed, and the graph does not change. All
+    times are of the steady clock, so that a stepped run always decides the same.
     """
 
     def __init__(self, system: System, given: Mapping[str, str]) -> None:
@@ -57,7 +57,7 @@ class RobotStarter:
         self.started = False
 
     def watch(self) -> None:
-        """The main of a node process; returns when the robot was started, or by an interrupt."""
+        """The main function of a node process; returns when the robot was started, or on an interrupt."""
         import rclpy
         from rclpy.clock import Clock, ClockType
         from rclpy.executors import ExternalShutdownException
@@ -93,29 +93,29 @@ class RobotStarter:
             self._system.start({**self._given, "stamped": "true"} if drives_stamped(node) else self._given)
 
     def _waits(self, why: str) -> bool:
-        """Whether something the launch file starts later may still bring the robot; logged once."""
+        """Whether something that the launch file starts later may still bring the robot; logged once."""
         if self._delayed is None:
             self._delayed = 0.0
             self._system.report(
-                f"{why}: the launch file starts more later, which is waited for, at most {MAX_DELAY_S:g} s, before "
-                "a simulated robot comes; --simulator starts it at once"
+                f"{why}: waiting at most {MAX_DELAY_S:g} s for what the launch file starts later, before "
+                "a simulated robot is started; --simulator starts it at once"
             )
         return self._delayed < MAX_DELAY_S
 
 
 def processes(info: LaunchInfo) -> tuple[int, int]:
-    """How many processes run, and how many starts are postponed; for `System.processes`."""
+    """The number of running processes, and of delayed starts; for `System.processes`."""
     from bot_console.tui.console.model import ProcessState
 
     return sum(each.state is ProcessState.RUNNING for each in info.processes), info.delayed
 
 
 def begin(options: Options, system: System, clock: Any = None) -> NodeProcess | None:
-    """Start a robot now, when one is wanted or never, as the options ask; the node process that looks, if any."""
-    if options.simulator is False or not options.launch:  # our own system has its robot
+    """Start a robot now, if one is needed, or never, as the options say; returns the polling node process, if any."""
+    if options.simulator is False or not options.launch:  # Our own system includes a robot.
         return None
     if options.simulator:
-        system.report("the simulated robot runs beside it, as --simulator asks")
+        system.report("the simulated robot runs beside it, as --simulator requests")
         system.start(arguments(options))
         return None
     process = NodeProcess("robot_beside", clock)

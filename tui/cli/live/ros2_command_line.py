@@ -20,22 +20,24 @@ from bot_console.tui.console.protocol import Launcher
 from bot_console.tui.console.running_lines import RunningLine, goes_on
 
 LINE_TIMEOUT_S = 15.0
-"""Seconds after which a line that does not end by itself, and was not expected to go on, is interrupted."""
+"""Seconds after which a line that should end by itself, but does not, is interrupted."""
 STARTING = 30.0
-"""Seconds after which what a line launches is not waited for any more: the Launch pane tells the rest."""
+"""Seconds to wait for what a line launches; after that, the Launch pane shows the rest."""
 
 
 class Ros2CommandLine:
-    """Runs each line in a node process of its own; implements `tui.console.command_line.CommandLine`."""
+    """Runs each line in its own node process; implements `tui.console.command_line.CommandLine`."""
 
     def __init__(self, launcher: Launcher | None = None) -> None:
-        """`launcher` starts what `ros2 run` and `ros2 launch` name: it stays, and is listed in the Launch pane."""
+        """`launcher` starts what `ros2 run` and `ros2 launch` name: it keeps running, and is listed in the Launch
+        pane.
+        """
         self._launcher = launcher
         self._known: dict[tuple[str, ...], list[str]] = {}
-        """What verbs have printed of what does not change while the console runs: packages, types."""
+        """Output of verbs that does not change while the console runs: packages, types."""
 
     def run(self, line: str) -> Future[str]:
-        """Run a line beside the caller; what it printed, or the `ValueError` of what cannot be run or started."""
+        """Run a line in the background; the future has its output, or the `ValueError` of a line that cannot be run."""
         return in_background(lambda: self._done(line), "ros2")
 
     def stream(self, line: str) -> Stream | None:
@@ -47,7 +49,7 @@ class Ros2CommandLine:
         return _Streamed(words) if goes_on(words) else None
 
     def commands(self) -> Sequence[str]:
-        """The commands a line may begin with."""
+        """The commands that a line may begin with."""
         from ros2cli.command_line import COMMANDS
 
         return [*COMMANDS, "colcon"]
@@ -69,11 +71,11 @@ class Ros2CommandLine:
         answer = self._launcher.launch(wanted.file, wanted.arguments).result(STARTING)
         if not answer.ok:
             raise ValueError(answer.text)
-        return f"{wanted.name} runs, and stands in the Launch pane: x ends it there"
+        return f"{wanted.name} runs, and is listed in the Launch pane, where x ends it"
 
 
 class _Names:
-    """Names for completion: of what runs, as the console knows it; of everything else, as the verbs print it."""
+    """Names for completion: running things as the console knows them; everything else as the verbs print it."""
 
     def __init__(self, snapshot: ConsoleSnapshot, known: dict[tuple[str, ...], list[str]]) -> None:
         self._snapshot = snapshot
@@ -86,7 +88,7 @@ class _Names:
         return self._known[words]
 
     def live(self, *words: str) -> list[str]:
-        """The same for verbs that query what runs."""
+        """The same for verbs that query what is running."""
         found = live_names(self._snapshot, words)
         return found if found is not None else [each.strip() for each in _printed_by(words).splitlines()]
 

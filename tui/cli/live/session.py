@@ -1,4 +1,4 @@
-"""A console session: the app, the launched system, and the way both end."""
+"""A console session: the app, the launched system, and how both end."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Session:
     """Holds the parts together."""
 
     def __init__(self, options: Options, connect: Callable[[], Connected] | None = None) -> None:
-        """`connect` makes what is shown, all in this process unless it is given; it waits for the first frame."""
+        """`connect` makes what is shown, all in this process unless it is given; it is called after the first frame."""
         self._options = options
         self._connect = connect or self._embedded
         self._closed = False
@@ -72,11 +72,11 @@ class Session:
         return "connected" in self.__dict__
 
     def _printed(self, severity: int, label: str, text: str) -> None:
-        if self._is_connected():  # before that nobody reads
+        if self._is_connected():  # Before that, nobody reads the log.
             self.console.printed(severity, label, text)
 
     def run(self) -> int:
-        """Show the console until it is quit; the robot stands still when this returns, however it ended."""
+        """Show the console until it is quit; the robot stands still when this returns, however the console ended."""
         return self._foreground.run(self._close_reporting)
 
     def _close_reporting(self) -> None:
@@ -84,7 +84,7 @@ class Session:
             self.close()
 
     def _end(self, number: int) -> None:
-        """Stop the robot, then end the app: on SIGINT from elsewhere, SIGTERM and SIGHUP (a closed terminal)."""
+        """Stop the robot, then end the app: on SIGINT from outside, SIGTERM and SIGHUP (a closed terminal)."""
         try:
             if not self._options.attach and self._is_connected():
                 self.console.all_stop(True, f"bot-console was ended by {signal.Signals(number).name}")
@@ -94,7 +94,7 @@ class Session:
     def close(self) -> None:
         """Send zero velocity, end the launched processes, then leave the graph; a second call does nothing.
 
-        A robot that was attached to goes on, unless this console steers it: leaving the graph locks that one.
+        A robot that was attached to keeps running. If this console steers it, leaving the graph locks it.
         """
         if not self._closed and self._is_connected():
             self.connected.close()

@@ -1,4 +1,4 @@
-"""The last minutes of a system, recorded in memory by the process that runs its nodes."""
+"""The last minutes of a system's traffic, kept in memory by the process that runs its nodes."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from bot_console.tui.console.recording import RingSize
 
 
 def overhear(size: RingSize) -> SnapshotBuffer:
-    """Keep what the nodes of this process publish, and what others send to them."""
+    """Keep what the nodes of this process publish and receive."""
     buffer = SnapshotBuffer(size, serialize, type_hash.text)
     bus_of(domain()).overhear(buffer.hear)
     return buffer
 
 
 class HostedSnapshotBuffer:
-    """The memory kept by the launch host of a console."""
+    """The buffer in the launch host of a console."""
 
     def __init__(self, kept_s: float) -> None:
         self.kept_s = kept_s

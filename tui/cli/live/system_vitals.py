@@ -10,7 +10,7 @@ from bot_console.runtime.process.watch.processor_time import wanted_seconds
 
 
 class SystemVitals:
-    """The vitals of one such process; without `/proc` nothing is known."""
+    """The vitals of one process; nothing is known without `/proc`."""
 
     def __init__(self, pid: int) -> None:
         self._pid = pid
@@ -22,12 +22,12 @@ class SystemVitals:
         """CPU time (s) of the process."""
         try:
             fields = self._stat.read_bytes().rpartition(b")")[2].split()
-        except OSError:  # it has ended, or the system has no such file
+        except OSError:  # It has ended, or the system has no such file.
             return None
         return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
     def wanted_seconds(self) -> float | None:
-        """How long (s) its main thread has run or waited for a CPU, and for nothing else."""
+        """How long (s) its main thread has run or waited for a CPU, but for nothing else."""
         return wanted_seconds(str(self._pid))
 
     def memory_bytes(self) -> int | None:
@@ -45,7 +45,7 @@ class SystemVitals:
             return False
 
     def holds_lock_in(self) -> str:
-        """The line of code in which its interpreter lock is held."""
+        """The line of code that holds its interpreter lock."""
         return self._lock.held_in()
 
     def hangs_in(self) -> str:

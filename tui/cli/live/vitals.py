@@ -1,4 +1,4 @@
-"""CPU time of launched processes, and whether code of a process has survived being killed."""
+"""CPU time of launched processes, and whether a process's code kept running after it was killed."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class NodeVitals:
         return self._process.cpu_seconds()
 
     def wanted_seconds(self) -> float | None:
-        """Its CPU time: a thread waiting for the interpreter cannot be told from one waiting for anything else."""
+        """Its CPU time: whether a thread waits for the interpreter or for something else is not known."""
         return self.cpu_seconds()
 
     def memory_bytes(self) -> int | None:
@@ -36,11 +36,11 @@ class NodeVitals:
         return False
 
     def holds_lock_in(self) -> str:
-        """Always empty: while it held the lock, nobody in this process could ask."""
+        """Always empty: while the lock is held, nobody in this process can ask."""
         return ""
 
     def hangs_in(self) -> str:
-        """Where its code still runs although it was killed, in the words of the runtime's notice."""
+        """Where its code still runs although it was killed, as the runtime's notice describes it."""
         process = self._process
         return process.notices[-1] if process.state is ProcessState.ABANDONED and process.notices else ""
 

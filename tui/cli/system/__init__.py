@@ -1,1 +1,1 @@
-"""A program's surroundings: its domain, its workspace, its processes, and the system in the background."""
+"""A program's environment: its domain, its workspace, its processes, and the background system."""

@@ -1,4 +1,4 @@
-"""The process of a system in the background: a launch host that has no console of its own.
+"""The process of a background system: a launch host without a console.
 
 `python -m bot_console.tui.cli.system.background_system LOG WORDS...`; the words are those of `bot-console up`.
 """
@@ -14,11 +14,11 @@ from bot_console.tui.cli.arguments import Options, parse
 
 SWITCH = "bot_console.tui.cli.system.background_system"
 ROBOT_SEARCH_TIMEOUT_S = 5.0
-"""Seconds that the look for a robot may take to end."""
+"""Seconds that the search for a robot may take to end."""
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Run the system until it is told to end; 1 where it could not be launched, which the log explains."""
+    """Run the system until it is asked to end; 1 if it could not be launched, which the log explains."""
     log, *rest = sys.argv[1:] if words is None else words
     options = parse(["--headless", *rest])
     install()
@@ -60,7 +60,7 @@ def _run(options: Options, file: Path) -> int:
         return made[0]
 
     host = LaunchHost(make, log.printed)
-    forget = log_process_reports(host.noticed, host.learn)  # before the nodes begin, which tell what they declare
+    forget = log_process_reports(host.noticed, host.learn)  # Before the nodes start, which report their declarations.
     [launcher] = made
     arguments = dict(options.launch_arguments)
     if not options.launch:

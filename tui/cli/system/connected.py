@@ -29,10 +29,10 @@ from bot_console.tui.settings.settings import read_settings
 
 ROOT = Path(__file__).resolve().parents[3]
 LAST_WORD = 0.2
-"""Seconds that a robot has to acknowledge its stop, or for its last zero, before anything is shut down."""
+"""Seconds for a robot to acknowledge its stop, or to receive its last zero, before anything is shut down."""
 READY = 20.0
 HISTORY = "history.sqlite"
-"""Holds the changes of parameters of all runs, in the user's folder for state."""
+"""The database with the parameter changes of all runs, in the user's state folder."""
 
 
 class Connected:
@@ -75,7 +75,7 @@ class Connected:
         return self.launcher.info()
 
     def begin(self) -> System:
-        """Connect, and start the system as soon as that is done; returns what the panes are given."""
+        """Connect, and start the system as soon as that is done; returns the services for the panes."""
         reinstall_stdio()
         self.console.start()
         threading.Thread(target=self._launch, name="start", daemon=True).start()
@@ -117,22 +117,23 @@ class Connected:
     def close(self) -> None:
         """Send zero velocity, end the launched processes, then leave the graph.
 
-        A robot that was attached to goes on, unless this console steers it: leaving the graph locks that one.
+        A robot that was attached to keeps running. If this console steers it, leaving the graph locks it.
         """
         if not self._options.attach:
             self.console.all_stop(True, "bot-console was quit")
             self.console.await_standing(LAST_WORD)
-            self.console.steer(False)  # else its silence would be a stop that the next start of the robot finds
+            # Otherwise its silence would be a stop that the robot still has at its next start.
+            self.console.steer(False)
         if self._watching is not None:
             self._watching.stop()
         self.launcher.close()
         self._local_tuner.close()
         self._forget_notices()
-        self.console.close()  # whose own zero is the last word to a robot that outlives this program
+        self.console.close()  # Its own zero is the last command to a robot that outlives this program.
 
 
 def graph_events(domain: int, changed: Callable[[tuple[str, str]], None]) -> Callable[[], None]:
-    """Call back after each change of a domain's graph, with name and namespace; returns a function that stops that."""
+    """Call back after each change of a domain's graph, with name and namespace; returns a function that ends this."""
     from bot_console.runtime.rmw.middleware import bus_of
 
     return bus_of(domain).on_graph_change(changed)

@@ -18,12 +18,12 @@ def connect(way: Way) -> NetworkBuses:
     install()
     buses = NetworkBuses(with_environment(way))
     choose_middleware(buses)
-    bus_of(domain())  # now, so that it is told before there is a screen
+    bus_of(domain())  # Connect now, so that a failure is reported before there is a screen.
     return buses
 
 
 def connect_to(endpoints: Sequence[str]) -> str:
-    """Connect to these routers; returns why that fails, in one line, and an empty text when it does not."""
+    """Connect to these routers; returns why that fails in one line, or an empty text on success."""
     try:
         for each in endpoints:
             place_of(each)

@@ -23,11 +23,11 @@ _taking_part = False
 STOP_FILE_VARIABLE = "BOT_CONSOLE_STOP_FILE"
 """Where the robots of this domain keep their stops, for all nodes that this program starts: see `docs/safety.md`."""
 CONNECT_VARIABLE = "BOT_CONSOLE_CONNECT"
-"""The router that `--connect` would name, for verbs, and for shells in which all is about one robot."""
+"""The router that `--connect` would name, for verbs, and for shells that work with one robot."""
 
 
 def unusable_domain() -> str:
-    """Why the domain that the environment names is none, in one line; empty when it is one."""
+    """Why the environment does not name a valid domain, in one line; empty if it does."""
     try:
         domain_id()
     except ValueError as error:
@@ -36,7 +36,7 @@ def unusable_domain() -> str:
 
 
 def why_alone() -> str:
-    """Why this program cannot meet others in its domain, in one line; empty when it can."""
+    """Why this program cannot find others in its domain, in one line; empty if it can."""
     from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
 
     if problem := unusable_domain():
@@ -51,7 +51,7 @@ def why_alone() -> str:
 def take_part() -> str:
     """Make contexts initialised from now on share the graph of their domain; never in a stepped run.
 
-    Returns why that fails, in one line, and an empty text when it does not.
+    Returns why that fails in one line, or an empty text on success.
     """
     global _taking_part
     if alone := why_alone():
@@ -67,7 +67,7 @@ def take_part() -> str:
 
 
 def stop_file() -> Path:
-    """The file with the stops of this domain's robots that nobody has released, and of releases."""
+    """The file with the unreleased stops of this domain's robots, and with releases."""
     from bot_console.tui.files.folders import state_folder
 
     return state_folder() / "stops" / f"domain-{domain()}.json"
@@ -81,7 +81,7 @@ def run_in_worker() -> None:
 
     choose_middleware(local_bus)
     let_children_meet(False)
-    os.environ.pop(STOP_FILE_VARIABLE, None)  # what runs apart is another robot
+    os.environ.pop(STOP_FILE_VARIABLE, None)  # An isolated system is another robot.
 
 
 def is_in_range() -> bool:
@@ -118,8 +118,8 @@ def frozen() -> list[int]:
 def robot_there() -> list[str]:
     """The nodes of other processes that form a robot: they obey velocities, or publish scans or odometry.
 
-    Tools and consoles, whose names begin with an underscore, only watch what a robot is sent and do not count. To be
-    called after `take_part` and before anything runs in this process.
+    Tools and consoles, whose names begin with an underscore, only watch what a robot is sent and do not count. Call
+    this after `take_part` and before anything runs in this process.
     """
     from bot_console.runtime.rmw.middleware import bus_of
     from bot_console.tui.console.robot.robot_needed import SOURCES, VELOCITY
@@ -134,7 +134,7 @@ def robot_there() -> list[str]:
 
 
 def nodes_there() -> list[str]:
-    """The full names of all nodes in the domain, without tools and consoles. To be called after `take_part`."""
+    """The full names of all nodes in the domain, without tools and consoles. Call this after `take_part`."""
     from bot_console.runtime.rmw.middleware import bus_of
 
     nodes = [each for table in bus_of(domain()).tables() for each in table.nodes()]
@@ -142,7 +142,7 @@ def nodes_there() -> list[str]:
 
 
 def robot_claim() -> RobotClaim:
-    """Claim the robot of this domain, for programs that bring one of their own; only where `why_alone` is empty."""
+    """Claim the robot of this domain, for programs that start one; only if `why_alone` is empty."""
     from pathlib import Path
 
     from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
@@ -152,9 +152,9 @@ def robot_claim() -> RobotClaim:
 
 
 def same_names_there(arguments: Mapping[str, str]) -> list[str]:
-    """The nodes of other processes that have names of our system's, launched with these arguments.
+    """The nodes of other processes that have the same names as those of our system, launched with these arguments.
 
-    Parameters, logs and commands of two nodes of one name cannot be told apart. To be called like `robot_there`.
+    Parameters, logs and commands of two nodes of one name cannot be told apart. The rules of `robot_there` apply.
     """
     from bot_console.tui.cli.system.workspaces import NAVIGATOR, SYSTEM_NODES
 
@@ -163,24 +163,24 @@ def same_names_there(arguments: Mapping[str, str]) -> list[str]:
 
 
 def why_no_robot(robot: Sequence[str], arguments: Mapping[str, str]) -> str:
-    """Why our system, launched with these arguments, is not to join this domain, in one line; empty when it may.
+    """Why our system, launched with these arguments, must not join this domain, in one line; empty if it may.
 
-    `robot` is the one that is there. To be called like `robot_there`.
+    `robot` is the running one. The rules of `robot_there` apply.
     """
     if robot:
-        return f"a robot runs already in ROS domain {domain()}: {', '.join(robot)}"
+        return f"a robot is already running in ROS domain {domain()}: {', '.join(robot)}"
     if there := same_names_there(arguments):
-        return f"nodes named as our robot's run already in ROS domain {domain()}: {', '.join(there)}"
+        return f"nodes named like our robot's run already in ROS domain {domain()}: {', '.join(there)}"
     return ""
 
 
 def report_of_other_start() -> None:
-    """Say, on standard error, that this program waits for a robot that another one is starting."""
+    """Print, on standard error, that this program waits for a robot that another one is starting."""
     print(f"Another bot-console is starting a robot in ROS domain {domain()}: waiting for it ...", file=sys.stderr)
 
 
 def domain() -> int:
-    """The domain id from the environment; a text that is no number is reported when a context is made."""
+    """The domain id from the environment; a text that is not a number is reported when a context is made."""
     try:
         return domain_id()
     except ValueError:
@@ -192,7 +192,8 @@ def end_program(code: int) -> NoReturn:
     if _taking_part:
         try:
             from bot_console.runtime.process.ending import exit_functions_run
-        except (MemoryError, ImportError):  # too little memory even to end; what was wrong has been said
+        except (MemoryError, ImportError):  # Too little memory even to end; the cause has already been reported.
             os._exit(code)
-        os._exit(exit_functions_run(code))  # its sockets and temporary folders go, as they do at any other end
+        # Exit functions remove its sockets and temporary folders, as at any other end.
+        os._exit(exit_functions_run(code))
     sys.exit(code)

@@ -1,4 +1,4 @@
-"""Nodes in processes of their own: the default for what a user wrote, where programs of this machine can meet."""
+"""Nodes in their own processes: the default for user code, if programs of this machine can find each other."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ SHARE = f"{share_domains.__module__}:{share_domains.__name__}"
 
 STARTS_NOTHING = {"-h", "--help", "-p", "--print", "--print-description", "-s", "--show-args", "--show-arguments",
                   "isolation:=thread"}  # fmt: skip
-"""Words of `launch` with which it needs no process."""
+"""Arguments with which `launch` needs no process."""
 
 
 def prefork(words: Sequence[str], *, from_here: bool = False) -> None:
     """Start the fork server early for a `launch` with these arguments: it warms up while the launch file is read.
 
-    `from_here`, in a program that has just begun, it is a fork of this process where that is possible.
+    With `from_here`, in a program that has just started, it is forked from this process if possible.
     """
     places = [each for each in words if not each.startswith("-") and ":=" not in each]
     names_file = len(places) > 1 or any(map(os.path.isfile, places))
@@ -38,10 +38,10 @@ def prefork(words: Sequence[str], *, from_here: bool = False) -> None:
 
 
 def isolate() -> None:
-    """Run a user's nodes in processes of their own, unless a launch says `isolation:=thread`.
+    """Run a user's nodes in their own processes, unless a launch says `isolation:=thread`.
 
-    To be called by programs that take part in their domain, after the runtime was installed. Processes that the
-    environment lets nobody find would be alone: there all nodes stay in this one.
+    For programs that take part in their domain, after the runtime was installed. If the environment keeps processes
+    from finding each other, all nodes stay in this one.
     """
     from launch.isolation import isolate_by_default
 
@@ -51,7 +51,7 @@ def isolate() -> None:
 
 
 def watch_threads() -> None:
-    """Report when C code of a node that is a thread of this process has kept all others from running."""
+    """Report when C code of a node that is a thread of this process blocks all other threads."""
 
     def report(ident: int, text: str) -> None:
         notify(busy_watch.process_of(ident) or MAIN, text)

@@ -16,9 +16,9 @@ from bot_console.tui.pane_table import PANES as OWN
 
 
 def find_plugins() -> list[PluginEntry]:
-    """All panes of other packages, by name; nothing of them is imported yet.
+    """All panes of other packages, by name; none of them is imported yet.
 
-    The workspace's take precedence over installed ones of the same name; none may take the name of a built-in pane.
+    The workspace's take precedence over installed ones of the same name; none may use the name of a built-in pane.
     """
     found = {each.id: each for each in (*_installed(), *_of_workspace())}
     return [found[id] for id in sorted(found) if id not in {each.id for each in OWN}]

@@ -1,4 +1,4 @@
-"""A console without a screen, for verbs that read and change what runs in the domain."""
+"""A console without a screen, for verbs that read and change what is running in the domain."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from bot_console.tui.console.connection.ros_console import RosConsole
 LINK = 10.0
 """Seconds to connect."""
 STILL = 0.5
-"""Seconds for which nothing may come or go before the system counts as known."""
+"""Seconds without any change after which the system counts as known."""
 POLL_S = 0.05
 T = TypeVar("T")
 
 
 @contextlib.contextmanager
 def reached_console(*, learning: bool = False) -> Generator[RosConsole | None]:
-    """A console on the system of this domain, or behind the routers in the environment; None, after saying why.
+    """A console on the system of this domain, or behind the routers in the environment; None, after printing why.
 
     With `learning`, the launch hosts of the domain report what nodes have declared.
     """
@@ -59,7 +59,7 @@ def _listen_to_hosts(console: RosConsole, stack: contextlib.ExitStack) -> None:
 
 
 def known(console: RosConsole, timeout_s: float) -> bool:
-    """Wait until nodes and parameters stop changing, at most so many seconds; returns whether there are any nodes."""
+    """Wait until nodes and parameters stop changing, at most `timeout_s`; returns whether there are any nodes."""
 
     def counts() -> tuple[int, int, int]:
         snapshot = console.snapshot()
@@ -71,7 +71,7 @@ def known(console: RosConsole, timeout_s: float) -> bool:
 
 
 def settled(poll: Callable[[], T], is_there: Callable[[T], bool], still: float, timeout_s: float) -> T:
-    """A value, once there is one and it has not changed for `still` seconds; at the latest after `patience` seconds."""
+    """A value, once it exists and has not changed for `still` seconds; at the latest after `timeout_s`."""
     deadline = time.monotonic() + timeout_s
     seen, since = poll(), time.monotonic()
     while time.monotonic() < deadline and not (is_there(seen) and time.monotonic() - since >= still):

@@ -1,4 +1,4 @@
-"""How a verb hears and asks the emergency stops of its domain: a node for the length of a `with` block."""
+"""How a verb observes and requests emergency stops in its domain: a node for the length of a `with` block."""
 
 from __future__ import annotations
 
@@ -32,18 +32,18 @@ class ReachedStop:
 
     @property
     def info(self) -> StopInfo:
-        """What the locks have said."""
+        """What the locks have reported."""
         return self.link.info
 
     def follow(self) -> None:
-        """Listen to the locks that are there now."""
+        """Subscribe to the locks that exist now."""
         from bot_console.tui.console.robot.stop_link import STATUS
 
         names = self._node.get_topic_names_and_types()
         self.link.follow(name for name, types in names if STATUS in types and self._node.count_publishers(name))
 
     def hear(self) -> None:
-        """Take in what they say within a tenth of a second."""
+        """Receive their reports for a tenth of a second."""
         import rclpy
 
         for _ in range(10):

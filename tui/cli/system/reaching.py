@@ -1,4 +1,4 @@
-"""How a verb reaches the system it is about: in its domain, or through named routers."""
+"""How a verb reaches its system: in the domain, or through named routers."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def reach_system() -> str:
 
 
 def reach_when_asked() -> None:
-    """Reach it with the first context, for verbs that rarely make one; if that fails, the verb runs isolated."""
+    """Connect with the first context, for verbs that rarely make one; if that fails, the verb runs isolated."""
     from bot_console.runtime.rmw.local import local_bus
     from bot_console.runtime.rmw.middleware import bus_of, choose_middleware
 

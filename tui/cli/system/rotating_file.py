@@ -12,16 +12,16 @@ from bot_console.runtime.unwritable_log import UnwritableLog
 
 STANDARD_STREAMS = (1, 2)
 LAUNCH_BYTES = 2_000_000
-"""The size of a file of launch after which the next one begins."""
+"""The size at which a log file of launch is rotated."""
 LAUNCH_PARTS = 1
-"""Older parts of it that are kept."""
+"""The number of older files that are kept."""
 
 
 class RotatingFile(UnwritableLog, RotatingFileHandler):
     """Writes to a file until it has `max_bytes`; rotated files are named `.1` (the newest) and up.
 
     Descriptors in `followed` that refer to the file are redirected to the new one on rotation: otherwise what this
-    program writes to standard output, past the log, would end up in a file that is soon deleted.
+    program writes to standard output, bypassing the log, would end up in a file that is soon deleted.
     """
 
     def __init__(self, path: str | Path, max_bytes: int, parts: int, followed: tuple[int, ...] = ()) -> None:
@@ -51,7 +51,7 @@ class RotatingFile(UnwritableLog, RotatingFileHandler):
 
 
 def rotate_launch_files() -> None:
-    """Rotate the files that launch keeps for each process of this run, too; upstream's grow without limit."""
+    """Also rotate the files that launch keeps for each process of this run; upstream's grow without limit."""
     from launch.logging import launch_config
 
     def make(path: str, encoding: str | None = None) -> logging.Handler:

@@ -1,4 +1,4 @@
-"""One start of a background system at a time: what looks whether one runs, starts it and writes it down is one step."""
+"""Lets only one background system start at a time: checking, starting and recording it is one step."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from types import FrameType
 from bot_console.runtime.rmw.zenoh.domain.file_lock import open_lock, try_lock
 
 POLL = 0.02
-"""Seconds between two looks whether the other start is done."""
+"""Seconds between two checks whether the other start is done."""
 SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
 
 
@@ -21,8 +21,8 @@ SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if 
 def start_lock(lock: Path, timeout_s: float) -> Generator[bool]:
     """Hold the lock, and the signals that would end this process, for the length of a `with` block.
 
-    Gives whether the lock was got in so many seconds. A signal takes effect behind the block: amid it, a system could
-    run that nobody has written down, so that nobody could end it.
+    Yields whether the lock was acquired within `timeout_s`. A signal takes effect after the block: within it, a system
+    could run that is not recorded, so that nobody could end it.
     """
     handle = open_lock(lock)
     try:
@@ -37,7 +37,7 @@ def start_lock(lock: Path, timeout_s: float) -> Generator[bool]:
 
 @contextlib.contextmanager
 def _signals_held_back() -> Generator[None]:
-    """By handlers and not by a mask, which a program that is started meanwhile would inherit."""
+    """Uses handlers and not a mask, which a program that is started meanwhile would inherit."""
     came: list[int] = []
 
     def keep(number: int, frame: FrameType | None) -> None:

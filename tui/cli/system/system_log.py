@@ -11,7 +11,7 @@ from bot_console.tui.cli.system.rotating_file import STANDARD_STREAMS, RotatingF
 from bot_console.tui.files.folders import state_folder
 
 MAX_FILE_BYTES = 5_000_000
-"""The size of a file after which the next one begins."""
+"""The size at which a file is rotated."""
 MAX_OLD_FILES = 4
 """Older files of one system that are kept, named `.1` (the newest) and up."""
 MAX_SYSTEMS = 5
@@ -20,7 +20,7 @@ NAMES = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
 
 
 class SystemLog:
-    """Writes lines as `[INFO] [1700000000.123456] [talker]: text`; may be called from any thread."""
+    """Writes lines as `[INFO] [1700000000.123456] [talker]: text`; thread-safe."""
 
     def __init__(self, path: Path, max_bytes: int = MAX_FILE_BYTES) -> None:
         self._handler = RotatingFile(path, max_bytes, MAX_OLD_FILES, STANDARD_STREAMS)
@@ -40,7 +40,7 @@ class SystemLog:
 
 
 def new_log(pid: int) -> Path:
-    """The log file for a system that starts now; the logs of all but the newest systems are deleted."""
+    """The log file for a system that starts now; deletes the logs of all but the newest systems."""
     folder = state_folder() / "systems"
     folder.mkdir(parents=True, exist_ok=True)
     old = sorted(folder.glob("*.log"), key=lambda each: each.stat().st_mtime)

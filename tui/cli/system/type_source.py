@@ -1,4 +1,4 @@
-"""Makes interfaces from the definitions that nodes send, for a console whose own types are not enough."""
+"""Makes interfaces from the definitions that nodes send, for types that the console does not have."""
 
 from __future__ import annotations
 

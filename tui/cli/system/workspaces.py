@@ -13,7 +13,7 @@ from bot_console.runtime.workspace.discover import Workspace, default_folders, u
 from bot_console.tui.cli.foreground.once_per_shell import report_once
 
 PROGRAM_LAUNCH = ROOT / "launch" / "program.launch.py"
-"""Runs what a person has named, which is not ours."""
+"""Runs what the user has named, which is not ours."""
 SYSTEM_LAUNCH = str(ROOT / "launch" / "robot_system.launch.py")
 """What `bot-console` starts."""
 SYSTEM_NODES = frozenset(
@@ -28,7 +28,7 @@ SYSTEM_NODES = frozenset(
 )
 """The nodes of `SYSTEM_LAUNCH`, by their full names."""
 NAVIGATOR = "/robot_navigator"
-"""The one of them that the launch argument `navigator` replaces or leaves out."""
+"""The one that the launch argument `navigator` replaces or leaves out."""
 
 
 def choose(folders: Sequence[Path]) -> None:
@@ -38,9 +38,9 @@ def choose(folders: Sequence[Path]) -> None:
 
 
 def launch_environment(file: str) -> dict[str, str]:
-    """The environment of a launch. A launch file of ours starts our nodes whatever the workspace holds.
+    """The environment of a launch. A launch file of ours starts our nodes whatever the workspace contains.
 
-    That may be a package of our name, such as one that was exported and changed.
+    The workspace may contain a package of the same name, such as one that was exported and changed.
     """
     path = Path(file).resolve()
     ours = path.parent == ROOT / "launch" and path != PROGRAM_LAUNCH
@@ -48,18 +48,18 @@ def launch_environment(file: str) -> dict[str, str]:
 
 
 def report_workspace(package: str) -> None:
-    """Say on stderr, once per shell, that a named package is the workspace's, if one of ours has the same name."""
+    """Print on stderr, once per shell, that a named package is the workspace's, if one of ours has the same name."""
     here = workspace()
     if package not in (NAME, PAGE_NAME):
-        return  # no package is looked for: the folder that one works in may be large
+        return  # Packages are not searched for: the working directory may be large.
     found = here.packages.get(package)
     if found is not None and not is_own(found):
-        built_in = f"; the robot that comes along is '{NAME}'" if package != NAME else ", not the one that comes along"
+        built_in = f"; the bundled robot is '{NAME}'" if package != NAME else ", not the bundled one"
         report_once(f"[INFO] [bot-console]: package '{package}' is the one in {found.folder}{built_in}")
 
 
 def config_folders() -> tuple[Path, ...]:
-    """The folders of the workspace's packages in which parameter files stand by custom."""
+    """The folders in the workspace's packages that usually contain parameter files."""
     return tuple(each for found in workspace().packages.values() if (each := found.folder / "config").is_dir())
 
 

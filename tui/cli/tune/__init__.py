@@ -1,1 +1,1 @@
-"""`bot-console tune`: finds the parameter values with which the simulated robot does best."""
+"""`bot-console tune`: finds the parameter values with which the simulated robot scores best."""

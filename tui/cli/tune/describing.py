@@ -43,7 +43,7 @@ def result_line(specification: TuningSpecification, result: SettingResult) -> st
 
 
 def gain(before: SettingResult, after: SettingResult) -> str:
-    """How much better one is than the other, in words."""
+    """How much better one result is than the other, as text."""
     if not (math.isfinite(before.score) and math.isfinite(after.score)):
         return ""
     share = (after.score - before.score) / abs(before.score) if before.score else math.inf
@@ -78,7 +78,7 @@ def result_of(specification: TuningSpecification, progress: Progress) -> dict[st
         seeds = counted(len(before.scores), "other seed")
         lines.append(f"on {seeds}: {before.score:.3f} → {after.score:.3f}  {gain(before, after)}")
         if after.score <= before.score and best is not rows[0]:
-            lines.append("on seeds that it was not chosen by it is no better: more --seeds, or stay with what is")
+            lines.append("on other seeds it is no better: use more --seeds, or keep the present values")
     result["text"] = lines
     return result
 

@@ -18,7 +18,7 @@ from bot_console.tui.tuning.specification import Trial, TuningSpecification
 
 CAN_FORK = hasattr(os, "fork")
 PROBING = 1.0
-"""Simulated s after which all nodes are asked for their parameters."""
+"""Simulated seconds after which all nodes are asked for their parameters."""
 _WARM_UP = "bot_console.tui.cli.tune.worker:warm_up"
 _JOB = "bot_console.tui.cli.tune.worker:job"
 _FAULTS = ("[FATAL]", "[ERROR]")
@@ -33,13 +33,13 @@ def processors() -> list[int]:
 class Pool:
     """As many concurrent runs as there are CPUs; `close` ends them.
 
-    Raises `OSError` where nothing can be forked.
+    Raises `OSError` if processes cannot be forked.
     """
 
     def __init__(self, maximum: int = 0) -> None:
-        """At most `most` runs at a time; 0 means one per CPU."""
+        """At most `maximum` runs at a time; 0 means one per CPU."""
         if not CAN_FORK:
-            raise OSError("this system cannot fork processes, which runs side by side need")
+            raise OSError("this system cannot fork processes, which concurrent runs need")
         places = processors()
         self._places: SimpleQueue[int] = SimpleQueue()
         count = maximum or len(places)
@@ -103,7 +103,7 @@ class _Run:
     paths: Sequence[str] = field(default=())
 
     def report(self, server: ForkServer, processor: int) -> Mapping[str, Any]:
-        """Run it in a process of its own and wait for its report."""
+        """Run it in its own process and wait for its report."""
         profile = self.profile if not is_file(self.profile) else "indoor"
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder, "tuned.yaml")

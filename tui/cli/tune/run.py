@@ -1,4 +1,4 @@
-"""The `tune` command: options, a line per setting as it goes on, the result, and what to do with it."""
+"""The `tune` command: its options, a line for each setting, the result, and saving it."""
 
 from __future__ import annotations
 
@@ -88,22 +88,22 @@ def _found(parser: argparse.ArgumentParser, named: list[str], system: Mapping[st
 
 
 def _tuned(specification: TuningSpecification, pool: Pool, given: argparse.Namespace) -> Progress:
-    """Run the study to its end or until Ctrl-C; what was found stays in the journal."""
+    """Run the tuning job until it ends or until Ctrl-C; results stay in the journal."""
     journal = TuningJournal(state_folder() / "tune", specification, resume=given.resume)
     if given.resume:
-        print(f"{journal.resumed} runs are known already", file=sys.stderr)
+        print(f"{journal.resumed} runs are already known", file=sys.stderr)
     job = TuningJob(specification, pool, journal, _event_reporter(specification))
     try:
         return job.run()
     except KeyboardInterrupt:
-        print(f"\nstopped; --resume goes on with the runs in {journal.path}", file=sys.stderr)
+        print(f"\nstopped; --resume continues with the runs in {journal.path}", file=sys.stderr)
         return job.progress
     finally:
         journal.close()
 
 
 def _event_reporter(specification: TuningSpecification) -> Callable[[Progress], None]:
-    """Prints each setting once, and the progress, on stderr."""
+    """Returns a function that prints each setting once, and the progress, on stderr."""
     reported: set[Setting] = set()
 
     def report(progress: Progress) -> None:
@@ -151,25 +151,28 @@ def command_parser() -> argparse.ArgumentParser:
     ready = "\n".join(f"  {name:8}{formula}\n{'':10}{what}" for name, (formula, what) in READY.items())
     parser = argparse.ArgumentParser(
         "bot-console tune",
-        description="Run the simulator many times, and find the values of parameters that score best.",
+        description="Run the simulator many times, and find the parameter values that score best.",
         epilog=EPILOG.format(ready=ready, figures=", ".join(FIGURES)),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add = parser.add_argument
     add(
-        "parameters", nargs="+", metavar="[NODE:]NAME[=LOW..HIGH]", help="what to tune; NAME:=VALUE: to the launch file"
+        "parameters",
+        nargs="+",
+        metavar="[NODE:]NAME[=LOW..HIGH]",
+        help="parameter to tune; NAME:=VALUE: a launch argument",
     )
-    add("--score", default="swift", metavar="FORMULA", help=f"{', '.join(READY)}, or a formula; more is better")
-    add("--runs", type=int, default=60, metavar="N", help="runs in all (60)")
-    add("--seeds", type=int, default=3, metavar="N", help="seeds that each setting is run with (3)")
-    add("--held-out", type=int, default=5, metavar="N", help="further seeds that judge the best in the end (5)")
-    add("--seed", type=int, default=1, metavar="N", help="the first seed (1)")
+    add("--score", default="swift", metavar="FORMULA", help=f"{', '.join(READY)}, or a formula; higher is better")
+    add("--runs", type=int, default=60, metavar="N", help="number of runs (60)")
+    add("--seeds", type=int, default=3, metavar="N", help="seeds for each setting (3)")
+    add("--held-out", type=int, default=5, metavar="N", help="further seeds that check the best setting at the end (5)")
+    add("--seed", type=int, default=1, metavar="N", help="first seed (1)")
     add("--duration", type=float, default=60.0, metavar="S", help="simulated seconds of a run (60)")
     add("--search", default="adaptive", choices=sorted(SEARCHES), help="how settings are chosen (adaptive)")
-    add("--profile", default="indoor", metavar="PROFILE", help="what is tuned: a profile, or a parameter file (indoor)")
-    add("--worlds", default="", metavar="A,B", help="the worlds of each setting; else the profile's")
-    add("--jobs", type=int, default=0, metavar="N", help="runs side by side; else one for each processor")
-    add("--resume", action="store_true", help="go on with a tuning that was ended")
-    add("--json", action="store_true", help="the result for programs")
-    add("--save", default="", metavar="NAME", help="save the best as a profile of yours")
+    add("--profile", default="indoor", metavar="PROFILE", help="profile, or parameter file, to tune (indoor)")
+    add("--worlds", default="", metavar="A,B", help="worlds for each setting; default: the profile's")
+    add("--jobs", type=int, default=0, metavar="N", help="concurrent runs; default: one per processor")
+    add("--resume", action="store_true", help="resume a tuning that was stopped")
+    add("--json", action="store_true", help="print the result as JSON")
+    add("--save", default="", metavar="NAME", help="save the best setting as one of your profiles")
     return parser

@@ -12,7 +12,7 @@ from bot_console.tui.tuning.specification import TuningSpecification
 
 
 def save_profile(name: str, specification: TuningSpecification, best: SettingResult) -> str:
-    """Save the tuned profile with the best values, and say where; raises `NotSaved`."""
+    """Save the tuned profile with the best values; returns a message that says where; raises `NotSaved`."""
     if problem := profile_name_problem(name):
         raise NotSaved(problem)
     path = config_folder() / "profiles" / f"{name}.yaml"

@@ -1,4 +1,4 @@
-"""A console's tuner: a study in a thread, with its runs in processes alongside the running robot."""
+"""A console's tuner: a tuning job in a thread, with its runs in processes beside the running robot."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from bot_console.tui.tuning.tunable import Setting
 
 
 class LocalTuner:
-    """Forks the runs on this machine. It works on one question at a time; a new one ends the one before."""
+    """Forks the runs on this machine. It works on one job at a time; a new one ends the one before."""
 
     def __init__(self, folder: Path | None = None) -> None:
         self._folder = folder or state_folder() / "tune"
@@ -27,16 +27,16 @@ class LocalTuner:
         self._tuning: LocalTuning | None = None
 
     def problem(self, specification: TuningSpecification) -> str:
-        """Why a question cannot be answered; empty when it can."""
+        """Why a specification cannot be tuned; empty if it can."""
         if not CAN_FORK:
-            return "this system cannot fork processes, which runs side by side need"
+            return "this system cannot fork processes, which concurrent runs need"
         strange = [each.label for each in specification.tunables if each.node not in SYSTEM_NODES]
         if strange:
-            return f"{', '.join(strange)}: only nodes of the robot that comes along are in the simulated runs"
+            return f"{', '.join(strange)}: only nodes of the bundled robot are in the simulated runs"
         return specification.problem()
 
     def begin(self, specification: TuningSpecification) -> LocalTuning:
-        """Start, or resume from what the journal knows."""
+        """Start, or resume with the runs in the journal."""
         if self._tuning is not None:
             self._tuning.stop()
         if self._pool is None:
@@ -45,7 +45,7 @@ class LocalTuner:
         return self._tuning
 
     def close(self) -> None:
-        """End all runs, and wait for that."""
+        """End all runs, and wait for their end."""
         if self._tuning is not None:
             self._tuning.stop()
         if self._pool is not None:
@@ -53,7 +53,7 @@ class LocalTuner:
 
 
 class LocalTuning:
-    """A study and its thread."""
+    """A tuning job and its thread."""
 
     def __init__(self, specification: TuningSpecification, pool: Pool, folder: Path) -> None:
         self._specification = specification
@@ -82,7 +82,7 @@ class LocalTuning:
         """Save the profile with a setting's values."""
         result = next((each for each in self.progress.rows if each.setting == setting), None)
         if result is None:
-            return Answer(False, "nothing is known of this setting yet")
+            return Answer(False, "nothing is known about this setting yet")
         try:
             return Answer(True, save_profile(name, self._specification, result))
         except NotSaved as error:
@@ -99,7 +99,7 @@ class LocalTuning:
             self._job.stop()
         try:
             self._job.run()
-        except RuntimeError:  # the pool has been closed: the console ends
+        except RuntimeError:  # The pool has been closed: the console is ending.
             self._job.progress = replace(self._job.progress, ended=True, problem="stopped")
         finally:
             journal.close()

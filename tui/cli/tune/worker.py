@@ -31,19 +31,19 @@ MODULES = (
     "numpy.random",
     *(f"bot_console_robot.{each}" for each in LAUNCHED),
 )
-"""What a run imports."""
+"""The modules that a run imports."""
 
 
 def warm_up() -> None:
-    """What the fork server does once."""
+    """What the fork server does once at its start."""
     from bot_console.runtime.warm_up import warm_up as warm_runtime
 
     warm_runtime()
     for name in MODULES:
-        with contextlib.suppress(ImportError):  # missing where a workspace has a package of that name
+        with contextlib.suppress(ImportError):  # Missing if a workspace has a package of that name.
             importlib.import_module(name)
     gc.collect()
-    gc.freeze()  # the runs would look through all of it again and again, and copy the pages that it lies in
+    gc.freeze()  # Otherwise the runs would traverse all of it again and again, and copy its memory pages.
 
 
 def job(
@@ -53,17 +53,16 @@ def job(
     """The program of a process: `kind` is `run` or `probe`; prints a JSON object.
 
     `parameters` is the path of a parameter file, `words` are launch arguments (`name:=value`), and `processor` is the
-    CPU
-    to pin the process to where that is possible: otherwise concurrent runs end up on the same one.
+    CPU to pin the process to if possible: otherwise concurrent runs end up on the same one.
     """
 
     def program() -> None:
-        signal.signal(signal.SIGINT, lambda number, frame: os._exit(128 + number))  # nobody wants half a report
+        signal.signal(signal.SIGINT, lambda number, frame: os._exit(128 + number))  # Half a report would be useless.
         if hasattr(os, "sched_setaffinity"):
             with contextlib.suppress(OSError):
                 os.sched_setaffinity(0, {processor})
         out = os.dup(1)
-        os.dup2(2, 1)  # what a node prints is not the report
+        os.dup2(2, 1)  # Keeps the output of nodes out of the report.
         report = _run(kind, profile, parameters, world, seed, duration, dict(_pair(each) for each in words), paths)
         with os.fdopen(out, "w") as file:
             json.dump(report, file)

@@ -38,9 +38,9 @@ from bot_console.tui.files.folders import OVERRIDE, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
 
 STARTING = 60.0
-"""Seconds that it may take until its nodes are seen, on a busy machine."""
+"""Seconds until its nodes must be visible, on a busy machine."""
 ENDING = 15.0
-"""Seconds that it gets to bring the robot to rest and end its nodes, before it is killed."""
+"""Seconds to bring the robot to rest and end its nodes, before it is killed."""
 
 
 @dataclass(frozen=True)
@@ -51,14 +51,14 @@ class Background:
     words: tuple[str, ...]
     log: str
     way_in: int = 0
-    """The process that lets other machines in; 0 where none does."""
+    """The process of the router for other machines; 0 if there is none."""
 
     def runs(self) -> bool:
         """Whether its pid still belongs to that program."""
         return _is_program(self.pid, SWITCH.encode())
 
     def close_way_in(self) -> None:
-        """Stop letting other machines in."""
+        """End the router for other machines."""
         if self.way_in and _is_program(self.way_in, b"router"):
             os.kill(self.way_in, signal.SIGTERM)
 
@@ -92,7 +92,7 @@ def up(words: Sequence[str]) -> int:
         elif not got:
             problem = why_no_robot(["another one that is being started"], {})
         if problem:
-            print(f"{problem}; bot-console attach shows what runs", file=sys.stderr)
+            print(f"{problem}; bot-console attach shows it", file=sys.stderr)
             return 1
         try:
             log = new_log(os.getpid())
@@ -108,7 +108,8 @@ def up(words: Sequence[str]) -> int:
             )  # fmt: skip
         if claim is not None:
             claim.hand_over()
-        # Its own file, which goes with the log: the system's takes turns, and would leave the router in an old one.
+        # Its own file, kept and deleted with the log: the system's log rotates, and would leave the router with an old
+        # file.
         router_log = log.with_name(f"{log.name}.router")
         started = Background(process.pid, tuple(words), str(log), _open_way_in(serving, router_log) if serving else 0)
         if problem := _kept(started):
@@ -120,13 +121,13 @@ def up(words: Sequence[str]) -> int:
 
 
 def _robot_or_system() -> list[str]:
-    """The robot in the domain, or the system in the background that is starting one; for `RobotClaim.seen`."""
+    """The robot in the domain, or the background system that is starting one; for `RobotClaim.seen`."""
     there = _known()
     return [there.reported()] if there else robot_there()
 
 
 def _await(process: subprocess.Popen[bytes], started: Background, *, launched: bool, router_log: Path | None) -> int:
-    """Wait until the robot of a started system is seen, or what is launched is, and tell how to go on."""
+    """Wait until the robot of a started system, or what it launches, is visible; print how to continue."""
     deadline = time.monotonic() + STARTING
     is_up = partial(_runs, process.pid) if launched else robot_there
     seen: object = False
@@ -134,34 +135,37 @@ def _await(process: subprocess.Popen[bytes], started: Background, *, launched: b
         while process.poll() is None and not (seen := is_up()) and time.monotonic() < deadline:
             time.sleep(0.1)
     except KeyboardInterrupt:
-        print(f"it goes on starting: {started.reported()}; bot-console down ends it", file=sys.stderr)
+        print(f"it is still starting: {started.reported()}; bot-console down ends it", file=sys.stderr)
         raise
     if process.poll() is not None:
         _forget()
         started.close_way_in()
-        print(f"it has ended with exit code {process.returncode}; its log is {started.log}", file=sys.stderr)
+        print(f"it ended with exit code {process.returncode}; its log is {started.log}", file=sys.stderr)
         return 1
     if not seen:
-        what = "nothing that it launches runs" if launched else "no robot was seen"
-        print(f"{what} after {STARTING:g} s: {started.reported()} says why; bot-console down ends it", file=sys.stderr)
+        what = "nothing that it launches runs" if launched else "no robot was found"
+        print(
+            f"{what} after {STARTING:g} s: the log of {started.reported()} says why; bot-console down ends it",
+            file=sys.stderr,
+        )
         return 1
     print(f"running in ROS domain {domain()}: {started.reported()}")
     print("bot-console attach shows it, bot-console down ends it")
     if not launched and stop_file().exists():
-        _print_holders()  # of stops that nobody has released since an earlier start
+        _print_holders()  # Stops that nobody has released since an earlier start.
     if router_log and not _is_program(started.way_in, b"router"):
-        print(f"other machines are not let in; why is at the end of {router_log}", file=sys.stderr)
+        print(f"the router for other machines did not start; the reason is at the end of {router_log}", file=sys.stderr)
         return 1
     return 0
 
 
 def _unreachable() -> str:
-    """Why nobody could see or stop a system in the background, in one line; empty when they can."""
+    """Why nobody could see or stop a background system, in one line; empty if they can."""
     return "" if is_in_range() else f"{RANGE_VARIABLE} is OFF: a system in the background could not be seen or stopped"
 
 
 def _serving(words: Sequence[str]) -> tuple[list[str], list[str]]:
-    """The arguments for `bot-console router`, if others are to be let in, and the remaining ones."""
+    """The arguments for `bot-console router`, if other machines may connect, and the remaining ones."""
     from bot_console.tui.cli.verbs.router import add_serving_options, serving_of, warning_of
 
     parser = argparse.ArgumentParser("bot-console up", add_help=False)
@@ -181,7 +185,7 @@ def _serving(words: Sequence[str]) -> tuple[list[str], list[str]]:
 
 
 def _open_way_in(words: Sequence[str], log: Path) -> int:
-    """Start the router process that lets other machines in."""
+    """Start the router process for other machines."""
     line = [*child_command("bot_console.tui"), "router", "--mesh", *words]
     with log.open("ab") as output:
         return subprocess.Popen(
@@ -215,7 +219,7 @@ def down(words: Sequence[str]) -> int:
         _bring_to_rest()
     for number in (signal.SIGTERM, getattr(signal, "SIGKILL", signal.SIGTERM)):
         with contextlib.suppress(ProcessLookupError):
-            # First, as a frozen one takes no notice of SIGTERM, and hands one that came before to any of its threads.
+            # First: a frozen process ignores SIGTERM, and delivers one that came before to any of its threads.
             os.kill(there.pid, getattr(signal, "SIGCONT", number))
             os.kill(there.pid, number)
         deadline = time.monotonic() + ENDING
@@ -223,7 +227,7 @@ def down(words: Sequence[str]) -> int:
             time.sleep(0.05)
         if not there.runs():
             break
-    end_session(there.pid)  # what it launched has outlived it only if it was killed
+    end_session(there.pid)  # Programs that it launched have outlived it only if it was killed.
     there.close_way_in()
     _forget()
     print(f"ended: {there.reported()}")
@@ -239,7 +243,7 @@ def _bring_to_rest() -> None:
 
 def status(words: Sequence[str]) -> int:
     """Report the system in the background, and the robot in the domain; 1 if there is neither."""
-    _no_words("status", "Tell what runs.", words)
+    _no_words("status", "Show what is running.", words)
     alone = take_part()
     if alone:
         print(alone, file=sys.stderr)
@@ -252,7 +256,7 @@ def status(words: Sequence[str]) -> int:
         _print_holders()
     stopped = frozen()
     for pid in stopped:
-        print(f"process {pid} is stopped: what it does for the others stands still; kill -CONT {pid} lets it go on")
+        print(f"process {pid} is stopped: it does nothing for the others; kill -CONT {pid} lets it continue")
     if not there and not robot and not stopped:
         print(f"nothing runs in ROS domain {domain()}", file=sys.stderr)
         return 1
@@ -265,10 +269,10 @@ def _print_holders() -> None:
 
     found = holders()
     if found is None:
-        print("whether somebody holds it is not known: its emergency stop has not answered")
+        print("whether somebody holds it is not known: its emergency stop did not answer")
         return
     for each in found:
-        print(f"held by {sanitize(each)}; bot-console release --all lets it go")
+        print(f"held by {sanitize(each)}; bot-console release --all releases it")
 
 
 def _no_words(command: str, what: str, words: Sequence[str]) -> None:
@@ -288,12 +292,12 @@ def _runs(pid: int) -> bool:
 
 
 def _files() -> tuple[Path, Path]:
-    """Where the system is written down: for every user folder, and where no cleaner of temporary files comes."""
+    """Where the system is recorded: for every user folder, and where no cleaner of temporary files comes."""
     return _file(), state_folder() / "systems" / f"domain-{domain()}.json"
 
 
 def _kept(started: Background) -> str:
-    """Write down a system, so that it can be ended; returns why it cannot be, or an empty text."""
+    """Record a system, so that it can be ended; returns why that fails, or an empty text."""
     problems: list[str] = []
     for each in _files():
         try:

@@ -1,4 +1,4 @@
-"""`bot-console bag record|play|info|open|snapshot`, as `ros2 bag` has them."""
+"""`bot-console bag record|play|info|open|snapshot`, like `ros2 bag`."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
 RECORDER = "rosbag2_recorder"
 SNAPSHOT = f"/{RECORDER}/snapshot"
 MAX_SNAPSHOT_BYTES = 512 * 1024 * 1024
-"""Bytes that a snapshot keeps at most."""
+"""The largest size of a snapshot."""
 READY = 0.5
-"""Seconds that a player waits for its readers before the first message."""
+"""Seconds that a player waits for subscribers before the first message."""
 
 
 def run(words: Sequence[str]) -> int:
@@ -41,39 +41,43 @@ def run(words: Sequence[str]) -> int:
     except (Missing, NoBag, NotSaved, re.error) as error:
         print(sanitize(str(error)), file=sys.stderr)
         return 1
-    except KeyboardInterrupt:  # before there was a node that ends in order
+    except KeyboardInterrupt:  # Before there was a node that ends in order.
         return 130
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser("bot-console bag", description="Record topics, and play what was recorded.")
+    parser = argparse.ArgumentParser("bot-console bag", description="Record topics, and play recordings.")
     verbs = parser.add_subparsers(required=True, metavar="VERB")
     record = verbs.add_parser("record", help="record topics to an MCAP bag")
     record.set_defaults(run=_record)
     record.add_argument("topics", nargs="*", metavar="TOPIC")
-    record.add_argument("-a", "--all", action="store_true", help="all topics, also those that come later")
-    record.add_argument("-e", "--regex", default="", help="topics whose names have it")
-    record.add_argument("-x", "--exclude-regex", default="", help="but for those whose names have this")
-    record.add_argument("-o", "--output", type=_named, metavar="FOLDER", help="else rosbag2_ and the time")
-    record.add_argument("--duration", type=float, metavar="S", help="end after so many seconds")
-    record.add_argument("--snapshot-mode", action="store_true", help="keep in memory; `bag snapshot` writes it")
-    record.add_argument("--snapshot-duration", type=float, default=300.0, metavar="S", help="how much to keep (300)")
-    play = verbs.add_parser("play", help="publish what is in a bag")
+    record.add_argument("-a", "--all", action="store_true", help="all topics, including those that appear later")
+    record.add_argument("-e", "--regex", default="", help="topics whose names match")
+    record.add_argument("-x", "--exclude-regex", default="", help="except topics whose names match")
+    record.add_argument("-o", "--output", type=_named, metavar="FOLDER", help="default: rosbag2_ and the time")
+    record.add_argument("--duration", type=float, metavar="S", help="stop after so many seconds")
+    record.add_argument(
+        "--snapshot-mode", action="store_true", help="keep messages in memory until `bag snapshot` writes them"
+    )
+    record.add_argument("--snapshot-duration", type=float, default=300.0, metavar="S", help="seconds to keep (300)")
+    play = verbs.add_parser("play", help="publish the messages of a bag")
     play.set_defaults(run=_play)
     play.add_argument("bag", type=_named)
-    play.add_argument("-r", "--rate", type=_positive, default=1.0, help="how fast; 2 is twice as fast as it was")
-    play.add_argument("-l", "--loop", action="store_true", help="begin again at the end")
-    play.add_argument("--topics", nargs="+", metavar="TOPIC", help="only these; else all that control no robot")
-    play.add_argument("--remap", "-m", nargs="+", default=[], metavar="OLD:=NEW", help="other names for topics")
-    play.add_argument("--start-offset", type=float, default=0.0, metavar="S", help="leave out the first seconds")
+    play.add_argument("-r", "--rate", type=_positive, default=1.0, help="speed; 2 plays twice as fast")
+    play.add_argument("-l", "--loop", action="store_true", help="start again at the end")
+    play.add_argument(
+        "--topics", nargs="+", metavar="TOPIC", help="only these topics; default: all that do not control a robot"
+    )
+    play.add_argument("--remap", "-m", nargs="+", default=[], metavar="OLD:=NEW", help="rename topics")
+    play.add_argument("--start-offset", type=float, default=0.0, metavar="S", help="skip the first seconds")
     play.add_argument("--clock", nargs="?", type=_positive, const=40.0, default=0.0, help="publish /clock (40 Hz)")
-    info = verbs.add_parser("info", help="what is in a bag")
+    info = verbs.add_parser("info", help="show the contents of a bag")
     info.set_defaults(run=_info)
     info.add_argument("bag", type=_named)
-    opened = verbs.add_parser("open", help="show what is in a bag in the console, and move through its time")
+    opened = verbs.add_parser("open", help="open a bag in the console, and move through its time")
     opened.set_defaults(run=_open)
     opened.add_argument("bag", type=_named)
-    snapshot = verbs.add_parser("snapshot", help="let a recorder in snapshot mode write what it keeps")
+    snapshot = verbs.add_parser("snapshot", help="make a recorder in snapshot mode write its messages")
     snapshot.set_defaults(run=_snapshot)
     return parser
 
@@ -109,7 +113,7 @@ def _record(given: argparse.Namespace) -> int:
     from bot_console.tui.console.bags.writer import BagWriter
 
     if not (given.all or given.topics or given.regex):
-        print("Name topics, or --regex, or record --all of them", file=sys.stderr)
+        print("Name topics, or use --regex or --all", file=sys.stderr)
         return 2
     wanted = _wanted(given)
     folder = given.output or _new_folder()
@@ -140,7 +144,7 @@ def _record(given: argparse.Namespace) -> int:
         else:
             logger.info(f"Recording to {folder}")
         _spin(control, given.duration)
-    finally:  # also where a Ctrl-C came before there was anything to spin
+    finally:  # Also if a Ctrl-C came before there was anything to spin.
         recorder.close()
         if isinstance(sink, BagWriter):
             sink.close()
@@ -183,7 +187,7 @@ def _snapshot(given: argparse.Namespace) -> int:
     rclpy.spin_until_future_complete(node, future, timeout_sec=30.0)
     answer = future.result()
     if answer is None:
-        print("The recorder has not answered within 30 s", file=sys.stderr)
+        print("The recorder did not answer within 30 s", file=sys.stderr)
         return 1
     print(sanitize(answer.message), file=sys.stdout if answer.success else sys.stderr)
     return 0 if answer.success else 1
@@ -313,7 +317,7 @@ def _new_folder(near: Path | None = None) -> Path:
 
 
 def _node(name: str) -> Any:
-    """A node in the domain; None, after saying why, if the domain cannot be joined."""
+    """A node in the domain; None, after printing why, if the domain cannot be joined."""
     import rclpy
 
     alone = take_part()

@@ -1,4 +1,4 @@
-"""`colcon build`: nothing has to be built here; says which requests have no effect, and which packages are broken."""
+"""`colcon build`: nothing has to be built here; reports requests that have no effect, and broken packages."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def run(words: Sequence[str]) -> int:
 
 
 def _report_setup_files() -> None:
-    """Write what is sourced after a build, and say what it is good for."""
+    """Write the file that is sourced after a build, and say what it is good for."""
     here = Path.cwd()
     try:
         files = write_setup_files(here, workspace())
@@ -42,7 +42,7 @@ def _report_setup_files() -> None:
 
 
 def answers(words: Sequence[str]) -> list[str]:
-    """The lines of the answer, starting with a warning for each package that is missing or has a mistake."""
+    """The lines of the answer, starting with a warning for each package that is missing or invalid."""
     warnings = [f"ignoring unknown package '{name}' in {option}" for option, name in _unknown(words)]
     broken = _broken(words)
     failed = [f"Failed   <<< {name}: {problem}" for name, problem in broken.items()]

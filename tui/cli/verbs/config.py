@@ -14,16 +14,16 @@ from bot_console.tui.settings.settings import TEMPLATE, read_settings, settings_
 
 
 def run(words: Sequence[str]) -> int:
-    """Show the file and its path, or do what an option says; 1 if it has mistakes or cannot be opened."""
+    """Print the file and its path, or do what an option says; 1 if it has mistakes or cannot be opened."""
     parser = argparse.ArgumentParser(
         "bot-console config",
-        description="The settings: colours, glyphs, layout, keys; shown without an option.",
+        description="Show or edit the settings: colours, glyphs, layout, keys. Without an option, they are printed.",
     )
     one = parser.add_mutually_exclusive_group()
-    one.add_argument("--edit", action="store_true", help="open the file in $VISUAL or $EDITOR, made where missing")
-    one.add_argument("--check", action="store_true", help="say what is wrong with it")
-    one.add_argument("--keys", action="store_true", help="the ids of all actions with their keys")
-    one.add_argument("--path", action="store_true", help="where the file is")
+    one.add_argument("--edit", action="store_true", help="open the file in $VISUAL or $EDITOR; created if missing")
+    one.add_argument("--check", action="store_true", help="report mistakes in the file")
+    one.add_argument("--keys", action="store_true", help="list the ids of all actions with their keys")
+    one.add_argument("--path", action="store_true", help="print the path of the file")
     given = parser.parse_args(words)
     if given.path:
         print(settings_file())

@@ -1,4 +1,4 @@
-"""`ros2 daemon`: there is none; lines of scripts and tutorials that query, start or stop it still work."""
+"""`ros2 daemon`: there is none, but lines in scripts and tutorials that query, start or stop it still work."""
 
 from __future__ import annotations
 

@@ -11,9 +11,9 @@ from bot_console.tui.files.save_file import NotSaved, save_file, typed_path
 
 
 def run(words: list[str]) -> int:
-    """Write the package and say where; over an existing folder only if a person agrees."""
+    """Write the package and print its path; asks before it writes over an existing folder."""
     parser = argparse.ArgumentParser("bot-console export", description="Write the robot's package for colcon.")
-    parser.add_argument("folder", metavar="DIR", help="where the package's folder is made")
+    parser.add_argument("folder", metavar="DIR", help="folder in which the package's folder is created")
     given = parser.parse_args(words)
     from bot_console.runtime.exit_messages import place_fault
     from bot_console.runtime.workspace.exporting import NAME, export
@@ -46,7 +46,7 @@ def _agreed(place: Path, kept: list[Path]) -> bool:
         return False
     print(f"{place} exists already. Nothing in it is deleted.")
     if kept:
-        print("These differ, and are kept with a ~ behind their names: " + ", ".join(map(str, kept)))
+        print("These differ, and are kept with ~ appended to their names: " + ", ".join(map(str, kept)))
     try:
         return input("Write the package into it? [y/N] ").strip().lower() in ("y", "yes")
     except EOFError:

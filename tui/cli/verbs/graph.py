@@ -19,7 +19,7 @@ from bot_console.tui.format import sanitize
 from bot_console.tui.settings.settings import read_settings
 
 STILL = 1.0
-"""Seconds for which the graph must not change before it counts as known."""
+"""Seconds without a change after which the graph counts as known."""
 GRAPH_POLL_S = 0.1
 
 EPILOG = """exit codes: 0 as expected, or nothing wrong; 1 not; 2 wrong usage or a file that cannot be read
@@ -65,7 +65,7 @@ def _judge(console: RosConsole, expected: Expected | None, given: argparse.Names
 
 
 def lines_of(info: GraphInfo, hides: Iterable[str]) -> Iterator[str]:
-    """Each topic, service and action with who gives and who takes it, then the nodes that have none of them.
+    """Each topic, service and action with its two sides, then the nodes that have none of them.
 
     What `hides` names is left out, as in the graph pane, and so are private services that nobody calls.
     """
@@ -99,7 +99,7 @@ def _compare(console: RosConsole, expected: Expected, given: argparse.Namespace)
 
 
 def _known(console: RosConsole, wait: float) -> GraphInfo:
-    """The graph, once it has nodes and stops changing; at the latest after so many seconds."""
+    """The graph, once it has nodes and stops changing; at the latest after `wait` seconds."""
 
     def has_nodes(info: GraphInfo) -> bool:
         return any(not each.hidden for each in info.nodes)
@@ -126,10 +126,12 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     what = parser.add_mutually_exclusive_group()
-    what.add_argument("--check", metavar="FILE", help="compare with a file; each difference is a line")
-    what.add_argument("--text", action="store_true", help="one line for each topic, service and action, to be read")
-    what.add_argument("--findings", action="store_true", help="what is odd, such as a topic that nobody publishes")
-    parser.add_argument("--rates", action="store_true", help="write the rates of topics, too")
+    what.add_argument("--check", metavar="FILE", help="compare with a file, and print a line for each difference")
+    what.add_argument("--text", action="store_true", help="print a line for each topic, service and action")
+    what.add_argument(
+        "--findings", action="store_true", help="print what looks wrong, such as a topic that nobody publishes"
+    )
+    parser.add_argument("--rates", action="store_true", help="also write the rates of topics")
     parser.add_argument("--wait", type=float, default=5.0, metavar="S", help="seconds to wait for the graph (5)")
     parser.add_argument("--measure", type=float, default=5.0, metavar="S", help="seconds to measure rates (5)")
     return parser

@@ -1,4 +1,4 @@
-"""`bot-console reset`: puts a system back to its start: parameters, robot and world; the robot stays locked."""
+"""`bot-console reset`: resets parameters, robot and world to their start; the robot stays locked."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from bot_console.tui.format import counted, sanitize, value_text
 
 T = TypeVar("T")
 ANSWER_TIMEOUT_S = 10.0
-"""Seconds for what runs to be known, and for each answer."""
+"""Seconds to discover what is running, and for each answer."""
 TRIGGER = "std_srvs/srv/Trigger"
-REASON = "the system is put back to its start"
+REASON = "the system is being reset"
 
 Values = dict[str, dict[str, Value]]
 
@@ -28,16 +28,16 @@ def run(words: list[str]) -> int:
     """Lock the robot, restore parameters, reset simulators; 0 if all of that succeeded."""
     parser = argparse.ArgumentParser(
         "bot-console reset",
-        description="Put what runs back to its start: the robot is locked, parameters get the values with which their "
-        "nodes have begun (all or none), simulators their first pose. `bot-console release` lets the robot go.",
+        description="Reset what is running: the robot is locked, parameters get the values with which their "
+        "nodes started (all or none), simulators their first pose. `bot-console release` releases the robot.",
     )
-    parser.add_argument("--dry-run", action="store_true", help="only say what would be put back")
+    parser.add_argument("--dry-run", action="store_true", help="only print what would be reset")
     given = parser.parse_args(words)
     with reached_console(learning=True) as console:
         if console is None:
             return 1
         if not known(console, ANSWER_TIMEOUT_S):
-            print("there is no node to put back", file=sys.stderr)
+            print("there is no node to reset", file=sys.stderr)
             return 1
         return _reset(console, dry=given.dry_run)
 
@@ -57,20 +57,20 @@ def _reset(console: RosConsole, *, dry: bool) -> int:
         good = good and answer is not None and answer.ok
     if untold:
         nodes = ", ".join(map(sanitize, untold))
-        print(f"left as they are, since they have not told how they began: {nodes}", file=sys.stderr)
+        print(f"left as they are, since their start values are unknown: {nodes}", file=sys.stderr)
     return 0 if good else 1
 
 
 def _lock() -> bool:
-    """Lock the robot first, so that it does not act on values in transit; returns whether it surely stands.
+    """Lock the robot first, so that it does not act on values in transit; returns whether it is confirmed to stand.
 
-    It is the lock of `bot-console stop`, so that the same person's `release` lets the robot go.
+    It is the lock of `bot-console stop`, so that the same person's `release` releases the robot.
     """
     held, info = ask("stop", REASON)
     if not info.locks:
         print("no robot with an emergency stop was found, so none is locked", file=sys.stderr)
         return True
-    print("the robot is locked; bot-console release lets it go" if held else "stop sent, not confirmed")
+    print("the robot is locked; bot-console release releases it" if held else "stop sent, not confirmed")
     return held
 
 
@@ -80,7 +80,7 @@ def _put_back(console: RosConsole, moved: Values, snapshot: ConsoleSnapshot) -> 
     if outcomes is None or refused:
         for each in refused:
             print(f"{each.node} {each.name}: {sanitize(each.reason)}", file=sys.stderr)
-        print("no parameter was put back", file=sys.stderr)
+        print("no parameter was reset", file=sys.stderr)
         return False
     _report(moved, snapshot)
     return True
@@ -94,7 +94,7 @@ def _report(moved: Values, snapshot: ConsoleSnapshot) -> None:
             print(sanitize(f"{node} {name}: {before} -> {value_text(value)}"))
     count = sum(len(each) for each in moved.values())
     print(
-        f"{counted(count, 'parameter')} differed from the start" if count else "all parameters are those of the start"
+        f"{counted(count, 'parameter')} differed from the start" if count else "all parameters have their start values"
     )
 
 

@@ -10,7 +10,7 @@ from bot_console.tui.cli.system.reaching import reach_system, reach_when_asked
 
 VERBS = ("action", "component", "interface", "lifecycle", "node", "param", "pkg", "service", "topic")
 ALONE = ("interface", "pkg")
-"""These answer from files, and ask a running system only for what is in none."""
+"""These answer from files, and query a running system only for what is in none."""
 
 
 def main(words: Sequence[str]) -> int:
@@ -19,7 +19,7 @@ def main(words: Sequence[str]) -> int:
 
     from bot_console.runtime.importer import install
 
-    gc.disable()  # what is imported stays: to look it through again and again is a tenth of a short verb's time
+    gc.disable()  # What is imported stays: traversing it again and again takes a tenth of a short verb's time.
     install()
     from ros2cli.command_line import load
     from ros2cli.command_line import main as run
@@ -44,7 +44,7 @@ def taking_part(words: Sequence[str]) -> int:
 
 
 def launch(words: Sequence[str]) -> int:
-    """Run a launch file in the domain that the environment names; a user's nodes get processes of their own."""
+    """Run a launch file in the domain that the environment names; a user's nodes get their own processes."""
     from bot_console.tui.cli.system.own_processes import prefork
 
     prefork(words)

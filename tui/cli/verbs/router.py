@@ -17,8 +17,8 @@ from bot_console.tui.cli.interruptible_wait import wait_interruptibly
 HERE = f"tcp/127.0.0.1:{PORT}"
 LOOPBACK = ("127.", "localhost", "::1")
 OPEN = (
-    "WARNING: whoever reaches {} can drive this robot, set its parameters and hear all it says; {}. Only for a network "
-    "in which everybody may; else tls/ with --tls-ca, and an access list (docs/your-robot.md)."
+    "WARNING: whoever reaches {} can drive this robot, set its parameters and read all its messages; {}. Only for a "
+    "network whose users may all do so; otherwise use tls/ with --tls-ca, and an access list (docs/your-robot.md)."
 )
 
 
@@ -43,7 +43,7 @@ def run(words: Sequence[str]) -> int:
     for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(each, end)
     what = "the programs of this ROS domain are reached" if given.mesh else "a router for nodes of rmw_zenoh"
-    how = "; Ctrl-C ends it" if sys.stdin.isatty() else ""  # `up --serve` has none
+    how = "; Ctrl-C ends it" if sys.stdin.isatty() else ""  # `up --serve` has no terminal.
     print(f"{what} at {', '.join(serving.endpoints)}{how}", flush=True)
     wait_interruptibly(over)
     session.close()
@@ -51,11 +51,11 @@ def run(words: Sequence[str]) -> int:
 
 
 def add_serving_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options for letting others in over TLS; see `serving_of`."""
+    """Add the options for serving others over TLS; see `serving_of`."""
     add = parser.add_argument
-    add("--tls-certificate", default="", metavar="FILE", help="the certificate to show")
+    add("--tls-certificate", default="", metavar="FILE", help="certificate to present")
     add("--tls-key", default="", metavar="FILE", help="its private key")
-    add("--tls-ca", default="", metavar="FILE", help="let in only who shows a certificate of this authority")
+    add("--tls-ca", default="", metavar="FILE", help="accept only clients with a certificate of this authority")
 
 
 def serving_of(parser: argparse.ArgumentParser, endpoints: Sequence[str], given: argparse.Namespace) -> Serving:
@@ -79,7 +79,7 @@ def warning_of(serving: Serving) -> str:
     if not outside:
         return ""
     mutual = serving.tls.get("enable_mtls") and all(place_of(each)[0] == "tls" for each in outside)
-    asked = "a certificate of your authority is asked for" if mutual else "nothing is asked of them"
+    asked = "clients need a certificate of your authority" if mutual else "clients need no credentials"
     return OPEN.format(", ".join(outside), asked)
 
 
@@ -99,15 +99,20 @@ def _open(serving: Serving, config: str, *, mesh: bool) -> Session:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         "bot-console router",
-        description="Zenoh's router, as nodes of rmw_zenoh and `attach --connect` want one.",
+        description="Run a Zenoh router, for nodes of rmw_zenoh and for `attach --connect`.",
     )
     add = parser.add_argument
-    add("--listen", action="append", metavar="ENDPOINT", help=f"where; without it {HERE}, for this machine alone")
+    add(
+        "--listen",
+        action="append",
+        metavar="ENDPOINT",
+        help=f"endpoint to listen on; default: {HERE}, for this machine alone",
+    )
     add(
         "--mesh",
         action="store_true",
-        help="the way into the programs of this machine's ROS domain, which have no ports",
+        help="serve the programs of this machine's ROS domain, which have no ports",
     )
-    add("--config", default="", metavar="FILE", help="a configuration of Zenoh, for instance with an access list")
+    add("--config", default="", metavar="FILE", help="Zenoh configuration, for instance with an access list")
     add_serving_options(parser)
     return parser

@@ -46,7 +46,7 @@ def run(words: list[str]) -> int:
 
 
 def _prefixed(prefix: str, words: list[str]) -> int:
-    """Run an executable behind a command prefix, in a process of its own."""
+    """Run an executable behind a command prefix, in its own process."""
     from bot_console.tui.cli.system.domain import take_part
     from bot_console.tui.cli.verbs import ros2
 
@@ -89,10 +89,10 @@ def _parser() -> argparse.ArgumentParser:
         description="Run a node, alone in this terminal or with the console on it.",
     )
     add = parser.add_argument
-    add("--prefix", metavar="COMMAND", help="a command to put before the executable, in quotes where it has spaces")
+    add("--prefix", metavar="COMMAND", help="command to put before the executable, in quotes if it has spaces")
     add("--watch", action="store_true", help="open the console on it")
     add("--headless", action="store_true", help="no screen: logs on stderr, a JSON report on stdout at the end")
-    add("--fast", action="store_true", help="with --headless: simulated time, as fast as it goes, repeatable")
+    add("--fast", action="store_true", help="with --headless: simulated time, as fast as possible, reproducible")
     add("--duration", type=float, metavar="S", help="with --headless: seconds to run")
     add("--seed", type=int, metavar="N", help="seed of the simulated world")
     add("--world", metavar="NAME", help="world of the simulated robot")

@@ -34,7 +34,7 @@ command -q bot-console; or set -gx PATH $PATH {own}
 """
 
 _COMPLETION = {"bash": "bot-console.bash", "zsh": "_bot-console", "fish": "bot-console.fish"}
-"""Files in `shell`, which a wheel installs for the shells as well."""
+"""Files in `shell`, which a wheel also installs for the shells."""
 
 _COMPLETE_ROS2 = {
     "bash": 'if [[ "$(command -v ros2)" == {ros2}/ros2 ]]; then complete -F _bot_console_complete ros2; fi\n',

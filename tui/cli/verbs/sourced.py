@@ -1,4 +1,4 @@
-"""`install/setup.bash` of a workspace: what tutorials have one source after `colcon build`."""
+"""`install/setup.bash` of a workspace, which tutorials source after `colcon build`."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ case ":${{{variable}}}:" in *:{folder}:*) ;; *) export {variable}={folder}"${{{v
 
 
 def write_setup_files(folder: Path, workspace: Workspace) -> Sequence[Path]:
-    """Write `install/setup.bash` and `.zsh` where a folder has packages; gives those that are there for it.
+    """Write `install/setup.bash` and `.zsh` if a folder has packages; returns those that exist for it.
 
-    Nothing is written over a file of another colcon. Raises `OSError`.
+    Does not overwrite a file of another colcon. Raises `OSError`.
     """
     install = folder / "install"
     mine = (each for each in workspace.packages.values() if not (is_own(each) or is_demo(each)))

@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from bot_console.tui.console.robot.stop_link import StopInfo
 
 HOLDER_TIMEOUT_S = 3.0
-"""Seconds to hear who holds a robot, and to stop one that is ended in any case."""
+"""Seconds to find out who holds a robot, and to stop one that is ended in any case."""
 MAX_ROBOT_POLLS = 30
-"""How often a robot is looked for, every 0.1 s: looks and not seconds, in which a busy machine leaves room for few."""
+"""Number of polls for a robot, every 0.1 s; not a time, since a busy machine may leave room for few polls."""
 ANSWER_TIMEOUT_S = 15.0
-"""Seconds from the start in which a robot that was found may answer; it is asked on until then."""
+"""Seconds from the start in which a robot that was found may answer; the request is repeated until then."""
 
 
 def stop(words: list[str]) -> int:
@@ -37,12 +37,12 @@ def release(words: list[str]) -> int:
 
 def run(verb: str, words: list[str]) -> int:
     """Lock or release every robot that is found; 0 when acknowledged, 1 if none has."""
-    what = f"{verb.capitalize()} the robot, and wait for its word."
+    what = f"{verb.capitalize()} the robot, and wait for its acknowledgement."
     parser = argparse.ArgumentParser(f"bot-console {verb}", description=what)
     if verb == "stop":
-        parser.add_argument("reason", nargs="?", default="ALL STOP", help="why, for others to read")
+        parser.add_argument("reason", nargs="?", default="ALL STOP", help="reason, shown to others")
     else:
-        parser.add_argument("--all", action="store_true", help="release what others have stopped, too")
+        parser.add_argument("--all", action="store_true", help="also release what others have stopped")
     given = parser.parse_args(words)
     alone = reach_system()
     if alone:
@@ -52,7 +52,7 @@ def run(verb: str, words: list[str]) -> int:
         done, info = ask(verb, getattr(given, "reason", ""), everybody=getattr(given, "all", False))
     except BaseException as error:
         if ended_code(error):
-            print(f"bot-console {verb} was ended before a robot has answered", file=sys.stderr)
+            print(f"bot-console {verb} was ended before a robot answered", file=sys.stderr)
         raise
     return _report(verb, done, info)
 
@@ -64,13 +64,13 @@ def ask(
 
     A stop that is not `kept` ends with the robot's nodes.
 
-    Returns whether all of them did, and what is known of them. A robot that was found is given `answers_s` from the
-    start to answer.
+    Returns whether all of them did, and what is known of them. A robot that was found may answer within `answers_s`
+    from the start.
     """
     install()
     from bot_console.tui.console.robot.stop_link import user
 
-    # One key for all that this person types, so that one line takes back what another has stopped.
+    # One key for everything that this person types, so that one command takes back what another has stopped.
     who, key = f"bot-console {verb} of {user()}", f"bot-console stop of {user()}"
     with ReachedStop("_bot_console_stop", who, key) as reached:
         link = reached.link
@@ -90,9 +90,9 @@ def ask(
 
 
 def holders(to_find: float = 1.0, to_hear: float = HOLDER_TIMEOUT_S) -> list[str] | None:
-    """Who holds the robots that are found, each with a reason; None if one that can be held has not answered.
+    """Who holds the robots that are found, each with a reason; None if one that can be held did not answer.
 
-    `to_find` and `to_hear` are the seconds to find a robot, and to hear from one that was found.
+    `to_find` and `to_hear` are the seconds to find a robot, and to receive the state of one that was found.
     """
     install()
     with ReachedStop("_bot_console_status") as reached:
@@ -119,12 +119,12 @@ def _to_release(info: StopInfo, everybody: bool) -> list[RobotStop]:
 def _report(verb: str, done: bool, info: StopInfo) -> int:
     if done and verb == "release" and info.stopped:
         others = "; ".join(_last_message(info))
-        print(f"still held by {sanitize(others)} (`bot-console release --all` releases this, too)", file=sys.stderr)
+        print(f"still held by {sanitize(others)} (`bot-console release --all` also releases this)", file=sys.stderr)
         return 1
     if done:
         print("held: the robot is locked until a person releases it" if verb == "stop" else "released")
         return 0
-    why = "it has not answered" if info.locks else "no robot with an emergency stop was found (see docs/safety.md)"
+    why = "it did not answer" if info.locks else "no robot with an emergency stop was found (see docs/safety.md)"
     sent = "stop sent, not confirmed" if verb == "stop" else "not released"
     print(f"{sent}: {why}", file=sys.stderr)
     return 1

@@ -14,7 +14,7 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from ros2cli.direct_node import DirectNode
 
-UNHEARD = "bot-console {} was ended before a robot has answered\n"
+UNHEARD = "bot-console {} was ended before a robot answered\n"
 
 
 def terminated(*_: object) -> None:

@@ -48,7 +48,7 @@ def test_over_a_folder_that_is_there_it_asks_and_deletes_nothing(
 
     answering(monkeypatch, "y")
     assert run([str(tmp_path)]) == 0
-    assert "kept with a ~ behind their names: setup.py" in capsys.readouterr().out
+    assert "kept with ~ appended to their names: setup.py" in capsys.readouterr().out
     assert contents(place) == fresh | {"notes.txt": b"mine", "setup.py~": b"# mine\n"}
 
 

@@ -84,8 +84,8 @@ def test_that_it_stood_is_reported_when_it_goes_on(kept: tuple[HangWatch, Clock,
     clock.now += HANG_AFTER_S
     watch.heartbeat()
     [line] = reported
-    assert "stood for 15 s" in line and str(path) in line
-    assert "stood for 15 s" in path.read_text()
+    assert "hung for 15 s" in line and str(path) in line
+    assert "hung for 15 s" in path.read_text()
 
 
 def test_a_rest_is_no_standstill(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
@@ -151,7 +151,7 @@ def test_an_app_that_stands_while_its_loop_runs_is_found_with_what_it_waits_for(
 
     asyncio.run(stand())
     text = path.read_text()
-    assert text.count("dealt with nothing for 15 s: two screens") == 1, "once"
+    assert text.count("handled no message for 15 s: two screens") == 1, "once"
     assert text.count("message pump App():") == 1 and "in waits\n" in text and "locks.py" in text
     app.holds_frames = False
     app.deal()

@@ -34,7 +34,7 @@ def test_it_is_reported_when_the_robot_does_not_answer(
 ) -> None:
     monkeypatch.setattr(stop, "holders", lambda: None)
     background._print_holders()
-    assert capsys.readouterr().out == "whether somebody holds it is not known: its emergency stop has not answered\n"
+    assert capsys.readouterr().out == "whether somebody holds it is not known: its emergency stop did not answer\n"
 
 
 def test_there_may_be_no_robot_that_can_be_held(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -51,14 +51,14 @@ def test_the_robot_is_locked_first_then_parameters_then_the_simulator(robot: Rob
     ], "a service that only has the name of a reset is not called, what is read only is not set"
     assert robot.current.drive.stopped, "it stays locked"
     message = capsys.readouterr().out
-    assert "/robot_navigator max_speed: 1.0 -> 2.0" in message and "bot-console release lets it go" in message
+    assert "/robot_navigator max_speed: 1.0 -> 2.0" in message and "bot-console release releases it" in message
 
 
 def test_a_refusal_leaves_all_parameters_and_is_an_exit_code(robot: Robot, capsys: Any) -> None:
     robot.refusals[NAVIGATOR, "max_speed"] = "not while driving"
     assert reset._reset(robot, dry=False) == 1
     message = capsys.readouterr().err
-    assert "not while driving" in message and "no parameter was put back" in message
+    assert "not while driving" in message and "no parameter was reset" in message
     assert robot.current.drive.stopped
 
 

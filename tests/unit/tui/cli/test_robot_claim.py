@@ -125,7 +125,7 @@ def test_up_beside_a_console_that_starts_a_robot_starts_none(up, tmp_path, monke
     reported = capsys.readouterr().err
     assert (
         "Another bot-console is starting a robot" in reported
-        and "a robot runs already" in reported
+        and "a robot is already running" in reported
         and "/simulator" in reported
     )
     first.release()
@@ -142,7 +142,7 @@ def test_nodes_that_only_have_our_names_are_not_called_a_robot(program, up, tmp_
     monkeypatch.setattr(domain, "same_names_there", lambda arguments: ["/sensor_handler"])
     background.up([]) if program == "up" else headless._meet_others(parse(["--headless"]))
     reported = capsys.readouterr().err
-    assert reported.startswith("nodes named as our robot's run already") and "/sensor_handler" in reported and not up
+    assert reported.startswith("nodes named like our robot's run already") and "/sensor_handler" in reported and not up
     assert bool(apart) == (program == "--headless") and RobotClaim(tmp_path).held
 
 
@@ -154,7 +154,7 @@ def test_a_headless_robot_beside_a_console_that_starts_one_runs_apart(tmp_path, 
     }.items():  # fmt: skip
         monkeypatch.setattr(headless, name, value)
     headless._meet_others(parse(["--headless"]))
-    assert apart and "runs apart" in capsys.readouterr().err
+    assert apart and "runs in isolation" in capsys.readouterr().err
     first.release()
 
 

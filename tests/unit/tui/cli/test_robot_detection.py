@@ -71,7 +71,7 @@ def test_the_question_before_a_second_node_of_one_name(monkeypatch, capsys, type
     monkeypatch.setattr("builtins.input", lambda question: asked.append(question) or typed)
     assert screen._attach_instead(["/robot_navigator"], robot=False) is attached
     reported = capsys.readouterr().out
-    assert "Nodes named as our robot's run already" in reported and "/robot_navigator" in reported
+    assert "Nodes named like our robot's run in ROS domain" in reported and "/robot_navigator" in reported
     assert "bot-console --launch bot_console_robot simulator.launch.py" in reported
     assert "`bot-console navigator:=false` starts our robot" in reported, "which needs neither of the other two"
     assert max(map(len, reported.splitlines())) < 80

@@ -75,7 +75,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_what_is_run_or_launched_goes_to_the_launcher(folder: Path) -> None:
     launches = Launches(Answer(True, ""))
     lines = Ros2CommandLine(launches)
-    assert "stands in the Launch pane" in lines.run("ros2 run node.py --ros-args -p 'a:=b c'").result(TIMEOUT_S)
+    assert "is listed in the Launch pane" in lines.run("ros2 run node.py --ros-args -p 'a:=b c'").result(TIMEOUT_S)
     assert "x.launch.py runs" in lines.run("launch x.launch.py a:=1").result(TIMEOUT_S)
     assert launches.launched == [
         (str(PROGRAM_LAUNCH), {"program": str(folder / "node.py"), "words": "--ros-args -p 'a:=b c'"}),

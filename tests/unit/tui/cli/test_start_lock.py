@@ -105,10 +105,10 @@ def test_an_interrupt_while_it_starts_reports_how_to_end_it(
     monkeypatch.setattr(background, "robot_there", polls)
     with pytest.raises(KeyboardInterrupt):
         background.up([])
-    assert "it goes on starting: process" in capsys.readouterr().err
+    assert "it is still starting: process" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(("words", "what"), [([], "no robot was seen"), (["--launch", __file__], "nothing that it")])
+@pytest.mark.parametrize(("words", "what"), [([], "no robot was found"), (["--launch", __file__], "nothing that it")])
 def test_one_that_does_not_come_up_in_time_is_not_called_running(
     started: list[object],
     monkeypatch: pytest.MonkeyPatch,

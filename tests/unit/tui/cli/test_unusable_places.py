@@ -134,7 +134,7 @@ def test_an_empty_name_is_no_profile(capsys: pytest.CaptureFixture[str]) -> None
 def test_an_empty_name_is_no_script_of_a_check(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         main(["check", ""])
-    assert "give the name of a script" in capsys.readouterr().err
+    assert "name a script" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("words", [[], ["attach"], ["--profile", "indoor"]])

@@ -75,7 +75,7 @@ def test_sockets_left_over_are_counted(socket_folder: str) -> None:
     assert [each.level for each in sockets_findings()] == [Level.OK]
     for name in ("99999999.0123abcd", "99999999.0123abcd.lock"):
         open(os.path.join(socket_folder, "0", name), "w").close()
-    assert any("1 of programs that were killed" in each.text for each in sockets_findings())
+    assert any("1 left over from programs that were killed" in each.text for each in sockets_findings())
     os.chmod(socket_folder, 0o755)
     (refused,) = sockets_findings()
     assert refused.level is Level.FAIL and "chmod 700" in refused.hint
@@ -91,12 +91,12 @@ def test_a_base_without_a_time_out_is_warned_of_and_one_with_is_not(node) -> Non
 @pytest.mark.parametrize(
     ("name", "value", "level", "reported"),
     [
-        ("cmd_vel_timeout", 0.5, Level.OK, "/base cmd_vel_timeout 0.5: look that it is short"),
-        ("command_timeout", 1, Level.OK, "/base command_timeout 1: look that it is short"),
+        ("cmd_vel_timeout", 0.5, Level.OK, "/base cmd_vel_timeout 0.5: make sure that it is short"),
+        ("command_timeout", 1, Level.OK, "/base command_timeout 1: make sure that it is short"),
         ("cmd_vel_timeout", 0.0, Level.WARN, "/base cmd_vel_timeout 0: it is switched off"),
-        ("cmd_vel_timeout", True, Level.WARN, "none is seen in /base"),
-        ("topics.key.timeout", 0.5, Level.WARN, "none is seen in /base"),
-        ("bond_timeout", 4.0, Level.WARN, "none is seen in /base"),
+        ("cmd_vel_timeout", True, Level.WARN, "none was found in /base"),
+        ("topics.key.timeout", 0.5, Level.WARN, "none was found in /base"),
+        ("bond_timeout", 4.0, Level.WARN, "none was found in /base"),
     ],
 )
 def test_the_names_of_time_outs_are_known_and_their_values_reported(

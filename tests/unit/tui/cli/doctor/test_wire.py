@@ -105,7 +105,7 @@ def test_a_clock_that_is_wrong_is_reported_with_its_sign(place, robot):
 def test_tokens_that_are_none_are_counted_and_shown(place, robot):
     robot.session.declare_token("@ros2_lv/0/zid/1/2/XX/%/%/robot")
     found = levels(watched(place), "graph")
-    assert any(level is Level.WARN and text.startswith("1 tokens are not of the format") for level, text in found)
+    assert any(level is Level.WARN and text.startswith("1 tokens do not follow the format") for level, text in found)
 
 
 def test_what_comes_while_it_listens_counts(place, robot):
@@ -121,4 +121,4 @@ def test_what_comes_while_it_listens_counts(place, robot):
 
 def test_an_empty_domain_reports_where_to_look(place):
     ((level, text),) = levels(watched(place), "graph")
-    assert level is Level.WARN and "no node is seen" in text
+    assert level is Level.WARN and "no node is visible" in text

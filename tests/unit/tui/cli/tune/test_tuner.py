@@ -17,7 +17,7 @@ def test_only_what_the_runs_have_can_be_tuned(tmp_path: Path) -> None:
     assert asked.problem(TuningSpecification((SPEED,), parse_score("swift"))) == ""
     mine = Tunable("/mine", "gain", "double", 0, 1, 0.5)
     assert asked.problem(TuningSpecification((SPEED, mine), parse_score("swift"))).startswith(
-        "/mine:gain: only nodes of the robot"
+        "/mine:gain: only nodes of the bundled robot"
     )
     assert "too few" in asked.problem(TuningSpecification((SPEED,), parse_score("swift"), runs=2))
 
