@@ -15,13 +15,14 @@ from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.files.crash import keep, reason
 from bot_console.tui.keys.keyboard import MAX_PASTE_CHARACTERS, Keyboard
 from bot_console.tui.layout.named import OVERVIEW
+from bot_console.tui.notifying import NotifyingApp
 from bot_console.tui.opening import Opening
 from bot_console.tui.pane_requests import PaneRequests
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.recording import RecordingApp
 from bot_console.tui.safety.early_stop import EarlyStop
 from bot_console.tui.screens.tuning.requests import TuningRequests
-from bot_console.tui.text.sanitize import brief, counted, sanitize
+from bot_console.tui.text.sanitize import counted
 from bot_console.tui.theme import THEMES
 from bot_console.tui.time_cursor import TimeCursor
 from bot_console.tui.widgets.key_bar import KeyBar
@@ -32,7 +33,6 @@ from textual import events
 from textual.app import ComposeResult
 from textual.binding import BindingType
 from textual.dom import DOMNode
-from textual.notifications import SeverityLevel
 from textual.types import CSSPathType
 from textual.widgets import Static
 
@@ -43,13 +43,11 @@ if TYPE_CHECKING:
     from bot_console.tui.panes.pane import Pane
 
 HERE = Path(__file__).parent
-VISIBLE_AT_ONCE = 2
-"""Notifications for which the corner has room."""
 
 P = TypeVar("P", bound="Pane")
 
 
-class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
+class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
     """rqt for the terminal."""
 
     TITLE = "bot-console"
@@ -204,6 +202,7 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
                 if not pane.is_ending:
                     pane.tick()
             self.parts.heartbeat()
+            self.update_notifications()
 
     def pull(self) -> None:
         """Take the newest snapshot and let the visible panes draw what has changed."""
@@ -350,20 +349,6 @@ class BotConsoleApp(RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
             pane.show(self._snapshot)
         for note in opening.notes:
             self.notify(note, severity="warning", markup=False)
-
-    def notify(
-        self,
-        message: str,
-        *,
-        title: str = "",
-        severity: SeverityLevel = "information",
-        timeout: float | None = None,
-        markup: bool = False,
-    ) -> None:
-        """Show a notification; the text of nodes and people is never parsed as markup."""
-        if len(self._notifications) >= VISIBLE_AT_ONCE:
-            self.clear_notifications()  # the newest, a refusal above all, must have room
-        super().notify(brief(message), title=sanitize(title), severity=severity, timeout=timeout, markup=False)
 
     def contain(self, error: Exception, culprits: list[DOMNode]) -> bool:
         """End only the pane or screen whose code raised; False where none can be blamed."""

@@ -99,7 +99,8 @@ class AppParts:
 
     def help(self, pane: Pane) -> None:
         """Show what a pane is for, and its keys."""
-        self._app.push_screen(HelpScreen(pane.scopes, pane.TITLE, pane.HELP or ""))
+        text = "\n\n".join(each for each in (pane.mode.help, pane.HELP) if each)
+        self._app.push_screen(HelpScreen(pane.scopes, pane.TITLE, text))
 
     def requesters(self) -> Sequence[Requester[Any]]:
         """Everything that has an open question."""

@@ -72,7 +72,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
     **WATCHING,
     "logs": (
         Key("logs.follow", "f", "follow", "Follow the newest line", footer=True, short="Follow"),
-        Key("logs.warnings", "w", "warnings", "Warnings and worse only", footer=True, short="Warnings"),
+        Key("logs.warnings", "w", "warnings", "Warnings and worse only", footer=True, short="Warn"),
         Key("logs.level", "v", "level", "Next minimum severity", footer=True, short="Level"),
         Key("logs.detail", "enter", "detail", "The whole message", footer=True, short="Message"),
         Key("logs.search", "s", "search", "Search: go to words, hide nothing", footer=True, short="Search"),

@@ -29,7 +29,7 @@ class PaneEntry:
 
 
 PANES = (
-    PaneEntry("parameters", "1", "Parameters", "ParametersPane", place=1, short="Params"),
+    PaneEntry("parameters", "1", "Parameters", "ParametersPane", place=1, short="Param"),
     PaneEntry("logs", "2", "Logs", "LogsPane", place=5),
     PaneEntry("graph", "3", "Graph", "GraphPane", place=3),
     PaneEntry("plot", "4", "Plot", "PlotPane", place=4),

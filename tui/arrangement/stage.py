@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, cast
 
+from bot_console.tui.keys.key import NO_MODE
 from bot_console.tui.layout.arrangement import Arrangement
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.layout.tree import Tree, panes
@@ -207,8 +208,8 @@ class Stage:
         if self._app.screen_stack:
             screen, pane = self._app.screen_stack[0], self.current()
             scopes, typing = pane.scopes if pane else (self._focused,), isinstance(screen.focused, Input)
-            words = pane.key_words if pane else NO_OTHERS
-            screen.query_one(KeyBar).show(scopes, typing, self._primary(), self._extent.width, words)
+            words, mode = (pane.key_words, pane.mode) if pane else (NO_OTHERS, NO_MODE)
+            screen.query_one(KeyBar).show(scopes, typing, self._primary(), self._extent.width, words, mode)
 
     def recolour(self) -> None:
         """Write tabs and keys in the colour of another theme: their texts have it in them."""
@@ -232,7 +233,7 @@ class Stage:
             Tab(each.key, each.title, each.short or each.title, each.id, not together and shown == each.id)
             for each in self.entries()
         ]
-        self._app.screen_stack[0].query_one(Tabs).show(tabs, self._extent.width - 2, self._primary())
+        self._app.screen_stack[0].query_one(Tabs).show(tabs, self._extent.width, self._primary())
 
     def _primary(self) -> str:
         # Textual and Rich call the terminal's own colours by different names.

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
+from typing import NamedTuple
 
 
 @dataclass(frozen=True)
@@ -20,6 +23,15 @@ class Key:
     short: str = ""
     """What the footer says, where `text` is too long for it."""
 
+
+class Mode(NamedTuple):
+    """A state of a pane in which some keys matter most: what the key bar says of them, by their ids, and the help."""
+
+    keys: Mapping[str, str] = MappingProxyType({})
+    help: str = ""
+
+
+NO_MODE = Mode()
 
 NAMES = {
     "question_mark": "?",

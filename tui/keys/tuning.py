@@ -34,7 +34,7 @@ TUNING: Mapping[str, tuple[Key, ...]] = {
         Key("parameters.fold", "left", "fold(True)", "Close the namespace, node or group"),
         Key("parameters.unfold", "right", "fold(False)", "Open the namespace, node or group"),
         Key("parameters.fold_all", "C", "fold_all", "Close or open all nodes", shown="C"),
-        Key("parameters.dismiss", "x", "dismiss", "Take the mark of a refused value away"),
+        Key("parameters.dismiss", "x", "dismiss", "Dismiss the refusal, or drop the mark"),
         Key("parameters.plot", "p", "plot", "Plot this parameter"),
         Key("parameters.copy", "y", "copy", "Copy the ros2 command of this parameter"),
         Key("parameters.tune", "T", "tune", "Tune it, or what is marked: many runs find what scores best", shown="T"),

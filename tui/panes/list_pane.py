@@ -5,17 +5,33 @@ from __future__ import annotations
 from typing import ClassVar
 
 from bot_console.tui.console.query import parse
+from bot_console.tui.keys.key import NO_MODE, Mode
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.prompt.filtered import Narrowed
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Line
 from bot_console.tui.widgets.row_list import RowList
 
+FILTERED = Mode(
+    {"narrowed.all": "Clear filter", "find.next": "Next"},
+    "A filter is on: Escape clears it, n and N go from match to match.",
+)
+
 
 class ListPane(Pane, Narrowed):
     """A pane whose first `RowList` has a filter. Subclasses define `filter_is` and compose a `Prompt`."""
 
     SCOPES: ClassVar[tuple[str, ...]] = ("find", "narrowed", "list")
+
+    @property
+    def mode(self) -> Mode:
+        """While a filter narrows the list, the keys that clear it and go on."""
+        return FILTERED if self.words else NO_MODE
+
+    def set_filter(self, words: str) -> None:
+        """Set the filter, and show its keys."""
+        super().set_filter(words)
+        self.keys_changed()
 
     def ask_words(self, line: Line) -> None:
         """Ask for search words at the bottom of the pane."""

@@ -13,6 +13,7 @@ from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console, Launcher
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.format import counted, sanitize
+from bot_console.tui.keys.key import NO_MODE, Mode
 from bot_console.tui.screens.question_screens import screen_for
 from bot_console.tui.state_store import MemoryStore, StateStore
 from bot_console.tui.time_cursor import TimeCursor
@@ -79,7 +80,7 @@ class Pane(LazyParts):
             self.name = name
 
     class KeysChanged(Message):
-        """The `key_words` have changed."""
+        """The `key_words` or the `mode` have changed."""
 
     class AlarmsHold(Message):
         """The names of all alarms that are active now."""
@@ -110,6 +111,7 @@ class Pane(LazyParts):
         self.time_cursor = time_cursor or TimeCursor()
         self.border_title = self.TITLE
         self._caption = ""
+        self._mode = NO_MODE
 
     @property
     def scopes(self) -> tuple[str, ...]:
@@ -120,6 +122,17 @@ class Pane(LazyParts):
     def key_words(self) -> Mapping[str, str]:
         """Descriptions of keys, by their ids, that differ from the key table now; empty for keys without an effect."""
         return {}
+
+    @property
+    def mode(self) -> Mode:
+        """The mode that the pane is in: its keys come first in the key bar, and the help begins with it."""
+        return NO_MODE
+
+    def keys_changed(self) -> None:
+        """Take note that `mode` may have changed."""
+        if self.mode != self._mode:
+            self._mode = self.mode
+            self.post_message(self.KeysChanged())
 
     @property
     def host(self) -> App[object]:

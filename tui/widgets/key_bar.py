@@ -1,13 +1,13 @@
-"""The last line: the keys of the focused pane, then those that work everywhere; from the key table."""
+"""The last line: the keys of a mode, of the focused pane, and those that work everywhere; from the key table."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
-from typing import TypeAlias
+from typing import NamedTuple
 
 from bot_console.tui.keymap import TABLE
-from bot_console.tui.keys.key import Key, key_text
+from bot_console.tui.keys.key import NO_MODE, Key, Mode, key_text
 from rich.cells import cell_len
 from rich.style import Style
 from rich.text import Text
@@ -18,13 +18,24 @@ GAP = "  "
 NO_OTHERS: Mapping[str, str] = MappingProxyType({})
 FILTER = "slash"
 """The key of the pane that gives way last."""
+FIRST_DROPPED = ("app.line", "app.quit")
+"""Keys that work everywhere and that the help names where the bar is short; those of the pane come before them."""
+STOP = "app.stop"
 
-Shown: TypeAlias = "tuple[str, str, str]"
-"""How a key is written, what it does, and its name for Textual."""
+
+class Shown(NamedTuple):
+    """A key in the bar."""
+
+    written: str
+    word: str
+    """What it does."""
+    key: str
+    """Its name for Textual."""
+    id: str
 
 
 class KeyBar(Static):
-    """Shows keys and what they do, dropping those of the pane first if room is short. A click presses the key."""
+    """Shows keys and what they do, as many as there is room for. A click presses the key."""
 
     DEFAULT_CSS = "KeyBar { height: 1; padding: 0 1; background: $panel; color: $text; text-wrap: nowrap; }"
 
@@ -32,33 +43,38 @@ class KeyBar(Static):
         super().__init__("", markup=False)
         self._shown: object = None
         self._keys: list[Shown] = []
-        self._asked: tuple[Sequence[str], bool, str, int, Mapping[str, str]] | None = None
+        self._asked: tuple[Sequence[str], bool, str, int, Mapping[str, str], Mode] | None = None
 
     def show(
-        self, scopes: Sequence[str], typing: bool, colour: str, columns: int, words: Mapping[str, str] = NO_OTHERS
+        self,
+        scopes: Sequence[str],
+        typing: bool,
+        colour: str,
+        columns: int,
+        words: Mapping[str, str] = NO_OTHERS,
+        mode: Mode = NO_MODE,
     ) -> None:
         """Show the keys of some scopes of the key table; while typing, those of a text field.
 
         `columns` is the width of the bar if it has not been laid out yet; `words` replace those of the table, by the
-        ids of the keys, and a key whose word is empty is omitted.
+        ids of the keys, and a key whose word is empty is omitted. The keys of a `mode` come first.
         """
-        self._asked = (scopes, typing, colour, columns, words)
+        self._asked = (scopes, typing, colour, columns, words, mode)
         width = (self.size.width or columns) - 2
-        now = (scopes, typing, colour, width, words)
+        now = (scopes, typing, colour, width, words, mode)
         if now == self._shown or width < 1:
             return
         self._shown = now
         if typing:
-            own, everywhere = [("enter", "take it", "enter"), ("esc", "give up", "escape")], []
+            first, keys = [], [Shown("enter", "OK", "enter", ""), Shown("esc", "Cancel", "escape", "")]
         else:
-            own = [key for scope in scopes for key in _named(TABLE.get(scope, ()), words)]
-            everywhere = list(_named(TABLE["app"], words))
-        while own and _line([*own, *everywhere], colour).cell_len > width:
-            own.pop(next((at for at in reversed(range(len(own))) if own[at][2] != FILTER), 0))
-        while everywhere and _line([*own, *everywhere], colour).cell_len > width:
-            everywhere.pop(1 if len(everywhere) > 1 else 0)
-        self._keys = [*own, *everywhere]
-        self.update(_line(self._keys, colour), layout=False)
+            own = [key for scope in scopes for key in TABLE.get(scope, ())]
+            known = {key.id: key for key in own}
+            first = [_shown(known[id], word) for id, word in mode.keys.items() if id in known]
+            others = [key for key in (*own, *TABLE["app"]) if key.id not in mode.keys]
+            keys = list(named(others, words))
+        self._keys = fitting(first, keys, width)
+        self.update(_line(self._keys, colour, len(first)), layout=False)
 
     def on_resize(self) -> None:
         """Fit the keys to the new width."""
@@ -69,22 +85,47 @@ class KeyBar(Static):
         """Press the key under the mouse."""
         end = 0
         for key in self._keys:
-            begin, end = end, end + cell_len(f"{key[0]} {key[1]}") + len(GAP)
+            begin, end = end, end + cell_len(f"{key.written} {key.word}") + len(GAP)
             if begin <= event.x - 1 < end:
-                self.app.simulate_key(key[2])  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
+                self.app.simulate_key(key.key)  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
 
 
-def _named(keys: Iterable[Key], words: Mapping[str, str]) -> Iterable[Shown]:
+def fitting(first: Sequence[Shown], keys: Sequence[Shown], columns: int) -> list[Shown]:
+    """The keys that have room: those of a mode and the stop last of all to be left out, then help, then the pane's."""
+    kept = [*first, *keys]
+    own = [each for each in keys if not each.id.startswith("app.")]
+    everywhere = [each for each in keys if each.id.startswith("app.") and each.id != STOP]
+    least = sorted(everywhere, key=lambda each: each.id not in FIRST_DROPPED)
+    order = [
+        *(each for each in least if each.id in FIRST_DROPPED),
+        *sorted(reversed(own), key=lambda each: each.key == FILTER),
+        *(each for each in least if each.id not in FIRST_DROPPED),
+        *reversed(first),
+    ]
+    for each in order:
+        if _line(kept).cell_len <= columns:
+            break
+        kept.remove(each)
+    return kept
+
+
+def named(keys: Iterable[Key], words: Mapping[str, str]) -> Iterator[Shown]:
+    """The keys that the bar names."""
     for key in keys:
         word = words.get(key.id, key.short or key.text)
         if key.footer and word:
-            yield key.shown or key_text(key, 1), word, key.keys.split(",")[0]
+            yield _shown(key, word)
 
 
-def _line(keys: Iterable[Shown], colour: str) -> Text:
+def _shown(key: Key, word: str) -> Shown:
+    return Shown(key.shown or key_text(key, 1), word, key.keys.split(",")[0], key.id)
+
+
+def _line(keys: Iterable[Shown], colour: str = "", first: int = 0) -> Text:
+    """The keys and their words; the `first` ones stand out."""
     text = Text(no_wrap=True)
-    for shown, word, _ in keys:
+    for at, each in enumerate(keys):
         text.append(GAP if text else "")
-        text.append(shown, Style(color=colour, bold=True))
-        text.append(f" {word}")
+        text.append(each.written, Style(color=colour or None, bold=True, reverse=at < first))
+        text.append(f" {each.word}", Style(bold=at < first))
     return text

@@ -6,8 +6,9 @@ import re
 from typing import Any
 
 from bot_console.tui.widgets.static_text import StaticText
+from rich.text import Text
 
-FIGURE = re.compile(r" *[-+]?\d+(?:\.\d+)?")
+FIGURE = re.compile(r" *[-+↶↷]?\d*(?:\.\d+|\d)")
 
 
 class LiveFigures(StaticText):
@@ -46,7 +47,11 @@ class LiveFigures(StaticText):
         if self._newest != self._live:
             self._live = self._newest
             self._wait = self.EVERY if self._heartbeats else 0
-            self.show_text(self._live)
+            self.show_text(self.styled(self._live))
+
+    def styled(self, text: str) -> str | Text:
+        """The text as it is drawn."""
+        return text
 
 
 def _words(text: str) -> str:

@@ -1,18 +1,33 @@
-"""One line on the state of robot and console; changed words show at once, speeds at most once a second."""
+"""One line that begins with the state of the robot; changed words show at once, speeds at most once a second."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from bot_console.tui.console.model import ConsoleSnapshot, LinkInfo, ProcessState, Severity
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.format import counted, figure, profile_label, sanitize
 from bot_console.tui.safety.stop_messages import stop_text
 from bot_console.tui.widgets.live_figures import LiveFigures
+from rich.style import Style
+from rich.text import Text
+
+STATE_COLUMNS = 25
+"""Columns of the state and its reason, so that the figures after it do not move; a longer one takes what it needs."""
+UNKNOWN = NO_ROBOT, NO_DATA = "no robot yet", "no command and no odometry yet"
+LEFT, RIGHT = "↶↷"
+COLOURS = {
+    "DRIVING": "success",
+    "SLOWED": "warning",
+    "STOPPING": "warning",
+    "STOPPED": "error",
+    "SILENT": "error",
+}
+"""The theme's colour for the first word of the line; other words have none."""
 
 
 class StatusBar(LiveFigures):
-    """The command chain, the all-stop, the profile, processes that have ended, errors."""
+    """The state of the robot, its speeds, processes that have ended, errors, the profile."""
 
     DEFAULT_CSS = """
     StatusBar { height: 1; padding: 0 1; background: $panel; color: $text; }
@@ -21,14 +36,31 @@ class StatusBar(LiveFigures):
 
     EVERY = 10
     _acknowledged = 0
+    _shown: tuple[ConsoleSnapshot, int] | None = None
     alarms: Sequence[str] = ()
     """The names of the alarms that hold."""
 
     def show(self, snapshot: ConsoleSnapshot, held_back: int = 0) -> None:
         """Show the state of a snapshot."""
+        self._shown = snapshot, held_back
         self._acknowledged = min(self._acknowledged, errors_of(snapshot))  # a cleared log starts counting again
-        self.show_live(status_text(snapshot, held_back, self._acknowledged, self.alarms))
+        columns = self.content_size.width or None
+        self.show_live(status_text(snapshot, held_back, self._acknowledged, self.alarms, columns))
         self.set_class(snapshot.drive.stopped or bool(snapshot.link.silent_s), "stopped")
+
+    def on_resize(self) -> None:
+        """Fit the text to the new width."""
+        if self._shown is not None:
+            self.show(*self._shown)
+
+    def styled(self, text: str) -> Text:
+        """The text with the word for the state in its colour."""
+        shown = Text(sanitize(text))
+        word = text.partition(" ")[0]
+        if word in COLOURS and not self.has_class("stopped"):
+            colour = self.app.theme_variables[COLOURS[word]]  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
+            shown.stylize(Style(color=colour.removeprefix("ansi_"), bold=True), 0, len(word))
+        return shown
 
     def acknowledge(self, snapshot: ConsoleSnapshot) -> None:
         """Count only errors that arrive from now on."""
@@ -41,43 +73,125 @@ def errors_of(snapshot: ConsoleSnapshot) -> int:
 
 
 def status_text(
-    snapshot: ConsoleSnapshot, held_back: int = 0, acknowledged: int = 0, alarms: Sequence[str] = ()
+    snapshot: ConsoleSnapshot,
+    held_back: int = 0,
+    acknowledged: int = 0,
+    alarms: Sequence[str] = (),
+    columns: int | None = None,
 ) -> str:
-    """The text of the line, without `acknowledged` errors; `alarms` are the names of the active ones."""
-    stop = [stop_text(snapshot.drive)] if snapshot.drive.stopped else []
-    if snapshot.problem:
-        return "  ".join([*stop, sanitize(snapshot.problem)])
-    parts = [link_text(snapshot.link), *stop] if snapshot.link.silent_s else stop
+    """The text of the line: the state, figures, problems, and what else is to be known.
+
+    `acknowledged` errors are not counted, and `alarms` are the names of the active ones. In a line of so many `columns`
+    what matters least is left out.
+    """
+    state, problem = state_text(snapshot), sanitize(snapshot.problem)
+    if problem:
+        return "  ".join([state, problem] if snapshot.drive.stopped else [problem])
+    figures = [] if snapshot.capabilities.live else drive_figures(snapshot.drive)
+    problems = [*_problems(snapshot, acknowledged, alarms)]
+    link = link_text(snapshot.link) if snapshot.link.to and not snapshot.link.silent_s else ""
+    merged = f"slow link: {held_back} frames merged in 5 s" if held_back else ""
+    rest = [each for each in (profile_label(snapshot), link, merged) if each]
+    wordy = True
+
+    def line() -> str:
+        found = [long if wordy else short for long, short in problems]
+        return _line([*found, state] if state in UNKNOWN else [state, *found], figures, rest)
+
+    while columns is not None and len(line()) > columns:
+        if rest:
+            rest.pop()
+        elif len(figures) > 1 and wordy:
+            figures.pop(0)  # the request first: what the robot does matters most
+        elif wordy:
+            wordy = False
+        elif figures:
+            figures.pop(0)
+        else:
+            break
+    return line()
+
+
+def _line(essential: Sequence[str], figures: Sequence[str], rest: Sequence[str]) -> str:
+    """The state, padded so that figures stay in place whatever it is, then all else."""
+    state, *problems = essential
+    begin = f"{state:<{STATE_COLUMNS}}" if state and figures else state
+    return "  ".join(each for each in (begin, *figures, *problems, *rest) if each).rstrip()
+
+
+def _problems(snapshot: ConsoleSnapshot, acknowledged: int, alarms: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """What has gone wrong, what is watched, and what is recorded, each in many words and in few; the worst first."""
+    if snapshot.drive.stopped and snapshot.link.silent_s:
+        yield (link_text(snapshot.link),) * 2
     if snapshot.drive.means_news and not snapshot.drive.stopped:
-        parts.append(f"✗ NOT RELEASED: {sanitize(snapshot.drive.means_news)}")
-    if alarms:
-        parts.append(f"⚠ {sanitize(', '.join(alarms))}")
-    dead = [each.label for each in snapshot.launch.processes if each.state is ProcessState.CRASHED]
-    if dead:
-        parts.append(f"✗ ended: {sanitize(', '.join(dead))}")
-    if snapshot.launch.problem:
-        parts.append(reason_first(sanitize(snapshot.launch.problem)))
+        yield (f"✗ NOT RELEASED: {sanitize(snapshot.drive.means_news)}",) * 2
     errors = errors_of(snapshot) - acknowledged
     if errors:
-        parts.append(counted(errors, "new error" if acknowledged else "error"))
+        yield (counted(errors, "new error" if acknowledged else "error"),) * 2
+    if alarms:
+        yield f"⚠ {sanitize(', '.join(alarms))}", f"⚠ {counted(len(alarms), 'alarm')}"
+    dead = [each.label for each in snapshot.launch.processes if each.state is ProcessState.CRASHED]
+    if dead:
+        yield f"✗ ended: {sanitize(', '.join(dead))}", f"✗ {len(dead)} ended"
+    if snapshot.launch.problem:
+        yield (reason_first(sanitize(snapshot.launch.problem)),) * 2
     if snapshot.recording.folder:
-        parts.append(f"● REC {sanitize(snapshot.recording.folder.rpartition('/')[2])}")
+        yield f"● REC {sanitize(snapshot.recording.folder.rpartition('/')[2])}", "● REC"
     if snapshot.recording.problem:
-        parts.append(f"✗ {sanitize(snapshot.recording.problem)}")
-    parts.append("" if snapshot.capabilities.live else drive_text(snapshot.drive))
-    if snapshot.active_profile:
-        parts.append(profile_label(snapshot))
-    if snapshot.link.to and not snapshot.link.silent_s:
-        parts.append(link_text(snapshot.link))
-    if held_back:
-        parts.append(f"slow link: {held_back} frames merged in 5 s")
-    return "  ".join(each for each in parts if each)
+        yield (f"✗ {sanitize(snapshot.recording.problem)}",) * 2
+
+
+def state_text(snapshot: ConsoleSnapshot) -> str:
+    """The state of the robot in a word, and the reason for it."""
+    drive = snapshot.drive
+    if drive.stopped:
+        return stop_text(drive)
+    if snapshot.link.silent_s:
+        return link_text(snapshot.link)
+    if snapshot.capabilities.live:
+        return ""
+    if drive.silent_s:
+        return f"SILENT {drive.silent_s} s"
+    if drive.final is None and drive.actual is None and not drive.limited_by:
+        return NO_ROBOT if drive.nothing_to_stop else NO_DATA
+    moves, commanded = (
+        velocity is not None and any(map(_is_visible, velocity)) for velocity in (drive.actual, drive.final)
+    )
+    if not drive.limited_by:
+        return "DRIVING" if moves or commanded else "STOPPED"
+    word = "SLOWED" if commanded else "STOPPING" if moves else "STOPPED"
+    return f"{word} {sanitize(drive.limited_by.partition(' of /')[0])}"
+
+
+def drive_figures(drive: DriveInfo) -> list[str]:
+    """The requested, commanded and actual velocity, as far as they are known, each of a fixed width."""
+    figures: list[str] = []
+    if drive.asked is not None:
+        figures.append(f"asked {_fixed(drive.asked[0])}")
+    if drive.final is not None:
+        figures.append(f"sent {_fixed(drive.final[0])}")
+    if drive.actual is not None:
+        linear, angular = drive.actual
+        arrow = "" if not _is_visible(angular) else LEFT if angular > 0 else RIGHT
+        figures.append(f"robot {_fixed(linear)} m/s {arrow + figure(abs(angular)):>4}")
+    return figures
+
+
+def _fixed(value: float) -> str:
+    """A speed in four cells, with a second decimal place where the first alone would be zero."""
+    small = 0.005 <= abs(value) < 0.095
+    return f"{value:.2f}".replace("-0.", "-.") if small else f"{figure(value) if _is_visible(value) else '0.0':>4}"
+
+
+def _is_visible(value: float) -> bool:
+    """Whether a speed is not zero once it is rounded to be shown; an infinite or undefined one is not zero."""
+    return not abs(value) < 0.005
 
 
 def link_text(link: LinkInfo) -> str:
     """The state of the link to a robot: silent, or its delay and the number of lost messages."""
     if link.silent_s:
-        return f"✗ NO ANSWER from {sanitize(link.to)} for {link.silent_s} s: all that is shown is that old"
+        return f"NO ANSWER {link.silent_s} s  {sanitize(link.to)} is silent: all that is shown is that old"
     delay = "" if link.delay_ms is None else f" {link.delay_ms} ms"
     return f"{sanitize(link.to)}{delay}" + (f", {counted(link.lost, 'message')} lost" if link.lost else "")
 
@@ -86,22 +200,3 @@ def reason_first(problem: str) -> str:
     """A problem that begins with a file path, rephrased as the reason followed by the file's name."""
     path, colon, why = problem.partition(": ")
     return f"{why} ({path.rpartition('/')[2]})" if colon and path.startswith("/") else problem
-
-
-def drive_text(drive: DriveInfo) -> str:
-    """The command chain: requested speed, what limited it, final and actual speed."""
-    if drive.final is None and drive.actual is None and not drive.limited_by and not drive.silent_s:
-        return "no robot yet" if drive.nothing_to_stop else "no command and no odometry yet"
-    parts: list[str] = []
-    if drive.asked is not None:
-        parts.append(f"asked {figure(drive.asked[0], '+')}")
-    if drive.final is not None:
-        why = f" ({sanitize(drive.limited_by)})" if drive.limited_by else ""
-        parts.append(f"command {figure(drive.final[0], '+')} m/s {figure(drive.final[1], '+')} rad/s{why}")
-    elif drive.limited_by:
-        parts.append(sanitize(drive.limited_by))
-    if drive.actual is not None:
-        parts.append(f"actual {figure(drive.actual[0], '+')} m/s")
-    elif drive.silent_s:
-        parts.append(f"the robot is SILENT for {drive.silent_s} s")
-    return " → ".join(parts)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from bot_console.tui.text.sanitize import sanitize
+from rich.cells import cell_len
 from rich.style import Style
 from rich.text import Text
 from textual.events import Click
@@ -44,27 +45,57 @@ class Tabs(Static):
         end = 0
         self._ends = []
         for part, tab in zip(parts, tabs, strict=False):  # none if there is no room at all
-            end += part.cell_len + 1
+            end += part.cell_len
             self._ends.append((end, tab.pane))
-        self.update(Text(" ", no_wrap=True).join(parts), layout=False)
+        self.update(Text.assemble(*parts, no_wrap=True), layout=False)
 
     def on_click(self, event: Click) -> None:
         """Choose the tab under the mouse."""
         for end, pane in self._ends:
-            if event.x - 1 < end:
+            if event.x < end:
                 self.post_message(self.Chosen(pane))
                 return
 
 
+LENGTHS = 4
+"""How long a title can be: with room around it, short, three letters, and none."""
+
+
 def tab_texts(tabs: Sequence[Tab], width: int, colour: str) -> list[Text]:
-    """Keys and titles of the panes; if room is short, with short titles, and the last ones without any first."""
-    for titled, long in ((len(tabs), True), *((maximum, False) for maximum in range(len(tabs), -1, -1))):
-        parts: list[Text] = []
-        for at, tab in enumerate(tabs):
-            word = tab.title if long else (tab.short if at < titled or tab.shown else "")
-            label = sanitize(f"{tab.key} {word}".strip())
-            padded = f"[{label}]" if tab.shown else (label if not long else f" {label} ")
-            parts.append(Text(padded, Style(color=colour, bold=True, reverse=True) if tab.shown else ""))
-        if sum(part.cell_len + 1 for part in parts) - 1 <= width:
+    """Keys and titles of the panes, in parts that follow each other without a gap.
+
+    Where room is short titles are shortened, the last ones first, and the shown one after all others.
+    """
+    order = sorted(reversed(range(len(tabs))), key=lambda at: tabs[at].shown)
+    lengths = [0] * len(tabs)
+    for shortened, length in ((order, 0), (order, 1), *(([at], each) for each in range(2, LENGTHS) for at in order)):
+        for at in shortened:
+            lengths[at] = length
+        parts = _parts(tabs, lengths, width, colour)
+        if sum(part.cell_len for part in parts) <= width:
             return parts
     return []
+
+
+def _parts(tabs: Sequence[Tab], lengths: Sequence[int], width: int, colour: str) -> list[Text]:
+    """Brackets around the shown tab take the place of the gaps beside it."""
+    parts: list[Text] = []
+    for at, (tab, length) in enumerate(zip(tabs, lengths, strict=True)):
+        label = _label(tab, length)
+        if tab.shown:
+            used = sum(part.cell_len for part in parts) + cell_len(label) + 1
+            end = "]" if at + 1 < len(tabs) or used < width else ""  # in the last column it has no room
+            parts.append(Text(f"[{label}{end}", Style(color=colour, bold=True, reverse=True)))
+        else:
+            follows = at > 0 and tabs[at - 1].shown
+            parts.append(Text(label if follows else f" {label}"))
+        if length == 0:
+            parts[-1].append("  ")
+    return parts
+
+
+def _label(tab: Tab, length: int) -> str:
+    word = (tab.title, tab.short, tab.short[:3], "")[length]
+    # A key that is the first letter of so short a title need not stand before it.
+    merged = length == LENGTHS - 2 and word.startswith(tab.key)
+    return sanitize(word if merged else f"{tab.key} {word}".strip())

@@ -1,34 +1,89 @@
-"""Notifications stand where they hide neither the keys, nor the state of the robot, nor what is known of a value."""
+"""Notifications are shown one at a time, where they hide neither keys, nor state, nor the row at the cursor."""
 
 from __future__ import annotations
 
 import pytest
 from bot_console.tui.widgets.key_bar import KeyBar
+from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.status_bar import StatusBar
 from bot_console.tui.widgets.tabs import Tabs
+from bot_console.tui.widgets.toast_place import MAX_LINES, lines_below
 from piloting import Session, run
 from samples import live
 from textual.widgets._toast import Toast
 
+LONG = "a long story " * 60
 
-def important(session: Session) -> list[str]:
-    """The lines of tabs, detail, status and keys as they are on the screen."""
-    regions = [session.app.screen.query_one(each).region for each in (KeyBar, StatusBar, "#parameter-detail", Tabs)]
+
+def lines_of(session: Session, *widgets: object) -> list[str]:
+    regions = [session.app.screen.query_one(each).region for each in widgets]
     return [line for region in regions for line in session.lines()[region.y : region.bottom]]
+
+
+def seen(session: Session) -> list[Toast]:
+    return [each for each in session.app.screen.query(Toast) if each.region.height]
 
 
 @pytest.mark.parametrize("size", [(60, 20), (80, 24), (120, 40)])
 def test_nothing_important_is_covered(size: tuple[int, int]) -> None:
     async def play(session: Session) -> None:
         await session.press("1", "exclamation_mark")
-        before = important(session)
+        important = (KeyBar, StatusBar, Tabs)
+        before = lines_of(session, *important)
         for number in range(4):
-            session.app.notify(f"{number}: " + "a long story " * 60, title="Much")
+            session.app.notify(f"{number}: " + LONG, title="Much")
         await session.settle()
-        assert len(session.app.screen.query(Toast)) == 4 and "a long story" in session.text()
-        assert important(session) == before and "ALL STOP" in session.text()
+        assert "a long story" in session.text()
+        assert lines_of(session, *important) == before and "ALL STOP" in session.text()
 
     run(live(), play, size)
+
+
+@pytest.mark.parametrize("size", [(80, 24), (120, 40)])
+@pytest.mark.parametrize("end", ["home", "end"])
+def test_row_at_the_cursor_is_never_covered(size: tuple[int, int], end: str) -> None:
+    async def play(session: Session) -> None:
+        await session.press("2", end)
+        session.app.notify(LONG)
+        await session.settle()
+        rows, (toast,) = session.app.screen.focused, seen(session)
+        assert isinstance(rows, RowList)
+        line = rows.content_region.y + rows.cursor - rows.scroll_offset.y
+        assert not toast.region.y <= line < toast.region.bottom
+        assert toast.region.bottom <= size[1] - 2 and toast.region.height <= MAX_LINES
+
+    run(live(), play, size)
+
+
+def test_a_text_field_is_never_covered() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1", "down", "slash", "s", "p")
+        session.app.notify(LONG)
+        await session.settle()
+        (toast,) = seen(session)
+        assert toast.region.bottom <= session.app.screen.focused.region.y
+
+    run(live(), play, (80, 24))
+
+
+def test_only_the_newest_is_shown_and_reports_how_many_there_are_beside_it() -> None:
+    async def play(session: Session) -> None:
+        for word in ("first", "second", "third"):
+            session.app.notify(f"the {word} one")
+        await session.settle()
+        assert len(seen(session)) == 1
+        assert "the third one  +2 more" in session.text() and "the second one" not in session.text()
+        await session.pilot.click(seen(session)[0])
+        session.app._heartbeat()
+        await session.settle()
+        assert "the second one" in session.text() and "the third one" not in session.text()
+
+    run(live(), play, (80, 24))
+
+
+def test_notification_stands_at_the_foot_unless_that_covers_the_line_in_use() -> None:
+    assert lines_below(None, 24) == lines_below(3, 24) == 2
+    assert lines_below(20, 24) == 4 and lines_below(23, 24) == 2
 
 
 def test_errors_are_acknowledged() -> None:

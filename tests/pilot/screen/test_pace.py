@@ -35,21 +35,21 @@ def test_figures_of_the_status_line_stand_a_second_words_come_at_once() -> None:
     async def play(session: Session) -> None:
         drive(session, 0.1)
         await heartbeat(session, StatusBar.EVERY)
-        assert "actual +0.1" in status(session)
+        assert "robot  0.1" in status(session)
         drive(session, 0.2)
         await heartbeat(session)
-        assert "actual +0.2" in status(session), "what has stood long enough gives way at once"
+        assert "robot  0.2" in status(session), "what has stood long enough gives way at once"
         drive(session, 0.3)
         await heartbeat(session, 4)
         drive(session, 0.4)
         await heartbeat(session, 4)
-        assert "actual +0.2" in status(session)
+        assert "robot  0.2" in status(session)
         drive(session, 0.4, stopped=True, stop_confirmed=True, lockable=True, stopped_here=True)
         await heartbeat(session)
-        assert "STOP" in status(session) and "actual +0.4" in status(session)
+        assert "STOP" in status(session) and "robot  0.4" in status(session)
         drive(session, 0.7, stopped=True, stop_confirmed=True, lockable=True, stopped_here=True)
         await heartbeat(session, StatusBar.EVERY)
-        assert "actual +0.7" in status(session), "the newest is told, though nothing new comes after it"
+        assert "robot  0.7" in status(session), "the newest is told, though nothing new comes after it"
 
     run(live(), play, (160, 40))
 

@@ -11,6 +11,7 @@ from bot_console.tui.console.model import ChangeSource, Kind, ParameterInfo, Set
 from bot_console.tui.console.parameter_types import ARRAYS
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.format import field_text, value_text
+from bot_console.tui.keys.key import Mode
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.parameters import editing, tuning
 from bot_console.tui.panes.parameters.pending_sets import PendingSets
@@ -21,6 +22,15 @@ from bot_console.tui.text.refusals import of_many
 from bot_console.tui.tuning.tunable import Setting, Tunable, find_tunables
 from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Elements, Line
 
+MARKING = (
+    "Values are marked: a sends all of them or none, A makes them set B and sends it, x drops the mark at the cursor, "
+    "and m ends marking, so that edits are sent at once again."
+)
+REFUSED = Mode(
+    {"parameters.edit": "Try again", "parameters.dismiss": "Dismiss"},
+    "The value at the cursor was refused: Enter edits it again, x dismisses the refusal.",
+)
+
 
 class EditPane(ListPane):
     """A pane around a tree of parameters in which values are changed."""
@@ -30,6 +40,20 @@ class EditPane(ListPane):
         self.staging = Staging()
         self.unanswered = PendingSets()
         self.clock: Callable[[], float] = time.monotonic
+
+    @property
+    def mode(self) -> Mode:
+        """Marking values, a refused value at the cursor, or a filter."""
+        parameter, staging = self._at(), self.staging
+        marked = parameter is not None and (parameter.node, parameter.name) in staging.marked
+        if staging.marking or staging.marked:
+            keys = {"parameters.apply": f"Apply {len(staging.marked)}", "parameters.compare": "Send as set B"}
+            keys = keys if staging.marked else {}
+            keys |= {"parameters.dismiss": "Drop"} if marked else {}
+            return Mode({**keys, "parameters.stage": "Send at once" if staging.marking else "Mark more"}, MARKING)
+        if parameter is not None and (parameter.node, parameter.name) in self._list.refused:
+            return REFUSED
+        return super().mode
 
     @property
     def _list(self) -> ParameterRows:

@@ -210,6 +210,7 @@ class ParametersPane(EditPane):
 
     def _describe(self) -> None:
         """Say what is known, in as many lines as it needs."""
+        self.keys_changed()
         words, text = self.query_one("#parameter-detail", StaticText), self._details(self._list.current)
         maximum = max(MIN_DETAIL_LINES, self.size.height // SHARE)
         need = len(text.wrap(self.host.console, max(1, words.size.width))) if words.size.width else MIN_DETAIL_LINES

@@ -3,12 +3,12 @@
 import math
 
 import pytest
-from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.robot.drive_link import DriveLink
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 from bot_console.tui.console.robot.world_watch import WorldWatch, grid_of
 from bot_console.tui.panes.world.view import Window, WorldDrawing, fitting, following, scale_text
-from bot_console.tui.widgets.status_bar import drive_text
+from bot_console.tui.widgets.status_bar import drive_figures, status_text
 from geometry_msgs.msg import Point, Pose
 from nav_msgs.msg import MapMetaData, OccupancyGrid, Odometry
 from rclpy.context import Context
@@ -32,20 +32,23 @@ def test_a_robot_that_has_gone_silent_has_no_actual_speed():
     message = Odometry()
     message.twist.twist.linear.x = 0.9
 
+    def status() -> str:
+        return status_text(ConsoleSnapshot(drive=drive.info(world.info)))
+
     def output() -> str:
         odometry.publish(message)
         for _ in range(5):
             executor.spin_once(timeout_sec=0)
-        return drive_text(drive.info(world.info))
+        return status()
 
     try:
-        assert output() == "actual +0.9 m/s"
+        assert output() == "DRIVING                    robot  0.9 m/s  0.0"
         clock[0] += 0.9
-        assert drive_text(drive.info(world.info)) == "actual +0.9 m/s"
+        assert status() == "DRIVING                    robot  0.9 m/s  0.0"
         clock[0] += 4.2
         assert world.info.silent_s == 5 and world.info is world.info
-        assert drive_text(drive.info(world.info)) == "the robot is SILENT for 5 s"
-        assert output() == "actual +0.9 m/s"
+        assert status() == "SILENT 5 s"
+        assert output() == "DRIVING                    robot  0.9 m/s  0.0"
     finally:
         console.destroy_node()
         robot.destroy_node()
@@ -85,7 +88,10 @@ def test_whatever_numbers_come_they_are_drawn_or_left_out(number):
         assert len(WorldDrawing().rows(info, window, 40, 12)) == 12
         assert scale_text(window, 40)
         assert len(scale_text(window, 40, 9)) <= 9
-    assert len(drive_text(DriveInfo(asked=(number, 0.0), final=(number, number), actual=(number, 0.0)))) < 80
+    assert (
+        len("  ".join(drive_figures(DriveInfo(asked=(number, 0.0), final=(number, number), actual=(number, number)))))
+        < 60
+    )
 
 
 @pytest.mark.parametrize(

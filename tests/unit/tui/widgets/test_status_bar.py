@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from types import MappingProxyType
 
-from bot_console.tui.console.model import ConsoleSnapshot, LaunchInfo, LogState, Severity
+import pytest
+from bot_console.tui.console.model import ConsoleSnapshot, LaunchInfo, LinkInfo, LogState, Severity
 from bot_console.tui.console.robot.robot_model import DriveInfo
-from bot_console.tui.widgets.status_bar import reason_first, status_text
+from bot_console.tui.widgets.status_bar import drive_figures, reason_first, status_text
 
 
 def test_the_reason_of_a_launch_that_failed_comes_before_the_file() -> None:
@@ -41,3 +42,58 @@ def test_a_console_that_is_read_only_promises_no_release() -> None:
 def test_a_robot_that_has_reported_nothing_yet_is_one() -> None:
     assert status_text(ConsoleSnapshot()) == "no robot yet"
     assert status_text(ConsoleSnapshot(drive=DriveInfo(topic="/a/cmd_vel"))) == "no command and no odometry yet"
+
+
+CRUISING = DriveInfo(asked=(1.0, 0.0), final=(1.0, 0.0), actual=(1.0, -0.1), topic="/cmd_vel")
+STATES = {
+    "DRIVING": CRUISING,
+    "SLOWED warning_distance": replace(CRUISING, final=(0.6, 0.0), limited_by="warning_distance"),
+    "STOPPING emergency_stop_distance": replace(CRUISING, final=(0.0, 0.0), limited_by="emergency_stop_distance"),
+    "STOPPED emergency_stop_distance": replace(
+        CRUISING, final=(0.0, 0.0), actual=(0.0, 0.0), limited_by="emergency_stop_distance"
+    ),
+    "STOPPED": DriveInfo(final=(0.0, 0.0), actual=(0.0, 0.0)),
+    "SILENT 5 s": DriveInfo(asked=(1.0, 0.0), silent_s=5),
+    "ALL STOP held (! releases)": DriveInfo(stopped=True, stop_confirmed=True, lockable=True, stopped_here=True),
+}
+
+
+@pytest.mark.parametrize("state", STATES)
+def test_line_begins_with_the_state_of_the_robot(state: str) -> None:
+    assert f"{status_text(ConsoleSnapshot(drive=STATES[state]))}  ".startswith(f"{state}  ")
+
+
+def test_a_link_without_an_answer_and_a_stop_come_before_all_else() -> None:
+    silent = ConsoleSnapshot(link=LinkInfo("robot:7447", silent_s=3), drive=CRUISING)
+    assert status_text(silent).startswith("NO ANSWER 3 s  robot:7447")
+    held = status_text(replace(silent, drive=STATES["ALL STOP held (! releases)"]))
+    assert held.startswith("ALL STOP held (! releases)") and "NO ANSWER 3 s" in held
+    moves = status_text(ConsoleSnapshot(drive=DriveInfo(stopped=True, lockable=True)), columns=78)
+    assert moves.startswith("STOP SENT, NOT CONFIRMED: THE ROBOT MAY MOVE")
+
+
+def test_figures_stay_in_place_whatever_the_state_and_the_speeds_are() -> None:
+    drives = (
+        CRUISING,
+        STATES["SLOWED warning_distance"],
+        replace(CRUISING, asked=(-0.04, 0.0), final=(-1.0, 0.0), actual=(0.04, 0.0)),
+        replace(CRUISING, actual=(0.0, 0.0)),
+    )
+    lines = [status_text(ConsoleSnapshot(drive=each, active_profile="indoor")) for each in drives]
+    places = {tuple(line.index(word) for word in ("asked", "sent", "robot", "m/s", "indoor")) for line in lines}
+    assert len(places) == 1, lines
+    assert drive_figures(drives[2]) == ["asked -.04", "sent -1.0", "robot 0.04 m/s  0.0"]
+
+
+@pytest.mark.parametrize("drive", [each for each in STATES.values() if not each.stopped])
+def test_nothing_essential_is_cut_at_80_columns(drive: DriveInfo) -> None:
+    counts = MappingProxyType({Severity.ERROR: 2})
+    snapshot = ConsoleSnapshot(drive=drive, logs=LogState(counts=counts), active_profile="a_profile_with_a_long_name")
+    line = status_text(snapshot, columns=78)
+    assert len(line) <= 78 and "2 errors" in line and drive.limited_by in line
+    assert drive.actual is None or "robot" in line
+
+
+def test_the_profile_is_shown_where_there_is_room() -> None:
+    slowed = ConsoleSnapshot(drive=STATES["SLOWED warning_distance"], active_profile="indoor")
+    assert status_text(slowed, columns=78).endswith("indoor")

@@ -1,0 +1,58 @@
+"""Which keys the last line names where not all have room."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.keymap import TABLE
+from bot_console.tui.keys.key import Key
+from bot_console.tui.pane_table import PANES
+from bot_console.tui.widgets.key_bar import Shown, fitting, named
+
+WIDE, NARROW = 200, 78
+
+
+def words(keys: list[Shown]) -> list[str]:
+    return [each.word for each in keys]
+
+
+def keys_of(*scopes: str) -> list[Shown]:
+    return [each for scope in (*scopes, "app") for each in named(TABLE.get(scope, ()), {})]
+
+
+def test_all_keys_are_named_where_there_is_room() -> None:
+    keys = keys_of("parameters", "find")
+    assert fitting([], keys, WIDE) == keys
+
+
+@pytest.mark.parametrize(
+    ("scopes", "expected"),
+    [
+        (("parameters", "find"), ("Edit", "More", "Less", "Undo", "Filter")),
+        (("logs", "find"), ("Follow", "Message", "Search", "Filter")),
+        (("launch",), ("Open", "Start", "Stop", "Restart", "Kill", "Details")),
+        (("steering",), ("Arm", "Faster", "Slower", "Left", "Right")),
+        (("graph", "find"), ("Details", "Mode", "Frames", "Filter")),
+    ],
+)
+def test_keys_of_a_pane_come_before_those_that_work_everywhere(
+    scopes: tuple[str, ...], expected: tuple[str, ...]
+) -> None:
+    found = words(fitting([], keys_of(*scopes), NARROW))
+    assert set(expected) <= set(found)
+
+
+@pytest.mark.parametrize("columns", [8, 20, 58, 78, 98])
+@pytest.mark.parametrize("pane", [each.id for each in PANES])
+def test_stop_is_always_named(pane: str, columns: int) -> None:
+    assert "app.stop" in [each.id for each in fitting([], keys_of(pane, "find"), columns)]
+
+
+def test_keys_of_a_mode_come_first_and_are_left_out_last() -> None:
+    mode = [Shown("a", "Apply 3", "a", "parameters.apply"), Shown("A", "Send as set B", "A", "parameters.compare")]
+    found = fitting(mode, keys_of("parameters", "find"), NARROW)
+    assert found[:2] == mode
+    assert words(fitting(mode, keys_of("parameters", "find"), 34)) == ["Apply 3", "Send as set B", "Stop"]
+
+
+def test_no_key_is_named_without_a_word() -> None:
+    assert [*named([Key("a.b", "x", "do", "What it does", footer=True)], {"a.b": ""})] == []
