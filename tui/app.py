@@ -256,7 +256,7 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
 
     def on_tabs_chosen(self, event: Tabs.Chosen) -> None:
         """Show the pane whose tab was clicked."""
-        self.stage.choose(event.pane)
+        self.stage.go(event.pane)
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Leave letters and digits to a text field while one has the focus."""
@@ -269,7 +269,7 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
 
     def action_pane(self, name: str) -> None:
         """Show one pane, or the layout."""
-        self.stage.choose(name)
+        self.stage.go(name)
 
     def action_next_pane(self, step: int) -> None:
         """Go to the next pane: among those on the screen, else among all."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import re
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import TypeVar
@@ -58,9 +59,9 @@ class Session:
 
     async def click_tab(self, digit: str) -> None:
         """Click on the tab of a pane."""
-        words = self.lines()[0].split()
-        at = next(at for at, each in enumerate(words) if each.lstrip("[") == digit)
-        await self.click(f"{digit} {words[at + 1].rstrip(']')}")
+        found = re.search(rf"(?<=[\[\] ]){digit} \w+", self.lines()[0])
+        assert found, self.lines()[0]
+        await self.click(found.group())
 
     async def settle(self) -> None:
         """Let everything happen that is about to."""

@@ -149,12 +149,6 @@ class Stage:
         self._app.screen_stack[0].set_focus(None)
         self.lay_out()
 
-    def choose(self, name: str) -> None:
-        """Show what a person asks for; says so when the layout does not fit."""
-        self.go(name)
-        if name == OVERVIEW and self._tree() is None:
-            self.arranging.begin()
-
     def next(self, step: int) -> None:
         """Go to the next pane, among those on the screen, else among all; through a plug-in's parts on the way."""
         now = self.current()
@@ -172,7 +166,7 @@ class Stage:
     def zoom(self) -> None:
         """Show one pane alone, or the layout again."""
         pane = self.current()
-        self.choose(OVERVIEW if self._wanted != OVERVIEW or pane is None else pane.id or OVERVIEW)
+        self.go(OVERVIEW if self._wanted != OVERVIEW or pane is None else pane.id or OVERVIEW)
 
     def lay_out(self) -> None:
         """Show what was chosen, as far as there is room."""

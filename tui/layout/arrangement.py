@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Protocol
 
-from bot_console.tui.layout.named import BUILT_IN, OVERVIEW, WIDE, Layout
+from bot_console.tui.layout.named import BUILT_IN, OVERVIEW, Layout
 from bot_console.tui.layout.placing import Box, boxes, fits
 from bot_console.tui.layout.tree import Tree
 
@@ -77,13 +77,7 @@ class Arrangement:
 
     def tree(self, width: int, height: int) -> Tree | None:
         """What to show in a terminal of so many cells; None if not all of it fits."""
-        tree = self._changed
-        if tree is None:
-            layout = self._layout()
-            if width < layout.least[0] or height < layout.least[1]:
-                return None
-            roomy = width >= WIDE[0] and height >= WIDE[1]
-            tree = layout.wide if layout.wide is not None and roomy else layout.tree
+        tree = self._changed if self._changed is not None else self._layout().form(width, height)
         return tree if fits(boxes(tree, Box(0, 0, width, height - CHROME))) else None
 
     def least(self) -> tuple[int, int]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from bot_console.tui.layout.tree import Tree, below, beside
@@ -10,33 +10,52 @@ from bot_console.tui.layout.tree import Tree, below, beside
 OVERVIEW = "overview"
 
 
+Size = tuple[int, int]
+"""Columns and lines."""
+
+
 @dataclass(frozen=True)
 class Layout:
-    """A tree, what it is for, and the columns and lines it needs; in a smaller terminal one pane is shown at a time."""
+    """A tree and what it is for; `forms` are shown instead in terminals of a size from which each is, largest first."""
 
     tree: Tree
     about: str = ""
-    least: tuple[int, int] = (0, 0)
-    wide: Tree | None = None
-    """What is shown instead where there is much room."""
+    forms: Sequence[tuple[Size, Tree]] = ()
 
+    def form(self, width: int, height: int) -> Tree:
+        """The tree for a terminal of so many cells."""
+        return next((tree for size, tree in self.forms if width >= size[0] and height >= size[1]), self.tree)
 
-WIDE = (170, 45)
-"""Columns and lines from which the overview has room for the graph as well."""
 
 BUILT_IN: Mapping[str, Layout] = {
     OVERVIEW: Layout(
-        below(
-            beside("parameters", below("world", "plot", shares=(14, 12))),
-            "logs",
-            shares=(26, 10),
-        ),
+        below(beside("world", "parameters", shares=(22, 38)), "logs", shares=(12, 5)),
         "the robot at a glance",
-        least=(100, 30),
-        wide=below(
-            beside("parameters", below("world", "plot", shares=(5, 4)), "graph", shares=(5, 7, 6)),
-            "logs",
-            shares=(9, 3),
+        (
+            (
+                (170, 45),
+                below(
+                    beside("parameters", below("world", "plot", shares=(5, 4)), "graph", shares=(5, 7, 6)),
+                    "logs",
+                    shares=(9, 3),
+                ),
+            ),
+            (
+                (100, 30),
+                below(
+                    beside("parameters", below("world", "plot", shares=(14, 12))),
+                    "logs",
+                    shares=(26, 10),
+                ),
+            ),
+            (
+                (80, 24),
+                below(
+                    beside("world", below("plot", "parameters", shares=(7, 8)), shares=(36, 44)),
+                    "logs",
+                    shares=(15, 6),
+                ),
+            ),
         ),
     ),
     "my_robot_dashboard": Layout(

@@ -48,6 +48,16 @@ class ItemList(RowList, Generic[T]):
             self.row_changed(self.cursor)
             self.show_cursor()
 
+    def begin_at(self, index: int) -> None:
+        """Put the cursor on a row silently, as if the list had begun with it there."""
+        before = self.cursor
+        if index != before:
+            self.set_reactive(RowList.cursor, index)
+            self.row_changed(before)
+            self.row_changed(index)
+            if self.size.height:  # else the first layout shows it
+                self.show_cursor()
+
     def _place(self, item: T) -> int:
         wanted, last = self.key(item), max(0, len(self.rows) - 1)
         if self.cursor <= last and self.rows and self.key(self.rows[self.cursor]) == wanted:

@@ -13,6 +13,8 @@ BELOW = 2
 """Lines of the status line and the key bar, below notifications."""
 MAX_LINES = 6
 """Lines that a notification takes at most, as in the style sheet."""
+LEFT = 2
+"""Columns to the left of notifications; the right of a pane's lower edge says what it shows."""
 RACK = "#textual-toastrack"
 
 
@@ -27,7 +29,7 @@ def place_toasts(screen: Screen[object], *, another: bool = False) -> None:
         each.display = not another and each is rack.children[-1]
     below = lines_below(line_in_use(screen.focused), screen.size.height)
     if rack.styles.margin.bottom != below:
-        rack.styles.margin = (0, 0, below, 0)
+        rack.styles.margin = (0, 0, below, LEFT)
 
 
 def lines_below(line: int | None, height: int) -> int:

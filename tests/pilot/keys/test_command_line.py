@@ -27,7 +27,7 @@ def test_a_value_is_set_or_refused_with_its_reason() -> None:
     async def play(session: Session) -> None:
         await line(session, "set robot_navigator max_speed 1.4")
         assert ("set", "/robot_navigator", {"max_speed": 1.4}) in session.console.asked
-        assert "/robot_navigator max_speed = 1.4" in session.text()
+        assert "/robot_navigator max_speed = 1.4" in [each.message for each in session.app._notifications]
         await line(session, "set /robot_navigator max_speed 99")
         assert "was refused" in session.text()
 

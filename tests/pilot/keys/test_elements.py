@@ -15,7 +15,7 @@ from samples import with_array
 
 
 async def opened(session: Session) -> None:
-    await session.press("1")
+    await session.press("1", "home")
     rows = session.pane(ParametersPane).query_one(ParameterRows)
     at = next(index for index, row in enumerate(rows.rows) if row.name == "a_list")
     await session.press(*["down"] * (at - rows.cursor), "enter")

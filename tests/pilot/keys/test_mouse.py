@@ -85,7 +85,7 @@ def test_a_line_of_the_help_does_what_its_key_does() -> None:
         await session.click_tab("1")
         await session.click("? Help")
         await session.click("Only what differs")
-        assert len(session.app.screen_stack) == 1 and "turn_rate" not in session.text()
+        assert len(session.app.screen_stack) == 1 and "seed" not in session.text()
         await session.click("? Help")
         await session.pilot.click(offset=(1, 1))
         await session.settle()

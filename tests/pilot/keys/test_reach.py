@@ -55,7 +55,8 @@ def test_tab_goes_round_all_panes_and_shift_tab_back() -> None:
 @pytest.mark.parametrize(
     ("size", "expected"),
     [
-        ((80, 24), {"plot"}),
+        ((60, 20), {"parameters", "world", "logs"}),
+        ((80, 24), {"parameters", "world", "plot", "logs"}),
         ((120, 40), {"parameters", "world", "plot", "logs"}),
         ((200, 60), {"parameters", "world", "plot", "logs", "graph"}),
     ],
@@ -151,7 +152,7 @@ def test_the_palette_shows_the_pane_of_an_action_and_runs_it() -> None:
         await session.settle()
         assert shown(session) == ["profiles"]
         assert isinstance(session.app.screen, PickerScreen) or "parameter file" in session.text().lower()
-        assert session.console.asked == []
+        assert not [each for each in session.console.asked if each[0] != "watch"]
 
     run(live(), play)
 
@@ -180,12 +181,12 @@ def test_in_a_text_field_the_all_stop_and_digits_are_text() -> None:
     run(live(), play)
 
 
-def test_q_quits_and_the_keys_line_fits_every_width() -> None:
+def test_q_quits_and_the_line_of_keys_fits_every_width() -> None:
     async def play(session: Session) -> None:
         for entry in PANES:
             await session.press(entry.key)
             last = session.lines()[-1]
-            assert "? Help" in last and "! Stop" in last and "q Quit" in last
+            assert "? Help" in last and "! Stop" in last
         await session.press("q")
         assert not session.app.is_running or session.app._exit
 
@@ -233,7 +234,7 @@ def test_the_first_and_the_last_row_are_one_key_away_in_every_list() -> None:
     run(live(), play)
 
 
-def test_the_first_cursor_is_on_the_first_row_in_whatever_order_nodes_come() -> None:
+def test_the_first_cursor_is_on_what_matters_most_in_whatever_order_nodes_come() -> None:
     system = live()
     trees = dict(system[0].current.parameters)
     system[0].change(parameters={"/simulator": trees["/simulator"]})
@@ -243,8 +244,8 @@ def test_the_first_cursor_is_on_the_first_row_in_whatever_order_nodes_come() -> 
         session.console.change(parameters=dict(sorted(trees.items())))
         await session.settle()
         rows = session.pane(ParameterRows)
-        assert rows.cursor == 0
-        await session.press("slash")
+        assert rows.current is not None and rows.current.name == "max_speed"
+        await session.press("home", "slash")
         await session.type("max")
         await session.press("enter")
         every = sum(each.name not in BUILT_IN for tree in trees.values() for each in tree.parameters)

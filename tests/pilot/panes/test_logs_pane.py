@@ -50,7 +50,7 @@ def test_severity_words_and_nodes_filter() -> None:
         await session.press("enter")
         assert len(seqs(session)) == 2
         await session.press("x", "enter")
-        assert len(seqs(session)) == 0 and "1 rule hides" in session.text()
+        assert len(seqs(session)) == 0 and "1 rule hides" in session.pane(LogsPane).status_text()
         await session.press("t")
         assert len(seqs(session)) == 5 and "filters off, t puts them back" in session.text()
         await session.press("t", "escape")
@@ -111,7 +111,7 @@ def test_rules_hide_and_highlight_until_they_are_changed() -> None:
         every = len(seqs(session))
         await session.press("o")
         shown = seqs(session)
-        assert 0 < len(shown) < every and "highlighted only" in session.text()
+        assert 0 < len(shown) < every and "highlighted only" in session.pane(LogsPane).status_text()
         await session.press("o", "F", "c", "c", "c", "c", "c", "c")
         assert "● hide" in session.text(), "behind the last colour it hides"
         await session.press("space", "escape")

@@ -21,7 +21,7 @@ def rows(session: Session) -> ParameterRows:
 async def go_to(session: Session, name: str) -> None:
     found = rows(session)
     at = next(index for index, row in enumerate(found.rows) if row.parameter and row.parameter.name == name)
-    await session.press(*["down"] * (at - found.cursor))
+    await session.press("home", *["down"] * at)
 
 
 def asked(session: Session) -> list[tuple[str, dict[str, object]]]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.keymap import TABLE
-from bot_console.tui.layout.tree import Tree, beside, panes
+from bot_console.tui.layout.tree import Tree, below, beside, panes
+from bot_console.tui.pane_table import PANES
 from bot_console.tui.screens.arrange import ArrangeScreen, keys_line
 from bot_console.tui.widgets.pane_area import PaneArea
 from piloting import Session, run
@@ -123,8 +124,9 @@ def test_a_layout_is_saved_under_a_name_and_opened_again() -> None:
 
 def test_a_layout_without_room_shows_one_pane_and_reports_it() -> None:
     async def play(session: Session) -> None:
+        session.app.stage.arrangement.change(below(*(each.id for each in PANES[:6])))
         await session.press("V")
-        assert len(session.app.screen_stack) == 1 and "needs 100x30" in session.text()
+        assert len(session.app.screen_stack) == 1 and "needs 20x27" in session.text()
 
     run(live(), play, (70, 22))
 

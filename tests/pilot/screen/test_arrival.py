@@ -31,7 +31,7 @@ from textual.widget import Widget
 from textual.widgets import Input
 
 SIZE = (120, 40)
-SEEN_FIRST = len(panes(BUILT_IN[OVERVIEW].tree))
+SEEN_FIRST = len(panes(BUILT_IN[OVERVIEW].form(*SIZE)))
 """How many panes the overview shows at this size."""
 NAMES = {"!": "exclamation_mark", ":": "colon", "?": "question_mark"}
 

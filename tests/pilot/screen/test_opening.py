@@ -115,7 +115,7 @@ def test_what_is_not_taken_over_is_reported() -> None:
         await session.press(":")
         await session.type("rqt --perspective-file mine.ini wrong")
         await session.press("enter")
-        text = " ".join(session.text().split())
+        text = " ".join(each.message for each in session.app._notifications)
         assert "perspective mine.ini" in text
         assert "wrong is not taken over" in text
 

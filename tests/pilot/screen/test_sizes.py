@@ -5,7 +5,9 @@ from __future__ import annotations
 from itertools import cycle
 
 import pytest
+from bot_console.tui.layout.tree import below
 from bot_console.tui.pane_table import PANES
+from bot_console.tui.panes.parameters.table import ParameterRows
 from piloting import Session, run
 from samples import empty, faulty, live
 from textual.scroll_view import ScrollView
@@ -25,7 +27,7 @@ def check(session: Session, size: tuple[int, int]) -> None:
             if child.display and child.region.area and not isinstance(child.parent, ScrollView):
                 assert pane.region.contains_region(child.region), (pane.id, child)
     assert lines[0].strip().startswith(("0", "[0")), "the tabs are seen"
-    assert "Quit" in lines[-1], "the keys are seen"
+    assert "! Stop" in lines[-1], "the keys are seen"
 
 
 CASES = [(size, live) for size in SIZES] + [
@@ -74,18 +76,37 @@ def test_a_resize_lays_everything_out_again() -> None:
     run(live(), play)
 
 
-def test_a_layout_that_has_no_room_is_reported_and_the_pane_stays() -> None:
+@pytest.mark.parametrize("size", [(60, 20), (80, 24), (99, 40), (100, 30), (120, 40), (200, 50)])
+def test_0_shows_the_robot_at_a_glance_at_any_size(size) -> None:
     async def play(session: Session) -> None:
-        words = "Layout 'overview' needs 100x30, this terminal has 80x24"
-        await session.press("2")
-        assert words not in session.text()
-        await session.press("0")
-        assert [str(each._notification.message) for each in session.app.screen.query(Toast)] == [
-            words + "; :layout NAME shows another."
-        ]
+        await session.press("2", "0")
+        assert not session.app.screen.query(Toast)
+        assert {"world", "parameters", "logs"} <= {each.id for each in session.app.visible_panes()}
+        await session.press("1", "0")
+        at = session.app.screen.query_one(ParameterRows).current
+        assert at is not None and at.parameter is not None and at.parameter.name == "max_speed", "worth changing"
+
+    run(live(), play, size)
+
+
+def test_small_panes_show_what_matters_most() -> None:
+    async def play(session: Session) -> None:
+        names = [row.name for row in session.app.screen.query_one(ParameterRows).rows]
+        assert names == ["max_speed", "turn_rate", "safety_distance"]
+        await session.press("slash", *"noise", "enter")
+        assert "noise" in session.text(), "a filter finds all"
+        await session.press("escape", "1")
+        assert "detection_threshold" in session.text() and "Maximum linear velocity" in session.text()
+
+    run(live(), play, (80, 24))
+
+
+def test_a_layout_that_has_no_room_leaves_one_pane_without_a_word() -> None:
+    async def play(session: Session) -> None:
+        session.app.stage.arrangement.load("watching")
+        session.app.stage.arrangement.change(below(*(each.id for each in PANES[:6])))
+        await session.press("2", "0")
+        assert not session.app.screen.query(Toast)
         assert [each.id for each in session.app.visible_panes()] == ["logs"]
-        for size, seen in (((99, 30), 1), ((100, 29), 1), ((100, 30), 4)):
-            await session.pilot.resize_terminal(*size)
-            assert len(session.app.visible_panes()) == seen, "what the note says is what is needed"
 
     run(live(), play, (80, 24))

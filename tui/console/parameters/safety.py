@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from enum import Enum
+from functools import lru_cache
 
 from bot_console.tui.console.model import ParameterInfo, Value
 
@@ -86,6 +87,31 @@ def risky_change(parameter: ParameterInfo) -> str:
                 return f"a {'smaller' if rule.worse is Worse.LOWER else 'greater'} value {rule.worse.value}"
             return ""
     return ""
+
+
+DISTANCE = 2
+"""The importance of distances, after limits."""
+
+
+def importance(parameter: ParameterInfo) -> int | None:
+    """How much a parameter decides of how the robot drives, 0 the most; None where no rule knows it.
+
+    Limits of speed come first, then other limits, then distances, then all else that is a number.
+    """
+    value, name = parameter.value, parameter.name.rpartition(".")[2]
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or parameter.read_only:
+        return None
+    rule = _number_rule(name, parameter.description)
+    if rule is None:
+        return None
+    if rule.worse is Worse.HIGHER:
+        return 0 if re.search("speed|vel", name) else 1
+    return DISTANCE if rule.worse is Worse.LOWER else DISTANCE + 1
+
+
+@lru_cache(maxsize=20_000)
+def _number_rule(name: str, description: str) -> Rule | None:
+    return next((each for each in NUMBERS if each.fits(name, description)), None)
 
 
 def _is_worse(worse: Worse, before: Value, after: Value) -> bool:

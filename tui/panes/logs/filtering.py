@@ -20,15 +20,17 @@ class Filtering:
     minimum: Severity = Severity.UNSET
     only_highlighted: bool = False
     folded: bool = False
+    compact: bool = False
+    """Whether there is so little room that equal lines in a row are one anyway."""
     off: bool = field(default=False)
     """Whether everything is shown for now; the choices stay."""
 
     def which(self) -> LogFilter:
         """The filter."""
         if self.off:
-            return LogFilter(folded=self.folded)
+            return LogFilter(folded=self.folded or self.compact)
         only = self.rules.highlighted if self.only_highlighted else ()
-        return LogFilter(self.minimum, self.words, self.rules.hidden, only, self.folded)
+        return LogFilter(self.minimum, self.words, self.rules.hidden, only, self.folded or self.compact)
 
     def narrowed_to(self, words: str = "", minimum: Severity = Severity.UNSET) -> LogFilter:
         """The lines shown that pass these words as well, each for itself."""

@@ -29,6 +29,9 @@ from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
 
+COMPACT_LINES = 6
+"""Lines of the pane below which all of them show the log, with equal lines in a row as one."""
+
 
 class LogsPane(LinePane):
     """Log lines of all nodes, or those of a file."""
@@ -159,7 +162,17 @@ class LogsPane(LinePane):
     def _report(self) -> None:
         """Say what is shown of how much, by severity."""
         problem = self._found.problem if self._found else ""
-        self.query_one("#log-status", StaticText).show_text(problem or self.status_text())
+        text = problem or self.status_text()
+        self.caption(text if self.has_class("compact") else "")
+        self.query_one("#log-status", StaticText).show_text(text)
+
+    def on_resize(self) -> None:
+        """Where there is little room, fold repeats, and write what is shown into the frame."""
+        compact = 0 < self.size.height < COMPACT_LINES
+        if compact is not self._filtering.compact:
+            self.set_class(compact, "compact")
+            self._filtering.compact = compact
+            self._search()
 
     def status_text(self) -> str:
         """The line below the log."""

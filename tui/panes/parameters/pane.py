@@ -15,7 +15,7 @@ from bot_console.tui.console.query import parse
 from bot_console.tui.format import command_of, counted, sanitize
 from bot_console.tui.panes.parameters.details import details
 from bot_console.tui.panes.parameters.edit_pane import EditPane
-from bot_console.tui.panes.parameters.rows import Row, TreeRows, View, namesake, opened
+from bot_console.tui.panes.parameters.rows import Row, TreeRows, View, namesake, opened, worth_changing
 from bot_console.tui.panes.parameters.staging import Key
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.parameters.view_state import At, Left, left_of
@@ -27,6 +27,8 @@ from bot_console.tui.widgets.static_text import StaticText
 from rich.text import Text
 from textual.app import ComposeResult
 
+COMPACT_LINES = 12
+"""Lines of the pane below which it shows no more than the parameters that matter most."""
 STATE_NAME = "parameters"
 MIN_DETAIL_LINES = 3
 """Lines of detail that every parameter has: what it is for, its facts, its command."""
@@ -63,7 +65,7 @@ class ParametersPane(EditPane):
         self._expected = ""
         self._at_cursor: At | None = None
         self._chosen = False
-        """Whether the cursor was moved; until then it stays on the first row, in whatever order nodes come."""
+        """Whether the cursor was moved; until then it is on the parameter that matters most, whatever nodes come."""
 
         self._left: At | None = None
         """The row at the cursor at the end of the last run, until it is there again or a person moves."""
@@ -164,12 +166,15 @@ class ParametersPane(EditPane):
     def _arrange(self) -> None:
         """Make the rows, keep the cursor on its parameter, draw what differs."""
         shown, old = self._list, self._list.rows
-        new = self._tree.rows(self._snapshot.parameters, self._view)
+        view = replace(self._view, essential=True) if self.has_class("compact") else self._view
+        new = self._tree.rows(self._snapshot.parameters, view)
         if len(old) == len(new):
             for before, after in zip(old, new, strict=True):
                 if before is not after:
                     self._value_changed(before, after)
         shown.exchange(new, stay=self._chosen)
+        if not self._chosen:
+            shown.begin_at(worth_changing(new))
         self._go_to_left()
         self._report_counts()
         if self._expected:
@@ -203,10 +208,19 @@ class ParametersPane(EditPane):
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Tell of the parameter at the cursor."""
         event.stop()
-        self._chosen = self._chosen or event.index > 0
-        self._left = None if event.index > 0 else self._left
+        moved = event.index != worth_changing(self._list.rows)
+        self._chosen = self._chosen or moved
+        self._left = None if moved else self._left
         self._at_cursor = self._list.key_at_cursor
         self._describe()
+
+    def on_resize(self) -> None:
+        """Show only what matters where there is little room, without the details."""
+        compact = 0 < self.size.height < COMPACT_LINES
+        if compact is not self.has_class("compact"):
+            self.set_class(compact, "compact")
+            self._arrange()
+        self.call_after_refresh(self._describe)
 
     def _describe(self) -> None:
         """Say what is known, in as many lines as it needs."""
@@ -249,16 +263,16 @@ class ParametersPane(EditPane):
 
     def filter_is(self, words: str) -> None:
         """Show the parameters that pass; the cursor goes to one that is called like the last word."""
-        self._poll(replace(self._view, query=parse(words), folded_matches=frozenset()))
+        self._change_view(replace(self._view, query=parse(words), folded_matches=frozenset()))
         at = namesake(self._list.rows, words.rpartition(" ")[2], self._list.cursor)
         if at is not None:
             self._list.cursor = at
 
     def action_toggle_changed(self) -> None:
         """Only what differs from its default, or all."""
-        self._poll(replace(self._view, only_changed=not self._view.only_changed, folded_matches=frozenset()))
+        self._change_view(replace(self._view, only_changed=not self._view.only_changed, folded_matches=frozenset()))
 
-    def _poll(self, view: View) -> None:
+    def _change_view(self, view: View) -> None:
         """Show something else; the parameter at the cursor, which a filter has found, is seen without it, too."""
         parameter = self._at()
         if parameter is not None and not view.filtering and self._view.filtering:
@@ -335,7 +349,3 @@ class ParametersPane(EditPane):
             return answer
 
         self.host.call_later(partial(self.ask_file, "save to", "parameters.yaml", save, replaces=False))
-
-    def on_resize(self) -> None:
-        """The detail is wrapped anew."""
-        self.call_after_refresh(self._describe)

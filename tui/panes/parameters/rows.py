@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 
 from bot_console.tui.console.model import ParameterInfo, ParameterTree
+from bot_console.tui.console.parameters.safety import DISTANCE, importance
 from bot_console.tui.console.query import Query
 
 BUILT_IN = ("use_sim_time", "start_type_description_service")
@@ -46,6 +47,9 @@ class View:
     folded_matches: Collection[str] = frozenset()
     """What was closed since a filter came: what it finds is seen, however the tree was left."""
 
+    essential: bool = False
+    """Whether, without a filter, only the parameters that decide how the robot drives are shown, in a flat list."""
+
     @property
     def filtering(self) -> bool:
         """Whether only some parameters are shown: those that pass a filter, or that differ."""
@@ -82,6 +86,8 @@ class TreeRows:
         if view != self._view:
             self._made.clear()
             self._view = view
+        if view.essential and not view.filtering:
+            return essential_rows(trees)
         found: list[Row] = []
         spaces = _spaces(tuple(trees))
         shown: dict[str, list[Row]] = {}
@@ -134,6 +140,21 @@ class TreeRows:
         found = list(_below(name, parameters, 0, depth, folded))
         self._below[name] = (parameters, depth, folded, found)
         return found
+
+
+def essential_rows(trees: Mapping[str, ParameterTree]) -> list[Row]:
+    """The parameters that decide how the robot drives; where none does, numbers with a range, else all parameters."""
+    found = [each for tree in trees.values() for each in tree.parameters if not _is_built_in(each.name)]
+    ranked = [(rank, each) for each in found if (rank := importance(each)) is not None and rank <= DISTANCE]
+    best = [each for _, each in sorted(ranked, key=lambda pair: pair[0])]
+    return [Row(each.node, each.name, 0, each) for each in best or [each for each in found if each.range] or found]
+
+
+def worth_changing(found: Sequence[Row]) -> int:
+    """The row that the cursor begins on: the parameter that matters most, else the first one, else the first row."""
+    parameters = [(at, row.parameter) for at, row in enumerate(found) if row.parameter is not None]
+    ranked = [(rank, at) for at, each in parameters if (rank := importance(each)) is not None]
+    return min(ranked)[1] if ranked else parameters[0][0] if parameters else 0
 
 
 def rows(trees: Mapping[str, ParameterTree], view: View) -> list[Row]:

@@ -197,6 +197,8 @@ class WorldPane(Pane):
             where = f"{whose}{where}"
             text = f"{where}  {speed}  nearest {near}  "
             width = self.query_one(LiveFigures).content_size.width
+            if width and cell_len(text + more) > width:  # what may hit something matters more than where
+                text = f"{speed}  nearest {near}  "
             room = width - cell_len(text + more)
             text += (drawn.scale if len(drawn.scale) <= room or not width else drawn.scale_within(room)) + more
             stamp = self.time_cursor.stamp

@@ -51,9 +51,11 @@ def test_a_broken_file_is_named_and_the_others_are_there() -> None:
 
 def test_every_layout_that_comes_along_fits_where_it_reports() -> None:
     for name, layout in BUILT_IN.items():
-        assert Arrangement(name=name).tree(120, 40) == layout.tree, name
-    assert Arrangement().tree(200, 60) == BUILT_IN["overview"].wide
-    assert Arrangement().tree(80, 24) is None
+        assert Arrangement(name=name).tree(120, 40) == layout.form(120, 40), name
+    overview = BUILT_IN["overview"]
+    for size, tree in (*overview.forms, ((60, 20), overview.tree)):
+        assert Arrangement().tree(*size) == tree
+    assert Arrangement().tree(39, 19) is None
 
 
 def test_the_command_line_goes_before_the_settings() -> None:
