@@ -48,7 +48,9 @@ def test_pane(entry: Any, state: str, system: System, size: tuple[int, int], sna
     assert snap_compare(app_of(system), terminal_size=size, press=[entry.key])
 
 
-@pytest.mark.parametrize("size", [(100, 30), (120, 40), (200, 60)], ids=["small", "medium", "large"])
+@pytest.mark.parametrize(
+    "size", [(60, 20), (80, 24), (100, 30), (120, 40), (200, 60)], ids=["least", "compact", "small", "medium", "large"]
+)
 def test_overview(size: tuple[int, int], snap_compare: Any) -> None:
     assert snap_compare(app_of(live), terminal_size=size)
 
