@@ -6,6 +6,7 @@ from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 import launch.logging
+from bot_console.runtime.hints import did_you_mean
 from launch.action import Action
 
 if TYPE_CHECKING:
@@ -37,10 +38,7 @@ class WarnOfUndeclaredArguments(Action):
         for name in self._names:
             if name in ALWAYS_KNOWN or name in context.declared_arguments or name in context.read_configurations:
                 continue
-            import difflib
-
-            near = difflib.get_close_matches(name, sorted(context.declared_arguments), 1)
-            hint = f"; did you mean '{near[0]}'?" if near else ""
+            hint = did_you_mean(name, context.declared_arguments, "'")
             launch.logging.get_logger("launch").warning(
                 f"the launch argument '{name}' is neither declared nor read by the launch file{hint}"
             )

@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import launch.logging
 from ament_index_python.packages import PackageNotFoundError
+from bot_console.runtime.hints import at, no_package
 from bot_console.runtime.missing_packages import what_brings
+from bot_console.runtime.workspace.choices import package_names
 from bot_console.runtime.workspace.executables import executables
 from bot_console.runtime.workspace.not_found import to_add
 from launch.substitutions import SubstitutionFailure
@@ -47,8 +49,11 @@ def may_start(context: LaunchContext, action: Any, package: str | None) -> bool:
             context.emit_event_sync(event)
             return False
         if has:
-            logger.warning(f"{has} --allow-missing leaves out what is missing")
+            logger.warning(at(action.origin, f"{has} --allow-missing leaves out what is missing"))
         else:
+            meant = at(action.origin, no_package(package or "", package_names()))
+            if meant:
+                logger.warning(meant)
             logger.warning(
                 f"a node of package '{package}' cannot run here. {brings} Leave out what is missing with "
                 "--allow-missing, or run this launch file on a machine where the package is installed"

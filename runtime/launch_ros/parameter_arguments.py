@@ -7,7 +7,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
+from bot_console.runtime.hints import is_read
 from bot_console.runtime.process.scratch import scratch_file
+from bot_console.runtime.rmw.parameter_places import FROM_LAUNCH
 from bot_console.runtime.workspace.parameter_files import hint_for
 from launch_ros.descriptions.parameter_file import PREFIX
 
@@ -35,14 +37,14 @@ def global_parameter_arguments(global_params: Iterable[Any]) -> list[ParameterAr
 
 
 def own_parameter_arguments(
-    context: LaunchContext, parameters: Sequence[Any], node_name: str | None, logger: Any
+    context: LaunchContext, parameters: Sequence[Any], node_name: str | None, logger: Any, origin: str = ""
 ) -> list[ParameterArgument]:
     """Return a node's own parameters; a dict becomes a file for the node's full name, or for any node if None."""
     found: list[ParameterArgument] = []
     for each in parameters:
         if isinstance(each, Mapping):
             values = cast("Mapping[Any, Any]", each)
-            found.append((write_parameters(values, node_name), True))
+            found.append((write_parameters(values, node_name, origin), True))
         elif isinstance(each, Path):
             if each.is_file():
                 found.append((str(each), True))
@@ -65,9 +67,13 @@ def _rule(name: str, value: Any) -> str:
     return f"{name}:={yaml.dump(value)}"
 
 
-def write_parameters(parameters: Mapping[str, Any], node_name: str | None) -> str:
-    """Write a new parameter file and return its path. Lists get a tag that parameter parsers ignore, as upstream."""
+def write_parameters(parameters: Mapping[str, Any], node_name: str | None, origin: str = "") -> str:
+    """Write a new parameter file and return its path. Lists get a tag that parameter parsers ignore, as upstream.
+
+    Where a person reads hints, it begins with a comment that names the `origin` of the values in a launch file.
+    """
     import yaml
 
     content = {node_name or "/**": {"ros__parameters": dict(parameters)}}
-    return str(scratch_file(PREFIX, yaml.dump(content, default_flow_style=False)))
+    comment = f"{FROM_LAUNCH}{origin}\n" if origin and is_read() else ""
+    return str(scratch_file(PREFIX, comment + yaml.dump(content, default_flow_style=False)))

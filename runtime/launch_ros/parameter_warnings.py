@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
-from functools import lru_cache
-from typing import TYPE_CHECKING, Any, cast
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
 
 import launch.logging
+from bot_console.runtime.rmw.parameter_places import node_keys
 from bot_console.runtime.rmw.parameter_precedence import key_matches
 from bot_console.runtime.rmw.parameter_scalars import INT64_MAX, INT64_MIN, scalar_value
 from bot_console.runtime.rmw.parameter_types import word_of
@@ -18,43 +18,23 @@ from launch_ros.descriptions.parameter_value import ParameterValue
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
-PARAMETERS_KEY = "ros__parameters"
-
 
 def warn_of_files(files: Iterable[str], node_name: str, origin: str) -> None:
     """Warn of each file that has no key for the node."""
     for path in files:
-        keys = _keys_of(path, os.path.getmtime(path)) if os.path.isfile(path) else ()
+        keys = _keys_of(path) if os.path.isfile(path) else ()
         if keys and not any(key_matches(key, node_name) for key, _ in keys):
             named = ", ".join(f"{key} (line {line})" for key, line in keys[:5])
             _warn(origin, f"no key of the parameter file {path} means the node {node_name}; it has {named}")
 
 
-@lru_cache(maxsize=64)
-def _keys_of(path: str, _changed: float) -> tuple[tuple[str, int], ...]:
+def _keys_of(path: str) -> tuple[tuple[str, int], ...]:
     """Return a file's node keys with their lines; none if it cannot be read, which the node reports better."""
-    import yaml
-
     try:
         with open(path, encoding="utf-8") as file:
-            untyped: Any = yaml  # the stubs leave `compose` untyped
-            root = untyped.compose(file, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError):
+            return tuple(node_keys(file.read()))
+    except (OSError, UnicodeDecodeError):
         return ()
-    return tuple(_node_keys(root, ""))
-
-
-def _node_keys(node: Any, prefix: str) -> Iterator[tuple[str, int]]:
-    pairs: Iterable[Any] = node.value if isinstance(node and node.value, list) else ()
-    for pair in pairs:
-        if not isinstance(pair, tuple):
-            return
-        of_node = cast("tuple[Any, ...]", pair)
-        key, value = of_node
-        if key.value == PARAMETERS_KEY:
-            yield prefix, node.start_mark.line
-        else:
-            yield from _node_keys(value, f"{prefix}/{key.value}" if prefix else str(key.value))
 
 
 def warn_of_values(context: LaunchContext, given: Mapping[Any, Any], evaluated: Mapping[str, Any], origin: str) -> None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import ProcessLocal, explain_with
 from rclpy.context import Context as Context
+from rclpy.impl.unused_overrides import report_unused_overrides
 from rclpy.parameter import Parameter as Parameter
 from rclpy.signals import SignalHandlerOptions as SignalHandlerOptions
 from rclpy.signals import install_signal_handlers as install_signal_handlers
@@ -135,24 +136,11 @@ def spin(node: Node, executor: Executor | None = None) -> None:
     executor = get_global_executor() if executor is None else executor
     try:
         executor.add_node(node)
-        _report_unused(node)
+        report_unused_overrides(executor.context)
         while executor.context.ok():
             executor.spin_once()
     finally:
         executor.remove_node(node)
-
-
-def _report_unused(node: Node) -> None:
-    """Warn on a terminal of command-line values for parameters that are undeclared when spinning begins."""
-    from rclpy.impl.command_line import is_read
-
-    if is_read():
-        from bot_console.runtime.process import current
-        from bot_console.runtime.process.notices import notify
-        from rclpy.node_parts.unused_overrides import unused_overrides
-
-        for line in unused_overrides(node.context.tracked_nodes()):
-            notify(current(), line)
 
 
 def spin_until_future_complete(

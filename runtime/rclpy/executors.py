@@ -23,6 +23,7 @@ from rclpy.executor_parts.timer_heap import TimerHeap
 from rclpy.executor_parts.worker_pool import WorkerPool, cpu_count, report_unfetched_at_exit
 from rclpy.impl.explanations import spun_twice
 from rclpy.impl.reexports import reexporting
+from rclpy.impl.unused_overrides import report_unused_overrides
 from rclpy.task import Future, Task
 from rclpy.utilities import get_default_context, timeout_sec_to_nsec
 
@@ -144,6 +145,7 @@ class Executor(TaskQueue, ReadyCallbacks):
 
     def spin(self) -> None:
         """Run callbacks until shut down; raises `ExternalShutdownException` if the context is, while none runs."""
+        report_unused_overrides(self._context)
         while self._context.ok() and not self._is_shutdown:
             self.spin_once()
 
@@ -375,6 +377,7 @@ class MultiThreadedExecutor(Executor):
 
     def spin(self) -> None:
         """Run callbacks until shut down; returns silently if the context is shut down."""
+        report_unused_overrides(self._context)
         while self._context.ok() and not self._is_shutdown:
             self.spin_once()
 

@@ -73,7 +73,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         if not self.context.ok():
             raise NotInitializedException("cannot create node")
         self._ros_bus = self.context.bus
-        arguments = self._ros_read_arguments(cli_args, use_global_arguments)
+        arguments = self._ros_arguments = self._ros_read_arguments(cli_args, use_global_arguments)
         self._ros_choose_name(node_name, namespace or "", arguments)
         self._logger = get_logger(_logger_name(self._ros_namespace, self._ros_name))
         self._ros_id = self._ros_bus.add_node(

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from bot_console.runtime.hints import assignment, did_you_mean
 from bot_console.runtime.rmw.lexer import GrammarError, Lexeme, Lexer
 from bot_console.runtime.rmw.names import validate_namespace
 from bot_console.runtime.rmw.parameter_precedence import ParameterTable, ParameterYamlError
@@ -82,10 +83,8 @@ def _parse_outside(word: str, parsed: Arguments) -> None:
 
 def meant(word: str) -> str:
     """Suggest the ROS argument that a mistyped one may mean, as a sentence; empty if none is similar."""
-    from difflib import get_close_matches  # imported only for a mistyped argument, which is rare
-
-    near = get_close_matches(word, [*_VALUED, *_SWITCHES], 1)
-    return f"{word} is no argument of ROS; did you mean {near[0]}?" if near else ""
+    near = did_you_mean(word, [*_VALUED, *_SWITCHES])
+    return f"{word} is no argument of ROS{near}" if near else ""
 
 
 def _parse_flag(word: str, rest: Iterable[str], parsed: Arguments) -> None:
@@ -109,12 +108,8 @@ def _parameter(word: str, value: str, parsed: Arguments) -> None:
         lexer.expect(Lexeme.SEPARATOR)
         parsed.parameters.add_value(node, name, value[lexer.index :])
     except (GrammarError, ParameterYamlError) as error:
-        hint = "" if ":=" in value or "=" not in value else f"write {word} {value.replace('=', ':=', 1)}, with a colon"
-        if value.endswith(":="):
-            hint = f"the value follows without a blank: {word} {value}VALUE"
-        raise ArgumentsError(
-            f"Couldn't parse parameter override rule: '{word} {value}'. Error: {error}", hint
-        ) from None
+        text = f"Couldn't parse parameter override rule: '{word} {value}'. Error: {error}"
+        raise ArgumentsError(text, assignment(word, value)) from None
 
 
 def _parameter_name(lexer: Lexer) -> str:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import re
 from typing import Any
 
+from bot_console.runtime import hints
 from bot_console.runtime.remote_address import is_remote
 from bot_console.runtime.rmw.missing_parameter_files import hint_for
 from bot_console.runtime.rmw.names import validate_namespace, validate_node_name
@@ -55,7 +57,7 @@ def read_parameter_file(path: str, overrides: ParameterOverrides) -> None:
         text = f"Error parsing a event near line {reader.line}"
         raise ParameterYamlError(text, _not_yaml(path, content, error)) from None
     except ParameterYamlError as error:
-        error.hint = _underscore(path, content)
+        error.hint = _misspelt(path, content, error)
         raise
 
 
@@ -69,14 +71,25 @@ def _not_yaml(path: str, content: bytes, error: Exception) -> str:
     lines = content.decode("utf-8", "replace").splitlines()
     line = lines[number] if number < len(lines) else ""
     tab = "\t" in line[: len(line) - len(line.lstrip())]
-    why = "it is indented by a tab, and YAML takes spaces alone" if tab else problem
-    return f"{path}:{number + 1}: {why}"
+    if not tab and (unspaced := _unspaced(path, lines[: number + 1])):
+        return unspaced
+    return f"{path}:{number + 1}: {hints.TAB if tab else problem}"
 
 
-def _underscore(path: str, content: bytes) -> str:
-    for number, line in enumerate(content.decode("utf-8", "replace").splitlines(), 1):
+def _misspelt(path: str, content: bytes, error: Exception) -> str:
+    lines = content.decode("utf-8", "replace").splitlines()
+    for number, line in enumerate(lines, 1):
         if line.strip().startswith("ros_parameters:"):
-            return f"{path}:{number}: ros_parameters has one underscore, ros__parameters has two"
+            return f"{path}:{number}: {hints.UNDERSCORE}"
+    named = re.search(r"line (?:\d+)", str(error))
+    return _unspaced(path, lines[: int(named[0].split()[1])] if named else lines)
+
+
+def _unspaced(path: str, lines: list[str]) -> str:
+    """The nearest line up to where parsing stopped that lacks the blank after its colon; empty if there is none."""
+    for number in range(len(lines), max(0, len(lines) - 3), -1):
+        if text := hints.unspaced_colon(lines[number - 1]):
+            return f"{path}:{number}: {text}"
     return ""
 
 

@@ -7,7 +7,8 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
 
-from bot_console.runtime.exit_messages import is_read
+from bot_console.runtime.hints import did_you_mean, is_read
+from bot_console.runtime.hints import wrong_type as _written
 
 FEW = 8
 """Names that fit a hint of one line or two."""
@@ -22,14 +23,15 @@ def advise(text: Callable[[], str]) -> None:
 
 def no_parameter(node: str, name: str, names: Iterable[str]) -> str:
     """The hint that a node does not declare a parameter, with the most similar name that it does declare."""
-    return f"{node} has no parameter {name}{_meant(name, names) or f'; ros2 param list {node} shows those it has'}"
+    meant = did_you_mean(name, names)
+    return f"{node} has no parameter {name}{meant or f'; ros2 param list {node} shows those it has'}"
 
 
 def no_node(name: str, names: Sequence[str]) -> str:
     """The hint that no node with the name runs, with the most similar one that does, or all of them if they are few."""
     if not names:
         return "no node runs in this ROS domain"
-    near = _meant(name, names)
+    near = did_you_mean(name, names)
     listed = f"; there are: {', '.join(names)}" if len(names) <= FEW else ""
     return f"no node {name} runs{near or listed}"
 
@@ -39,7 +41,7 @@ def no_subscription(topic: str, kind: str, kinds: Iterable[str], subscribed: Ite
     others = sorted(set(kinds) - {kind})
     if others:
         return f"{topic} is subscribed to as {', '.join(others)}, which does not match {kind}"
-    near = _meant(topic, subscribed)
+    near = did_you_mean(topic, subscribed)
     return f"nobody subscribes to {topic}{near}" if near else ""
 
 
@@ -48,9 +50,7 @@ def wrong_type(name: str, value: str, reason: str) -> str:
     found = re.match(_WRONG_TYPE, reason)
     if found is None:
         return ""
-    from rclpy.impl.written_values import written
-
-    return written(name, value, *found.groups())
+    return _written(name, value, *found.groups())
 
 
 def usage(words: Sequence[str]) -> str:
@@ -69,10 +69,3 @@ def launch_files(package: str, names: Sequence[str]) -> str:
     if not names:
         return f"package '{package}' has no launch files; they are in its folder launch/, and setup.py installs them"
     return f"package '{package}' has: {', '.join(names)}"
-
-
-def _meant(word: str, known: Iterable[str]) -> str:
-    from difflib import get_close_matches  # imported late: only a mistyped name needs it
-
-    near = get_close_matches(word, list(known), 1)
-    return f"; did you mean {near[0]}?" if near else ""

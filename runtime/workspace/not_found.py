@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bot_console.runtime.hints import did_you_mean
 from bot_console.runtime.workspace.choices import all_executable_names, package_names
 from bot_console.runtime.workspace.discover import workspace
 
@@ -9,8 +10,10 @@ from bot_console.runtime.workspace.discover import workspace
 def no_package(package: str) -> str:
     """For a package that nobody has."""
     folders = ", ".join(map(str, workspace().folders)) or "no folder"
+    names = package_names()
+    meant = did_you_mean(package, names, "'")
     return (
-        f"Package '{package}' not found, and there is no such file. There are: {', '.join(package_names())}. "
+        f"Package '{package}' not found, and there is no such file{meant or '.'} There are: {', '.join(names)}. "
         f"Packages are folders with a package.xml; looked for in {folders}"
     )
 

@@ -68,6 +68,9 @@ def run(log_lines: list[str], monkeypatch: pytest.MonkeyPatch) -> Launch:
     """Run entities, with launch arguments, to the end."""
     import os
 
+    from bot_console.runtime.process.virtual.install import install_virtual_process
+
+    install_virtual_process()  # before `os.environ` is noted, or its end would undo a part of it
     monkeypatch.setattr(os, "environ", os.environ)
     before = dict(os.environ)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from bot_console.runtime.child_environment import child_environment
+from bot_console.runtime.hints import for_children
 from launch.child.child import Child, Output
 from launch.child.forked_child import start_forked_child
 from launch.child.node_child import start_node_child
@@ -25,6 +26,7 @@ async def start_child(
     output: Output,
 ) -> Child:
     """Run a command, or the Python program it stands for; raises whatever starting it raises, mostly `OSError`."""
+    env = {**env, **for_children()}
     if program is None or own_process:
         env = child_environment(env)
     if program is None:

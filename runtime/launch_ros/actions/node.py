@@ -220,7 +220,7 @@ class Node(ExecuteProcess):
         for entry, found in zip(self.__parameters, evaluated, strict=True):
             if isinstance(entry, dict):
                 warn_of_values(context, cast("dict[Any, Any]", entry), found, self.origin)
-        self.__expanded_parameters += own_parameter_arguments(context, evaluated, target, self.__logger)
+        self.__expanded_parameters += own_parameter_arguments(context, evaluated, target, self.__logger, self.origin)
         if self.__name is not None:
             files = [str(each) for each in evaluated if isinstance(each, Path)]
             warn_of_files(files, self._likely_name(), self.origin)

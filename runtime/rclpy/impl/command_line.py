@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from bot_console.runtime.exit_messages import is_read
+from bot_console.runtime.hints import is_read
 from bot_console.runtime.process.crashes import HINT
 from bot_console.runtime.rmw import arguments
 from bot_console.runtime.rmw.arguments import Arguments, ArgumentsError

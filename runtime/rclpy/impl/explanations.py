@@ -8,12 +8,13 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-from bot_console.runtime.exit_messages import is_read
+from bot_console.runtime.hints import at, is_read, read_before_declared, wrong_type
 from bot_console.runtime.process import current
 from bot_console.runtime.process.frames import line_outside
 from bot_console.runtime.process.notices import notify
+from bot_console.runtime.rmw.parameter_places import place_of
 from rclpy.impl.callables import is_coroutine
-from rclpy.impl.written_values import literal_text, written
+from rclpy.impl.written_values import literal_text
 
 WRONG_PARAMETER = (
     "Parameter is imported from rcl_interfaces.msg here, where it is the message class: it has no Parameter.Type and "
@@ -37,6 +38,11 @@ SPUN_TWICE = (
     "program. Spin in one thread only, or give each thread an executor of its own: rclpy.spin(node, executor)"
 )
 
+GIVEN_BY = "_ros_given_by"
+"""Attribute of an exception about an overridden value: where the value is from, the node's full name, the parameter."""
+DECLARED = "_ros_declared"
+"""Attribute of an exception about an undeclared parameter: the names that the node has declared."""
+
 _EXPECTED = re.compile(r"expecting type '(\w+)'")
 
 
@@ -45,9 +51,11 @@ def explain(exception: BaseException) -> str | None:
     for is_it, text in _KNOWN:
         if is_it(exception):
             return f"{_users_line(exception)}{text}"
-    if text := _wrong_type(exception):
-        return f"{_users_line(exception)}{text}"
-    return None
+    text = _wrong_type(exception) or _refused_value(exception) or _not_declared(exception)
+    if not text:
+        return None
+    place = _place_of_value(exception)
+    return at(place, text) if place else f"{_users_line(exception)}{text}"
 
 
 def _wrong_parameter(exception: BaseException) -> bool:
@@ -99,7 +107,30 @@ def _wrong_type(exception: Any) -> str:
         return ""
     found = _EXPECTED.search(str(exception.args[0]))
     given = exception.param
-    return written(given.name, literal_text(given.value), found[1], given.type_.name) if found else ""
+    return wrong_type(given.name, literal_text(given.value), found[1], given.type_.name) if found else ""
+
+
+def _refused_value(exception: Any) -> str:
+    """Which value was refused, if it came from a file: the exception does not say where from."""
+    if type(exception).__name__ != "InvalidParameterValueException" or not is_read():
+        return ""
+    return "the node refuses this value" if _place_of_value(exception) else ""
+
+
+def _not_declared(exception: Any) -> str:
+    """What a parameter is called that was used without being declared, or how to declare it."""
+    if type(exception).__name__ != "ParameterNotDeclaredException" or not is_read():
+        return ""
+    declared = getattr(exception, DECLARED, None)
+    names = str(exception.args[0]).rpartition(": ")[2]
+    name = next(iter(re.findall(r"[^\s\[\]',]+", names)), "")
+    return read_before_declared(name, declared) if name and declared is not None else ""
+
+
+def _place_of_value(exception: Any) -> str:
+    """The line of a file that gives the refused value; empty if it is from no file."""
+    source, node, name = getattr(exception, GIVEN_BY, ("", "", ""))
+    return place_of(source, node, name)
 
 
 _KNOWN: tuple[tuple[Callable[[BaseException], bool], str], ...] = (

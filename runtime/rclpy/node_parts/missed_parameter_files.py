@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
+from bot_console.runtime.hints import at, key_of_another_node
+from bot_console.runtime.rmw.parameter_places import place_of_key
 from bot_console.runtime.rmw.parameter_precedence import COMMAND_LINE, key_matches
 
 if TYPE_CHECKING:
@@ -27,7 +29,7 @@ def missed_files(table: ParameterTable, node: str, others: Collection[str]) -> I
         free = [key for key in keys if not any(key_matches(key, each) for each in others)]
         near = _nearest(node, free) or (free[0] if len(keys) == 1 and free else "")
         if near:
-            yield f"{path} gives {node} no parameter: its key '{near}' does not mean it; did you mean '{node}'?"
+            yield at(place_of_key(path, near), key_of_another_node(node, near))
 
 
 def _keys_by_file(table: ParameterTable) -> dict[str, list[str]]:

@@ -14,7 +14,7 @@ from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent, SetParametersResult
 from rclpy.exceptions import ParameterNotDeclaredException
-from rclpy.impl.explanations import invalid_result
+from rclpy.impl.explanations import DECLARED, invalid_result
 from rclpy.node_parts.parameter_descriptors import refusal
 from rclpy.node_parts.parameter_events import check_carried, event_parameter, parameter_event
 from rclpy.parameter import Parameter
@@ -93,7 +93,9 @@ class ParameterSetting:
         undeclared = (parameter._name for parameter in parameters if parameter._name not in known)
         # `any` consumes names up to the first non-empty one; the message lists the rest, as upstream's does.
         if any(undeclared):
-            raise ParameterNotDeclaredException(list(undeclared))
+            error = ParameterNotDeclaredException(list(undeclared))
+            setattr(error, DECLARED, known)
+            raise error
 
     def _ros_commit(
         self,

@@ -17,6 +17,7 @@ from rclpy.exceptions import (
     ParameterNotDeclaredException,
     ParameterUninitializedException,
 )
+from rclpy.impl.explanations import DECLARED, GIVEN_BY
 from rclpy.node_parts.parameter_declarations import read_declaration
 from rclpy.node_parts.parameter_descriptors import refusal
 from rclpy.node_parts.parameter_names import listed
@@ -113,9 +114,19 @@ class NodeParameters(ParameterSetting):
         result = self._ros_commit([parameter], descriptors, keep_not_set=True)
         if result.successful:
             return
+        name = parameter.name
+        error: InvalidParameterTypeException | InvalidParameterValueException
         if result.reason.startswith("Wrong parameter type"):
-            raise InvalidParameterTypeException(parameter, Parameter.Type(descriptors[parameter.name].type).name)
-        raise InvalidParameterValueException(parameter.name, parameter.value, result.reason)
+            error = InvalidParameterTypeException(parameter, Parameter.Type(descriptors[name].type).name)
+        else:
+            error = InvalidParameterValueException(name, parameter.value, result.reason)
+        setattr(error, GIVEN_BY, (self._ros_override_sources.get(name, ""), self._ros_event_node_name, name))
+        raise error
+
+    def _ros_undeclared(self, name: str) -> ParameterNotDeclaredException:
+        error = ParameterNotDeclaredException(name)
+        setattr(error, DECLARED, self._parameters)
+        return error
 
     def undeclare_parameter(self, name: str) -> None:
         """Remove a parameter, without event or callback.
@@ -123,7 +134,7 @@ class NodeParameters(ParameterSetting):
         Raises `ParameterNotDeclaredException`, and `ParameterImmutableException` for a read-only one.
         """
         if name not in self._parameters:
-            raise ParameterNotDeclaredException(name)
+            raise self._ros_undeclared(name)
         if self._descriptors[name].read_only:
             raise ParameterImmutableException(name)
         del self._parameters[name]
@@ -142,7 +153,7 @@ class NodeParameters(ParameterSetting):
         if parameter is None:
             if self._allow_undeclared_parameters:
                 return Parameter(name, NOT_SET, None)
-            raise ParameterNotDeclaredException(name)
+            raise self._ros_undeclared(name)
         if parameter._type_ is NOT_SET and not self._descriptors[name].dynamic_typing:
             raise ParameterUninitializedException(name)
         return parameter
@@ -168,7 +179,7 @@ class NodeParameters(ParameterSetting):
             return self._parameters[name].type_.value
         if self._allow_undeclared_parameters:
             return NOT_SET
-        raise ParameterNotDeclaredException(name)
+        raise self._ros_undeclared(name)
 
     def get_parameter_types(self, names: Sequence[str]) -> list[Any]:
         """The types of several parameters; raises what `get_parameter_type` raises, and `TypeError`."""
@@ -201,7 +212,7 @@ class NodeParameters(ParameterSetting):
             return self._descriptors[name]
         if self._allow_undeclared_parameters:
             return ParameterDescriptor()
-        raise ParameterNotDeclaredException(name)
+        raise self._ros_undeclared(name)
 
     def describe_parameters(self, names: Sequence[str]) -> list[ParameterDescriptor]:
         """The descriptors of several parameters; raises what `describe_parameter` raises."""

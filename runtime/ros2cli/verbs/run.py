@@ -10,7 +10,11 @@ import subprocess
 import sys
 
 from ament_index_python.packages import PackageNotFoundError
+from bot_console.runtime.rmw.missing_parameter_files import find_with
 from bot_console.runtime.workspace.executables import Executable, executables
+from bot_console.runtime.workspace.not_found import no_executable, no_package
+from bot_console.runtime.workspace.parameter_files import hint_for
+from ros2cli.advice import advise
 from ros2cli.command import Command, Result
 
 RQT = {
@@ -42,9 +46,12 @@ def _run(arguments: argparse.Namespace) -> Result:
     try:
         found = executables(arguments.package_name)
     except (PackageNotFoundError, ValueError):
+        advise(lambda: no_package(arguments.package_name))
         return f"Package '{arguments.package_name}' not found"
     if arguments.executable_name not in found:
+        advise(lambda: no_executable(arguments.package_name, arguments.executable_name))
         return "No executable found"
+    find_with(hint_for)
     return run(found[arguments.executable_name], arguments.argv, arguments.prefix)
 
 

@@ -38,7 +38,9 @@ def test_a_key_that_looks_mistyped_or_is_all_there_is_is_named_once(
     assert node.declare_parameter("speed", 1.0).value == 1.0
     ros.node("_robot_nodes_hidden_helper")
     full = f"{space}/robot_node"
-    assert reported == [f"{file} gives {full} no parameter: its key '{key}' does not mean it; did you mean '{full}'?"]
+    assert reported == [
+        f"{file}:1: {full} gets no parameter of this file: its key '{key}' does not mean it; did you mean '{full}'?"
+    ]
 
 
 @pytest.mark.parametrize("keys", [("/**",), ("robot_node", "robto_node"), ("/*",), ("camera", "arm")])

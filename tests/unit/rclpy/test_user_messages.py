@@ -12,12 +12,13 @@ from bot_console.runtime.process.notices import on_notice
 from rclpy.context import Context
 from rclpy.exceptions import InvalidParameterTypeException
 from rclpy.impl import command_line, explanations
-from rclpy.node_parts.unused_overrides import unused_overrides
+from rclpy.impl import unused_overrides as unused
+from rclpy.impl.unused_overrides import unused_overrides
 
 
 @pytest.fixture(params=[True, False])
 def read(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> bool:
-    for each in (command_line, explanations):
+    for each in (command_line, explanations, unused):
         monkeypatch.setattr(each, "is_read", lambda: request.param)
     return bool(request.param)
 

@@ -16,6 +16,7 @@ from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING
 
+from bot_console.runtime.hints import SHOW
 from bot_console.runtime.importer import install
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ def main(words: Sequence[str] | None = None) -> int:
     """Serve until everything has ended: at a console's request, by a signal, or because the owner is gone."""
     given = _parser().parse_args(words)
     install()
+    os.environ[SHOW] = "1"  # what launched programs report is for the log, which a person reads
     from bot_console.tui.cli.live.launchers import launcher_here
     from bot_console.tui.cli.live.snapshot_buffer import overhear
     from bot_console.tui.cli.system.domain import take_part

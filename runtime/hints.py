@@ -1,0 +1,96 @@
+"""The texts of hints about common mistakes, with their rules: what `lint`, `run`, `launch` and the verbs say alike.
+
+A hint goes beyond the words of ROS 2, and never changes what happens. Modules that notice a mistake call these
+functions; where the mistake was made is put before the text, as `file:line: text`.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Sequence
+
+from bot_console.runtime.exit_messages import is_read as stderr_is_terminal
+
+SHOW = "BOT_CONSOLE_HINTS"
+"""Set for processes of a launch whose output a person reads: in a terminal, or in the console's log."""
+
+UNDERSCORE = "ros_parameters has one underscore, ros__parameters has two"
+TAB = "it is indented by a tab, and YAML takes spaces alone"
+_UNSPACED = re.compile(r"^\s*(?:- )?([A-Za-z_/][\w./]*):([^\s:/#][^:#]*?)\s*(?:#.*)?$")
+
+
+def is_read() -> bool:
+    """Whether a person reads what this process prints: hints are for people alone."""
+    return SHOW in os.environ or stderr_is_terminal()
+
+
+def for_children() -> dict[str, str]:
+    """What to add to the environment of a child, so that its hints are shown where those of this process are."""
+    return {SHOW: "1"} if is_read() else {}
+
+
+def at(place: str, text: str) -> str:
+    """A hint after the place, `file:line`, that has to change; without one if that is unknown."""
+    return f"{place}: {text}" if place and text else text
+
+
+def did_you_mean(word: str, known: Iterable[str], quote: str = "") -> str:
+    """`; did you mean NAME?` with the most similar known name; empty if none is similar."""
+    from difflib import get_close_matches  # imported late: only a mistyped name needs it
+
+    near = get_close_matches(word, sorted(known), 1)
+    return f"; did you mean {quote}{near[0]}{quote}?" if near else ""
+
+
+def wrong_type(name: str, value: str, expected: str, given: str) -> str:
+    """How to write a value of the expected type; type names as in `rclpy.Parameter.Type`."""
+    if (expected, given) == ("DOUBLE", "INTEGER"):
+        point = f"{value}.0" if value.lstrip("+-").isdecimal() else "it with a point"
+        return f"{name} is a double, which takes no integer: write {point}"
+    if expected == "STRING":
+        return f"{name} is a string: write '\"{value}\"', as {value} alone is read as {given.lower().replace('_', ' ')}"
+    if expected == "BOOL":
+        return f"{name} is a bool: write true or false"
+    return f"{name} takes values of the type {expected.lower().replace('_', ' ')}"
+
+
+def not_declared(nodes: Sequence[str], name: str, declared: Iterable[str]) -> str:
+    """The hint that a value sets nothing, as none of the nodes declares the parameter."""
+    who = f"{nodes[0]} declares" if len(nodes) == 1 else f"{', '.join(nodes)} declare"
+    return f"sets nothing: {who} no parameter {name}{did_you_mean(name, declared)}"
+
+
+def read_before_declared(name: str, declared: Iterable[str]) -> str:
+    """The hint for a parameter that a node reads or sets, and has not declared."""
+    meant = did_you_mean(name, declared)
+    return f"the parameter {name} is not declared" + (
+        meant or f": a node declares each of its parameters first, as in self.declare_parameter('{name}', DEFAULT)"
+    )
+
+
+def key_of_another_node(node: str, key: str) -> str:
+    """The hint for a parameter file none of whose keys means the node."""
+    return f"{node} gets no parameter of this file: its key '{key}' does not mean it; did you mean '{node}'?"
+
+
+def unspaced_colon(line: str) -> str:
+    """The hint for a line of YAML such as `max_speed:2.0`, which is one word there; empty for other lines."""
+    found = _UNSPACED.match(line)
+    return f"YAML needs a blank after the colon: write {found[1]}: {found[2]}" if found else ""
+
+
+def assignment(flag: str, value: str) -> str:
+    """How to write the assignment of a parameter on the command line; empty if its form is not the mistake."""
+    if value.endswith(":="):
+        return f"the value follows without a blank: {flag} {value}VALUE"
+    for sign in ("=", ":"):
+        if ":=" not in value and sign in value:
+            return f"write {flag} {value.replace(sign, ':=', 1)}, with {'a colon' if sign == '=' else 'an equals sign'}"
+    return ""
+
+
+def no_package(package: str, packages: Iterable[str]) -> str:
+    """The hint for a package that is nowhere: a similar one; empty if there is none."""
+    meant = did_you_mean(package, packages, "'")
+    return f"there is no package '{package}'{meant}" if meant else ""

@@ -1,0 +1,57 @@
+"""Values of the command line and of files that no node declares a parameter for: ROS 2 says nothing of them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from bot_console.runtime.hints import at, is_read, not_declared
+from bot_console.runtime.process import current
+from bot_console.runtime.process.notices import notify
+from bot_console.runtime.rmw.parameter_places import place_of
+from bot_console.runtime.rmw.parameter_precedence import COMMAND_LINE, key_matches
+
+BY_PUBLISHERS = "qos_overrides."
+"""Parameters with such names are declared when a publisher or a subscription is made."""
+WRITTEN_BY_LAUNCH = "launch_params_"
+"""How the names of files begin that launch has written for one node."""
+
+
+def report_unused_overrides(context: Any) -> None:
+    """Give a notice of each value that sets nothing, where a person reads it: to be called when spinning begins."""
+    if is_read():
+        for line in unused_overrides(context.tracked_nodes()):
+            notify(current(), line)
+
+
+def unused_overrides(nodes: Iterable[Any]) -> Iterator[str]:
+    """Yield a line for each value that is given to some of the nodes and declared by none.
+
+    Values below a wildcard of a file are left out: they are for many nodes, each of which may need but some.
+    """
+    given: dict[tuple[str, str], list[Any]] = {}
+    declared: set[str] = set()
+    for node in nodes:
+        if node._allow_undeclared_parameters:
+            return  # it may read any of them
+        declared |= node._parameters.keys()
+        for name, source in _meant_for(node):
+            if not name.startswith(BY_PUBLISHERS):
+                given.setdefault((name, source), []).append(node)
+    for (name, source), those in given.items():
+        if name not in declared:
+            names = [each.get_fully_qualified_name() for each in those]
+            what = f"-p {name}:=..." if source == COMMAND_LINE else f"{name}: ..."
+            yield at(place_of(source, names[0], name), f"{what} {not_declared(names, name, declared)}")
+
+
+def _meant_for(node: Any) -> Iterator[tuple[str, str]]:
+    """Name and source of each value that is meant for this very node."""
+    full = node.get_fully_qualified_name()
+    for arguments in node._ros_arguments:
+        for key, values in arguments.parameters.nodes.items():
+            for name, source in zip(values.names, values.sources, strict=True):
+                own = os.path.basename(source).startswith(WRITTEN_BY_LAUNCH)
+                if key_matches(key, full) and (source == COMMAND_LINE or own or "*" not in key):
+                    yield name, source
