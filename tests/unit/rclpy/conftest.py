@@ -1,4 +1,4 @@
-"""A context of its own for each test, with what nodes and executors a test makes in it."""
+"""A separate context for each test, with the nodes and executors that the test creates in it."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
 LONG = 20.0
-"""How long (s) a test waits for what it expects, before it fails."""
+"""How long (s) a test waits for an expected event before it fails."""
 
 _domains = itertools.count(1000)
 
 
 class Ros:
-    """Nodes of one domain, served by the test itself."""
+    """Nodes of one domain, served by the test."""
 
     def __init__(self) -> None:
         self.domain = next(_domains)
@@ -28,14 +28,14 @@ class Ros:
         self._executor: Any = None
 
     def init(self, *words: str) -> Context:
-        """Begin, with the words after `--ros-args`."""
+        """Initialize the context with the arguments after `--ros-args`."""
         self.context = Context()
         self.context.init(["test", "--ros-args", *words], domain_id=self.domain)
         self._executor = SingleThreadedExecutor(context=self.context)
         return self.context
 
     def node(self, name: str = "n", args: Sequence[str] = (), **options: Any) -> Node:
-        """A node that `spin` serves; `args` count only if the context has not begun."""
+        """Create a node served by `spin`; `args` apply only if the context is not initialized yet."""
         if self.context is None:
             self.init(*args)
         node = Node(name, context=self.context, **options)
@@ -43,26 +43,26 @@ class Ros:
         return node
 
     def spin(self, until: Callable[[], bool]) -> None:
-        """Serve all nodes until something is so."""
+        """Spin all nodes until a condition holds."""
         deadline = time.monotonic() + LONG
         while not until():
             assert time.monotonic() < deadline, "what the test waits for did not happen"
             self._executor.spin_once(timeout_sec=LONG)
 
     def settle(self) -> None:
-        """Serve what is there to be served now."""
+        """Run all callbacks that are ready now."""
         for _ in range(50):
             self._executor.spin_once(timeout_sec=0)
 
     def ask(self, node: Node, service: Any, name: str, **fields: Any) -> Any:
-        """The response of a service."""
+        """Call a service and return its response."""
         client = node.create_client(service, name)
         future = client.call_async(service.Request(**fields))
         self.spin(future.done)
         return future.result()
 
     def end(self) -> None:
-        """Let go of everything."""
+        """Destroy everything."""
         if self.context is None:
             return
         for node in self._executor.get_nodes():
@@ -81,7 +81,7 @@ def ros() -> Iterator[Ros]:
 
 @pytest.fixture
 def stepped_ros() -> Iterator[Ros]:
-    """Nodes in stepped time: what waits lets time jump to the next thing that happens."""
+    """Nodes in stepped time: waiting lets time jump to the next event."""
     with stepped(stall_s=30.0):
         made = Ros()
         yield made

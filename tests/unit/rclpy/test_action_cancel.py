@@ -1,4 +1,4 @@
-"""Which goals a cancel request means, and what becomes of them."""
+"""Which goals a cancel request refers to, and what happens to them."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ EARLY = Time(sec=1)
 
 
 class Held(Pair):
-    """Goals that are executed until `go` is done; the answer to cancel requests is `agree`."""
+    """Goals that execute until `go` is done; cancel requests are answered with `agree`."""
 
     def __init__(self, ros: Any, agree: Any = CancelResponse.ACCEPT) -> None:
         self.go: Future[None] = Future()
@@ -43,7 +43,7 @@ class Held(Pair):
         return self.agree
 
     def request(self, uuid: Any = None, stamp: Any = None) -> Any:
-        """The answer to a cancel request on the wire."""
+        """Send a cancel request with these fields and return the response."""
         info = GoalInfo(goal_id=uuid or UUID(), stamp=stamp or Time())
         return self.ros.ask(self.client_node, CancelGoal, "/fib/_action/cancel_goal", goal_info=info)
 
@@ -52,7 +52,7 @@ def ids(response: Any) -> list[bytes]:
     return [bytes(each.goal_id.uuid) for each in response.goals_canceling]
 
 
-def test_a_goal_is_cancelled(ros: Any) -> None:
+def test_goal_is_cancelled(ros: Any) -> None:
     pair = Held(ros)
     handle = pair.send(3)
     asked = handle.get_result_async()
@@ -63,7 +63,7 @@ def test_a_goal_is_cancelled(ros: Any) -> None:
     assert (result.status, list(result.result.sequence)) == (GoalStatus.STATUS_CANCELED, [3])
 
 
-def test_a_refused_cancel_changes_nothing(ros: Any) -> None:
+def test_rejected_cancel_changes_nothing(ros: Any) -> None:
     pair = Held(ros, CancelResponse.REJECT)
     handle = pair.send(3)
     answer = pair.outcome(handle.cancel_goal_async())
@@ -72,7 +72,7 @@ def test_a_refused_cancel_changes_nothing(ros: Any) -> None:
     assert pair.result(handle).status == GoalStatus.STATUS_SUCCEEDED
 
 
-def test_a_second_cancel_finds_the_goal_no_longer_cancelable(ros: Any) -> None:
+def test_second_cancel_finds_the_goal_no_longer_cancelable(ros: Any) -> None:
     pair = Held(ros)
     handle = pair.send()
     pair.outcome(handle.cancel_goal_async())
@@ -80,7 +80,7 @@ def test_a_second_cancel_finds_the_goal_no_longer_cancelable(ros: Any) -> None:
     assert (answer.return_code, ids(answer)) == (TERMINATED, [])
 
 
-def test_an_ended_goal_cannot_be_cancelled(ros: Any) -> None:
+def test_ended_goal_cannot_be_cancelled(ros: Any) -> None:
     pair = Held(ros)
     pair.go.set_result(None)
     handle = pair.send()
@@ -103,7 +103,9 @@ def test_an_ended_goal_cannot_be_cancelled(ros: Any) -> None:
         ("stranger", LATE, NONE, [1, 2, 3]),
     ],
 )
-def test_which_goals_are_meant(ros: Any, which: str, stamp: Any, code: int, cancelled: list[int]) -> None:
+def test_cancel_request_selects_goals_by_id_and_stamp(
+    ros: Any, which: str, stamp: Any, code: int, cancelled: list[int]
+) -> None:
     pair = Held(ros)
     handles = {order: pair.send(order) for order in (1, 2, 3)}
     uuid = {"none": None, "second": handles[2].goal_id, "stranger": UUID(uuid=[1] * 16)}[which]
@@ -112,7 +114,7 @@ def test_which_goals_are_meant(ros: Any, which: str, stamp: Any, code: int, canc
     assert ids(answer) == [bytes(handles[order].goal_id.uuid) for order in cancelled]
 
 
-def test_all_goals_are_asked_about_though_some_refuse(ros: Any) -> None:
+def test_cancel_request_asks_about_all_goals_even_if_some_are_rejected(ros: Any) -> None:
     pair = Held(ros)
     handles = {order: pair.send(order) for order in (1, 2, 3, 4)}
     pair.server.register_cancel_callback(
@@ -121,7 +123,7 @@ def test_all_goals_are_asked_about_though_some_refuse(ros: Any) -> None:
     assert ids(pair.request()) == [bytes(handles[3].goal_id.uuid)]
 
 
-def test_a_goal_may_be_cancelled_before_it_is_executed(ros: Any) -> None:
+def test_goal_may_be_cancelled_before_execution(ros: Any) -> None:
     pair = Held(ros)
     kept: list[Any] = []
     pair.server.register_handle_accepted_callback(kept.append)
@@ -133,7 +135,7 @@ def test_a_goal_may_be_cancelled_before_it_is_executed(ros: Any) -> None:
     assert pair.result(handle).status == GoalStatus.STATUS_CANCELED
 
 
-def test_a_goal_that_ends_while_the_cancel_callback_thinks(ros: Any) -> None:
+def test_goal_may_end_while_the_cancel_callback_runs(ros: Any) -> None:
     pair = Held(ros)
     thought: Future[None] = Future()
 
@@ -160,7 +162,7 @@ def _execute() -> Any:
     return GoalEvent.EXECUTE
 
 
-def test_cancelled_without_a_request_is_an_error(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
+def test_canceled_without_a_request_is_an_error(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
     def execute(handle: Any) -> Any:
         with pytest.raises(RCLError, match="from state EXECUTING with event CANCELED"):
             handle.canceled()

@@ -1,4 +1,4 @@
-"""Action clients: feedback, status, waiting, and what they refuse."""
+"""Action clients: feedback, status, waiting, and errors."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.task import Future
 
 
-def test_feedback_reaches_its_goal_alone(ros: Any) -> None:
+def test_feedback_reaches_only_its_goal(ros: Any) -> None:
     ready: list[Any] = []
     pair = Pair(ros, handle_accepted_callback=ready.append)
     seen: dict[str, list[list[int]]] = {"a": [], "b": []}
@@ -30,13 +30,13 @@ def test_feedback_reaches_its_goal_alone(ros: Any) -> None:
 
 
 class FreeWorker(SingleThreadedExecutor):
-    """Runs each task at once, as a pool does that has an idle thread."""
+    """Runs each task at once, like a pool with an idle thread."""
 
     def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Any:
         return callback(*args, **kwargs)
 
 
-def test_an_accepted_goal_has_its_status_when_its_future_is_done(ros: Any) -> None:
+def test_accepted_goal_has_its_status_when_its_future_is_done(ros: Any) -> None:
     client_side = FreeWorker(context=ros.init())
     go: Future[None] = Future()
 
@@ -100,20 +100,20 @@ def test_handle_follows_the_status(ros: Any) -> None:
     assert repr(handle).endswith("accepted=True, status=4>")
 
 
-def test_a_rejected_goal(ros: Any) -> None:
+def test_rejected_goal_has_unknown_status(ros: Any) -> None:
     pair = Pair(ros, goal_callback=lambda goal: GoalResponse.REJECT)
     handle = pair.send()
     assert (handle.accepted, handle.status) == (False, GoalStatus.STATUS_UNKNOWN)
     assert pair.result(handle).status == GoalStatus.STATUS_UNKNOWN
 
 
-def test_result_may_be_asked_often(ros: Any) -> None:
+def test_result_may_be_requested_repeatedly(ros: Any) -> None:
     pair = Pair(ros)
     handle = pair.send(5)
     assert [list(pair.result(handle).result.sequence) for _ in range(3)] == [[5]] * 3
 
 
-def test_handles_are_not_kept(ros: Any) -> None:
+def test_goal_handles_are_not_kept(ros: Any) -> None:
     pair = Pair(ros, handle_accepted_callback=lambda handle: None)
     for _ in range(20):
         pair.send()
@@ -123,7 +123,7 @@ def test_handles_are_not_kept(ros: Any) -> None:
     assert pair.client._goal_handles == {}
 
 
-def test_a_cancelled_request_is_forgotten(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
+def test_cancelled_send_is_forgotten(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
     pair = Pair(ros)
     sent = pair.client.send_goal_async(Fibonacci.Goal())
     sent.cancel()
@@ -143,7 +143,7 @@ def test_two_servers_of_an_action_are_reported(ros: Any, capfd: pytest.CaptureFi
     assert "Ignoring unexpected goal response" in capfd.readouterr().err
 
 
-def test_feedback_is_heard_until_the_result(ros: Any) -> None:
+def test_feedback_is_received_until_the_result(ros: Any) -> None:
     pair = Pair(ros)
     seen: list[Any] = []
     handle = pair.send(feedback_callback=seen.append)
@@ -154,14 +154,14 @@ def test_feedback_is_heard_until_the_result(ros: Any) -> None:
     assert seen == []
 
 
-def test_an_ended_goal_is_followed_no_more(ros: Any) -> None:
+def test_ended_goal_is_no_longer_tracked(ros: Any) -> None:
     pair = Pair(ros)
     handle = pair.send()
     ros.spin(lambda: handle.status == GoalStatus.STATUS_SUCCEEDED)
     assert pair.client._goal_handles == {}
 
 
-def test_the_exception_of_a_done_callback_comes_out_of_the_executor(ros: Any) -> None:
+def test_exception_of_a_done_callback_leaves_the_executor(ros: Any) -> None:
     def broken(future: Any) -> None:
         raise ValueError("in a done callback")
 
@@ -171,7 +171,7 @@ def test_the_exception_of_a_done_callback_comes_out_of_the_executor(ros: Any) ->
         ros.settle()
 
 
-def test_done_callbacks_may_ask_on(ros: Any) -> None:
+def test_done_callbacks_may_send_further_requests(ros: Any) -> None:
     pair = Pair(ros)
     order: list[str] = []
     pair.client.send_goal_async(Fibonacci.Goal()).add_done_callback(
@@ -180,7 +180,7 @@ def test_done_callbacks_may_ask_on(ros: Any) -> None:
     ros.spin(lambda: order == ["result"])
 
 
-def test_waiting_calls_need_another_thread(ros: Any) -> None:
+def test_blocking_send_goal_works_in_another_thread(ros: Any) -> None:
     pair = Pair(ros)
     answer: Future[Any] = Future()
     thread = threading.Thread(target=lambda: answer.set_result(pair.client.send_goal(Fibonacci.Goal(order=4))))
@@ -193,7 +193,7 @@ def test_waiting_calls_need_another_thread(ros: Any) -> None:
     assert list(answer.result().result.sequence) == [4]
 
 
-def test_wait_for_server_sees_one_that_comes(ros: Any) -> None:
+def test_wait_for_server_notices_a_new_server(ros: Any) -> None:
     node = ros.node()
     client = ActionClient(node, Fibonacci, "fib")
     assert not client.wait_for_server(timeout_sec=0.0)
@@ -206,13 +206,13 @@ def test_wait_for_server_sees_one_that_comes(ros: Any) -> None:
 
 
 @pytest.mark.parametrize("call", ["send_goal_async", "_cancel_goal_async", "_get_result_async"])
-def test_wrong_classes_are_refused(ros: Any, call: str) -> None:
+def test_wrong_classes_are_rejected(ros: Any, call: str) -> None:
     client = ActionClient(ros.node(), Fibonacci, "fib")
     with pytest.raises(TypeError):
         getattr(client, call)(Fibonacci.Result())
 
 
-def test_a_destroyed_client_refuses(ros: Any) -> None:
+def test_destroyed_client_raises_invalid_handle(ros: Any) -> None:
     pair = Pair(ros)
     handle = pair.send()
     pair.client.destroy()
@@ -222,7 +222,7 @@ def test_a_destroyed_client_refuses(ros: Any) -> None:
     assert list(pair.client_node.waitables) == []
 
 
-def test_a_node_may_serve_and_ask_in_one_executor(ros: Any) -> None:
+def test_server_and_client_work_in_one_node_and_executor(ros: Any) -> None:
     node = ros.node()
     ActionServer(node, Fibonacci, "fib", succeed)
     client = ActionClient(node, Fibonacci, "fib")

@@ -1,4 +1,4 @@
-"""Which event leads a goal from which state to which."""
+"""Transitions of a goal's state by events."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def status(name: str) -> int:
 
 @pytest.mark.parametrize("event", GoalEvent, ids=lambda event: event.name)
 @pytest.mark.parametrize("state", STATES)
-def test_transition(state: str, event: GoalEvent) -> None:
+def test_transition_follows_the_table(state: str, event: GoalEvent) -> None:
     goal = ALLOWED.get((state, event.name))
     if goal is not None:
         assert next_status(status(state), event) == status(goal)
@@ -39,5 +39,5 @@ def test_transition(state: str, event: GoalEvent) -> None:
     )
 
 
-def test_cancelable() -> None:
+def test_accepted_and_executing_goals_are_cancelable() -> None:
     assert [state for state in STATES if is_cancelable(status(state))] == ["ACCEPTED", "EXECUTING"]

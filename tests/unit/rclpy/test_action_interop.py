@@ -1,4 +1,4 @@
-"""Action servers and clients understand whatever speaks their services and topics."""
+"""Action servers and clients understand any peer that uses their services and topics."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ NUMBER = UUID(uuid=list(range(1, 17)))
 
 
 class PlainServer:
-    """What an action server is made of, with answers that are always the same."""
+    """The services and topics of an action server, with constant answers."""
 
     def __init__(self, node: Any) -> None:
         node.create_service(Impl.SendGoalService, "/fib/_action/send_goal", self.accept)
@@ -42,7 +42,7 @@ class PlainServer:
         return response
 
 
-def test_a_client_with_a_plain_server(ros: Any) -> None:
+def test_client_works_with_a_plain_server(ros: Any) -> None:
     PlainServer(ros.node("server"))
     client = ActionClient(ros.node("client"), Fibonacci, "fib")
     assert client.server_is_ready()
@@ -57,7 +57,7 @@ def test_a_client_with_a_plain_server(ros: Any) -> None:
     assert [bytes(each.goal_id.uuid) for each in cancelled.result().goals_canceling] == [bytes(NUMBER.uuid)]
 
 
-def test_a_server_with_a_plain_client(ros: Any) -> None:
+def test_server_works_with_a_plain_client(ros: Any) -> None:
     kept: list[Any] = []
     ActionServer(
         ros.node("server"),

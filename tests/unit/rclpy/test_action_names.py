@@ -1,4 +1,4 @@
-"""What an action is on the wire and in the graph."""
+"""The services and topics of an action on the wire and in the graph."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from rclpy.action import (
 FIBONACCI = ["example_interfaces/action/Fibonacci"]
 
 
-def test_parts_on_the_wire(ros: Any) -> None:
+def test_action_has_its_services_and_topics_on_the_wire(ros: Any) -> None:
     pair = Pair(ros)
     services = dict(pair.client_node.get_service_names_and_types_by_node("server", "/"))
     topics = dict(pair.client_node.get_publisher_names_and_types_by_node("server", "/"))
@@ -32,7 +32,7 @@ def test_parts_on_the_wire(ros: Any) -> None:
     }
 
 
-def test_qos_of_the_topics(ros: Any) -> None:
+def test_topics_have_upstreams_qos(ros: Any) -> None:
     pair = Pair(ros)
     (status,) = pair.client_node.get_publishers_info_by_topic("/fib/_action/status")
     (feedback,) = pair.client_node.get_publishers_info_by_topic("/fib/_action/feedback")
@@ -40,7 +40,7 @@ def test_qos_of_the_topics(ros: Any) -> None:
     assert (feedback.qos_profile.durability.name, feedback.qos_profile.depth) == ("VOLATILE", 10)
 
 
-def test_action_graph(ros: Any) -> None:
+def test_graph_queries_list_actions(ros: Any) -> None:
     pair = Pair(ros)
     node = pair.client_node
     assert get_action_names_and_types(node) == [("/fib", FIBONACCI)]
@@ -60,7 +60,7 @@ def test_names_are_expanded(ros: Any, name: str, full: str) -> None:
     assert get_action_names_and_types(node) == [(full, FIBONACCI)]
 
 
-def test_parts_are_remapped_one_by_one(ros: Any) -> None:
+def test_services_and_topics_are_remapped_individually(ros: Any) -> None:
     ros.init("-r", "fib:=other", "-r", "fib/_action/send_goal:=elsewhere")
     node = ros.node()
     ActionServer(node, Fibonacci, "fib", succeed)
@@ -77,7 +77,7 @@ def test_parts_are_remapped_one_by_one(ros: Any) -> None:
         ("1st", "Failed to create action {} due to invalid topic name '1st' : topic name is invalid"),
     ],
 )
-def test_bad_names(ros: Any, name: str, words: str) -> None:
+def test_invalid_names_are_rejected(ros: Any, name: str, words: str) -> None:
     node = ros.node()
     with pytest.raises(ValueError, match="Failed") as error:
         ActionServer(node, Fibonacci, name, succeed)
@@ -88,14 +88,14 @@ def test_bad_names(ros: Any, name: str, words: str) -> None:
     assert get_action_names_and_types(node) == []
 
 
-def test_a_server_counts_only_with_all_its_parts(ros: Any) -> None:
+def test_server_is_ready_only_with_all_its_parts(ros: Any) -> None:
     pair = Pair(ros)
     assert pair.client.server_is_ready()
     pair.server_node._ros_bus.remove(pair.server._endpoints.status)
     assert not pair.client.server_is_ready()
 
 
-def test_entities_of_the_waitables(ros: Any) -> None:
+def test_waitables_count_their_entities(ros: Any) -> None:
     pair = Pair(ros)
     assert vars(pair.server.get_num_entities()) == {
         "num_subscriptions": 0,

@@ -53,7 +53,7 @@ class Driven(Pair):
         self.go_to(1)
 
     def go_to(self, seconds: int) -> None:
-        """Let simulated time be so late (s)."""
+        """Set simulated time (s)."""
         message = Clock()
         message.clock.sec = seconds
         self._clock.publish(message)
@@ -61,7 +61,7 @@ class Driven(Pair):
         self.ros.settle()
 
 
-def test_results_expire_in_the_time_of_the_nodes_clock(ros: Any) -> None:
+def test_results_expire_by_the_nodes_clock(ros: Any) -> None:
     pair = Driven(ros, result_timeout=5)
     handle = pair.send()
     seen = []
@@ -71,7 +71,7 @@ def test_results_expire_in_the_time_of_the_nodes_clock(ros: Any) -> None:
     assert seen == [GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_UNKNOWN]
 
 
-def test_each_result_expires_by_itself(ros: Any) -> None:
+def test_each_result_expires_separately(ros: Any) -> None:
     pair = Driven(ros, result_timeout=5)
     first = pair.send()
     pair.go_to(4)
@@ -83,7 +83,7 @@ def test_each_result_expires_by_itself(ros: Any) -> None:
     ]
 
 
-def test_a_goal_that_has_not_ended_does_not_expire(ros: Any) -> None:
+def test_goal_that_has_not_ended_does_not_expire(ros: Any) -> None:
     kept: list[Any] = []
     pair = Driven(ros, result_timeout=5, handle_accepted_callback=kept.append)
     handle = pair.send()

@@ -16,7 +16,7 @@ from std_msgs.msg import String
 from unique_identifier_msgs.msg import UUID
 
 
-def test_a_goal_succeeds(ros: Any) -> None:
+def test_goal_succeeds(ros: Any) -> None:
     pair = Pair(ros)
     handle = pair.send(order=7)
     answer = pair.result(handle)
@@ -45,7 +45,7 @@ def test_goal_callback_must_return_a_goal_response(ros: Any, capfd: pytest.Captu
     )
 
 
-def test_asynchronous_callbacks(ros: Any) -> None:
+def test_callbacks_may_be_coroutines(ros: Any) -> None:
     go: Future[None] = Future()
 
     async def accept(goal: Any) -> GoalResponse:
@@ -63,7 +63,7 @@ def test_asynchronous_callbacks(ros: Any) -> None:
     assert list(pair.result(pair.outcome(sent)).result.sequence) == [3]
 
 
-def test_a_goal_id_is_accepted_once(ros: Any) -> None:
+def test_goal_id_is_accepted_once(ros: Any) -> None:
     asked: list[Any] = []
     pair = Pair(
         ros,
@@ -80,7 +80,7 @@ def test_a_goal_id_is_accepted_once(ros: Any) -> None:
     assert (first.accepted, second.accepted, len(asked)) == (True, False, 1)
 
 
-def test_a_deferred_goal_waits_for_execute(ros: Any) -> None:
+def test_deferred_goal_waits_for_execute(ros: Any) -> None:
     kept: list[Any] = []
     pair = Pair(ros, handle_accepted_callback=kept.append)
     asked = pair.send().get_result_async()
@@ -92,7 +92,7 @@ def test_a_deferred_goal_waits_for_execute(ros: Any) -> None:
     assert (handle.status, handle.is_active) == (GoalStatus.STATUS_SUCCEEDED, False)
 
 
-def test_execute_may_name_another_callback(ros: Any) -> None:
+def test_execute_accepts_another_callback(ros: Any) -> None:
     def abort(handle: Any) -> Any:
         handle.abort()
         return Fibonacci.Result(sequence=[9])
@@ -102,14 +102,14 @@ def test_execute_may_name_another_callback(ros: Any) -> None:
     assert (answer.status, list(answer.result.sequence)) == (GoalStatus.STATUS_ABORTED, [9])
 
 
-def test_a_goal_that_nobody_ended_is_aborted(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
+def test_goal_without_terminal_state_is_aborted(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
     pair = Pair(ros, lambda handle: Fibonacci.Result(sequence=[1]))
     answer = pair.result(pair.send())
     assert (answer.status, list(answer.result.sequence)) == (GoalStatus.STATUS_ABORTED, [1])
     assert "Goal state not set, assuming aborted. Goal ID: [" in capfd.readouterr().err
 
 
-def test_an_execute_callback_that_raises(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
+def test_exception_in_execute_callback_aborts_the_goal(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
     def broken(handle: Any) -> Any:
         raise ValueError("no way")
 
@@ -121,7 +121,7 @@ def test_an_execute_callback_that_raises(ros: Any, capfd: pytest.CaptureFixture[
     assert "ValueError: no way" in err
 
 
-def test_a_result_of_another_class_is_reported_and_cannot_be_sent(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
+def test_result_of_another_class_is_reported_and_not_sent(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
     pair = Pair(ros, lambda handle: handle.succeed())
     asked = pair.send().get_result_async()
     with pytest.raises(TypeError, match="field 'result' of example_interfaces/action/Fibonacci_GetResult_Response"):
@@ -131,7 +131,7 @@ def test_a_result_of_another_class_is_reported_and_cannot_be_sent(ros: Any, capf
 
 
 @pytest.mark.parametrize("end", ["succeed", "abort", "canceled"])
-def test_a_goal_ends_once(ros: Any, end: str) -> None:
+def test_goal_ends_only_once(ros: Any, end: str) -> None:
     refused = []
 
     def twice(handle: Any) -> Any:
@@ -156,7 +156,7 @@ def test_status_topic_shows_late_joiners_the_last_state(ros: Any) -> None:
     assert [each.status for each in seen[-1].status_list] == [GoalStatus.STATUS_SUCCEEDED]
 
 
-def test_status_is_first_reported_when_a_goal_is_executed(ros: Any) -> None:
+def test_status_is_first_published_when_a_goal_executes(ros: Any) -> None:
     reported: list[list[int]] = []
     pair = Pair(ros, handle_accepted_callback=lambda handle: None)
     pair.client_node.create_subscription(
@@ -179,7 +179,7 @@ def test_status_is_first_reported_when_a_goal_is_executed(ros: Any) -> None:
     assert reported == [[accepted, executing], [accepted, succeeded]]
 
 
-def test_two_servers_of_a_node_do_not_mix(ros: Any) -> None:
+def test_two_servers_of_a_node_do_not_interfere(ros: Any) -> None:
     from rclpy.action import ActionClient
 
     pair = Pair(ros)
@@ -190,7 +190,7 @@ def test_two_servers_of_a_node_do_not_mix(ros: Any) -> None:
     assert pair.result(pair.send()).status == GoalStatus.STATUS_SUCCEEDED
 
 
-def test_feedback_of_another_class_is_refused(ros: Any) -> None:
+def test_feedback_of_another_class_is_rejected(ros: Any) -> None:
     refused = []
 
     def execute(handle: Any) -> Any:
@@ -204,18 +204,18 @@ def test_feedback_of_another_class_is_refused(ros: Any) -> None:
     assert refused == [True]
 
 
-def test_what_cannot_be_called_cannot_execute(ros: Any) -> None:
+def test_execute_callback_must_be_callable(ros: Any) -> None:
     with pytest.raises(TypeError, match=r"^Failed to register goal execution callback: not callable$"):
         ActionServer(ros.node(), Fibonacci, "fib", None)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(("kind", "error"), [(String, RuntimeError), (int, AttributeError)])
-def test_only_actions_can_be_served(ros: Any, kind: Any, error: type[Exception]) -> None:
+def test_only_action_types_can_be_served(ros: Any, kind: Any, error: type[Exception]) -> None:
     with pytest.raises(error):
         ActionServer(ros.node(), kind, "fib", succeed)
 
 
-def test_a_destroyed_server_is_gone(ros: Any) -> None:
+def test_destroyed_server_leaves_the_graph(ros: Any) -> None:
     pair = Pair(ros, handle_accepted_callback=lambda handle: None)
     handle = pair.send()
     pair.server.destroy()
@@ -227,7 +227,7 @@ def test_a_destroyed_server_is_gone(ros: Any) -> None:
     assert not asked.done()
 
 
-def test_the_goals_of_a_destroyed_server_are_dead(ros: Any) -> None:
+def test_goals_of_a_destroyed_server_raise_invalid_handle(ros: Any) -> None:
     kept: list[Any] = []
     pair = Pair(ros, handle_accepted_callback=kept.append)
     pair.send()
@@ -238,7 +238,7 @@ def test_the_goals_of_a_destroyed_server_are_dead(ros: Any) -> None:
     assert (handle.status, handle.is_active) == (GoalStatus.STATUS_UNKNOWN, False)
 
 
-def test_a_server_is_destroyed_with_its_node(ros: Any) -> None:
+def test_server_is_destroyed_with_its_node(ros: Any) -> None:
     pair = Pair(ros)
     pair.server_node.destroy_node()
     assert not pair.client.server_is_ready()

@@ -1,4 +1,4 @@
-"""What programs get that go on, or wait, while their context is shut down."""
+"""What happens to programs that continue, or wait, while their context is shut down."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from std_srvs.srv import Trigger
 INVALID = "rcl node's context is invalid"
 
 
-def test_a_loop_that_waits_for_a_service_ends_with_the_context(ros: Any) -> None:
+def test_waiting_for_a_service_ends_with_the_context(ros: Any) -> None:
     client = ros.node().create_client(Trigger, "nobody")
     ros.context.shutdown()
     for ask in (client.service_is_ready, client.wait_for_service, lambda: client.wait_for_service(timeout_sec=1.0)):
@@ -27,7 +27,7 @@ def test_a_loop_that_waits_for_a_service_ends_with_the_context(ros: Any) -> None
             ask()
 
 
-def test_a_loop_that_waits_for_an_action_server_ends_with_the_context(ros: Any) -> None:
+def test_waiting_for_an_action_server_ends_with_the_context(ros: Any) -> None:
     client = ActionClient(ros.node(), Fibonacci, "nobody")
     ros.context.shutdown()
     for ask in (client.server_is_ready, client.wait_for_server, lambda: client.wait_for_server(timeout_sec=1.0)):
@@ -35,11 +35,11 @@ def test_a_loop_that_waits_for_an_action_server_ends_with_the_context(ros: Any) 
             ask()
 
 
-def test_who_sleeps_at_a_rate_sees_the_interrupt_that_shuts_down(ros: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_rate_sleep_raises_the_interrupt_that_shuts_down(ros: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     rate = ros.node().create_rate(1)
 
     class Interrupted:
-        """A wait in which Ctrl-C comes."""
+        """A wait interrupted by Ctrl-C."""
 
         def set(self) -> None: ...
         def clear(self) -> None: ...
@@ -54,7 +54,7 @@ def test_who_sleeps_at_a_rate_sees_the_interrupt_that_shuts_down(ros: Any, monke
     assert reported.value.__context__ is None
 
 
-def test_who_sleeps_at_a_rate_is_notified_of_a_shutdown_without_an_interrupt(ros: Any) -> None:
+def test_rate_sleep_raises_after_a_shutdown_without_interrupt(ros: Any) -> None:
     rate = ros.node().create_rate(1)
     ender = threading.Timer(0, ros.context.shutdown)
     ender.start()
@@ -63,12 +63,12 @@ def test_who_sleeps_at_a_rate_is_notified_of_a_shutdown_without_an_interrupt(ros
     ender.join()
 
 
-def test_the_enclave_of_the_command_line_is_that_of_the_nodes(ros: Any) -> None:
+def test_nodes_have_the_enclave_of_the_command_line(ros: Any) -> None:
     node = ros.node(args=["--enclave", "/robots/first"])
     assert node.get_node_names_and_namespaces_with_enclaves() == [("n", "/", "/robots/first")]
 
 
-def test_a_log_configuration_file_is_refused_as_upstream_does() -> None:
+def test_log_configuration_file_is_refused_as_upstream_does() -> None:
     with pytest.raises(RCLError, match="failed to initialize logging: spdlog logging backend"):
         Context().init(["--ros-args", "--log-config-file", "log.conf"])
 
@@ -91,9 +91,7 @@ def test_a_log_configuration_file_is_refused_as_upstream_does() -> None:
         ("get_service_names_and_types_by_node", ["n", "/"], "failed to get service names and types"),
     ],
 )
-def test_a_loop_that_asks_who_is_there_ends_with_the_context(
-    ros: Any, question: str, words: list[Any], problem: str
-) -> None:
+def test_graph_queries_raise_after_shutdown(ros: Any, question: str, words: list[Any], problem: str) -> None:
     node = ros.node()
     ros.context.shutdown()
     with pytest.raises(RCLError, match=f"^{problem}: {INVALID}$"):
@@ -101,7 +99,7 @@ def test_a_loop_that_asks_who_is_there_ends_with_the_context(
 
 
 @pytest.mark.parametrize("way", ["service", "action"])
-def test_who_waits_for_an_answer_without_a_limit_is_notified_of_the_shutdown(
+def test_unlimited_wait_for_an_answer_ends_with_the_context(
     ros: Any, way: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     node = ros.node()
@@ -125,7 +123,7 @@ def test_who_waits_for_an_answer_without_a_limit_is_notified_of_the_shutdown(
     ender.join()
 
 
-def test_what_a_publisher_is_asked_after_a_shutdown(ros: Any) -> None:
+def test_publisher_methods_raise_after_shutdown(ros: Any) -> None:
     publisher = ros.node().create_publisher(String, "t", 1)
     ros.context.shutdown()
     with pytest.raises(
@@ -136,7 +134,7 @@ def test_what_a_publisher_is_asked_after_a_shutdown(ros: Any) -> None:
         publisher.wait_for_all_acked()
 
 
-def test_a_goal_that_is_executed_over_a_shutdown_ends_with_its_next_word(ros: Any) -> None:
+def test_goal_executing_over_a_shutdown_ends_with_its_next_call(ros: Any) -> None:
     reported: list[str] = []
 
     def execute(handle: Any) -> Any:
@@ -158,7 +156,7 @@ def test_a_goal_that_is_executed_over_a_shutdown_ends_with_its_next_word(ros: An
     ]
 
 
-def test_a_loop_that_waits_for_a_first_subscription_ends_with_the_context(ros: Any) -> None:
+def test_waiting_for_a_first_subscription_ends_with_the_context(ros: Any) -> None:
     publisher = ros.node().create_publisher(String, "t", 1)
     assert publisher.get_subscription_count() == 0
     ros.context.shutdown()

@@ -1,4 +1,4 @@
-"""Callbacks are what `inspect` says they are, and take what it says they take."""
+"""Callbacks are classified, and their arguments counted, as by `inspect`."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ CALLBACKS: dict[str, Callable[..., Any]] = {
     "class": Methods,
     "wrapped": wrapping,
     "signed": signed,
-    "method of a builtin": MethodType(divmod, 1),  # whose signature every supported Python knows
+    "method of a builtin": MethodType(divmod, 1),  # its signature is known to every supported Python
 }
 
 
@@ -92,13 +92,13 @@ def by_inspect(callback: Callable[..., Any], count: int) -> bool:
 
 
 @pytest.mark.parametrize("name", CALLBACKS)
-def test_a_callback_is_and_takes_what_inspect_reports(name: str) -> None:
+def test_callback_is_classified_as_by_inspect(name: str) -> None:
     callback = CALLBACKS[name]
     assert [takes(callback, count) for count in range(4)] == [by_inspect(callback, count) for count in range(4)]
     assert is_coroutine_function(callback) == inspect.iscoroutinefunction(callback)
 
 
-def test_what_inspect_does_not_know() -> None:
+def test_callables_without_signature_raise_value_error() -> None:
     def no_self() -> None: ...
 
     for callback in (MethodType(no_self, 1), dict):  # type: ignore[arg-type]
@@ -110,12 +110,12 @@ def test_what_inspect_does_not_know() -> None:
 
 
 @pytest.mark.skipif(sys.version_info < (3, 12), reason="came with Python 3.12")
-def test_a_function_that_is_marked_as_a_coroutine_function() -> None:
+def test_function_marked_as_coroutine_function_is_recognized() -> None:
     marked = inspect.markcoroutinefunction(lambda: None)  # type: ignore[attr-defined]
     assert is_coroutine_function(marked)
 
 
-def test_a_coroutine() -> None:
+def test_coroutine_object_is_recognized() -> None:
     coroutine = later(1)
     assert is_coroutine(coroutine)
     assert not is_coroutine(later)

@@ -14,7 +14,7 @@ from std_msgs.msg import Int32
 TIMEOUT_S = 20.0
 
 
-def test_membership(ros: Any) -> None:
+def test_entities_belong_to_their_group(ros: Any) -> None:
     node, group = ros.node(), ReentrantCallbackGroup()
     guard = node.create_guard_condition(None, group)
     other = node.create_guard_condition(None)
@@ -23,7 +23,7 @@ def test_membership(ros: Any) -> None:
     assert isinstance(node.default_callback_group, MutuallyExclusiveCallbackGroup)
 
 
-def test_exclusive_lets_one_begin() -> None:
+def test_mutually_exclusive_group_lets_one_callback_begin() -> None:
     group, first, second = MutuallyExclusiveCallbackGroup(), object(), object()
     assert group.can_execute(first) and group.beginning_execution(first)
     assert not group.can_execute(second) and not group.beginning_execution(second)
@@ -34,18 +34,18 @@ def test_exclusive_lets_one_begin() -> None:
     assert group.beginning_execution(second)
 
 
-def test_reentrant_lets_all_begin() -> None:
+def test_reentrant_group_lets_all_callbacks_begin() -> None:
     group = ReentrantCallbackGroup()
     assert group.beginning_execution(1) and group.beginning_execution(1) and group.can_execute(2)
 
 
-def test_the_base_class_decides_nothing() -> None:
+def test_base_class_is_abstract() -> None:
     with pytest.raises(NotImplementedError):
         CallbackGroup().can_execute(None)
 
 
 class Overlap:
-    """Callbacks that wait for each other as long as that many are asked to run together."""
+    """Callbacks that wait for each other until the requested number run together."""
 
     def __init__(self, ros: Any, groups: list[Any], threads: int = 4) -> None:
         self.peak = self.active = self.calls = 0
@@ -70,7 +70,7 @@ class Overlap:
             self.active -= 1
 
     def run(self, wanted: int, calls: int) -> int:
-        """How many ran together at most."""
+        """Return how many ran together at most."""
         self.wanted = wanted
         thread = threading.Thread(target=self._executor.spin, daemon=True)
         thread.start()
@@ -83,21 +83,21 @@ class Overlap:
         return self.peak
 
 
-def test_two_exclusive_groups_overlap(ros: Any) -> None:
+def test_callbacks_of_two_exclusive_groups_overlap(ros: Any) -> None:
     assert Overlap(ros, [MutuallyExclusiveCallbackGroup(), MutuallyExclusiveCallbackGroup()]).run(2, 2) == 2
 
 
-def test_one_exclusive_group_does_not(ros: Any) -> None:
+def test_callbacks_of_one_exclusive_group_do_not_overlap(ros: Any) -> None:
     group = MutuallyExclusiveCallbackGroup()
     assert Overlap(ros, [group, group, group]).run(1, 3) == 1
 
 
-def test_a_reentrant_group_does(ros: Any) -> None:
+def test_callbacks_of_a_reentrant_group_overlap(ros: Any) -> None:
     group = ReentrantCallbackGroup()
     assert Overlap(ros, [group, group, group]).run(3, 3) == 3
 
 
-def test_a_group_may_span_nodes_and_executors(ros: Any) -> None:
+def test_group_may_span_nodes_and_executors(ros: Any) -> None:
     group, got = MutuallyExclusiveCallbackGroup(), []
     first, second = ros.node("first"), ros.node("second")
     other = MultiThreadedExecutor(2, context=ros.context)
@@ -122,7 +122,7 @@ def test_a_group_may_span_nodes_and_executors(ros: Any) -> None:
     assert got == ["first", "second"]
 
 
-def test_a_waiting_coroutine_keeps_its_exclusive_group(ros: Any) -> None:
+def test_waiting_coroutine_keeps_its_exclusive_group(ros: Any) -> None:
     node, go, got = ros.node(), Future(), []
 
     async def take(message: Int32) -> None:
@@ -141,7 +141,7 @@ def test_a_waiting_coroutine_keeps_its_exclusive_group(ros: Any) -> None:
     assert got == [("start", 1), ("end", 1), ("start", 2), ("end", 2)]
 
 
-def test_a_waiting_coroutine_leaves_a_reentrant_group_free(ros: Any) -> None:
+def test_waiting_coroutine_leaves_a_reentrant_group_free(ros: Any) -> None:
     node, go, got = ros.node(), Future(), []
 
     async def take(message: Int32) -> None:
@@ -160,10 +160,10 @@ def test_a_waiting_coroutine_leaves_a_reentrant_group_free(ros: Any) -> None:
 
 
 class Thing:
-    """Belongs to a group."""
+    """A member of a group."""
 
 
-def test_a_group_lets_those_go_that_are_gone() -> None:
+def test_group_forgets_deleted_entities() -> None:
     group, kept = ReentrantCallbackGroup(), [Thing() for _ in range(100)]
     for each in kept:
         group.add_entity(each)

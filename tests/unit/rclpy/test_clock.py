@@ -19,7 +19,7 @@ from rosgraph_msgs.msg import Clock as ClockMessage
 SECOND = 1_000_000_000
 
 
-def test_kinds() -> None:
+def test_clock_types_are_upstreams() -> None:
     assert [kind.name for kind in ClockType] == ["UNINITIALIZED", "ROS_TIME", "SYSTEM_TIME", "STEADY_TIME"]
     assert (Clock().clock_type, type(Clock(clock_type=ClockType.ROS_TIME))) == (ClockType.SYSTEM_TIME, ROSClock)
     assert repr(Clock(clock_type=ClockType.STEADY_TIME)) == "Clock(clock_type=STEADY_TIME)"
@@ -28,7 +28,7 @@ def test_kinds() -> None:
             Clock(clock_type=wrong)  # type: ignore[arg-type]
 
 
-def test_readings(stepped_ros: Any) -> None:
+def test_clocks_advance_together_in_stepped_time(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     clocks = [Clock(), Clock(clock_type=ClockType.STEADY_TIME), node.get_clock()]
     before = [clock.now() for clock in clocks]
@@ -49,7 +49,7 @@ def test_readings(stepped_ros: Any) -> None:
         (None, 1, True, "min_backward must be a negative non-zero duration"),
     ],
 )
-def test_bad_thresholds(forward: int | None, backward: int | None, change: bool, words: str) -> None:
+def test_invalid_thresholds_are_rejected(forward: int | None, backward: int | None, change: bool, words: str) -> None:
     def length(number: int | None) -> Duration | None:
         return None if number is None else Duration(seconds=number)
 
@@ -58,7 +58,7 @@ def test_bad_thresholds(forward: int | None, backward: int | None, change: bool,
 
 
 def simulated(jumps: list[Any], threshold: JumpThreshold) -> ROSClock:
-    """A driven clock at 100 s that records the jumps beyond a threshold."""
+    """Return a clock at 100 s, set by the test, that records the jumps beyond a threshold."""
     clock = ROSClock()
     clock._set_ros_time_is_active(True)
     clock.set_ros_time_override(Time(seconds=100, clock_type=ClockType.ROS_TIME))
@@ -80,7 +80,7 @@ def test_jumps_at_or_beyond_the_threshold_are_reported(to: int, jumps: list[Any]
     assert reported == jumps
 
 
-def test_changes_of_the_source_are_reported(ros: Any) -> None:
+def test_changes_of_the_time_source_are_reported(ros: Any) -> None:
     node, reported = ros.node(), []
     clock = node.get_clock()
     threshold = JumpThreshold(min_forward=None, min_backward=None, on_clock_change=True)
@@ -97,7 +97,7 @@ def test_changes_of_the_source_are_reported(ros: Any) -> None:
         TimeJump(1, Duration())  # type: ignore[arg-type]
 
 
-def test_sleeping(stepped_ros: Any) -> None:
+def test_sleep_returns_at_its_time(stepped_ros: Any) -> None:
     context = stepped_ros.init()
     clock = Clock()
     start = clock.now()
@@ -108,12 +108,12 @@ def test_sleeping(stepped_ros: Any) -> None:
         clock.sleep_until(Time(seconds=1, clock_type=ClockType.ROS_TIME), context)
 
 
-def test_sleeping_needs_a_context() -> None:
+def test_sleep_needs_an_initialized_context() -> None:
     with pytest.raises(NotInitializedException):
         Clock().sleep_for(Duration(seconds=1), Context())
 
 
-def test_a_shutdown_ends_a_sleep(stepped_ros: Any) -> None:
+def test_shutdown_ends_a_sleep(stepped_ros: Any) -> None:
     context = stepped_ros.init()
     clock = Clock()
     start = clock.now()
@@ -123,7 +123,7 @@ def test_a_shutdown_ends_a_sleep(stepped_ros: Any) -> None:
 
 
 class Simulation:
-    """A node in simulated time and what drives it."""
+    """A node in simulated time and the source of that time."""
 
     def __init__(self, ros: Any) -> None:
         self.ros = ros
@@ -132,16 +132,16 @@ class Simulation:
         self._publisher = ros.node("source").create_publisher(ClockMessage, "/clock", 10)
 
     def tick(self, seconds: float) -> None:
-        """Let it be `seconds`."""
+        """Set the time (s)."""
         self._publisher.publish(ClockMessage(clock=Time(seconds=seconds).to_msg()))
         self.ros.settle()
 
     def seconds(self) -> float:
-        """The node's time."""
+        """Return the node's time (s)."""
         return self.clock.now().nanoseconds / SECOND
 
 
-def test_time_stands_still_until_the_clock_ticks(ros: Any) -> None:
+def test_simulated_time_changes_only_with_clock_messages(ros: Any) -> None:
     simulation = Simulation(ros)
     times = [simulation.seconds()]
     for second in (1, 2.5, 10):
@@ -159,7 +159,7 @@ def test_time_stands_still_until_the_clock_ticks(ros: Any) -> None:
         ((100, 101, 50, 50.5, 51.5, 52.5), [101, 51.5, 52.5]),
     ],
 )
-def test_timers_follow_the_clock(ros: Any, ticks: tuple[float, ...], fired: list[float]) -> None:
+def test_timers_follow_simulated_time(ros: Any, ticks: tuple[float, ...], fired: list[float]) -> None:
     simulation, got = Simulation(ros), []
     simulation.tick(ticks[0])
     simulation.node.create_timer(1.0, lambda: got.append(simulation.seconds()))
@@ -168,7 +168,7 @@ def test_timers_follow_the_clock(ros: Any, ticks: tuple[float, ...], fired: list
     assert got == fired
 
 
-def test_back_to_real_time(stepped_ros: Any) -> None:
+def test_timers_continue_after_return_to_real_time(stepped_ros: Any) -> None:
     simulation, got = Simulation(stepped_ros), []
     simulation.tick(5)
     simulation.node.create_timer(1.0, lambda: got.append(1))
@@ -179,7 +179,7 @@ def test_back_to_real_time(stepped_ros: Any) -> None:
     assert got == [1]
 
 
-def test_sleeping_in_simulated_time(ros: Any) -> None:
+def test_sleep_follows_simulated_time(ros: Any) -> None:
     simulation = Simulation(ros)
     simulation.tick(10)
     slept: list[bool] = []
@@ -203,7 +203,7 @@ def test_use_sim_time_must_be_a_bool(ros: Any) -> None:
     )
 
 
-def test_only_ros_clocks_can_be_driven(ros: Any) -> None:
+def test_only_ros_clocks_can_be_attached(ros: Any) -> None:
     source = TimeSource(node=ros.node())
     with pytest.raises(ValueError, match="Only clocks with type ROS_TIME can be attached"):
         source.attach_clock(Clock(clock_type=ClockType.STEADY_TIME))
@@ -211,7 +211,7 @@ def test_only_ros_clocks_can_be_driven(ros: Any) -> None:
         ROSClock().set_ros_time_override(5)  # type: ignore[arg-type]
 
 
-def test_a_clock_attached_later_shows_the_last_time(ros: Any) -> None:
+def test_clock_attached_later_has_the_last_time(ros: Any) -> None:
     source, clock = TimeSource(), ROSClock()
     source.ros_time_is_active = True
     source.clock_callback(ClockMessage(clock=Time(seconds=7).to_msg()))
@@ -220,7 +220,7 @@ def test_a_clock_attached_later_shows_the_last_time(ros: Any) -> None:
 
 
 class Kept:
-    """Both clocks of a machine that takes the processor away after each reading."""
+    """Both clocks of a machine that preempts the thread after each reading."""
 
     now = 0
 
@@ -231,7 +231,7 @@ class Kept:
     steady_ns = system_ns
 
 
-def test_a_deadline_is_never_before_its_time(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_deadline_is_never_before_its_time(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = Clock()
     monkeypatch.setattr(clock, "_source", Kept())
     assert clock._steady_deadline(10 * SECOND) == 11 * SECOND

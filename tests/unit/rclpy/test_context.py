@@ -1,4 +1,4 @@
-"""init, shutdown, contexts, and what nodes and entities still do afterwards."""
+"""init, shutdown, contexts, and what nodes and entities can still do afterwards."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from std_msgs.msg import Int32
 
 @pytest.fixture
 def default() -> Iterator[None]:
-    """The default context, ended after the test."""
+    """The default context, shut down after the test."""
     yield
     rclpy.try_shutdown()
 
@@ -38,7 +38,7 @@ def test_ok_follows_the_default_context(default: None) -> None:
     assert [*states, rclpy.ok()] == [False, True, False]
 
 
-def test_twice(default: None) -> None:
+def test_second_init_or_shutdown_is_an_error(default: None) -> None:
     rclpy.init(args=[])
     with pytest.raises(RuntimeError, match=r"^Context.init\(\) must only be called once$"):
         rclpy.init(args=[])
@@ -48,7 +48,7 @@ def test_twice(default: None) -> None:
     rclpy.try_shutdown()
 
 
-def test_again_after_a_shutdown(default: None) -> None:
+def test_init_works_again_after_a_shutdown(default: None) -> None:
     names = []
     for number in range(3):
         rclpy.init(args=[])
@@ -66,13 +66,13 @@ def test_init_returns_nothing_as_in_jazzy(default: None, tmp_path: Path) -> None
     assert f"{program}:2: rclpy.init() returns nothing in ROS 2 Jazzy" in (explanation(refused.value) or "")
 
 
-def test_a_context_is_shut_down_at_the_end_of_its_with_block() -> None:
+def test_context_is_shut_down_at_the_end_of_its_with_block() -> None:
     with Context() as context:
         assert context.ok()
     assert not context.ok()
 
 
-def test_a_context_of_ones_own(default: None) -> None:
+def test_separate_context_has_its_own_state_and_domain(default: None) -> None:
     context = Context()
     assert not context.ok()
     rclpy.init(args=[], context=context, domain_id=77)
@@ -84,20 +84,20 @@ def test_a_context_of_ones_own(default: None) -> None:
         context.init([])
 
 
-def test_a_domain_of_numpy() -> None:
+def test_domain_id_may_be_a_numpy_integer() -> None:
     context, number = Context(), cast(Any, np.uint8(77))
     context.init([], domain_id=number)
     assert type(context.get_domain_id()) is int and context.get_domain_id() == 77
     context.shutdown()
 
 
-def test_a_bad_domain() -> None:
+def test_negative_domain_id_is_rejected() -> None:
     with pytest.raises(RuntimeError, match=r"Domain id \(-5\) should not be lower than zero."):
         Context().init([], domain_id=-5)
 
 
 @pytest.mark.parametrize(("value", "warns"), [("OFF", False), ("SUBNET", False), ("", False), ("off", True)])
-def test_a_discovery_range_that_is_none(
+def test_invalid_discovery_range_is_warned_about(
     value: str, warns: bool, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", value)
@@ -117,13 +117,13 @@ def test_a_discovery_range_that_is_none(
          "'-r __foo:=bar'. Error: Expecting token or wildcard"),
     ],
 )  # fmt: skip
-def test_bad_words(words: list[str], kind: type[Exception], text: str) -> None:
+def test_invalid_arguments_are_rejected(words: list[str], kind: type[Exception], text: str) -> None:
     with pytest.raises(kind) as caught:
         Context().init(words)
     assert str(caught.value) == text
 
 
-def test_shutdown_callbacks_in_order_and_once(ros: Any) -> None:
+def test_shutdown_callbacks_run_in_order_and_once(ros: Any) -> None:
     context, got = ros.init(), []
     for name in "ab":
         context.on_shutdown(lambda name=name: got.append(name))
@@ -134,7 +134,7 @@ def test_shutdown_callbacks_in_order_and_once(ros: Any) -> None:
         context.on_shutdown("x")
 
 
-def test_a_signal_ends_without_the_callbacks(ros: Any) -> None:
+def test_shutdown_by_signal_skips_the_callbacks(ros: Any) -> None:
     context, got = ros.init(), []
     context.on_shutdown(lambda: got.append("called"))
     executor = ros.node().executor
@@ -145,14 +145,14 @@ def test_a_signal_ends_without_the_callbacks(ros: Any) -> None:
         executor.spin_once()
 
 
-def test_a_signal_while_it_is_being_initialised(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_signal_during_init_ends_the_context(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("rclpy.context.remember_context", Context.shut_down_by_signal)
     context = Context()
     context.init([])
     assert context.ended_by_signal and not context.ok()
 
 
-def test_what_is_asked_before_init_is_called_as_well() -> None:
+def test_shutdown_callback_registered_before_init_is_called() -> None:
     context, got = Context(), []
     context.on_shutdown(lambda: got.append("called"))
     context.init([])
@@ -161,7 +161,7 @@ def test_what_is_asked_before_init_is_called_as_well() -> None:
 
 
 @pytest.mark.parametrize(("signal", "outcome"), [(False, None), (True, ExternalShutdownException)])
-def test_spin_ends_silently_but_for_signals(default: None, signal: bool, outcome: Any) -> None:
+def test_spin_returns_silently_except_after_signals(default: None, signal: bool, outcome: Any) -> None:
     rclpy.init(args=[])
     node, executor = rclpy.create_node("n"), rclpy.get_global_executor()
     end = rclpy.get_default_context().shut_down_by_signal if signal else rclpy.shutdown
@@ -180,7 +180,7 @@ def test_spin_ends_silently_but_for_signals(default: None, signal: bool, outcome
                 rclpy.spin(node)
 
 
-def test_a_context_keeps_no_object_alive_by_its_method(ros: Any) -> None:
+def test_context_holds_methods_weakly(ros: Any) -> None:
     got = []
 
     class Listener:
@@ -194,14 +194,14 @@ def test_a_context_keeps_no_object_alive_by_its_method(ros: Any) -> None:
     assert got == []
 
 
-def test_ok_may_be_asked_within_a_shutdown_callback(ros: Any) -> None:
+def test_ok_is_false_within_a_shutdown_callback(ros: Any) -> None:
     context, got = ros.init(), []
     context.on_shutdown(lambda: got.append(context.ok()))
     context.shutdown()
     assert got == [False]
 
 
-def test_nodes_need_a_context_that_runs(ros: Any) -> None:
+def test_nodes_need_an_initialized_context(ros: Any) -> None:
     with pytest.raises(NotInitializedException) as caught:
         rclpy.create_node("n", context=Context())
     assert str(caught.value) == "rclpy.init() has not been called. msg:cannot create node"
@@ -210,7 +210,7 @@ def test_nodes_need_a_context_that_runs(ros: Any) -> None:
         ros.node()
 
 
-def test_signal_handlers(default: None) -> None:
+def test_signal_handlers_are_installed_while_initialized(default: None) -> None:
     states = [get_current_signal_handlers_options()]
     rclpy.init(args=[])
     states.append(get_current_signal_handlers_options())
@@ -221,7 +221,7 @@ def test_signal_handlers(default: None) -> None:
     assert [state.name for state in states] == ["NO", "ALL", "NO", "SIGINT"]
 
 
-def test_what_a_destroyed_node_refuses(ros: Any) -> None:
+def test_destroyed_node_refuses_most_calls(ros: Any) -> None:
     node = ros.node()
     node.declare_parameter("p", 1)
     assert node.destroy_node() is None
@@ -244,7 +244,7 @@ def test_what_a_destroyed_node_refuses(ros: Any) -> None:
     assert [*node.publishers, *node.subscriptions, *node.services, *node.timers] == []
 
 
-def test_what_still_works_after_shutdown(ros: Any) -> None:
+def test_local_calls_still_work_after_shutdown(ros: Any) -> None:
     node = ros.node()
     node.declare_parameter("p", 1)
     ros.context.shutdown()
@@ -258,7 +258,7 @@ def test_what_still_works_after_shutdown(ros: Any) -> None:
 
 
 @pytest.mark.parametrize("way", ["spin_once", "spin_until_future_complete"])
-def test_a_callback_that_spins_its_own_node_leaves_it_to_who_spins_it(default: None, way: str) -> None:
+def test_callback_spinning_its_own_node_leaves_it_in_its_executor(default: None, way: str) -> None:
     rclpy.init(args=[])
     node, calls = rclpy.create_node("n"), []
     answered: Future[None] = Future()
@@ -279,7 +279,7 @@ def test_a_callback_that_spins_its_own_node_leaves_it_to_who_spins_it(default: N
     assert calls == [True, True]
 
 
-def test_the_global_executor_ends_with_its_context(default: None) -> None:
+def test_global_executor_ends_with_its_context(default: None) -> None:
     rclpy.init(args=[])
     node = rclpy.create_node("n")
     first = rclpy.get_global_executor()
@@ -293,7 +293,7 @@ def test_the_global_executor_ends_with_its_context(default: None) -> None:
     assert rclpy.get_global_executor() is not first
 
 
-def test_spin_takes_the_node_out_again(default: None) -> None:
+def test_spin_removes_the_node_afterwards(default: None) -> None:
     rclpy.init(args=[])
     with rclpy.create_node("n") as node:
         rclpy.spin_once(node, timeout_sec=0)
@@ -301,20 +301,20 @@ def test_spin_takes_the_node_out_again(default: None) -> None:
         assert node.executor is rclpy.get_global_executor()
 
 
-def test_use_before_init() -> None:
+def test_spinning_without_a_node_is_an_error() -> None:
     node: Any = None
     for spin in (rclpy.spin, rclpy.spin_once):
         with pytest.raises(TypeError):
             spin(node)
 
 
-def test_removing_ros_arguments_refuses_what_ros_does_not_know() -> None:
+def test_remove_ros_args_rejects_unknown_ros_arguments() -> None:
     assert rclpy.utilities.remove_ros_args(["p", "--ros-args", "-r", "a:=b", "--", "x"]) == ["p", "x"]
     with pytest.raises(UnknownROSArgsError, match="--nope"):
         rclpy.utilities.remove_ros_args(["p", "--ros-args", "--nope"])
 
 
-def test_a_refused_parameter_file_is_explained_in_more_words_than_those_of_rcl(tmp_path, monkeypatch):
+def test_refused_parameter_file_gets_an_explanation_at_a_terminal(tmp_path, monkeypatch):
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     path = tmp_path / "p.yaml"
     path.write_text("n:\n\tros__parameters:\n")
@@ -323,7 +323,7 @@ def test_a_refused_parameter_file_is_explained_in_more_words_than_those_of_rcl(t
     assert explanation(refused.value) == f"{path}:2: it is indented by a tab, and YAML takes spaces alone"
 
 
-def test_a_parameter_before_the_flag_is_reported_to_who_reads_along(capfd, monkeypatch):
+def test_parameter_before_ros_args_is_reported_at_a_terminal(capfd, monkeypatch):
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     context = Context()
     rclpy.init(args=["node", "-p", "speed:=2.5", "file", "--ros-args", "-p", "rate:=1.0"], context=context)

@@ -1,4 +1,4 @@
-"""Executors and callback groups of a program's own."""
+"""Executors and callback groups defined by a program."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from std_msgs.msg import Int32
 
 
 class OneAtATime(Executor):
-    """Runs what `wait_for_ready_callbacks` gives, and notes where it came from."""
+    """Runs what `wait_for_ready_callbacks` yields, and records where it came from."""
 
     def __init__(self, context: Any) -> None:
         super().__init__(context=context)
@@ -47,7 +47,7 @@ def executor(ros: Any) -> OneAtATime:
     return OneAtATime(ros.init())
 
 
-def test_work_is_handed_out_with_its_entity_and_node(ros: Any, executor: OneAtATime) -> None:
+def test_ready_callbacks_come_with_entity_and_node(ros: Any, executor: OneAtATime) -> None:
     node, got = ros.node("own"), []
     executor.add_node(node)
     subscription = node.create_subscription(Int32, "t", got.append, 10)
@@ -57,13 +57,13 @@ def test_work_is_handed_out_with_its_entity_and_node(ros: Any, executor: OneAtAT
     assert executor.origins == [(subscription, node)]
 
 
-def test_a_task_has_neither_entity_nor_node(executor: OneAtATime) -> None:
+def test_task_has_neither_entity_nor_node(executor: OneAtATime) -> None:
     task = executor.create_task(lambda: 7)
     executor.spin_once(timeout_sec=5)
     assert (task.result(), executor.origins) == (7, [(None, None)])
 
 
-def test_a_callback_s_exception_is_kept_by_the_task(ros: Any, executor: OneAtATime) -> None:
+def test_exception_of_a_callback_is_kept_by_the_task(ros: Any, executor: OneAtATime) -> None:
     node = ros.node("own")
     executor.add_node(node)
     node.create_timer(0.0, lambda: 1 // 0)
@@ -71,7 +71,7 @@ def test_a_callback_s_exception_is_kept_by_the_task(ros: Any, executor: OneAtATi
         executor.spin_once(timeout_sec=5)
 
 
-def test_a_coroutine_callback_goes_on_when_what_it_awaits_is_done(ros: Any, executor: OneAtATime) -> None:
+def test_coroutine_callback_continues_when_its_future_is_done(ros: Any, executor: OneAtATime) -> None:
     node, got = ros.node("own"), []
     executor.add_node(node)
     awaited = executor.create_task(lambda: "done")
@@ -86,7 +86,7 @@ def test_a_coroutine_callback_goes_on_when_what_it_awaits_is_done(ros: Any, exec
     assert got == ["done"]
 
 
-def test_only_the_nodes_that_are_asked_for(ros: Any, executor: OneAtATime) -> None:
+def test_only_requested_nodes_are_served(ros: Any, executor: OneAtATime) -> None:
     wanted, other = ros.node("wanted"), ros.node("other")
     for node in (other, wanted):
         executor.add_node(node)
@@ -95,7 +95,7 @@ def test_only_the_nodes_that_are_asked_for(ros: Any, executor: OneAtATime) -> No
     assert executor.wait_for_ready_callbacks(timeout_sec=5)[2] is other
 
 
-def test_a_timer_that_is_not_asked_for_is_due_all_the_same(ros: Any, executor: OneAtATime) -> None:
+def test_timer_of_another_node_stays_due(ros: Any, executor: OneAtATime) -> None:
     wanted, other = ros.node("wanted"), ros.node("other")
     for node in (other, wanted):
         executor.add_node(node)
@@ -105,14 +105,14 @@ def test_a_timer_that_is_not_asked_for_is_due_all_the_same(ros: Any, executor: O
     assert executor.wait_for_ready_callbacks(timeout_sec=5)[1] is timer
 
 
-def test_what_ends_the_wait(executor: OneAtATime) -> None:
+def test_timeout_and_condition_end_the_wait(executor: OneAtATime) -> None:
     with pytest.raises(TimeoutException):
         executor.wait_for_ready_callbacks(timeout_sec=TimeoutObject(0))
     with pytest.raises(ConditionReachedException):
         executor.wait_for_ready_callbacks(condition=lambda: True)
 
 
-def test_a_group_of_one_s_own_is_asked_again_at_each_wake(ros: Any) -> None:
+def test_custom_group_is_asked_again_at_each_wake(ros: Any) -> None:
     node, got, group = ros.node("own"), [], Tickets(1)
     node.create_subscription(Int32, "t", lambda message: got.append(message.data), 10, callback_group=group)
     publisher = node.create_publisher(Int32, "t", 10)
@@ -125,7 +125,7 @@ def test_a_group_of_one_s_own_is_asked_again_at_each_wake(ros: Any) -> None:
     assert got == [0, 1, 2]
 
 
-def test_a_future_of_the_executor_reports_in_the_executor(executor: OneAtATime) -> None:
+def test_future_of_the_executor_calls_back_in_the_executor(executor: OneAtATime) -> None:
     future, got = executor.create_future(), []
     future.add_done_callback(lambda done: got.append(done.result()))
     future.set_result(3)
@@ -134,7 +134,7 @@ def test_a_future_of_the_executor_reports_in_the_executor(executor: OneAtATime) 
     assert got == [3]
 
 
-def test_whether_an_entity_may_begin(ros: Any, executor: OneAtATime) -> None:
+def test_can_execute_asks_the_group(ros: Any, executor: OneAtATime) -> None:
     group = Tickets(1)
     guard = ros.node("own").create_guard_condition(lambda: None, callback_group=group)
     assert executor.can_execute(guard)

@@ -1,4 +1,4 @@
-"""A wait inside a callback that cannot end is reported, with the line, the cause and a way out."""
+"""A wait inside a callback that can never end is reported, with its line, cause and remedy."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def notices() -> Iterator[list[str]]:
 
 
 class System:
-    """A node whose callback does something, and a server in a node of its own that the same executor serves."""
+    """A node with a callback, and a server in another node served by the same executor."""
 
     def __init__(self, ros: Any, executor: Any, client_group: Any = None) -> None:
         self.ros, self.executor = ros, executor
@@ -40,7 +40,7 @@ class System:
             executor.add_node(each)
 
     def run(self, callback: Callable[[], object], group: Any = None) -> None:
-        """Let a timer call the function once, and spin until it has ended."""
+        """Call the function once from a timer, and spin until it has ended."""
         done = threading.Event()
 
         def once() -> None:
@@ -64,7 +64,7 @@ def multi(ros: Any) -> Iterator[Any]:
         yield executor
 
 
-def test_call_in_a_callback_of_the_same_default_group(ros: Any, multi: Any, notices: list[str]) -> None:
+def test_call_in_a_callback_of_the_default_group_is_reported(ros: Any, multi: Any, notices: list[str]) -> None:
     system = System(ros, multi)
     got: list[Any] = []
     system.run(lambda: got.append(system.call()))
@@ -74,7 +74,7 @@ def test_call_in_a_callback_of_the_same_default_group(ros: Any, multi: Any, noti
     assert "(the default one)" in notices[0] and "a call of /go" in notices[0]
 
 
-def test_call_in_a_callback_of_the_same_own_group(ros: Any, multi: Any, notices: list[str]) -> None:
+def test_call_in_a_callback_of_the_same_exclusive_group_is_reported(ros: Any, multi: Any, notices: list[str]) -> None:
     group = MutuallyExclusiveCallbackGroup()
     system = System(ros, multi, group)
     system.run(system.call, group)
@@ -82,13 +82,13 @@ def test_call_in_a_callback_of_the_same_own_group(ros: Any, multi: Any, notices:
     assert GROUP in notices[0] and "default" not in notices[0]
 
 
-def test_call_in_a_callback_of_a_single_thread(ros: Any, notices: list[str]) -> None:
+def test_call_in_a_callback_of_a_single_threaded_executor_is_reported(ros: Any, notices: list[str]) -> None:
     system = System(ros, SingleThreadedExecutor(context=ros.init()), ReentrantCallbackGroup())
     system.run(system.call)
     assert len(notices) == 1 and THREAD in notices[0]
 
 
-def test_spinning_for_a_future_in_a_callback_of_the_same_group(ros: Any, notices: list[str]) -> None:
+def test_spinning_for_a_future_in_a_callback_of_the_same_group_is_reported(ros: Any, notices: list[str]) -> None:
     system = System(ros, SingleThreadedExecutor(context=ros.init()))
     system.run(
         lambda: system.executor.spin_until_future_complete(
@@ -99,7 +99,7 @@ def test_spinning_for_a_future_in_a_callback_of_the_same_group(ros: Any, notices
     assert "spinning until a future is complete" in notices[0] and GROUP in notices[0]
 
 
-def test_spinning_for_a_goal_in_a_callback_of_the_same_group(ros: Any, notices: list[str]) -> None:
+def test_spinning_for_a_goal_in_a_callback_of_the_same_group_is_reported(ros: Any, notices: list[str]) -> None:
     system = System(ros, SingleThreadedExecutor(context=ros.init()))
     client = ActionClient(system.node, Fibonacci, "count")
     system.run(
@@ -108,14 +108,14 @@ def test_spinning_for_a_goal_in_a_callback_of_the_same_group(ros: Any, notices: 
     assert len(notices) == 1 and GROUP in notices[0] and "the action client" in notices[0]
 
 
-def test_call_on_a_node_that_nobody_spins(ros: Any, notices: list[str]) -> None:
+def test_call_on_a_node_without_executor_is_reported(ros: Any, notices: list[str]) -> None:
     system = System(ros, SingleThreadedExecutor(context=ros.init()))
     system.executor.remove_node(system.node)
     assert system.call() is None
     assert len(notices) == 1 and "no executor spins the node /n" in notices[0]
 
 
-def test_sleep_of_a_rate_in_a_callback_of_a_single_thread(
+def test_rate_sleep_in_a_callback_of_a_single_threaded_executor_is_reported(
     ros: Any, notices: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(timer, "WARNING_DELAY_NS", 1)
@@ -128,7 +128,7 @@ def test_sleep_of_a_rate_in_a_callback_of_a_single_thread(
 
 
 def test_waits_that_can_end_are_not_reported(ros: Any, multi: Any, notices: list[str]) -> None:
-    """An own group, a thread of the program, and a server that is late."""
+    """A separate group, a thread of the program, and a server that is late."""
     system = System(ros, multi, MutuallyExclusiveCallbackGroup())
     missing = system.node.create_client(Trigger, "none", callback_group=ReentrantCallbackGroup())
     system.run(lambda: system.client.call(Trigger.Request()))

@@ -21,7 +21,7 @@ SECOND = 1_000_000_000
 
 
 class Events:
-    """What a publisher and a subscription of one topic hear, with the time (ms) since the start."""
+    """Events of a publisher and a subscription on one topic, with the time (ms) since the start."""
 
     def __init__(self, ros: Any, **policies: Any) -> None:
         self.node = ros.node()
@@ -57,7 +57,7 @@ class Events:
             self.node.executor.spin_once(timeout_sec=(self._end - self._clock.now()).nanoseconds / SECOND)
 
 
-def test_deadlines_are_missed_again_and_again_after_the_first_message(stepped_ros: Any) -> None:
+def test_deadlines_are_missed_repeatedly_after_the_first_message(stepped_ros: Any) -> None:
     events = Events(stepped_ros, deadline=Duration(seconds=0.5))
     events.subscription(deadline=events.hear("requested"))
     publisher = events.publisher(deadline=events.hear("offered"))
@@ -76,7 +76,7 @@ def test_deadlines_are_missed_again_and_again_after_the_first_message(stepped_ro
 
 
 @pytest.mark.parametrize("deadline", [Duration(), Infinite])
-def test_no_deadline_is_never_missed(stepped_ros: Any, deadline: Duration) -> None:
+def test_infinite_deadline_is_never_missed(stepped_ros: Any, deadline: Duration) -> None:
     events = Events(stepped_ros, deadline=deadline)
     events.subscription(deadline=events.hear("requested"))
     events.publisher(deadline=events.hear("offered")).publish(Int32())
@@ -84,7 +84,7 @@ def test_no_deadline_is_never_missed(stepped_ros: Any, deadline: Duration) -> No
     assert events.heard == []
 
 
-def test_automatic_liveliness_follows_coming_and_going(stepped_ros: Any) -> None:
+def test_automatic_liveliness_follows_the_publishers_existence(stepped_ros: Any) -> None:
     events = Events(stepped_ros, liveliness=LivelinessPolicy.AUTOMATIC, liveliness_lease_duration=Duration(seconds=1))
     events.subscription(liveliness=events.hear("changed"))
     publisher = events.publisher(liveliness=events.hear("lost"))
@@ -94,7 +94,7 @@ def test_automatic_liveliness_follows_coming_and_going(stepped_ros: Any) -> None
     assert events.heard == [(0, "changed", 1, 0, 1, 0), (5000, "changed", 0, 0, -1, 0)]
 
 
-def test_manual_liveliness_is_lost_and_found(stepped_ros: Any) -> None:
+def test_manual_liveliness_is_lost_and_regained(stepped_ros: Any) -> None:
     events = Events(
         stepped_ros, liveliness=LivelinessPolicy.MANUAL_BY_TOPIC, liveliness_lease_duration=Duration(seconds=1)
     )
@@ -113,7 +113,7 @@ def test_manual_liveliness_is_lost_and_found(stepped_ros: Any) -> None:
     ]
 
 
-def test_changes_add_up_until_they_are_reported(ros: Any) -> None:
+def test_changes_accumulate_until_reported(ros: Any) -> None:
     events = Events(ros)
     events.publisher(matched=events.hear("matched"))
     executor = events.node.executor
@@ -125,12 +125,12 @@ def test_changes_add_up_until_they_are_reported(ros: Any) -> None:
     assert [each[1:] for each in events.heard] == [("matched", 3, 3, 2, 2)]
 
 
-def test_default_callbacks_may_be_switched_off(ros: Any) -> None:
+def test_default_callbacks_can_be_disabled(ros: Any) -> None:
     publisher = Events(ros).publisher(use_default_callbacks=False)
     assert publisher.event_handlers == []
 
 
-def test_events_of_a_node_that_another_executor_serves(stepped_ros: Any) -> None:
+def test_events_are_served_by_the_executor_of_their_node(stepped_ros: Any) -> None:
     events = Events(stepped_ros, deadline=Duration(seconds=0.5))
     events.subscription(deadline=events.hear("requested"))
     publisher = events.publisher()
@@ -142,7 +142,7 @@ def test_events_of_a_node_that_another_executor_serves(stepped_ros: Any) -> None
     other.remove_node(events.node)
 
 
-def test_the_policy_that_did_not_fit_prints_by_name() -> None:
+def test_incompatible_policy_prints_its_name() -> None:
     heard: list[QoSRequestedIncompatibleQoSInfo] = []
     handler = IncompatibleHandler(QoSRequestedIncompatibleQoSInfo, heard.append, None)
     handler.happened("incompatible", "RELIABILITY")

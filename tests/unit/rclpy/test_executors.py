@@ -1,4 +1,4 @@
-"""Executors: in which order they serve, how long they wait, what ends them."""
+"""Executors: the order of callbacks, how long they wait, and what ends them."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from std_srvs.srv import Trigger
 
 
 def everything(ros: Any, node: Any, got: list[str], tag: str = "") -> None:
-    """Make one entity of each kind in the reverse order of service, and let all be ready."""
+    """Create one entity of each kind in reverse order of service, all ready."""
     requester = ros.node(f"asker{tag}")
     node.create_service(Trigger, f"s{tag}", lambda request, response: (got.append(f"service{tag}"), response)[1])
     guard = node.create_guard_condition(lambda: got.append(f"guard{tag}"))
@@ -35,7 +35,7 @@ def everything(ros: Any, node: Any, got: list[str], tag: str = "") -> None:
     guard.trigger()
 
 
-def test_kinds_are_served_in_order(ros: Any) -> None:
+def test_kinds_of_entities_are_served_in_order(ros: Any) -> None:
     got: list[str] = []
     everything(ros, ros.node(), got)
     ros.spin(lambda: "service" in got)
@@ -51,7 +51,7 @@ def test_nodes_are_served_one_after_the_other(ros: Any) -> None:
     assert [each[-1] for each in got] == ["1"] * 4 + ["2"] * 4
 
 
-def test_one_message_of_each_subscription_per_wake(ros: Any) -> None:
+def test_each_subscription_takes_one_message_per_wake(ros: Any) -> None:
     node, got = ros.node(), []
     for topic in ("b", "a"):
         node.create_subscription(Int32, topic, lambda message, topic=topic: got.append((topic, message.data)), 10)
@@ -63,7 +63,7 @@ def test_one_message_of_each_subscription_per_wake(ros: Any) -> None:
     assert got == [("b", 0), ("a", 0), ("b", 1), ("a", 1), ("b", 2), ("a", 2)]
 
 
-def test_one_callback_per_spin_once(ros: Any) -> None:
+def test_spin_once_runs_one_callback(ros: Any) -> None:
     node, got = ros.node(), []
     for name in "abc":
         node.create_guard_condition(lambda name=name: got.append(name)).trigger()
@@ -75,7 +75,7 @@ def test_one_callback_per_spin_once(ros: Any) -> None:
     assert seen == ["a", "ab", "abc"]
 
 
-def test_tasks_come_first_and_the_newest_before_all(ros: Any) -> None:
+def test_tasks_run_first_and_the_newest_before_all(ros: Any) -> None:
     node, got = ros.node(), []
     node.create_guard_condition(lambda: got.append("guard")).trigger()
     for name in ("old", "new"):
@@ -85,7 +85,7 @@ def test_tasks_come_first_and_the_newest_before_all(ros: Any) -> None:
     assert got == ["new", "old", "guard"]
 
 
-def test_a_poll_after_the_last_callback_of_a_wake_takes_nothing(ros: Any) -> None:
+def test_poll_after_the_last_callback_of_a_wake_takes_nothing(ros: Any) -> None:
     node, got = ros.node(), []
     node.create_subscription(Int32, "t", lambda message: got.append(message.data), 10)
     publisher = node.create_publisher(Int32, "t", 10)
@@ -98,7 +98,7 @@ def test_a_poll_after_the_last_callback_of_a_wake_takes_nothing(ros: Any) -> Non
     assert seen == [1, 1, 2, 2, 3, 3]
 
 
-def test_entities_made_and_destroyed_within_a_wake(ros: Any) -> None:
+def test_entities_may_be_created_and_destroyed_within_a_wake(ros: Any) -> None:
     node, got = ros.node(), []
 
     def first() -> None:
@@ -113,7 +113,7 @@ def test_entities_made_and_destroyed_within_a_wake(ros: Any) -> None:
     assert got == ["first", "new"]
 
 
-def test_spin_once_waits_as_long_as_it_may(stepped_ros: Any) -> None:
+def test_spin_once_waits_until_its_timeout(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     clock = node.get_clock()
     before = clock.now()
@@ -123,14 +123,14 @@ def test_spin_once_waits_as_long_as_it_may(stepped_ros: Any) -> None:
     assert (clock.now() - before).nanoseconds // 1_000_000 == 250
 
 
-def test_a_negative_time_out_waits_for_ever(stepped_ros: Any) -> None:
+def test_negative_timeout_waits_indefinitely(stepped_ros: Any) -> None:
     node, got = stepped_ros.node(), []
     node.create_timer(3600.0, lambda: got.append(1))
     node.executor.spin_once(timeout_sec=-1)
     assert got == [1]
 
 
-def test_an_exception_comes_out_of_spin(ros: Any) -> None:
+def test_exception_leaves_spin(ros: Any) -> None:
     node = ros.node()
     group = node.default_callback_group
     node.create_guard_condition(lambda: {}["missing"]).trigger()
@@ -139,7 +139,7 @@ def test_an_exception_comes_out_of_spin(ros: Any) -> None:
     assert group.can_execute(None), "the callback's group is free again"
 
 
-def test_an_exception_in_a_coroutine_comes_out_of_spin(ros: Any) -> None:
+def test_exception_in_a_coroutine_leaves_spin(ros: Any) -> None:
     node, go = ros.node(), Future()
 
     async def fail() -> None:
@@ -171,7 +171,7 @@ def test_coroutines_resume_newest_first(ros: Any) -> None:
     assert got == ["c", "b", "a"]
 
 
-def test_a_node_belongs_to_one_executor(ros: Any) -> None:
+def test_node_belongs_to_one_executor(ros: Any) -> None:
     node = ros.node()
     first, second = node.executor, SingleThreadedExecutor(context=ros.context)
     assert second.add_node(node) and not second.add_node(node)
@@ -181,7 +181,7 @@ def test_a_node_belongs_to_one_executor(ros: Any) -> None:
     second.remove_node(node)
 
 
-def test_a_node_taken_out_is_not_served(ros: Any) -> None:
+def test_removed_node_is_not_served(ros: Any) -> None:
     node, other, got = ros.node(), ros.node("other"), []
     guard = node.create_guard_condition(lambda: got.append("node"))
     guard.trigger()
@@ -194,7 +194,7 @@ def test_a_node_taken_out_is_not_served(ros: Any) -> None:
     assert got == ["other", "node"], "what it was told meanwhile is not lost"
 
 
-def test_a_destroyed_node_does_not_disturb_the_others(ros: Any) -> None:
+def test_destroyed_node_does_not_disturb_others(ros: Any) -> None:
     node, other, got = ros.node(), ros.node("other"), []
     node.create_guard_condition(lambda: got.append("node")).trigger()
     other.create_guard_condition(lambda: got.append("other")).trigger()
@@ -204,7 +204,7 @@ def test_a_destroyed_node_does_not_disturb_the_others(ros: Any) -> None:
 
 
 @pytest.mark.parametrize("kind", [SingleThreadedExecutor, MultiThreadedExecutor])
-def test_needs_a_context_that_runs(kind: Any) -> None:
+def test_executor_needs_an_initialized_context(kind: Any) -> None:
     context = Context()
     with pytest.raises(TypeError):
         kind(context=context)
@@ -214,7 +214,7 @@ def test_needs_a_context_that_runs(kind: Any) -> None:
         kind(context=context)
 
 
-def test_an_executor_that_is_shut_down(ros: Any) -> None:
+def test_shut_down_executor_runs_no_callbacks(ros: Any) -> None:
     node, got = ros.node(), []
     executor = SingleThreadedExecutor(context=ros.context)
     node.create_guard_condition(lambda: got.append(1)).trigger()
@@ -230,20 +230,20 @@ def test_an_executor_that_is_shut_down(ros: Any) -> None:
         executor.add_node(node)
 
 
-def test_a_with_block_shuts_it_down(ros: Any) -> None:
+def test_with_block_shuts_the_executor_down(ros: Any) -> None:
     with SingleThreadedExecutor(context=ros.init()) as executor:
         executor.create_task(lambda: None)
     with pytest.raises(AttributeError):
         executor.create_task(print)
 
 
-def test_spin_ends_silently_where_a_callback_shuts_down(ros: Any) -> None:
+def test_spin_returns_silently_if_a_callback_shuts_down(ros: Any) -> None:
     node = ros.node()
     node.create_guard_condition(ros.context.shutdown).trigger()
     assert node.executor.spin() is None
 
 
-def test_spin_once_of_a_context_that_ended(ros: Any) -> None:
+def test_spin_once_raises_if_the_context_has_ended(ros: Any) -> None:
     node = ros.node()
     ros.context.shutdown()
     with pytest.raises(ExternalShutdownException):
@@ -251,7 +251,7 @@ def test_spin_once_of_a_context_that_ended(ros: Any) -> None:
 
 
 @pytest.mark.parametrize(("timeout", "waited"), [(0.5, 500), (0, 0)])
-def test_spin_until_future_complete_gives_up(stepped_ros: Any, timeout: float, waited: int) -> None:
+def test_spin_until_future_complete_times_out(stepped_ros: Any, timeout: float, waited: int) -> None:
     node = stepped_ros.node()
     start = node.get_clock().now()
     assert node.executor.spin_until_future_complete(Future(), timeout) is None
@@ -267,7 +267,7 @@ def test_spin_until_future_complete_ends_with_the_future(stepped_ros: Any) -> No
     assert (node.get_clock().now() - start).nanoseconds == 100_000_000
 
 
-def test_create_task_gives_a_future(ros: Any) -> None:
+def test_create_task_returns_a_future(ros: Any) -> None:
     executor = ros.node().executor
     task = executor.create_task(lambda a, b=0: a + b, 2, b=3)
     assert (task.done(), task.result()) == (False, None)
@@ -275,11 +275,11 @@ def test_create_task_gives_a_future(ros: Any) -> None:
     assert task.result() == 5
 
 
-def test_time_outs_are_no_error_of_user_code() -> None:
+def test_timeout_exception_is_not_a_builtin_timeout_error() -> None:
     assert not issubclass(TimeoutException, TimeoutError)
 
 
-def test_what_a_callback_of_a_pool_raises_comes_out_as_it_was_raised(ros: Any) -> None:
+def test_exception_of_a_pool_callback_is_raised_unchanged(ros: Any) -> None:
     node = ros.node()
 
     def fail() -> None:
@@ -295,7 +295,7 @@ def test_what_a_callback_of_a_pool_raises_comes_out_as_it_was_raised(ros: Any) -
 
 
 @pytest.mark.filterwarnings("ignore:MultiThreadedExecutor is used")
-def test_an_exit_in_a_callback_of_a_pool_ends_that_callback_alone(ros: Any) -> None:
+def test_system_exit_in_a_pool_callback_ends_only_that_callback(ros: Any) -> None:
     node = ros.node()
     calls: list[int] = []
 
@@ -316,7 +316,7 @@ def test_an_exit_in_a_callback_of_a_pool_ends_that_callback_alone(ros: Any) -> N
 
 
 def _waiting_thread(executor: Any, wait: Any) -> tuple[threading.Thread, list[BaseException]]:
-    """A thread that has begun to wait for work, and what its wait has raised."""
+    """Return a thread that has begun to wait for work, and the exceptions raised by its wait."""
     errors: list[BaseException] = []
 
     def run() -> None:
@@ -344,7 +344,7 @@ SPINS: dict[str, Any] = {
 
 @pytest.mark.parametrize("how", SPINS)
 @pytest.mark.parametrize("kind", [SingleThreadedExecutor, MultiThreadedExecutor])
-def test_second_thread_that_spins_the_same_executor_gets_a_value_error(ros: Any, kind: Any, how: str) -> None:
+def test_second_thread_spinning_the_same_executor_gets_a_value_error(ros: Any, kind: Any, how: str) -> None:
     executor, node, future = kind(context=ros.init()), ros.node(), Future()
     executor.add_node(node)
     thread, errors = _waiting_thread(executor, lambda: SPINS[how](executor, node, future))

@@ -12,7 +12,7 @@ from rclpy.wait_for_message import wait_for_message
 from std_msgs.msg import Int32
 
 
-def test_each_wake_serves_a_trigger_once(ros: Any) -> None:
+def test_repeated_triggers_call_back_once_per_wake(ros: Any) -> None:
     node, got = ros.node(), []
     guard = node.create_guard_condition(lambda: got.append(1))
     for _ in range(3):
@@ -23,7 +23,7 @@ def test_each_wake_serves_a_trigger_once(ros: Any) -> None:
     assert got == [1, 1]
 
 
-def test_a_trigger_from_its_own_callback(ros: Any) -> None:
+def test_guard_condition_may_be_triggered_in_its_own_callback(ros: Any) -> None:
     node, got = ros.node(), []
 
     def again() -> None:
@@ -36,7 +36,7 @@ def test_a_trigger_from_its_own_callback(ros: Any) -> None:
     ros.spin(lambda: len(got) >= 3)
 
 
-def test_a_trigger_wakes_another_thread(ros: Any) -> None:
+def test_trigger_wakes_another_thread(ros: Any) -> None:
     node, got = ros.node(), threading.Event()
     guard = node.create_guard_condition(got.set)
     thread = threading.Thread(target=node.executor.spin, daemon=True)
@@ -48,7 +48,7 @@ def test_a_trigger_wakes_another_thread(ros: Any) -> None:
     assert not thread.is_alive()
 
 
-def test_a_coroutine(ros: Any) -> None:
+def test_callback_may_be_a_coroutine(ros: Any) -> None:
     node, got = ros.node(), []
 
     async def act() -> None:
@@ -58,7 +58,7 @@ def test_a_coroutine(ros: Any) -> None:
     ros.spin(lambda: bool(got))
 
 
-def test_destroyed(ros: Any) -> None:
+def test_destroyed_guard_condition_raises_invalid_handle(ros: Any) -> None:
     node = ros.node()
     guard = node.create_guard_condition(None)
     guard.trigger()
@@ -67,7 +67,7 @@ def test_destroyed(ros: Any) -> None:
         guard.trigger()
 
 
-def test_wait_for_message(stepped_ros: Any) -> None:
+def test_wait_for_message_returns_the_message(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     publisher = node.create_publisher(Int32, "t", 1)
     threading.Timer(0.5, lambda: publisher.publish(Int32(data=7))).start()
@@ -75,14 +75,14 @@ def test_wait_for_message(stepped_ros: Any) -> None:
     assert node.count_subscribers("t") == 0
 
 
-def test_wait_for_message_gives_up(stepped_ros: Any) -> None:
+def test_wait_for_message_times_out(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     start = node.get_clock().now()
     assert wait_for_message(Int32, node, "t", time_to_wait=0.5) == (False, None)
     assert (node.get_clock().now() - start).nanoseconds == 500_000_000
 
 
-def test_wait_for_message_takes_what_was_kept(ros: Any) -> None:
+def test_wait_for_message_returns_a_latched_message(ros: Any) -> None:
     node = ros.node()
     latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     node.create_publisher(Int32, "t", latched).publish(Int32(data=3))

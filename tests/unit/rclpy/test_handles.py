@@ -1,4 +1,4 @@
-"""Handles of entities: `with` uses them, and messages can be taken by hand."""
+"""Handles of entities: `with` uses them, and messages can be taken manually."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MAKERS = {
 
 
 @pytest.mark.parametrize("kind", MAKERS)
-def test_an_entity_outlives_a_with_block(ros: Any, kind: str) -> None:
+def test_entity_outlives_a_with_block(ros: Any, kind: str) -> None:
     node = ros.node()
     entity, other = MAKERS[kind](node), MAKERS[kind](node)
     with entity.handle as nothing:
@@ -35,7 +35,7 @@ def test_an_entity_outlives_a_with_block(ros: Any, kind: str) -> None:
         pass
 
 
-def test_a_node_and_its_context_outlive_a_with_block(ros: Any) -> None:
+def test_node_and_context_outlive_a_with_block(ros: Any) -> None:
     node = ros.node("lives")
     with node.handle:
         pass
@@ -44,7 +44,7 @@ def test_a_node_and_its_context_outlive_a_with_block(ros: Any) -> None:
     assert (node.get_name(), node.context.ok()) == ("lives", True)
 
 
-def test_messages_are_taken_by_hand(ros: Any) -> None:
+def test_messages_can_be_taken_manually(ros: Any) -> None:
     node = ros.node()
     subscription = node.create_subscription(Int32, "t", lambda message: None, 10)
     publisher = node.create_publisher(Int32, "t", 10)

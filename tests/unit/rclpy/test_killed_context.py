@@ -1,4 +1,4 @@
-"""A killed process may run a little further: what it still makes never shows in the graph."""
+"""A killed process may run a little longer: what it still creates never appears in the graph."""
 
 import gc
 import itertools
@@ -34,12 +34,12 @@ def things(domain):
     return [*graph.nodes(), *(each for kind in ends for each in kind.all())]
 
 
-def test_entities_of_a_node_that_has_left(process, domain, monkeypatch):
+def test_entities_created_after_the_kill_stay_out_of_the_graph(process, domain, monkeypatch):
     context = Context()
     context.init([], domain_id=domain)
     node = Node("n", context=context)
     process.finish(-9)
-    monkeypatch.setattr(context, "ended", False)  # as it was when each of these looked
+    monkeypatch.setattr(context, "ended", False)  # as it was when each of these checked
     node.create_publisher(String, "t", 10)
     node.create_subscription(String, "t", lambda message: None, 10)
     node.create_service(Trigger, "s", lambda request, response: response)
@@ -49,23 +49,23 @@ def test_entities_of_a_node_that_has_left(process, domain, monkeypatch):
     assert things(domain) == []
 
 
-def test_a_node_that_is_made_while_its_context_ends(process, domain, monkeypatch):
+def test_node_created_while_its_context_ends_stays_out_of_the_graph(process, domain, monkeypatch):
     context = Context()
     context.init([], domain_id=domain)
     process.finish(-9)
-    monkeypatch.setattr(context, "ended", False)  # as it was when the node looked
+    monkeypatch.setattr(context, "ended", False)  # as it was when the node checked
     Node("n", context=context)
     assert things(domain) == []
 
 
-def test_a_context_that_begins_after_the_end(process, domain):
+def test_context_initialized_after_the_end_is_not_ok(process, domain):
     process.finish(-9)
     context = Context()
     context.init([], domain_id=domain)
     assert not context.ok()
 
 
-def test_nodes_of_a_context_that_was_shut_down_leave_with_the_process(process, domain):
+def test_nodes_of_a_shut_down_context_leave_with_the_process(process, domain):
     context = Context()
     context.init([], domain_id=domain)
     node = Node("n", context=context)
@@ -76,7 +76,7 @@ def test_nodes_of_a_context_that_was_shut_down_leave_with_the_process(process, d
     node.destroy_node()
 
 
-def test_a_process_does_not_keep_contexts_that_were_shut_down(process, domain):
+def test_process_does_not_keep_shut_down_contexts(process, domain):
     context = Context()
     context.init([], domain_id=domain)
     Node("n", context=context).destroy_node()
@@ -88,7 +88,7 @@ def test_a_process_does_not_keep_contexts_that_were_shut_down(process, domain):
     process.finish(-9)
 
 
-def test_an_interrupt_on_its_way_comes_before_the_refusal_it_causes(process, domain, monkeypatch):
+def test_pending_interrupt_is_raised_before_the_error_it_causes(process, domain, monkeypatch):
     def deliver():
         raise KeyboardInterrupt
 

@@ -31,7 +31,7 @@ PATHS = {
 
 
 class Scripted(LifecycleNode):
-    """Its callbacks answer, or raise, what `answers` says, and keep what they were told."""
+    """A node whose callbacks return, or raise, what `answers` says, and record their arguments."""
 
     def __init__(self, name: str, **options: Any) -> None:
         self.answers: dict[str, Any] = {}
@@ -72,7 +72,7 @@ def lead(node: Scripted, state: str) -> None:
     assert node.state == state
 
 
-def test_names() -> None:
+def test_names_are_upstreams() -> None:
     assert Node is LifecycleNode
     assert State is LifecycleState
     assert issubclass(LifecycleNode, LifecycleNodeMixin)
@@ -101,7 +101,7 @@ def test_names() -> None:
         ("active", "shutdown", {"on_shutdown": FAILURE}, FAILURE, "finalized"),
     ],
 )
-def test_transition(
+def test_transitions_follow_the_state_machine(
     node: Scripted, state: str, trigger: str, answers: dict[str, Any], returned: TransitionCallbackReturn, after: str
 ) -> None:
     lead(node, state)
@@ -127,7 +127,9 @@ def test_transition(
         ("active", "shutdown"),
     ],
 )
-def test_error_processing(node: Scripted, state: str, trigger: str, on_error: Any, after: str, broken: Any) -> None:
+def test_error_processing_follows_on_error(
+    node: Scripted, state: str, trigger: str, on_error: Any, after: str, broken: Any
+) -> None:
     lead(node, state)
     node.answers = {f"on_{trigger}": broken, "on_error": on_error}
     assert getattr(node, f"trigger_{trigger}")() is ERROR
@@ -137,7 +139,7 @@ def test_error_processing(node: Scripted, state: str, trigger: str, on_error: An
 
 @pytest.mark.parametrize("trigger", TRIGGERS)
 @pytest.mark.parametrize("state", PATHS)
-def test_a_transition_from_another_state_is_refused(
+def test_transition_from_another_state_is_refused(
     node: Scripted, state: str, trigger: str, capfd: pytest.CaptureFixture[str]
 ) -> None:
     lead(node, state)
@@ -156,13 +158,13 @@ def test_a_transition_from_another_state_is_refused(
     assert f"[rcl_lifecycle]: No transition matching {number} found for current state {state}" in capfd.readouterr().err
 
 
-def test_an_exception_in_a_callback_is_reported(node: Scripted, capfd: pytest.CaptureFixture[str]) -> None:
+def test_exception_in_a_callback_is_reported(node: Scripted, capfd: pytest.CaptureFixture[str]) -> None:
     node.answers = {"on_configure": ValueError("no port")}
     node.trigger_configure()
     assert f"[managed]: on_configure raised ValueError: no port, at {__file__}:" in capfd.readouterr().err
 
 
-def test_an_answer_that_is_none_leaves_the_node_in_between(node: Scripted) -> None:
+def test_callback_returning_none_leaves_the_node_in_the_transition_state(node: Scripted) -> None:
     node.answers = {"on_configure": None}
     with pytest.raises(AttributeError, match="'NoneType' object has no attribute 'to_label'"):
         node.trigger_configure()
@@ -172,7 +174,7 @@ def test_an_answer_that_is_none_leaves_the_node_in_between(node: Scripted) -> No
 
 
 class Entity(ManagedEntity):
-    """Answers `answer` and keeps what it was asked."""
+    """Returns `answer` and records its calls."""
 
     def __init__(self, answer: Any, asked: list[Any]) -> None:
         self.answer, self.asked = answer, asked
@@ -182,7 +184,7 @@ class Entity(ManagedEntity):
         return self.answer
 
 
-def test_managed_entities_are_asked_until_one_does_not_agree(ros: Any) -> None:
+def test_managed_entities_are_called_until_one_fails(ros: Any) -> None:
     ros.init()
     node = LifecycleNode("managed", context=ros.context)
     asked: list[Any] = []
@@ -195,7 +197,7 @@ def test_managed_entities_are_asked_until_one_does_not_agree(ros: Any) -> None:
         node.add_managed_entity(object())  # type: ignore[arg-type]
 
 
-def test_a_managed_entity_that_answers_something_else_is_an_error(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
+def test_invalid_return_value_of_a_managed_entity_is_an_error(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
     ros.init()
     node = LifecycleNode("managed", context=ros.context)
     node.add_managed_entity(Entity(True, []))
@@ -203,7 +205,7 @@ def test_a_managed_entity_that_answers_something_else_is_an_error(ros: Any, capf
     assert "should be `TransitionCallbackReturn`." in capfd.readouterr().err
 
 
-def test_names_of_a_users_own_methods_do_not_clash(ros: Any) -> None:
+def test_private_names_of_a_subclass_do_not_clash(ros: Any) -> None:
     class Own(LifecycleNode):
         def _change_state(self) -> None:
             raise AssertionError

@@ -29,7 +29,7 @@ def talk(ros: Any) -> Talk:
     return Talk(ros)
 
 
-def test_published_only_while_active(talk: Talk) -> None:
+def test_messages_are_published_only_while_active(talk: Talk) -> None:
     assert Publisher is LifecyclePublisher
     steps = [
         (lambda: None, False),
@@ -47,7 +47,7 @@ def test_published_only_while_active(talk: Talk) -> None:
     assert talk.heard == ["2", "4", "5"]
 
 
-def test_a_publisher_made_while_active_is_silent_until_the_next_activation(talk: Talk) -> None:
+def test_publisher_created_while_active_is_silent_until_next_activation(talk: Talk) -> None:
     talk.node.trigger_configure()
     talk.node.trigger_activate()
     late = talk.node.create_lifecycle_publisher(String, "chatter", 10)
@@ -65,12 +65,12 @@ def test_ordinary_publishers_of_a_managed_node_always_publish(talk: Talk) -> Non
     assert talk.heard == ["always"]
 
 
-def test_the_class_of_the_publisher_is_not_to_choose(talk: Talk) -> None:
+def test_publisher_class_cannot_be_chosen(talk: Talk) -> None:
     with pytest.raises(TypeError, match="unexpected keyword argument 'publisher_class'"):
         talk.node.create_lifecycle_publisher(String, "other", 10, publisher_class=LifecyclePublisher)
 
 
-def test_a_destroyed_publisher_is_asked_no_more(talk: Talk) -> None:
+def test_destroyed_publisher_is_no_longer_managed(talk: Talk) -> None:
     assert talk.node.destroy_lifecycle_publisher(talk.publisher)
     assert not talk.node.destroy_lifecycle_publisher(talk.publisher)
     talk.node.trigger_configure()
@@ -78,7 +78,7 @@ def test_a_destroyed_publisher_is_asked_no_more(talk: Talk) -> None:
     assert not talk.publisher.is_activated
 
 
-def test_a_wrong_field_names_the_users_line(talk: Talk, capfd: pytest.CaptureFixture[str]) -> None:
+def test_wrong_field_names_the_users_line(talk: Talk, capfd: pytest.CaptureFixture[str]) -> None:
     talk.node.trigger_configure()
     talk.node.trigger_activate()
     with pytest.raises(TypeError):
@@ -86,7 +86,7 @@ def test_a_wrong_field_names_the_users_line(talk: Talk, capfd: pytest.CaptureFix
     assert f", at {__file__}:" in capfd.readouterr().err
 
 
-def test_when_enabled() -> None:
+def test_when_enabled_runs_the_method_only_while_active() -> None:
     output: list[str] = []
 
     class Lamp(SimpleManagedEntity):

@@ -14,7 +14,7 @@ FIVE = ["change_state", "get_available_states", "get_available_transitions", "ge
 
 
 class Managed:
-    """A managed node `/ns/managed`, and a node that asks its services."""
+    """A managed node `/ns/managed`, and a node that calls its services."""
 
     def __init__(self, ros: Any) -> None:
         self.ros = ros
@@ -39,7 +39,7 @@ def managed(ros: Any) -> Managed:
     return Managed(ros)
 
 
-def test_names_of_the_services(managed: Managed) -> None:
+def test_services_have_upstreams_names(managed: Managed) -> None:
     mine = [service for service in managed.node.services if service.srv_name.startswith("/ns/managed/")]
     assert sorted(service.srv_name for service in mine) == [f"/ns/managed/{name}" for name in FIVE]
     found = dict(managed.requester.get_service_names_and_types_by_node("managed", "/ns"))
@@ -47,7 +47,7 @@ def test_names_of_the_services(managed: Managed) -> None:
     assert found["/ns/managed/get_transition_graph"] == ["lifecycle_msgs/srv/GetAvailableTransitions"]
 
 
-def test_state_by_state(managed: Managed) -> None:
+def test_change_state_walks_through_all_states(managed: Managed) -> None:
     assert managed.state == (1, "unconfigured")
     seen = []
     for label in ("configure", "activate", "deactivate", "cleanup", "shutdown"):
@@ -56,29 +56,29 @@ def test_state_by_state(managed: Managed) -> None:
     assert seen == [(2, "inactive"), (3, "active"), (2, "inactive"), (1, "unconfigured"), (4, "finalized")]
 
 
-def test_a_label_wins_over_an_id(managed: Managed) -> None:
+def test_label_takes_precedence_over_id(managed: Managed) -> None:
     assert managed.change(id=Transition.TRANSITION_UNCONFIGURED_SHUTDOWN, label="configure")
     assert managed.state == (2, "inactive")
 
 
-def test_an_unknown_label_is_no_success(managed: Managed, capfd: pytest.CaptureFixture[str]) -> None:
+def test_unknown_label_fails(managed: Managed, capfd: pytest.CaptureFixture[str]) -> None:
     assert not managed.change(label="activate")
     assert managed.state == (1, "unconfigured")
     assert "No transition matching activate found for current state unconfigured" in capfd.readouterr().err
 
 
-def test_an_id_that_does_not_fit_ends_the_node(managed: Managed) -> None:
+def test_inapplicable_id_raises_in_the_node(managed: Managed) -> None:
     with pytest.raises(RCLError, match="Transition is not registered"):
         managed.change(id=Transition.TRANSITION_ACTIVATE)
 
 
-def test_failure_is_no_success(managed: Managed) -> None:
+def test_callback_failure_is_no_success(managed: Managed) -> None:
     managed.node._callbacks[10] = lambda state: TransitionCallbackReturn.FAILURE
     assert not managed.change(label="configure")
     assert managed.state == (1, "unconfigured")
 
 
-def test_available_transitions_of_each_state(managed: Managed) -> None:
+def test_available_transitions_depend_on_the_state(managed: Managed) -> None:
     seen = []
     for step in ("configure", "activate", "shutdown", None):
         response = managed.ask(GetAvailableTransitions, "get_available_transitions")
@@ -93,7 +93,7 @@ def test_available_transitions_of_each_state(managed: Managed) -> None:
     ]
 
 
-def test_states_and_graph(managed: Managed) -> None:
+def test_states_and_transition_graph_are_upstreams(managed: Managed) -> None:
     states = managed.ask(GetAvailableStates, "get_available_states").available_states
     assert [each.id for each in states] == [0, 1, 2, 3, 4, 10, 11, 12, 13, 14, 15]
     graph = managed.ask(GetAvailableTransitions, "get_transition_graph").available_transitions
@@ -113,7 +113,7 @@ def test_states_and_graph(managed: Managed) -> None:
     assert len(rows) == 25
 
 
-def test_transition_events(managed: Managed) -> None:
+def test_transition_events_are_published(managed: Managed) -> None:
     seen: list[tuple[str, str]] = []
     managed.requester.create_subscription(
         TransitionEvent,
@@ -134,7 +134,7 @@ def test_transition_events(managed: Managed) -> None:
     ]
 
 
-def test_without_the_communication_interface(ros: Any) -> None:
+def test_communication_interface_can_be_disabled(ros: Any) -> None:
     ros.init()
     node = LifecycleNode("managed", context=ros.context, enable_communication_interface=False)
     assert node.trigger_configure() is TransitionCallbackReturn.SUCCESS
@@ -145,7 +145,7 @@ def test_without_the_communication_interface(ros: Any) -> None:
         LifecycleNode("other", context=ros.context, enable_communication_interface="yes")  # type: ignore[arg-type]
 
 
-def test_all_is_gone_with_the_node(managed: Managed) -> None:
+def test_services_and_topic_leave_with_the_node(managed: Managed) -> None:
     managed.node.destroy_node()
     assert not [name for name, _ in managed.requester.get_topic_names_and_types() if "transition_event" in name]
     left = dict(managed.requester.get_service_names_and_types())

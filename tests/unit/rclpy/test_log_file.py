@@ -1,4 +1,4 @@
-"""The file that a process logs to: where, when, and what is in it."""
+"""The log file of a process: its place, when it exists, and its contents."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ TIME = r" \[\d{10}\.\d{9}\]"
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The folder for log files, which is not there yet; no other test's context counts."""
+    """The folder for log files, which does not exist yet; contexts of other tests do not count."""
     monkeypatch.setattr(log_routing.state(), "log_file", LogFile())
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     return tmp_path / "log"
 
 
 def content(folder: Path) -> list[str]:
-    """What the files hold, the oldest first, without times."""
+    """Return the contents of the files, oldest first, without times."""
     return [re.sub(TIME, "", each.read_text("utf-8")) for each in sorted(folder.rglob("*.log"))]
 
 
-def test_lines_are_in_a_file_named_after_the_process(ros: Any, folder: Path, capfd: Any) -> None:
+def test_log_file_is_named_after_the_process(ros: Any, folder: Path, capfd: Any) -> None:
     node = ros.node("speaker_of_this_test")
     assert content(folder) == []
     node.get_logger().info("one\nmore \u00fc")
@@ -44,7 +44,7 @@ def test_lines_are_in_a_file_named_after_the_process(ros: Any, folder: Path, cap
     assert re.sub(TIME, "", capfd.readouterr().err) == content(folder)[0]
 
 
-def test_it_ends_with_the_last_context(ros: Any, folder: Path) -> None:
+def test_log_file_is_closed_with_the_last_context(ros: Any, folder: Path) -> None:
     ros.init()
     second, third = Context(), Context()
     second.init([], domain_id=ros.domain)
@@ -65,13 +65,13 @@ def test_it_ends_with_the_last_context(ros: Any, folder: Path) -> None:
         (["--disable-external-lib-logs"], []),
     ],
 )
-def test_the_command_line_has_its_way(ros: Any, folder: Path, words: list[str], names: list[str]) -> None:
+def test_command_line_controls_the_log_file(ros: Any, folder: Path, words: list[str], names: list[str]) -> None:
     ros.init(*words)
     logging.get_logger("a").info("one")
     assert [each.name.split("_")[0] for each in folder.rglob("*.log")] == names
 
 
-def test_there_is_none_where_nobody_asks_for_it(
+def test_there_is_no_log_file_unless_requested(
     ros: Any, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ROS_LOG_DIR", "")
@@ -81,9 +81,7 @@ def test_there_is_none_where_nobody_asks_for_it(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_console_that_marks_the_lines_leaves_the_file_as_it_is(
-    ros: Any, folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_console_markers_do_not_appear_in_the_log_file(ros: Any, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(ENVELOPE_VARIABLE, "<<{line}>>")
     monkeypatch.setenv("RCUTILS_CONSOLE_OUTPUT_FORMAT", "<<{message}>>")
     ros.init()
@@ -91,14 +89,14 @@ def test_a_console_that_marks_the_lines_leaves_the_file_as_it_is(
     assert content(folder) == ["one\n"]
 
 
-def test_a_folder_that_cannot_be_made_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_folder_that_cannot_be_created_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "file").write_text("no folder")
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "file" / "log"))
     with pytest.raises(RCLError, match=r"^failed to initialize logging: Failed to create log directory '.*/log': 20$"):
         Context().init([])
 
 
-def test_a_file_that_cannot_be_written_is_reported_once(ros: Any, folder: Path, capfd: Any) -> None:
+def test_unwritable_log_file_is_reported_once(ros: Any, folder: Path, capfd: Any) -> None:
     ros.init("--log-file-name", "a/b")
     (folder / "a").write_text("no folder")
     logging.get_logger("a").info("one")

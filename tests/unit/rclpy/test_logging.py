@@ -30,7 +30,7 @@ def log() -> Iterator[Any]:
 
 @pytest.fixture
 def printed(capfd: pytest.CaptureFixture[str]) -> Callable[[], list[str]]:
-    """The lines printed since it was asked last, without time and logger."""
+    """Return the lines printed since the last call, without time and logger."""
 
     def lines() -> list[str]:
         return [re.sub(r"\[\d{10}\.\d{9}\] \[[\w.]+\]: ", "", line) for line in capfd.readouterr().err.splitlines()]
@@ -38,7 +38,7 @@ def printed(capfd: pytest.CaptureFixture[str]) -> Callable[[], list[str]]:
     return lines
 
 
-def test_severities_and_lines(log: Any, printed: Callable[[], list[str]]) -> None:
+def test_each_severity_prints_its_line(log: Any, printed: Callable[[], list[str]]) -> None:
     assert [log.debug("d"), log.info("i"), log.warning("w"), log.warn("w2"), log.error("e"), log.fatal("f")] == [
         *(False, True, True, True, True, True)
     ]
@@ -61,7 +61,7 @@ def test_severities_and_lines(log: Any, printed: Callable[[], list[str]]) -> Non
         ({"throttle_duration_sec": 100.0, "skip_first": True}, [False, False, False, False]),
     ],
 )
-def test_filters(log: Any, options: dict[str, Any], answers: list[bool]) -> None:
+def test_filters_limit_messages(log: Any, options: dict[str, Any], answers: list[bool]) -> None:
     assert [log.info("x", **options) for _ in range(4)] == answers
 
 
@@ -74,7 +74,7 @@ def test_throttle_follows_its_clock(stepped_ros: Any, log: Any) -> None:
     assert answers == [True, False, False, True, False]
 
 
-def test_two_places_are_two_sites(log: Any) -> None:
+def test_filters_are_kept_per_call_site(log: Any) -> None:
     answers = []
     for _ in range(2):
         answers.append(log.info("a", once=True))
@@ -82,7 +82,7 @@ def test_two_places_are_two_sites(log: Any) -> None:
     assert answers == [True, True, False, False]
 
 
-def test_one_place_may_not_change_its_mind(log: Any) -> None:
+def test_call_site_may_not_change_its_severity(log: Any) -> None:
     def show_text(severity: int, **options: Any) -> Any:
         return log.log("x", severity, **options)
 
@@ -100,7 +100,7 @@ def test_one_place_may_not_change_its_mind(log: Any) -> None:
         throttled(2.0)
 
 
-def test_sites_belong_to_loggers(log: Any) -> None:
+def test_severity_of_a_call_site_is_kept_per_logger(log: Any) -> None:
     def show_text(logger: Any, method: str) -> Any:
         return getattr(logger, method)("x")
 
@@ -122,19 +122,21 @@ def test_sites_belong_to_loggers(log: Any) -> None:
         ([], {}, TypeError, "must be a string"),
     ],
 )
-def test_refused(log: Any, message: Any, options: dict[str, Any], kind: type[Exception], words: str) -> None:
+def test_invalid_filters_are_rejected(
+    log: Any, message: Any, options: dict[str, Any], kind: type[Exception], words: str
+) -> None:
     with pytest.raises(kind, match=words):
         log.info(message, **options)
 
 
 @pytest.mark.parametrize(("message", "text"), [(None, "(null)"), (b"bytes", "bytes"), ("", "")])
-def test_messages_that_are_no_text(log: Any, message: Any, text: str, printed: Callable[[], list[str]]) -> None:
+def test_non_text_messages_are_converted(log: Any, message: Any, text: str, printed: Callable[[], list[str]]) -> None:
     assert log.info(message)
     assert printed() == [f"[INFO] {text}"]
     assert log.debug(5) is False, "what is not logged is not looked at"
 
 
-def test_printf_style_is_refused(log: Any) -> None:
+def test_printf_style_is_rejected(log: Any) -> None:
     with pytest.raises(TypeError):
         log.info("x %d", 5)
 
@@ -151,7 +153,7 @@ def test_printf_style_is_refused(log: Any) -> None:
         ({"a": 40, "a.b": 0}, "a.b", 40),
     ],
 )
-def test_levels_are_inherited_by_dots(levels: dict[str, int], name: str, effective: int, log: Any) -> None:
+def test_levels_are_inherited_by_dotted_names(levels: dict[str, int], name: str, effective: int, log: Any) -> None:
     for logger, level in levels.items():
         logging.set_logger_level(logger, level)
     assert logging.get_logger_effective_level(name) == effective
@@ -159,7 +161,7 @@ def test_levels_are_inherited_by_dots(levels: dict[str, int], name: str, effecti
     assert logging.get_logger(name).is_enabled_for(LoggingSeverity.FATAL)
 
 
-def test_levels_of_one_logger(log: Any) -> None:
+def test_level_of_a_logger_can_be_set_and_queried(log: Any) -> None:
     assert logging.get_logger_level(log.name) == LoggingSeverity.UNSET
     assert log.set_level(LoggingSeverity.ERROR) is None
     assert logging.get_logger_level(log.name) == LoggingSeverity.ERROR
@@ -171,14 +173,14 @@ def test_levels_of_one_logger(log: Any) -> None:
 
 
 @pytest.mark.parametrize("word", ["INFO", "info", "Info"])
-def test_severities_by_name(word: str) -> None:
+def test_severities_are_found_by_name(word: str) -> None:
     assert logging.get_logging_severity_from_string(word) is LoggingSeverity.INFO
     for wrong in ("WARNING", "", "foo"):
         with pytest.raises(RuntimeError):
             logging.get_logging_severity_from_string(wrong)
 
 
-def test_children(log: Any) -> None:
+def test_child_loggers_have_dotted_names(log: Any) -> None:
     assert log.get_child("a").get_child("b").name == f"{log.name}.a.b"
     with pytest.raises(ValueError, match=r"^Child logger name must not be empty.$"):
         log.get_child("")
@@ -204,7 +206,7 @@ STAMP = 1_700_000_000_000_000_005
         ("{time_as_nanoseconds}", "1700000000000000005"),
     ],
 )
-def test_formats(pattern: str, line: str) -> None:
+def test_output_format_is_applied(pattern: str, line: str) -> None:
     formatter = Formatter(pattern, "0", to_stdout=False)
     assert formatter.line(20, "n", "hi", "x.py", "f", 7, STAMP) == line
 
@@ -212,12 +214,12 @@ def test_formats(pattern: str, line: str) -> None:
 @pytest.mark.parametrize(
     ("severity", "begin"), [(10, "\033[32m"), (20, "\033[0m"), (30, "\033[33m"), (40, "\033[31m"), (50, "\033[31m")]
 )
-def test_colours(severity: int, begin: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_colours_follow_severity(severity: int, begin: str, capsys: pytest.CaptureFixture[str]) -> None:
     Formatter("{message}", "1", to_stdout=True).write(severity, "n", "hi", "x.py", "f", 7, STAMP)
     assert capsys.readouterr().out == f"{begin}hi\033[0m\n"
 
 
-def test_rosout(ros: Any) -> None:
+def test_messages_are_published_on_rosout(ros: Any) -> None:
     node, observer, got = ros.node("talker"), ros.node("observer"), []
     observer.create_subscription(Log, "/rosout", got.append, 100)
     node.get_logger().warning("careful")
@@ -229,11 +231,15 @@ def test_rosout(ros: Any) -> None:
         ("talker", 30, "careful"),
         ("talker.part", 20, "child"),
     ]
-    assert got[0].file.endswith("test_logging.py") and got[0].function == "test_rosout" and got[0].line > 0
+    assert (
+        got[0].file.endswith("test_logging.py")
+        and got[0].function == "test_messages_are_published_on_rosout"
+        and got[0].line > 0
+    )
     assert got[0].stamp.sec > 1_600_000_000
 
 
-def test_rosout_keeps_for_late_joiners(ros: Any) -> None:
+def test_rosout_keeps_messages_for_late_joiners(ros: Any) -> None:
     ros.node("talker").get_logger().info("early")
     observer, got = ros.node("observer"), []
     latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -242,7 +248,7 @@ def test_rosout_keeps_for_late_joiners(ros: Any) -> None:
     assert [each.msg for each in got] == ["early"]
 
 
-def test_what_was_kept_does_not_change(ros: Any) -> None:
+def test_latched_log_messages_are_copies(ros: Any) -> None:
     ros.node("talker").get_logger().info("early")
     latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     first, second = [], []
@@ -255,7 +261,7 @@ def test_what_was_kept_does_not_change(ros: Any) -> None:
     assert second[0].msg == "early"
 
 
-def test_names_that_are_none(log: Any) -> None:
+def test_invalid_logger_names_are_rejected(log: Any) -> None:
     with pytest.raises(ValueError, match=r"Logger name must not be empty\."):
         logging.get_logger("")
     with pytest.raises(TypeError):
@@ -271,7 +277,7 @@ def test_names_that_are_none(log: Any) -> None:
         ("foo:=", ""),
     ],
 )
-def test_a_rule_for_a_name_that_is_none_is_reported_before_the_refusal(
+def test_remap_rule_with_invalid_name_is_warned_about_before_the_error(
     rule: str, warning: str, printed: Callable[[], list[str]]
 ) -> None:
     with pytest.raises(RCLError):

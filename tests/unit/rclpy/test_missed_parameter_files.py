@@ -1,4 +1,4 @@
-"""A parameter file that gives a node nothing is told of where its key looks mistyped, and only there."""
+"""A parameter file that matches no node is reported if its key looks mistyped, and only then."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def reported():
 
 
 def begin(ros: Any, folder: Path, *keys: str, rules: tuple[str, ...] = ()) -> str:
-    """A context with a file that has these keys."""
+    """Initialize a context with a file that has these keys and return the file's path."""
     file = folder / "parameters.yaml"
     file.write_text("".join(SECTION.format(key) for key in keys))
     ros.init("--params-file", str(file), "-p", "other:=1", *rules)
@@ -30,7 +30,7 @@ def begin(ros: Any, folder: Path, *keys: str, rules: tuple[str, ...] = ()) -> st
 @pytest.mark.parametrize(
     ("key", "space"), [("robto_node", ""), ("/robot", ""), ("robot_node", "/left"), ("camera", ""), ("/left/*", "")]
 )
-def test_a_key_that_looks_mistyped_or_is_all_there_is_is_named_once(
+def test_mistyped_or_only_key_is_reported_once(
     key: str, space: str, ros: Any, reported: list[str], tmp_path: Path
 ) -> None:
     file = begin(ros, tmp_path, key)
@@ -44,7 +44,7 @@ def test_a_key_that_looks_mistyped_or_is_all_there_is_is_named_once(
 
 
 @pytest.mark.parametrize("keys", [("/**",), ("robot_node", "robto_node"), ("/*",), ("camera", "arm")])
-def test_a_file_that_reaches_the_node_or_is_for_many_others_is_not(
+def test_file_that_matches_or_has_many_other_keys_is_not_reported(
     keys: tuple[str, ...], ros: Any, reported: list[str], tmp_path: Path
 ) -> None:
     begin(ros, tmp_path, *keys)
@@ -52,14 +52,14 @@ def test_a_file_that_reaches_the_node_or_is_for_many_others_is_not(
     assert reported == []
 
 
-def test_what_means_another_node_of_the_program_is_not(ros: Any, reported: list[str], tmp_path: Path) -> None:
+def test_key_of_another_node_of_the_program_is_not_reported(ros: Any, reported: list[str], tmp_path: Path) -> None:
     begin(ros, tmp_path, "camera_left")
     ros.node("camera_left")
     ros.node("camera_right")
     assert reported == []
 
 
-def test_a_node_that_launch_has_named_is_left_to_launch(ros: Any, reported: list[str], tmp_path: Path) -> None:
+def test_node_named_by_launch_is_not_reported_here(ros: Any, reported: list[str], tmp_path: Path) -> None:
     begin(ros, tmp_path, "robto_node", rules=("-r", "__node:=robot_node"))
     assert ros.node("minimal").get_name() == "robot_node"
     assert reported == []

@@ -32,7 +32,7 @@ from std_srvs.srv import Trigger
         ({"cli_args": ["--ros-args", "-r", "__node:=m", "-r", "__ns:=/x"]}, ("m", "/x", "/x/m", "x.m")),
     ],
 )
-def test_names(ros: Any, options: dict[str, Any], names: tuple[str, ...]) -> None:
+def test_node_has_its_names(ros: Any, options: dict[str, Any], names: tuple[str, ...]) -> None:
     node = ros.node(**options)
     found = (node.get_name(), node.get_namespace(), node.get_fully_qualified_name(), node.get_logger().name)
     assert found == names
@@ -50,7 +50,7 @@ def test_names(ros: Any, options: dict[str, Any], names: tuple[str, ...]) -> Non
          "than alphanumerics, '_', or '/':\n  '/a b'\n     ^"),
     ],
 )  # fmt: skip
-def test_bad_names(ros: Any, name: str, namespace: str, kind: type[Exception], text: str) -> None:
+def test_invalid_names_are_rejected(ros: Any, name: str, namespace: str, kind: type[Exception], text: str) -> None:
     with pytest.raises(kind) as caught:
         ros.node(name, namespace=namespace)
     assert str(caught.value) == text
@@ -69,7 +69,7 @@ def test_bad_names(ros: Any, name: str, namespace: str, kind: type[Exception], t
         ),
     ],
 )
-def test_bad_names_by_remapping(ros: Any, rule: str, text: str) -> None:
+def test_invalid_remapped_names_are_rejected(ros: Any, rule: str, text: str) -> None:
     ros.init("-r", rule)
     with pytest.raises(RCLError) as caught:
         ros.node()
@@ -84,14 +84,14 @@ def test_bad_names_by_remapping(ros: Any, rule: str, text: str) -> None:
          "Couldn't parse trailing -r flag. No remap rule found."),
     ],
 )  # fmt: skip
-def test_bad_command_lines(ros: Any, words: list[str], kind: type[Exception], text: str) -> None:
+def test_invalid_cli_args_are_rejected(ros: Any, words: list[str], kind: type[Exception], text: str) -> None:
     with pytest.raises(kind) as caught:
         ros.node(cli_args=words)
     assert str(caught.value) == text
 
 
 @pytest.mark.parametrize(("use_global", "topic"), [(True, "/local"), (False, "/local")])
-def test_a_nodes_own_rules_come_first(ros: Any, use_global: bool, topic: str) -> None:
+def test_nodes_own_rules_take_precedence(ros: Any, use_global: bool, topic: str) -> None:
     ros.init("-r", "a:=global", "-r", "b:=everywhere")
     node = ros.node(cli_args=["--ros-args", "-r", "a:=local"], use_global_arguments=use_global)
     assert node.resolve_topic_name("a") == topic
@@ -107,7 +107,7 @@ def test_a_nodes_own_rules_come_first(ros: Any, use_global: bool, topic: str) ->
         ("a//b", RCLError, InvalidTopicNameException, InvalidTopicNameException),
     ],
 )
-def test_bad_topic_names(ros: Any, name: str, resolved: Any, counted: Any, made: Any) -> None:
+def test_invalid_topic_names_are_rejected(ros: Any, name: str, resolved: Any, counted: Any, made: Any) -> None:
     node = ros.node()
     with pytest.raises(resolved, match=r"^failed to resolve name: (?!topic name '.*' is invalid)"):
         node.resolve_topic_name(name)
@@ -131,21 +131,21 @@ def system(ros: Any) -> Any:
     return ros.node("observer")
 
 
-def test_nodes_of_the_graph(system: Any) -> None:
+def test_nodes_of_the_graph_are_listed(system: Any) -> None:
     assert system.get_node_names() == ["talker", "listener", "observer"]
     assert system.get_fully_qualified_node_names() == ["/talker", "/ns/listener", "/observer"]
     assert system.get_node_names_and_namespaces() == [("talker", "/"), ("listener", "/ns"), ("observer", "/")]
     assert ("listener", "/ns", "/") in system.get_node_names_and_namespaces_with_enclaves()
 
 
-def test_topics_and_services_of_the_graph(system: Any) -> None:
+def test_topics_and_services_of_the_graph_are_listed(system: Any) -> None:
     assert ("/chatter", ["std_msgs/msg/String"]) in system.get_topic_names_and_types()
     assert ("/ns/do", ["std_srvs/srv/Trigger"]) in system.get_service_names_and_types()
     assert (system.count_publishers("chatter"), system.count_subscribers("/chatter")) == (1, 1)
     assert (system.count_services("/ns/do"), system.count_clients("/ns/do")) == (1, 1)
 
 
-def test_what_one_node_has(system: Any) -> None:
+def test_endpoints_of_a_node_are_listed(system: Any) -> None:
     node = system
     assert ("/chatter", ["std_msgs/msg/String"]) in node.get_publisher_names_and_types_by_node("talker", "/")
     assert node.get_subscriber_names_and_types_by_node("talker", "/") == []
@@ -155,7 +155,7 @@ def test_what_one_node_has(system: Any) -> None:
 
 
 @pytest.mark.parametrize("what", ["publisher", "subscriber", "service", "client"])
-def test_what_an_unknown_node_has(system: Any, what: str) -> None:
+def test_endpoints_of_an_unknown_node_raise_an_error(system: Any, what: str) -> None:
     ask = getattr(system, f"get_{what}_names_and_types_by_node")
     with pytest.raises(NodeNameNonExistentError, match=f"^cannot get {what} names and types for nonexistent node"):
         ask("nobody", "/")
@@ -163,7 +163,7 @@ def test_what_an_unknown_node_has(system: Any, what: str) -> None:
         ask("", "/")
 
 
-def test_infos_report_what_is_in_effect(system: Any) -> None:
+def test_endpoint_info_has_the_effective_qos(system: Any) -> None:
     (info,) = system.get_publishers_info_by_topic("chatter")
     assert (info.node_name, info.node_namespace, info.topic_type) == ("talker", "/", "std_msgs/msg/String")
     assert (info.endpoint_type, len(info.endpoint_gid)) == (TopicEndpointTypeEnum.PUBLISHER, 16)
@@ -179,7 +179,7 @@ def test_infos_report_what_is_in_effect(system: Any) -> None:
     assert system.get_publishers_info_by_topic("/nothing") == []
 
 
-def test_counts_are_not_remapped_and_infos_are(ros: Any) -> None:
+def test_counts_ignore_remapping_and_infos_apply_it(ros: Any) -> None:
     ros.init("-r", "a:=b")
     node = ros.node()
     node.create_publisher(String, "a", 1)
@@ -187,7 +187,7 @@ def test_counts_are_not_remapped_and_infos_are(ros: Any) -> None:
     assert len(node.get_publishers_info_by_topic("a")) == 1
 
 
-def test_a_destroyed_node_leaves_the_graph(ros: Any) -> None:
+def test_destroyed_node_leaves_the_graph(ros: Any) -> None:
     node, observer = ros.node("gone"), ros.node("observer")
     node.create_publisher(String, "t", 1)
     node.destroy_node()
@@ -202,7 +202,7 @@ def test_a_destroyed_node_leaves_the_graph(ros: Any) -> None:
     assert services == []
 
 
-def test_what_a_destroyed_node_left_goes_with_the_context(ros: Any) -> None:
+def test_entities_left_by_a_destroyed_node_leave_with_the_context(ros: Any) -> None:
     from rclpy.context import Context
 
     observer, context = ros.node("observer"), Context()
@@ -213,14 +213,14 @@ def test_what_a_destroyed_node_left_goes_with_the_context(ros: Any) -> None:
     assert [name for name, _ in observer.get_service_names_and_types() if name.startswith("/gone/")] == []
 
 
-def test_twins_are_allowed_and_rosout_warns(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
+def test_duplicate_node_names_are_allowed_with_a_warning(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
     ros.node("twin")
     twin = ros.node("twin")
     assert twin.get_node_names() == ["twin", "twin"]
     assert "Publisher already registered for node name: 'twin'." in capfd.readouterr().err
 
 
-def test_domains_are_apart(ros: Any) -> None:
+def test_domains_are_separate(ros: Any) -> None:
     from rclpy.context import Context
 
     node, context = ros.node(), Context()
@@ -230,13 +230,13 @@ def test_domains_are_apart(ros: Any) -> None:
     context.shutdown()
 
 
-def test_a_node_without_rosout(ros: Any) -> None:
+def test_rosout_can_be_disabled(ros: Any) -> None:
     node = ros.node(enable_rosout=False)
     assert [publisher.topic_name for publisher in node.publishers] == ["/parameter_events"]
     assert node.count_publishers("/rosout") == 0
 
 
-def test_wait_for_node(stepped_ros: Any) -> None:
+def test_wait_for_node_waits_until_its_timeout(stepped_ros: Any) -> None:
     import threading
 
     node = stepped_ros.node("early")
@@ -246,7 +246,7 @@ def test_wait_for_node(stepped_ros: Any) -> None:
     assert node.wait_for_node("/late", 5.0)
 
 
-def test_a_class_that_forgets_its_base(ros: Any) -> None:
+def test_subclass_without_super_init_gets_a_clear_error(ros: Any) -> None:
     class Forgetful(Node):
         def __init__(self) -> None:
             self.create_timer(1.0, print)
@@ -255,24 +255,24 @@ def test_a_class_that_forgets_its_base(ros: Any) -> None:
         Forgetful()
 
 
-def test_a_service_that_only_clients_know_is_listed(ros: Any) -> None:
+def test_service_with_clients_only_is_listed(ros: Any) -> None:
     node = ros.node()
     node.create_client(Trigger, "/asked")
     assert ("/asked", ["std_srvs/srv/Trigger"]) in node.get_service_names_and_types()
 
 
-def test_a_node_of_the_root_is_waited_for_without_its_slash(ros: Any) -> None:
+def test_wait_for_node_accepts_name_without_slash(ros: Any) -> None:
     assert ros.node("a").wait_for_node("a", 0.0)
     assert not ros.node("b").wait_for_node("c", 0.0)
 
 
 @pytest.mark.parametrize("name", ["create_publisher", "declare_parameter", "count_publishers"])
-def test_arguments_that_are_missing_are_those_of_the_node(ros: Any, name: str) -> None:
+def test_missing_argument_error_names_the_node_method(ros: Any, name: str) -> None:
     with pytest.raises(TypeError, match=rf"^Node\.{name}\(\) missing "):
         getattr(ros.node(), name)()
 
 
-def test_no_graph_after_a_shutdown(ros: Any) -> None:
+def test_graph_queries_raise_after_shutdown(ros: Any) -> None:
     node = ros.node()
     ros.context.shutdown()
     with pytest.raises(RCLError, match="failed to get topic names and types: rcl node's context is invalid"):
@@ -281,14 +281,14 @@ def test_no_graph_after_a_shutdown(ros: Any) -> None:
         node.get_service_names_and_types()
 
 
-def test_a_tilde_without_a_slash_behind_it(ros: Any) -> None:
+def test_tilde_without_slash_is_rejected(ros: Any) -> None:
     node = ros.node()
     with pytest.raises(InvalidTopicNameException, match="a tilde '~' that is not followed by a forward slash"):
         node.create_publisher(String, "~foo", 1)
     assert node.create_publisher(String, "~/foo", 1).topic_name == "/n/foo"
 
 
-def test_topics_and_services_by_their_names_on_dds(ros: Any) -> None:
+def test_dds_names_of_topics_and_services_can_be_queried(ros: Any) -> None:
     node = ros.node("n", namespace="/ns", start_parameter_services=False, enable_rosout=False)
     node.create_publisher(String, "said", 1)
     node.create_subscription(Int32, "heard", lambda message: None, 1)
@@ -320,15 +320,13 @@ def test_topics_and_services_by_their_names_on_dds(ros: Any) -> None:
         ("n", "x", "namespace must be absolute, it must lead with a '/', result: 2"),
     ],
 )
-def test_graph_queries_refuse_invalid_names_with_the_result_of_rmw(
-    ros: Any, name: str, namespace: str, problem: str
-) -> None:
+def test_graph_queries_reject_invalid_names_with_rmw_error(ros: Any, name: str, namespace: str, problem: str) -> None:
     with pytest.raises(RCLError) as refused:
         ros.node().get_publisher_names_and_types_by_node(name, namespace)
     assert str(refused.value) == f"failed to get publisher names and types: {problem}"
 
 
-def test_a_duration_of_zero_is_not_printed_as_infinite(ros: Any) -> None:
+def test_zero_duration_is_not_printed_as_infinite(ros: Any) -> None:
     node = ros.node()
     node.create_publisher(String, "said", 1)
     [info] = node.get_publishers_info_by_topic("said")

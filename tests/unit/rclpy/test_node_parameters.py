@@ -20,7 +20,7 @@ BUILT_IN = ["use_sim_time", "start_type_description_service"]
 
 
 def message_of(action: Callable[[], Any]) -> tuple[str, str]:
-    """Class and text of what an action raises."""
+    """Return the class and message of the exception that an action raises."""
     with pytest.raises(Exception) as raised:
         action()
     return type(raised.value).__name__, str(raised.value)
@@ -39,7 +39,7 @@ def integers(low: int, high: int, step: int = 0) -> ParameterDescriptor:
 
 
 def change(node: Node, name: str, value: Any) -> str:
-    """Empty when it was set, else the reason."""
+    """Set a parameter and return the reason of a refusal, else an empty string."""
     [result] = node.set_parameters([Parameter(name, value=value)])
     return "" if result.successful else result.reason
 
@@ -56,7 +56,7 @@ DECLARED: dict[str, tuple[tuple[Any, ...], Any, int]] = {
 
 
 @pytest.mark.parametrize("case", DECLARED)
-def test_declarations(case: str, ros: Any) -> None:
+def test_declaration_determines_value_and_type(case: str, ros: Any) -> None:
     declaration, value, code = DECLARED[case]
     node = ros.node()
     [made] = node.declare_parameters("", [declaration])
@@ -96,14 +96,14 @@ REFUSED: dict[str, tuple[Any, str, str]] = {
 
 
 @pytest.mark.parametrize("case", REFUSED)
-def test_a_wrong_declaration_declares_nothing(case: str, ros: Any) -> None:
+def test_invalid_declaration_declares_nothing(case: str, ros: Any) -> None:
     declaration, kind, words = REFUSED[case]
     node = ros.node()
     assert message_of(lambda: node.declare_parameters("", [("before", 1), declaration])) == (kind, words)
     assert node.list_parameters([], 0).names == BUILT_IN
 
 
-def test_only_a_name_is_deprecated_and_dynamic(ros: Any) -> None:
+def test_declaration_by_name_only_is_deprecated_and_dynamic(ros: Any) -> None:
     node = ros.node()
     with pytest.warns(UserWarning, match="only providing its name is deprecated"):
         node.declare_parameter("p")
@@ -112,7 +112,7 @@ def test_only_a_name_is_deprecated_and_dynamic(ros: Any) -> None:
         assert node.get_parameter("p").value == value
 
 
-def test_names_that_are_taken(ros: Any) -> None:
+def test_declared_names_cannot_be_declared_again(ros: Any) -> None:
     node = ros.node()
     node.declare_parameters("ns", [("a", 1), ("b.", 2)])
     assert node.list_parameters([], 0).names == [*BUILT_IN, "ns.a", "ns.b."]
@@ -123,20 +123,20 @@ def test_names_that_are_taken(ros: Any) -> None:
     assert [each.value for each in twice] == [2, 2]
 
 
-def test_a_refused_value_leaves_what_came_before(ros: Any) -> None:
+def test_rejected_value_keeps_earlier_declarations(ros: Any) -> None:
     node = ros.node()
     message_of(lambda: node.declare_parameters("", [("a", 1.0), ("b", 9.0, doubles(0.0, 5.0)), ("c", 1.0)]))
     assert node.list_parameters([], 0).names == [*BUILT_IN, "a"]
 
 
-def test_a_default_list_is_shared_with_the_caller(ros: Any) -> None:
+def test_default_list_is_shared_with_the_caller(ros: Any) -> None:
     node, values = ros.node(), [1, 2]
     node.declare_parameter("p", values)
     values.append(3)
     assert node.get_parameter("p").value == [1, 2, 3]
 
 
-def test_a_shared_descriptor_is_one_descriptor(ros: Any) -> None:
+def test_shared_descriptor_object_stays_shared(ros: Any) -> None:
     node, shared = ros.node(), ParameterDescriptor(name="ignored", type=9)
     node.declare_parameter("a", 1, shared)
     assert (shared.name, shared.type) == ("a", 2)
@@ -173,7 +173,7 @@ OVERRIDES: dict[str, tuple[Any, tuple[Any, ...], Any]] = {
 
 
 @pytest.mark.parametrize("case", OVERRIDES)
-def test_overrides(case: str, ros: Any) -> None:
+def test_override_replaces_the_default(case: str, ros: Any) -> None:
     value, declaration, expected = OVERRIDES[case]
     node = ros.node(parameter_overrides=[Parameter("p", value=value)])
     if isinstance(expected, tuple):
@@ -184,7 +184,7 @@ def test_overrides(case: str, ros: Any) -> None:
         node.undeclare_parameter("p") if not node.describe_parameter("p").read_only else None
 
 
-def test_where_overrides_come_from(ros: Any) -> None:
+def test_overrides_come_from_arguments_of_context_and_node(ros: Any) -> None:
     ros.init("-p", "a:=1", "-p", "b:=1", "-p", "c:=1", "-p", "other:d:=1")
     words = ["--ros-args", "-p", "b:=2", "-p", "c:=2"]
     node = ros.node(cli_args=words, parameter_overrides=[Parameter("c", value=3)])
@@ -197,7 +197,7 @@ def test_where_overrides_come_from(ros: Any) -> None:
     assert ros.node("m", use_global_arguments=False).declare_parameter("a", 0).value == 0
 
 
-def test_overrides_declared_by_themselves(ros: Any) -> None:
+def test_overrides_can_be_declared_automatically(ros: Any) -> None:
     ros.init("-p", "b.c:=5", "-p", "a:=x", "-p", "use_sim_time:=false")
     node = ros.node(automatically_declare_parameters_from_overrides=True)
     assert node.list_parameters([], 0).names == ["b.c", "a", "use_sim_time", "start_type_description_service"]
@@ -206,7 +206,7 @@ def test_overrides_declared_by_themselves(ros: Any) -> None:
     assert message_of(lambda: node.declare_parameter("a", "y")) == taken
 
 
-def test_an_override_without_type_cannot_declare_itself(ros: Any) -> None:
+def test_override_without_type_cannot_be_declared_automatically(ros: Any) -> None:
     ros.init("-p", "a:=[]")
     found = message_of(lambda: ros.node(automatically_declare_parameters_from_overrides=True))
     assert found == ("ValueError", STATIC_NOT_SET)
@@ -253,7 +253,7 @@ CHANGES: list[tuple[Any, Any, Any, str]] = [
 
 
 @pytest.mark.parametrize(("default", "descriptor", "value", "reason"), CHANGES)
-def test_changes(default: Any, descriptor: Any, value: Any, reason: str, ros: Any) -> None:
+def test_set_checks_type_range_and_descriptor(default: Any, descriptor: Any, value: Any, reason: str, ros: Any) -> None:
     node = ros.node()
     node.declare_parameter("p", default, descriptor or ParameterDescriptor())
     assert change(node, "p", value) == reason
@@ -261,7 +261,7 @@ def test_changes(default: Any, descriptor: Any, value: Any, reason: str, ros: An
     assert held is (default if reason else value) or held == (default if reason else value)
 
 
-def test_the_tolerance_can_be_another(ros: Any) -> None:
+def test_range_tolerance_can_be_overridden(ros: Any) -> None:
     class Strict(Node):
         PARAM_REL_TOL = 1e-12
 
@@ -272,7 +272,7 @@ def test_the_tolerance_can_be_another(ros: Any) -> None:
     node.destroy_node()
 
 
-def test_reading(ros: Any) -> None:
+def test_parameters_are_read_with_defaults(ros: Any) -> None:
     node = ros.node()
     node.declare_parameters("", [("a", 1), ("empty", Type.INTEGER), ("d", None, dynamic())])
     other = Parameter("x", value=5)
@@ -293,13 +293,13 @@ NOT_DECLARED = ("ParameterNotDeclaredException", "Invalid access to undeclared p
 
 
 @pytest.mark.parametrize("method", ["get_parameter", "get_parameter_type", "describe_parameter", "undeclare_parameter"])
-def test_what_is_not_declared(method: str, ros: Any) -> None:
+def test_undeclared_parameter_raises_an_error(method: str, ros: Any) -> None:
     node = ros.node()
     assert message_of(lambda: getattr(node, method)("z")) == NOT_DECLARED
     assert message_of(lambda: node.set_descriptor("z", ParameterDescriptor())) == NOT_DECLARED
 
 
-def test_where_undeclared_parameters_are_allowed(ros: Any) -> None:
+def test_undeclared_parameters_can_be_allowed(ros: Any) -> None:
     node = ros.node(allow_undeclared_parameters=True, parameter_overrides=[Parameter("p", value=9)])
     assert node.get_parameter("p").type_ is Type.NOT_SET
     assert node.get_parameter_type("p") is Type.NOT_SET
@@ -314,7 +314,7 @@ def test_where_undeclared_parameters_are_allowed(ros: Any) -> None:
     assert message_of(lambda: node.undeclare_parameter("p"))[0] == "ParameterNotDeclaredException"
 
 
-def test_undeclaring(ros: Any) -> None:
+def test_parameters_can_be_undeclared_unless_read_only(ros: Any) -> None:
     node = ros.node()
     node.declare_parameter("p", 1, ParameterDescriptor(read_only=True))
     expected = ("ParameterImmutableException", "Attempted to modify read-only parameter: p")
@@ -335,7 +335,9 @@ LISTED: list[tuple[Any, int, list[str], list[str]]] = [
 
 
 @pytest.mark.parametrize(("prefixes", "depth", "names", "found"), LISTED)
-def test_listing(prefixes: Any, depth: int, names: list[str], found: list[str], ros: Any) -> None:
+def test_list_parameters_respects_prefixes_and_depth(
+    prefixes: Any, depth: int, names: list[str], found: list[str], ros: Any
+) -> None:
     node = ros.node()
     node.declare_parameters("", [("top", 0), ("foo.b.c", 1), ("foo.a", 2), ("bar.x", 3), ("foobar", 5)])
     result = node.list_parameters(prefixes, depth)
@@ -353,12 +355,12 @@ def test_listing(prefixes: Any, depth: int, names: list[str], found: list[str], 
         ([], -1, "ValueError", "The depth must be greater than or equal to zero"),
     ],
 )
-def test_listing_wrongly(prefixes: Any, depth: Any, kind: str, words: str, ros: Any) -> None:
+def test_invalid_list_arguments_are_rejected(prefixes: Any, depth: Any, kind: str, words: str, ros: Any) -> None:
     node = ros.node()
     assert message_of(lambda: node.list_parameters(prefixes, depth)) == (kind, words)
 
 
-def test_another_descriptor(ros: Any) -> None:
+def test_set_descriptor_checks_the_value(ros: Any) -> None:
     node = ros.node()
     node.declare_parameter("p", 9.0)
     words = "Invalid parameter value ({}) for parameter. Reason: {}: p"
@@ -379,7 +381,7 @@ def test_another_descriptor(ros: Any) -> None:
     assert message_of(lambda: node.set_descriptor("p", narrow))[0] == "ParameterImmutableException"
 
 
-def test_what_is_no_parameter(ros: Any) -> None:
+def test_set_parameters_requires_parameter_objects(ros: Any) -> None:
     node = ros.node()
     words = "parameter must be instance of type '<class 'rclpy.parameter.Parameter'>'"
     assert message_of(lambda: node.set_parameters([("p", 1)])) == ("TypeError", words)
@@ -387,7 +389,7 @@ def test_what_is_no_parameter(ros: Any) -> None:
     assert node.set_parameters_atomically([]) == SetParametersResult(successful=True)
 
 
-def test_names_in_the_message_of_undeclared_parameters(ros: Any) -> None:
+def test_undeclared_parameter_error_has_upstreams_message(ros: Any) -> None:
     node = ros.node()
     node.declare_parameter("a", 1)
     wanted = [Parameter(name, value=1) for name in ("a", "b", "c")]

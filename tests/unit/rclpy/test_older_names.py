@@ -1,4 +1,4 @@
-"""Names by which programs import things that live elsewhere."""
+"""Former names by which programs import things that have moved."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 import rclpy.exceptions
 
 
-def test_exceptions_of_the_c_extension() -> None:
+def test_exceptions_can_be_imported_from_the_c_extension() -> None:
     from rclpy.impl.implementation_singleton import rclpy_implementation
 
     assert issubclass(rclpy_implementation.RCLError, RuntimeError)
@@ -17,7 +17,7 @@ def test_exceptions_of_the_c_extension() -> None:
     assert rclpy_implementation.InvalidHandle is rclpy.exceptions.InvalidHandle
 
 
-def test_invalid_handle_of_the_handle_module() -> None:
+def test_invalid_handle_can_be_imported_from_the_handle_module() -> None:
     from rclpy.handle import InvalidHandle
 
     assert InvalidHandle is rclpy.exceptions.InvalidHandle
@@ -34,7 +34,7 @@ def test_qos_event_warns_and_has_the_same_classes() -> None:
     assert old.QoSSubscriptionEventType.RCL_SUBSCRIPTION_MATCHED == 5
 
 
-def test_lifecycle_short_names() -> None:
+def test_lifecycle_has_short_names() -> None:
     from rclpy import lifecycle
 
     assert lifecycle.NodeMixin is lifecycle.LifecycleNodeMixin

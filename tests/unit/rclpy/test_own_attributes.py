@@ -1,4 +1,4 @@
-"""Attributes and methods that a program's node has beside those of rclpy."""
+"""Attributes and methods that a program's node has in addition to those of rclpy."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ NAMES = [
 
 
 class Crowded(Node):
-    """Sets whatever its author likes, before the rest of it is made."""
+    """Sets arbitrary attributes before calling the base class."""
 
     def __init__(self, **options: Any) -> None:
         super().__init__("crowded", **options)
@@ -50,7 +50,7 @@ class Crowded(Node):
         self.publisher = self.create_publisher(Int32, "t", 10)
 
 
-def test_names_of_one_s_own_do_no_harm(ros: Any) -> None:
+def test_own_attributes_do_not_interfere_with_the_node(ros: Any) -> None:
     from rclpy.executors import SingleThreadedExecutor
 
     node = Crowded(context=ros.init())
@@ -66,6 +66,6 @@ def test_names_of_one_s_own_do_no_harm(ros: Any) -> None:
     assert ros.node("other").get_node_names() == ["other"]
 
 
-def test_the_context_is_not_to_be_set(ros: Any) -> None:
+def test_context_cannot_be_set(ros: Any) -> None:
     with pytest.raises(AttributeError):
         ros.node().context = "mine"

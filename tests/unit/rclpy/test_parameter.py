@@ -1,4 +1,4 @@
-"""`Parameter`: which values have which type, messages, and texts in YAML."""
+"""`Parameter`: types of values, messages, and values in YAML."""
 
 from array import array
 from pathlib import Path
@@ -37,7 +37,7 @@ INFERRED = [
 
 
 @pytest.mark.parametrize(("value", "expected"), INFERRED, ids=repr)
-def test_types_of_values(value: Any, expected: Parameter.Type) -> None:
+def test_type_is_inferred_from_the_value(value: Any, expected: Parameter.Type) -> None:
     made = Parameter("p", value=value)
     assert made.type_ is expected
     assert made.value is value
@@ -45,10 +45,10 @@ def test_types_of_values(value: Any, expected: Parameter.Type) -> None:
 
 
 class Number(int):
-    """What NumPy's float64 is to a float, for an int."""
+    """A subclass of int, as NumPy's float64 is of float."""
 
 
-def test_subclasses_count() -> None:
+def test_subclasses_of_types_are_accepted() -> None:
     assert Parameter("p", value=Number(3)).type_ is Type.INTEGER
     assert Parameter("p", Type.INTEGER, True).value is True
 
@@ -70,7 +70,7 @@ NO_LIST = "The given value is not a list of one of the allowed types '{}'."
     ],
     ids=repr,
 )
-def test_values_without_type(value: Any, words: str) -> None:
+def test_values_of_unsupported_type_are_rejected(value: Any, words: str) -> None:
     with pytest.raises(TypeError) as refused:
         Parameter("p", value=value)
     assert str(refused.value) == words.format(value)
@@ -94,20 +94,20 @@ def test_values_without_type(value: Any, words: str) -> None:
     ],
     ids=repr,
 )
-def test_values_of_another_type(kind: Parameter.Type, value: Any) -> None:
+def test_value_must_agree_with_the_type(kind: Parameter.Type, value: Any) -> None:
     with pytest.raises(ValueError, match="do not agree") as refused:
         Parameter("p", kind, value)
     assert str(refused.value) == f"Type 'Type.{kind.name}' and value '{value}' do not agree"
 
 
-def test_a_type_that_is_none() -> None:
+def test_type_must_be_of_the_enumeration() -> None:
     with pytest.raises(TypeError) as refused:
         Parameter("p", 3, 1.0)  # type: ignore[arg-type]
     assert str(refused.value) == "type must be an instance of '<enum 'Type'>'"
 
 
 @pytest.mark.parametrize("value", [None, True, 3, 2.5, "x", [b"a"], [True], [1, 2], [1.0], ["a"], []], ids=repr)
-def test_there_and_back_by_message(value: Any) -> None:
+def test_parameter_survives_a_round_trip_by_message(value: Any) -> None:
     message = Parameter("p", value=value).to_parameter_msg()
     back = Parameter.from_parameter_msg(message)
     assert back.name == "p"
@@ -117,7 +117,7 @@ def test_there_and_back_by_message(value: Any) -> None:
     assert back.value == (array(wanted, value) if wanted else value)
 
 
-def test_unknown_type_codes() -> None:
+def test_unknown_type_codes_are_rejected() -> None:
     strange = ParameterValue(type=42)
     with pytest.raises(ValueError, match=r"^42 is not a valid Parameter.Type$"):
         Parameter.from_parameter_msg(ParameterMsg(name="p", value=strange))
@@ -155,14 +155,14 @@ WORDS: dict[str, tuple[Parameter.Type, Any]] = {
 
 
 @pytest.mark.parametrize("text", WORDS)
-def test_words_of_ros2_param_set(text: str) -> None:
+def test_get_parameter_value_parses_text_as_ros2_param_set(text: str) -> None:
     found = get_parameter_value(text)
     kind, value = WORDS[text]
     assert (Type(found.type), parameter_value_to_python(found)) == (kind, value)
 
 
 @pytest.mark.parametrize("text", ["@foo", '"x', "a: b: c"])
-def test_words_that_are_no_yaml(text: str) -> None:
+def test_invalid_yaml_is_rejected(text: str) -> None:
     with pytest.raises(yaml.scanner.ScannerError):
         get_parameter_value(text)
 
@@ -190,7 +190,7 @@ def loaded(path: Path, *arguments: Any, **options: Any) -> dict[str, Any]:
     return {name: parameter_value_to_python(each.value) for name, each in found.items()}
 
 
-def test_parameters_of_a_file(tmp_path: Path) -> None:
+def test_parameters_are_read_from_a_file(tmp_path: Path) -> None:
     path = tmp_path / "f.yaml"
     path.write_text(FILE)
     every = {"speed": 3, "gains.p": 1.5, "text": 5, "none": "None"}
@@ -213,7 +213,7 @@ def test_parameters_of_a_file(tmp_path: Path) -> None:
         ("", AttributeError, "'NoneType' object has no attribute 'keys'"),
     ],
 )
-def test_files_without_parameters(content: str, kind: type[Exception], words: str, tmp_path: Path) -> None:
+def test_files_without_parameters_are_rejected(content: str, kind: type[Exception], words: str, tmp_path: Path) -> None:
     path = tmp_path / "f.yaml"
     path.write_text(content)
     with pytest.raises(kind) as refused:

@@ -37,7 +37,7 @@ def values(node: Node) -> list[Any]:
 
 
 def trace(node: Node, log: Log, label: str = "") -> None:
-    """Note every call of one callback of each kind, with the values that the node has then."""
+    """Record every call of one callback of each kind, with the node's values at that time."""
 
     def note(stage: str, answer: Callable[[Any], Any]) -> Callable[[Any], Any]:
         def callback(parameters: Any) -> Any:
@@ -51,7 +51,7 @@ def trace(node: Node, log: Log, label: str = "") -> None:
     node.add_post_set_parameters_callback(note("post", lambda parameters: None))
 
 
-def test_stages_and_the_values_that_they_see(ros: Any) -> None:
+def test_callbacks_of_each_stage_see_the_expected_values(ros: Any) -> None:
     node, log = node_of(ros), []
     trace(node, log)
     assert node.set_parameters([given("a", 5)]) == [SetParametersResult(successful=True)]
@@ -59,7 +59,7 @@ def test_stages_and_the_values_that_they_see(ros: Any) -> None:
     assert log == [("pre", new, [0, 1, 2]), ("on", new, [0, 1, 2]), ("post", new, [5, 1, 2])]
 
 
-def test_one_by_one_and_all_at_once(ros: Any) -> None:
+def test_set_parameters_sets_singly_and_atomically_sets_together(ros: Any) -> None:
     node, log = node_of(ros), []
     trace(node, log)
     node.set_parameters([given("a", 5), given("b", 6)])
@@ -69,7 +69,7 @@ def test_one_by_one_and_all_at_once(ros: Any) -> None:
     assert [(stage, len(parameters)) for stage, parameters, _ in log] == [("pre", 2), ("on", 2), ("post", 2)]
 
 
-def test_the_last_added_runs_first_and_a_refusal_ends_it(ros: Any) -> None:
+def test_newest_callback_runs_first_and_a_refusal_ends_the_chain(ros: Any) -> None:
     node, log = node_of(ros), []
     trace(node, log, "1")
     trace(node, log, "2")
@@ -83,7 +83,7 @@ def test_the_last_added_runs_first_and_a_refusal_ends_it(ros: Any) -> None:
     assert values(node) == [5, 1, 2]
 
 
-def test_one_of_three_is_refused(ros: Any) -> None:
+def test_one_refusal_of_three_keeps_the_others(ros: Any) -> None:
     node = node_of(ros)
     refuse = no("not b")
     node.add_on_set_parameters_callback(lambda ps: refuse(ps) if any(p.name == "b" for p in ps) else yes(ps))
@@ -94,7 +94,7 @@ def test_one_of_three_is_refused(ros: Any) -> None:
     assert values(node) == [5, 1, 7]
 
 
-def test_the_refusing_object_is_returned_as_it_is(ros: Any) -> None:
+def test_refusing_result_object_is_returned_unchanged(ros: Any) -> None:
     node, answer = node_of(ros), SetParametersResult(successful=False)
     node.add_on_set_parameters_callback(lambda parameters: answer)
     [result] = node.set_parameters([given("a", 5)])
@@ -120,7 +120,7 @@ def test_lists_and_parameters_are_passed_uncopied(ros: Any) -> None:
     assert values(node) == [7, 9, 2]
 
 
-def test_pre_set_callbacks_change_the_list(ros: Any) -> None:
+def test_pre_set_callback_may_change_the_list(ros: Any) -> None:
     node, log = node_of(ros), []
     node.add_pre_set_parameters_callback(lambda ps: [given(p.name, min(p.value, 3)) for p in ps])
     trace(node, log)
@@ -129,7 +129,7 @@ def test_pre_set_callbacks_change_the_list(ros: Any) -> None:
     assert log[1][:2] == ("on", [("a", 5), ("a", 3)])
 
 
-def test_a_pre_set_callback_empties_the_list(ros: Any) -> None:
+def test_pre_set_callback_emptying_the_list_refuses_the_set(ros: Any) -> None:
     node = node_of(ros)
     node.add_pre_set_parameters_callback(lambda parameters: [])
     reason = (
@@ -140,7 +140,7 @@ def test_a_pre_set_callback_empties_the_list(ros: Any) -> None:
     assert node.set_parameters_atomically([]).reason == reason
 
 
-def test_checks_come_after_pre_set_and_before_on_set(ros: Any) -> None:
+def test_type_checks_run_between_pre_set_and_on_set(ros: Any) -> None:
     node, log = node_of(ros), []
     trace(node, log)
     assert "Wrong parameter type" in node.set_parameters([given("a", "x")])[0].reason
@@ -150,7 +150,7 @@ def test_checks_come_after_pre_set_and_before_on_set(ros: Any) -> None:
     assert values(node) == [0, 6, 2]
 
 
-def test_declaring_calls_on_set_and_post_set_for_each(ros: Any) -> None:
+def test_declaring_calls_on_set_and_post_set_for_each_parameter(ros: Any) -> None:
     node, log = node_of(ros), []
     trace(node, log)
     node.declare_parameters("", [("x", 1), ("y", Parameter.Type.INTEGER)])
@@ -187,7 +187,7 @@ class LooksLikeAResult:
 
 
 @pytest.mark.parametrize("result", [None, True, [yes(None)], LooksLikeAResult()], ids=["None", "bool", "list", "other"])
-def test_a_result_of_another_type_is_a_refusal_with_a_warning(ros: Any, result: Any) -> None:
+def test_invalid_callback_result_is_a_refusal_with_a_warning(ros: Any, result: Any) -> None:
     node = node_of(ros)
     node.add_on_set_parameters_callback(lambda parameters: result)
     with pytest.warns(UserWarning, match=r"^Callback returned an invalid type, it should return SetParameterResult\.$"):
@@ -198,7 +198,7 @@ def test_a_result_of_another_type_is_a_refusal_with_a_warning(ros: Any, result: 
         node.declare_parameter("new", 1)
 
 
-def test_only_something_callable_becomes_a_callback(ros: Any) -> None:
+def test_callbacks_must_be_callable(ros: Any) -> None:
     node = node_of(ros)
     for add in (node.add_on_set_parameters_callback, node.add_post_set_parameters_callback):
         with pytest.raises(TypeError) as refused:
@@ -206,7 +206,7 @@ def test_only_something_callable_becomes_a_callback(ros: Any) -> None:
         assert refused.value.args == ("Callback must be callable, got {}", int)
 
 
-def test_setting_within_a_callback_comes_first(ros: Any) -> None:
+def test_nested_set_takes_effect_first(ros: Any) -> None:
     node, log = node_of(ros), []
 
     def nested(parameters: Any) -> Any:
@@ -221,7 +221,7 @@ def test_setting_within_a_callback_comes_first(ros: Any) -> None:
     assert values(node) == [5, 50, 2]
 
 
-def test_what_was_set_within_a_refused_change_stays(ros: Any) -> None:
+def test_nested_set_persists_if_the_outer_one_is_refused(ros: Any) -> None:
     node = node_of(ros)
     refuse = no("outer")
 
@@ -236,7 +236,7 @@ def test_what_was_set_within_a_refused_change_stays(ros: Any) -> None:
     assert values(node) == [0, 50, 2]
 
 
-def test_adding_twice_and_removing(ros: Any) -> None:
+def test_callback_added_twice_runs_twice_and_can_be_removed(ros: Any) -> None:
     node, log = node_of(ros), []
 
     def note(parameters: Any) -> Any:
@@ -254,7 +254,7 @@ def test_adding_twice_and_removing(ros: Any) -> None:
             getattr(node, f"remove_{kind}_set_parameters_callback")(print)
 
 
-def test_a_callback_that_removes_itself_skips_the_next(ros: Any) -> None:
+def test_callback_removing_itself_skips_the_next(ros: Any) -> None:
     node, log = node_of(ros), []
 
     def once(parameters: Any) -> Any:
@@ -269,7 +269,7 @@ def test_a_callback_that_removes_itself_skips_the_next(ros: Any) -> None:
 
 
 class Listener:
-    """What `/parameter_events` says of a node."""
+    """The events of a node on `/parameter_events`."""
 
     def __init__(self, ros: Any) -> None:
         self.events: list[ParameterEvent] = []
@@ -280,7 +280,7 @@ class Listener:
         )
 
     def heard(self) -> list[Any]:
-        """Node, new, changed and deleted of each event since the last time."""
+        """Return node, new, changed and deleted of each event since the last call."""
         self.ros.settle()
         found = [
             (each.node, *([(p.name, p.value.type) for p in group] for group in _groups(each))) for each in self.events
@@ -293,7 +293,7 @@ def _groups(event: ParameterEvent) -> tuple[Any, Any, Any]:
     return event.new_parameters, event.changed_parameters, event.deleted_parameters
 
 
-def test_events(ros: Any) -> None:
+def test_events_list_new_changed_and_deleted_parameters(ros: Any) -> None:
     listener = Listener(ros)
     node = ros.node("n", namespace="/ns")
     name = "/ns/n"
@@ -315,7 +315,7 @@ def test_events(ros: Any) -> None:
     assert listener.heard() == [(name, [], [], [])]
 
 
-def test_deleting_what_is_not_there(ros: Any) -> None:
+def test_deleting_an_undeclared_parameter_succeeds_without_event(ros: Any) -> None:
     listener = Listener(ros)
     node = ros.node(allow_undeclared_parameters=True)
     listener.heard()
@@ -323,7 +323,7 @@ def test_deleting_what_is_not_there(ros: Any) -> None:
     assert listener.heard() == [("/n", [], [], [("a", 0)])] * 2
 
 
-def test_the_stamp_is_the_time_of_the_node(ros: Any) -> None:
+def test_event_is_stamped_with_the_nodes_time(ros: Any) -> None:
     listener = Listener(ros)
     node = ros.node(parameter_overrides=[given("use_sim_time", True)])
     listener.heard()
@@ -332,13 +332,13 @@ def test_the_stamp_is_the_time_of_the_node(ros: Any) -> None:
     assert [(each.stamp.sec, each.stamp.nanosec) for each in listener.events] == [(0, 0)]
 
 
-def test_what_an_event_cannot_carry_is_reported_to_the_caller(ros: Any) -> None:
+def test_value_that_does_not_fit_the_event_raises_type_error(ros: Any) -> None:
     node = node_of(ros)
     with pytest.raises(TypeError, match="integer_value"):
         node.set_parameters([given("a", 2**63)])
 
 
-def test_an_event_holds_values_of_its_own(ros: Any) -> None:
+def test_event_holds_copies_of_values(ros: Any) -> None:
     listener, node, words, number = Listener(ros), ros.node(), ["a", "b"], type("Number", (int,), {})(3)
     node.declare_parameters("", [("words", ["x"]), ("number", 1)])
     listener.heard()
@@ -352,7 +352,7 @@ def test_an_event_holds_values_of_its_own(ros: Any) -> None:
 
 @pytest.fixture
 def collections() -> Iterator[list[str]]:
-    """The phases of the garbage collector's runs, which are on."""
+    """The phases of garbage collector runs; the collector is enabled."""
     phases: list[str] = []
 
     def note(phase: str, info: dict[str, int]) -> None:
@@ -369,7 +369,7 @@ def collections() -> Iterator[list[str]]:
         gc.disable()
 
 
-def test_the_event_of_many_parameters_is_made_without_collecting_garbage(ros: Any, collections: list[str]) -> None:
+def test_event_of_many_parameters_is_created_without_garbage_collection(ros: Any, collections: list[str]) -> None:
     node, got = ros.node(), []
     many = [f"p{number}" for number in range(2_000)]
     node.declare_parameters("", [(name, 0) for name in many])
@@ -379,13 +379,13 @@ def test_the_event_of_many_parameters_is_made_without_collecting_garbage(ros: An
     gc.collect()
     collections.clear()
     node.set_parameters_atomically(changes)
-    assert collections.count("start") <= 1  # one that was due when they were made
+    assert collections.count("start") <= 1  # one may have been due while they were created
     assert gc.isenabled()
     ros.spin(lambda: bool(got))
     assert len(got[0].changed_parameters) == len(many)
 
 
-def test_what_an_event_of_many_cannot_carry_leaves_the_collector_on(ros: Any, collections: list[str]) -> None:
+def test_failed_event_of_many_parameters_leaves_the_collector_enabled(ros: Any, collections: list[str]) -> None:
     node = ros.node()
     many = [f"p{number}" for number in range(500)]
     node.declare_parameters("", [(name, 0) for name in many])
@@ -395,7 +395,7 @@ def test_what_an_event_of_many_cannot_carry_leaves_the_collector_on(ros: Any, co
     assert gc.isenabled()
 
 
-def test_events_are_counted_although_nobody_hears_them(ros: Any) -> None:
+def test_events_are_counted_without_subscribers(ros: Any) -> None:
     node, heard = node_of(ros), []
     before = node._parameter_event_publisher._endpoint.published
     node.set_parameters([given("a", 1), given("b", 2)])
@@ -411,7 +411,7 @@ def test_events_are_counted_although_nobody_hears_them(ros: Any) -> None:
 
 
 @pytest.mark.parametrize("listens", [False, True])
-def test_a_value_that_no_message_carries_is_refused_whether_or_not_anybody_hears_of_it(ros: Any, listens: bool) -> None:
+def test_value_out_of_int64_range_is_refused_with_and_without_subscribers(ros: Any, listens: bool) -> None:
     node = node_of(ros)
     if listens:
         node.create_subscription(ParameterEvent, "/parameter_events", lambda event: None, qos_profile_parameter_events)
@@ -421,7 +421,7 @@ def test_a_value_that_no_message_carries_is_refused_whether_or_not_anybody_hears
     assert node.set_parameters([given("a", (1 << 63) - 1), given("b", -(1 << 63))])[0].successful
 
 
-def test_events_that_are_kept_for_who_comes_later_are_made_although_nobody_hears_them_yet(ros: Any) -> None:
+def test_latched_events_are_created_without_subscribers(ros: Any) -> None:
     node, heard = node_of(ros), []
     latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     node._parameter_event_publisher = node.create_publisher(ParameterEvent, "/kept_events", latched)

@@ -1,4 +1,4 @@
-"""`ParameterEventHandler`: whom it calls, in which order, and how it lets go."""
+"""`ParameterEventHandler`: which callbacks it calls, in which order, and how they are removed."""
 
 from typing import Any
 
@@ -19,7 +19,7 @@ def change(ros: Any, node: Any, value: int) -> None:
     ros.settle()
 
 
-def test_the_last_added_is_called_first(ros: Any) -> None:
+def test_newest_callback_is_called_first(ros: Any) -> None:
     node, handler = parts(ros)
     got: list[str] = []
     handler.add_parameter_event_callback(lambda event: got.append("event 1"))
@@ -33,7 +33,7 @@ def test_the_last_added_is_called_first(ros: Any) -> None:
 
 
 @pytest.mark.parametrize(("namespace", "name"), [("/", "n"), ("/", "/n"), ("/ns", "n"), ("/ns", "/ns/n")])
-def test_names_of_nodes(namespace: str, name: str, ros: Any) -> None:
+def test_node_names_are_resolved(namespace: str, name: str, ros: Any) -> None:
     node, handler = parts(ros, namespace)
     got: list[int] = []
     handler.add_parameter_callback("a", name, lambda parameter: got.append(parameter.value.integer_value))
@@ -41,7 +41,7 @@ def test_names_of_nodes(namespace: str, name: str, ros: Any) -> None:
     assert got == [2]
 
 
-def test_no_name_means_the_node_that_listens(ros: Any) -> None:
+def test_missing_node_name_means_the_listening_node(ros: Any) -> None:
     node = ros.node("n")
     node.declare_parameter("a", 1)
     handler = ParameterEventHandler(node)
@@ -53,7 +53,7 @@ def test_no_name_means_the_node_that_listens(ros: Any) -> None:
     assert got == [3]
 
 
-def test_removing(ros: Any) -> None:
+def test_callbacks_can_be_removed(ros: Any) -> None:
     node, handler = parts(ros)
     got: list[str] = []
     gone = handler.add_parameter_callback("a", "/n", lambda parameter: got.append("gone"))
@@ -68,7 +68,7 @@ def test_removing(ros: Any) -> None:
         handler.remove_parameter_event_callback(kept)
 
 
-def test_a_callback_may_remove_itself(ros: Any) -> None:
+def test_callback_may_remove_itself(ros: Any) -> None:
     node, handler = parts(ros)
     got: list[str] = []
 
@@ -83,7 +83,7 @@ def test_a_callback_may_remove_itself(ros: Any) -> None:
     assert got == ["once", "always", "always"]
 
 
-def test_destroyed_it_hears_nothing(ros: Any) -> None:
+def test_destroyed_handler_receives_nothing(ros: Any) -> None:
     node, handler = parts(ros)
     got: list[str] = []
     handler.add_parameter_event_callback(lambda event: got.append("heard"))
@@ -92,7 +92,7 @@ def test_destroyed_it_hears_nothing(ros: Any) -> None:
     assert got == []
 
 
-def test_reading_events() -> None:
+def test_parameters_are_read_from_events() -> None:
     new, changed, deleted = (Parameter(name, value=1).to_parameter_msg() for name in ("a", "b", "c"))
     event = ParameterEvent(node="/n", new_parameters=[new], changed_parameters=[changed], deleted_parameters=[deleted])
     read = ParameterEventHandler.get_parameter_from_event

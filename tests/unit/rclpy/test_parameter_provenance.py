@@ -1,4 +1,4 @@
-"""A node tells what it declares, in which line, and which override it took."""
+"""A node reports which parameters it declares, on which line, and which override applied."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def reported() -> Iterator[Reported]:
     forget()
 
 
-def test_default_line_and_the_override_that_counts(reported: Reported, tmp_path: Path) -> None:
+def test_report_has_default_line_and_effective_override(reported: Reported, tmp_path: Path) -> None:
     file = tmp_path / "p.yaml"
     file.write_text("/**:\n  ros__parameters:\n    a: 2\n    b: 2\n    c: 2\n")
     context = Context()
@@ -49,7 +49,7 @@ def test_default_line_and_the_override_that_counts(reported: Reported, tmp_path:
     assert 'declare_parameters("", [("a"' in Path(path).read_text().splitlines()[int(line) - 1]
 
 
-def test_a_later_file_and_a_later_word_count(reported: Reported, tmp_path: Path) -> None:
+def test_later_file_or_argument_takes_precedence(reported: Reported, tmp_path: Path) -> None:
     first, second = tmp_path / "1.yaml", tmp_path / "2.yaml"
     for each in (first, second):
         each.write_text("n:\n  ros__parameters:\n    a: 2\n")
@@ -59,9 +59,9 @@ def test_a_later_file_and_a_later_word_count(reported: Reported, tmp_path: Path)
     with rclpy.create_node("n", context=context) as node:
         node.declare_parameter("a", 0)
     context.shutdown()
-    # A plain -p stands under /**, which came first; a node's own key comes behind it.
+    # A plain -p belongs to /**, which came first; a node's own key comes after it.
     assert reported["a"][2] == str(second)
 
 
-def test_nothing_is_worked_out_where_nobody_listens() -> None:
+def test_report_is_not_composed_without_listeners() -> None:
     assert not anybody_listens()

@@ -37,7 +37,7 @@ def ask(ros: Any, service: Any, name: str, **fields: Any) -> Any:
     return ros.ask(ros.node("asker"), service, f"/server/{name}", **fields)
 
 
-def test_names_of_the_services(ros: Any) -> None:
+def test_services_have_upstreams_names(ros: Any) -> None:
     node = ros.node("server", namespace="/ns")
     names = [name for name, _ in node.get_service_names_and_types_by_node("server", "/ns")]
     assert [name for name in sorted(names) if "parameter" in name] == [f"/ns/server/{name}" for name in ALL]
@@ -50,13 +50,13 @@ def test_names_of_the_services(ros: Any) -> None:
     ("names", "found"),
     [(["speed", "gains.p"], [1.0, 1.5]), (["speed", "nope"], []), (["speed", "empty"], []), ([], [])],
 )
-def test_getting(names: list[str], found: list[float], ros: Any) -> None:
+def test_get_parameters_returns_values_of_declared_names(names: list[str], found: list[float], ros: Any) -> None:
     server_of(ros)
     response = ask(ros, srv.GetParameters, "get_parameters", names=names)
     assert [value.double_value for value in response.values] == found
 
 
-def test_types_and_descriptors(ros: Any) -> None:
+def test_types_and_descriptors_are_returned(ros: Any) -> None:
     server_of(ros)
     types = ask(ros, srv.GetParameterTypes, "get_parameter_types", names=["speed", "ids", "empty"]).types
     assert list(types) == [3, 7, 0]
@@ -66,20 +66,20 @@ def test_types_and_descriptors(ros: Any) -> None:
     assert ask(ros, srv.DescribeParameters, "describe_parameters", names=["speed", "nope"]).descriptors == []
 
 
-def test_undeclared_ones_where_they_are_allowed(ros: Any) -> None:
+def test_undeclared_parameters_are_returned_as_not_set_if_allowed(ros: Any) -> None:
     server_of(ros, allow_undeclared_parameters=True)
     values = ask(ros, srv.GetParameters, "get_parameters", names=["speed", "nope"]).values
     assert [value.type for value in values] == [3, 0]
     assert list(ask(ros, srv.GetParameterTypes, "get_parameter_types", names=["nope"]).types) == [0]
 
 
-def test_listing(ros: Any) -> None:
+def test_list_parameters_returns_names_and_prefixes(ros: Any) -> None:
     server_of(ros)
     result = ask(ros, srv.ListParameters, "list_parameters", prefixes=["gains", "count"], depth=0).result
     assert (result.names, result.prefixes) == (["count", "gains.p"], ["gains"])
 
 
-def test_setting_one_by_one(ros: Any) -> None:
+def test_set_parameters_reports_each_result(ros: Any) -> None:
     node = server_of(ros)
     wanted = messages(count=4, nope=1, speed=9.0, ids=[7])
     results = ask(ros, srv.SetParameters, "set_parameters", parameters=wanted).results
@@ -93,7 +93,7 @@ def test_setting_one_by_one(ros: Any) -> None:
     assert f"{node.get_parameter('ids').value}" == "array('q', [7])"
 
 
-def test_setting_all_at_once(ros: Any) -> None:
+def test_atomic_set_changes_all_or_nothing(ros: Any) -> None:
     node = server_of(ros)
     name = "set_parameters_atomically"
     refused = ask(ros, srv.SetParametersAtomically, name, parameters=messages(count=4, speed=9.0)).result
@@ -105,7 +105,7 @@ def test_setting_all_at_once(ros: Any) -> None:
     assert [each.value for each in node.get_parameters(["count", "speed"])] == [4, 2.0]
 
 
-def test_an_exception_of_a_callback_leaves_spin_and_no_answer_comes(ros: Any) -> None:
+def test_exception_in_a_callback_leaves_spin_without_an_answer(ros: Any) -> None:
     node = server_of(ros)
 
     def fail(parameters: Any) -> SetParametersResult:
@@ -130,7 +130,7 @@ def result(ros: Any, future: Any) -> Any:
     return future.result()
 
 
-def test_waiting_for_services(ros: Any) -> None:
+def test_wait_for_services_waits_until_its_timeout(ros: Any) -> None:
     client = client_of(ros)
     assert not client.services_are_ready()
     assert not client.wait_for_services(timeout_sec=0.0)
@@ -139,7 +139,7 @@ def test_waiting_for_services(ros: Any) -> None:
     assert client.services_are_ready()
 
 
-def test_client_methods(ros: Any) -> None:
+def test_client_methods_call_their_services(ros: Any) -> None:
     node, client = server_of(ros), client_of(ros)
     assert result(ros, client.get_parameters(["speed"])).values[0].double_value == 1.0
     assert list(result(ros, client.get_parameter_types(["speed", "ids"])).types) == [3, 7]
@@ -154,7 +154,7 @@ def test_client_methods(ros: Any) -> None:
     assert not node.has_parameter("dyn")
 
 
-def test_a_callback_gets_the_future(ros: Any) -> None:
+def test_client_callback_gets_the_future(ros: Any) -> None:
     server_of(ros)
     got: list[Any] = []
     client_of(ros).get_parameters(["count"], callback=lambda future: got.append(future.result().values[0]))
@@ -162,7 +162,7 @@ def test_a_callback_gets_the_future(ros: Any) -> None:
     assert got[0].integer_value == 3
 
 
-def test_loading_a_file(ros: Any, tmp_path: Path) -> None:
+def test_parameter_file_can_be_loaded(ros: Any, tmp_path: Path) -> None:
     node, client = server_of(ros), client_of(ros)
     path = tmp_path / "f.yaml"
     path.write_text(
@@ -180,7 +180,7 @@ def test_loading_a_file(ros: Any, tmp_path: Path) -> None:
         client.load_parameter_file(str(tmp_path / "none.yaml"))
 
 
-def test_the_client_hears_of_parameter_events(ros: Any) -> None:
+def test_client_receives_parameter_events(ros: Any) -> None:
     client = client_of(ros)
     heard: list[str] = []
     client.on_parameter_event(lambda event: heard.append(event.node))

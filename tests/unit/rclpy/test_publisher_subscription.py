@@ -1,4 +1,4 @@
-"""Messages on their way: order, depth, late joiners, lifespan, copies, infos, refusals."""
+"""Message delivery: order, depth, late joiners, lifespan, copies, infos, errors."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ LATCHED = DurabilityPolicy.TRANSIENT_LOCAL
 
 
 class Line:
-    """A topic of numbers from one node to itself."""
+    """A topic of integers from a node to itself."""
 
     def __init__(self, ros: Any, publisher_qos: Any = 10, subscription_qos: Any = 10) -> None:
         self.ros = ros
@@ -32,7 +32,7 @@ class Line:
         self.publisher = self.node.create_publisher(Int32, "t", publisher_qos)
 
     def subscribe(self) -> Any:
-        """Begin to listen."""
+        """Create the subscription."""
         return self.node.create_subscription(
             Int32, "t", lambda message: self.got.append(message.data), self._subscription_qos
         )
@@ -43,7 +43,7 @@ class Line:
             self.publisher.publish(Int32(data=number))
 
     def arrived(self) -> list[int]:
-        """What has come when everything is served."""
+        """Return the received messages after all callbacks have run."""
         self.ros.settle()
         return self.got
 
@@ -62,7 +62,9 @@ class Line:
         (QoSProfile(depth=10, durability=LATCHED), 10, [0, 1, 2, 3, 4]),
     ],
 )
-def test_what_arrives(ros: Any, publisher_qos: Any, subscription_qos: Any, numbers: list[int]) -> None:
+def test_messages_arrive_according_to_qos(
+    ros: Any, publisher_qos: Any, subscription_qos: Any, numbers: list[int]
+) -> None:
     line = Line(ros, publisher_qos, subscription_qos)
     line.subscribe()
     line.send(5)
@@ -79,14 +81,16 @@ def test_what_arrives(ros: Any, publisher_qos: Any, subscription_qos: Any, numbe
         ({"depth": 10}, {"depth": 10}, []),
     ],
 )
-def test_late_joiners(ros: Any, publisher_qos: Any, subscription_qos: Any, numbers: list[int]) -> None:
+def test_late_joiners_get_latched_messages(
+    ros: Any, publisher_qos: Any, subscription_qos: Any, numbers: list[int]
+) -> None:
     line = Line(ros, QoSProfile(**publisher_qos), QoSProfile(**subscription_qos))
     line.send(5)
     line.subscribe()
     assert line.arrived() == numbers
 
 
-def test_a_late_joiner_goes_on_with_what_comes(ros: Any) -> None:
+def test_late_joiner_continues_with_new_messages(ros: Any) -> None:
     line = Line(ros, QoSProfile(depth=1, durability=LATCHED), QoSProfile(depth=10, durability=LATCHED))
     line.send(3)
     line.subscribe()
@@ -94,7 +98,7 @@ def test_a_late_joiner_goes_on_with_what_comes(ros: Any) -> None:
     assert line.arrived() == [2, 9]
 
 
-def test_what_a_destroyed_publisher_kept_is_gone(ros: Any) -> None:
+def test_latched_messages_of_a_destroyed_publisher_are_gone(ros: Any) -> None:
     line = Line(ros, QoSProfile(depth=5, durability=LATCHED), QoSProfile(depth=5, durability=LATCHED))
     line.send(3)
     line.node.destroy_publisher(line.publisher)
@@ -103,7 +107,7 @@ def test_what_a_destroyed_publisher_kept_is_gone(ros: Any) -> None:
 
 
 @pytest.mark.parametrize(("waited", "numbers"), [(0.05, [0]), (0.2, [])])
-def test_lifespan_of_the_publisher_ends_waiting_messages(stepped_ros: Any, waited: float, numbers: list[int]) -> None:
+def test_lifespan_expires_waiting_messages(stepped_ros: Any, waited: float, numbers: list[int]) -> None:
     line = Line(stepped_ros, QoSProfile(depth=5, lifespan=Duration(seconds=0.1)))
     line.subscribe()
     line.send(1)
@@ -112,7 +116,7 @@ def test_lifespan_of_the_publisher_ends_waiting_messages(stepped_ros: Any, waite
 
 
 @pytest.mark.parametrize(("waited", "numbers"), [(0.05, [0]), (0.2, [])])
-def test_lifespan_of_kept_messages(stepped_ros: Any, waited: float, numbers: list[int]) -> None:
+def test_lifespan_expires_latched_messages(stepped_ros: Any, waited: float, numbers: list[int]) -> None:
     qos = QoSProfile(depth=5, durability=LATCHED, lifespan=Duration(seconds=0.1))
     line = Line(stepped_ros, qos, QoSProfile(depth=5, durability=LATCHED))
     line.send(1)
@@ -121,14 +125,14 @@ def test_lifespan_of_kept_messages(stepped_ros: Any, waited: float, numbers: lis
     assert line.arrived() == numbers
 
 
-def test_other_types_do_not_mix(ros: Any) -> None:
+def test_topics_with_different_types_do_not_mix(ros: Any) -> None:
     line = Line(ros)
     line.subscribe()
     line.node.create_publisher(String, "t", 10).publish(String(data="x"))
     assert line.arrived() == []
 
 
-def test_every_subscription_gets_a_copy_of_its_own(ros: Any) -> None:
+def test_every_subscription_gets_its_own_copy(ros: Any) -> None:
     node, got = ros.node(), []
     for _ in range(2):
         node.create_subscription(LaserScan, "scan", got.append, 10)
@@ -143,7 +147,7 @@ def test_every_subscription_gets_a_copy_of_its_own(ros: Any) -> None:
     assert isinstance(got[0].ranges, array)
 
 
-def test_nobody_sees_what_another_callback_made_of_a_message(ros: Any) -> None:
+def test_changes_by_a_callback_are_invisible_to_others(ros: Any) -> None:
     node, got = ros.node(), []
     profile = QoSProfile(depth=2, durability=LATCHED)
 
@@ -156,7 +160,7 @@ def test_nobody_sees_what_another_callback_made_of_a_message(ros: Any) -> None:
         node.create_subscription(LaserScan, "scan", change, profile)
     taken = node.create_subscription(LaserScan, "scan", change, profile).take
     publisher = node.create_publisher(LaserScan, "scan", profile)
-    for _ in range(3):  # one more than a queue holds
+    for _ in range(3):  # one more than the queue holds
         publisher.publish(LaserScan(ranges=[1.0]))
     change(taken()[0])
     ros.settle()
@@ -179,7 +183,7 @@ def test_publishing_costs_one_copy_for_any_number_of_subscriptions(ros: Any, mon
     assert len(copies) == 2 + 19
 
 
-def test_values_come_as_the_wire_would_bring_them(ros: Any) -> None:
+def test_values_are_rounded_as_on_the_wire(ros: Any) -> None:
     node, got = ros.node(), []
     node.create_subscription(Float32, "t", got.append, 10)
     node.create_publisher(Float32, "t", 10).publish(Float32(data=0.1))
@@ -187,7 +191,7 @@ def test_values_come_as_the_wire_would_bring_them(ros: Any) -> None:
     assert got[0].data == 0.10000000149011612
 
 
-def test_serialized_messages(ros: Any) -> None:
+def test_raw_subscription_gets_serialized_messages(ros: Any) -> None:
     node, whole, raw = ros.node(), [], []
     node.create_subscription(Int32, "t", whole.append, 10)
     node.create_subscription(Int32, "t", raw.append, 10, raw=True)
@@ -199,7 +203,7 @@ def test_serialized_messages(ros: Any) -> None:
     assert [deserialize_message(each, Int32).data for each in raw] == [3, 4]
 
 
-def test_message_infos(stepped_ros: Any) -> None:
+def test_callback_may_take_message_info(stepped_ros: Any) -> None:
     node, got = stepped_ros.node(), []
     node.create_subscription(Int32, "t", lambda message, info: got.append((message.data, info)), 10)
     publisher = node.create_publisher(Int32, "t", 10)
@@ -214,12 +218,12 @@ def test_message_infos(stepped_ros: Any) -> None:
 
 
 @pytest.mark.parametrize("callback", [lambda: None, lambda a, b, c: None])
-def test_callbacks_of_other_shapes(ros: Any, callback: Any) -> None:
+def test_callbacks_with_other_signatures_are_rejected(ros: Any, callback: Any) -> None:
     with pytest.raises(RuntimeError, match="callback should be either be callable with one argument"):
         ros.node().create_subscription(Int32, "t", callback, 10)
 
 
-def test_another_callback_later(ros: Any) -> None:
+def test_callback_can_be_replaced(ros: Any) -> None:
     line = Line(ros)
     subscription, got = line.subscribe(), []
     subscription.callback = lambda message, info: got.append(message.data)
@@ -229,13 +233,13 @@ def test_another_callback_later(ros: Any) -> None:
 
 
 @pytest.mark.parametrize("message", [Twist(), 5, None, "x", Int32])
-def test_only_messages_of_the_type(ros: Any, message: Any) -> None:
+def test_publisher_rejects_messages_of_another_type(ros: Any, message: Any) -> None:
     publisher = ros.node().create_publisher(Int32, "t", 10)
     with pytest.raises(TypeError, match=r"^Expected <class 'std_msgs.msg._int32.Int32'>, got <class "):
         publisher.publish(message)
 
 
-def test_a_wrong_field_is_reported_with_its_place(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
+def test_wrong_field_is_reported_with_its_place(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
     publisher = ros.node().create_publisher(Int32, "t", 10)
     with pytest.raises(TypeError, match="field 'data' of std_msgs/msg/Int32 must be"):
         publisher.publish(Int32(data="five", check_fields=False))
@@ -243,7 +247,7 @@ def test_a_wrong_field_is_reported_with_its_place(ros: Any, capfd: pytest.Captur
 
 
 @pytest.mark.parametrize("kind", [Trigger, int, "std_msgs/String"])
-def test_only_message_types(ros: Any, kind: Any) -> None:
+def test_only_message_types_are_accepted(ros: Any, kind: Any) -> None:
     node = ros.node()
     with pytest.raises((RuntimeError, AttributeError, TypeError)):
         node.create_publisher(kind, "t", 10)
@@ -251,7 +255,7 @@ def test_only_message_types(ros: Any, kind: Any) -> None:
         node.create_subscription(kind, "t", print, 10)
 
 
-def test_destroyed(ros: Any) -> None:
+def test_destroyed_publisher_and_subscription_raise_invalid_handle(ros: Any) -> None:
     line = Line(ros)
     subscription = line.subscribe()
     line.send(1)
@@ -263,7 +267,7 @@ def test_destroyed(ros: Any) -> None:
             use()
 
 
-def test_after_shutdown(ros: Any) -> None:
+def test_publishing_after_shutdown_raises_an_error(ros: Any) -> None:
     line = Line(ros)
     ros.context.shutdown()
     with pytest.raises(RCLError, match="Failed to publish: publisher's context is invalid"):
@@ -274,7 +278,7 @@ def test_after_shutdown(ros: Any) -> None:
         line.subscribe()
 
 
-def test_names(ros: Any) -> None:
+def test_names_are_expanded_and_remapped(ros: Any) -> None:
     ros.init("-r", "t:=elsewhere")
     node = ros.node(namespace="/ns")
     publisher = node.create_publisher(Int32, "t", 1)
@@ -283,7 +287,7 @@ def test_names(ros: Any) -> None:
     assert (subscription.topic, subscription.topic_name) == ("~/t", "/ns/n/t")
 
 
-def test_counts_of_matches(ros: Any) -> None:
+def test_matched_endpoints_are_counted(ros: Any) -> None:
     line = Line(ros)
     assert line.publisher.get_subscription_count() == 0
     subscription = line.subscribe()
@@ -294,7 +298,7 @@ def test_counts_of_matches(ros: Any) -> None:
     assert subscription.get_publisher_count() == 0
 
 
-def test_matched_events(ros: Any) -> None:
+def test_matched_events_report_counts(ros: Any) -> None:
     node, got = ros.node(), []
 
     def report(side: str) -> Any:
@@ -313,7 +317,7 @@ def test_matched_events(ros: Any) -> None:
     assert got == [("publisher", 1, 0, 0, -1)]
 
 
-def test_incompatible_profiles_warn_both_sides(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
+def test_incompatible_qos_warns_both_sides(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
     line = Line(ros, QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT))
     line.subscribe()
     ros.settle()

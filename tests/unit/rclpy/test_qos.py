@@ -1,4 +1,4 @@
-"""QoS profiles, presets and policies, and whether two profiles fit."""
+"""QoS profiles, presets and policies, and whether two profiles are compatible."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from rclpy.qos import (
 )
 
 
-def test_defaults() -> None:
+def test_profile_has_defaults() -> None:
     profile = QoSProfile(depth=7)
     assert (profile.history, profile.depth) == (HistoryPolicy.KEEP_LAST, 7)
     assert (profile.reliability, profile.durability) == (ReliabilityPolicy.RELIABLE, DurabilityPolicy.VOLATILE)
@@ -44,23 +44,23 @@ def test_defaults() -> None:
         ({"depth": 1, "durability": 77}, ValueError),
     ],
 )
-def test_refused(policies: dict[str, Any], kind: type[Exception]) -> None:
+def test_invalid_profiles_are_rejected(policies: dict[str, Any], kind: type[Exception]) -> None:
     with pytest.raises(kind):
         QoSProfile(**policies)
 
 
-def test_numbers_are_taken_for_policies() -> None:
+def test_policies_may_be_given_as_numbers() -> None:
     assert QoSProfile(history=2, reliability=2).reliability is ReliabilityPolicy.BEST_EFFORT
 
 
-def test_equality() -> None:
+def test_profiles_compare_by_value_and_are_unhashable() -> None:
     assert QoSProfile(depth=1) == QoSProfile(depth=1) != QoSProfile(depth=2)
     assert QoSProfile(depth=1) != 1
     with pytest.raises(TypeError):
         hash(QoSProfile(depth=1))
 
 
-def test_text() -> None:
+def test_profile_prints_as_upstream() -> None:
     assert str(QoSProfile(depth=10)) == (
         "QoSProfile(history=1, depth=10, reliability=1, durability=2, lifespan=0 nanoseconds, deadline=0 nanoseconds, "
         "liveliness=0, liveliness_lease_duration=0 nanoseconds, avoid_ros_namespace_conventions=False)"
@@ -81,13 +81,13 @@ PRESETS = {
 
 
 @pytest.mark.parametrize("key", PRESETS)
-def test_presets(key: str) -> None:
+def test_presets_have_upstreams_values(key: str) -> None:
     found = QoSPresetProfiles.get_from_short_key(key)
     assert (found.history, found.depth, found.reliability, found.durability) == PRESETS[key]
     assert found == getattr(qos, f"qos_profile_{key}")
 
 
-def test_preset_keys() -> None:
+def test_presets_are_listed_by_key() -> None:
     assert sorted(QoSPresetProfiles.short_keys()) == sorted(PRESETS)
     with pytest.raises(KeyError):
         QoSPresetProfiles.get_from_short_key("nope")
@@ -112,13 +112,13 @@ def test_preset_keys() -> None:
         ),
     ],
 )
-def test_policies(kind: Any, numbers: dict[str, int]) -> None:
+def test_policies_have_upstreams_names_and_numbers(kind: Any, numbers: dict[str, int]) -> None:
     assert {member.name: int(member) for member in kind} == numbers
     assert kind.short_keys() == [name.lower() for name in numbers]
     assert getattr(qos, f"QoS{kind.__name__}") is kind
 
 
-def test_old_names_warn() -> None:
+def test_deprecated_names_warn() -> None:
     with pytest.warns(UserWarning, match="deprecated"):
         assert ReliabilityPolicy.RMW_QOS_POLICY_RELIABILITY_RELIABLE is ReliabilityPolicy.RELIABLE
 
@@ -171,13 +171,13 @@ BEST_EFFORT, LATCHED = {"reliability": ReliabilityPolicy.BEST_EFFORT}, {"durabil
         ),
     ],
 )
-def test_compatibility(offered: dict[str, Any], requested: dict[str, Any], verdict: str, words: str) -> None:
+def test_compatibility_is_checked(offered: dict[str, Any], requested: dict[str, Any], verdict: str, words: str) -> None:
     alive = {"depth": 1, "liveliness": LivelinessPolicy.AUTOMATIC}
     found = qos_check_compatible(QoSProfile(**{**alive, **offered}), QoSProfile(**{**alive, **requested}))
     assert found == (QoSCompatibility[verdict], words)
 
 
-def test_the_default_liveliness_leaves_it_open() -> None:
+def test_default_liveliness_gives_a_warning() -> None:
     assert qos_check_compatible(QoSProfile(depth=1), QoSProfile(depth=1)) == (
         QoSCompatibility.WARNING,
         "WARNING: Publisher liveliness is system_default and subscription liveliness is system_default;",
@@ -185,7 +185,7 @@ def test_the_default_liveliness_leaves_it_open() -> None:
 
 
 @pytest.mark.parametrize(("given", "depth"), [(5, 5), (0, 0), (True, True), (QoSProfile(depth=3), 3)])
-def test_a_number_stands_for_a_depth(ros: Any, given: Any, depth: int) -> None:
+def test_integer_means_depth(ros: Any, given: Any, depth: int) -> None:
     from std_msgs.msg import String
 
     assert ros.node().create_publisher(String, "t", given).qos_profile.depth == depth
@@ -199,7 +199,7 @@ def test_a_number_stands_for_a_depth(ros: Any, given: Any, depth: int) -> None:
         (None, TypeError, "Expected QoSProfile or int, but received <class 'NoneType'>"),
     ],
 )
-def test_bad_depths(ros: Any, given: Any, kind: type[Exception], words: str) -> None:
+def test_invalid_depths_are_rejected(ros: Any, given: Any, kind: type[Exception], words: str) -> None:
     from std_msgs.msg import String
 
     node = ros.node()
@@ -212,12 +212,12 @@ def test_bad_depths(ros: Any, given: Any, kind: type[Exception], words: str) -> 
         assert str(caught.value) == words
 
 
-def test_a_depth_of_zero_is_reported() -> None:
+def test_zero_depth_is_warned_about() -> None:
     with pytest.warns(UserWarning, match="A zero depth with KEEP_LAST doesn't make sense; no data could be stored"):
         qos.QoSProfile(depth=0)
 
 
-def test_a_profile_that_came_over_the_wire_is_reported_to_each_asker_in_an_object_of_its_own():
+def test_profile_from_the_wire_is_returned_as_a_new_object_each_time():
     from bot_console.runtime.rmw.zenoh.wire.qos_text import decode_qos
     from rclpy.node_parts.qos_in_effect import in_effect
 

@@ -1,4 +1,4 @@
-"""QoS policies that parameters override."""
+"""QoS policies overridden by parameters."""
 
 from typing import Any
 
@@ -16,7 +16,7 @@ def overrides(node: Any) -> dict[str, Any]:
     return {name: each.value for name, each in node.get_parameters_by_prefix("qos_overrides").items()}
 
 
-def test_default_policies_of_a_publisher(ros: Any) -> None:
+def test_default_policies_of_a_publisher_can_be_overridden(ros: Any) -> None:
     ros.init(
         "-p",
         "qos_overrides./chatter.publisher.depth:=3",
@@ -43,7 +43,7 @@ def test_default_policies_of_a_publisher(ros: Any) -> None:
     assert described.description == "depth for publisher `/chatter` with id `None`"
 
 
-def test_entities_distinguished_and_durations(ros: Any) -> None:
+def test_entity_id_and_durations_are_supported(ros: Any) -> None:
     kinds = (QoSPolicyKind.LIFESPAN, QoSPolicyKind.DEADLINE, QoSPolicyKind.DURABILITY)
     ros.init("-p", "qos_overrides./t.subscription_left.deadline:=5000")
     node = ros.node()
@@ -56,14 +56,14 @@ def test_entities_distinguished_and_durations(ros: Any) -> None:
     assert len(overrides(node)) == 5
 
 
-def test_a_second_entity_takes_the_declared_values(ros: Any) -> None:
+def test_second_entity_uses_the_declared_values(ros: Any) -> None:
     ros.init("-p", "qos_overrides./t.publisher.depth:=3")
     node = ros.node()
     for depth in (10, 20):
         assert node.create_publisher(String, "t", depth, qos_overriding_options=DEFAULTS).qos_profile.depth == 3
 
 
-def test_overrides_that_are_refused(ros: Any) -> None:
+def test_invalid_overrides_are_rejected(ros: Any) -> None:
     ros.init("-p", "qos_overrides./t.publisher.reliability:=sometimes", "-p", "qos_overrides./u.publisher.depth:=many")
     node = ros.node()
     with pytest.raises(RuntimeError, match=r"^Unexpected QoS override for policy `reliability`: `sometimes`$"):
@@ -77,14 +77,14 @@ def test_overrides_that_are_refused(ros: Any) -> None:
         node.create_publisher(String, "v", 10, qos_overriding_options=strict)
 
 
-def test_without_the_option_nothing_is_declared(ros: Any) -> None:
+def test_nothing_is_declared_without_the_option(ros: Any) -> None:
     ros.init("-p", "qos_overrides./t.publisher.depth:=3")
     node = ros.node()
     assert node.create_publisher(String, "t", 10).qos_profile.depth == 10
     assert overrides(node) == {}
 
 
-def test_a_callback_reports_why_it_refuses(ros: Any) -> None:
+def test_validation_callback_gives_the_reason_of_a_refusal(ros: Any) -> None:
     from rclpy.qos_overriding_options import QosCallbackResult
 
     def shallow(profile: QoSProfile) -> Any:

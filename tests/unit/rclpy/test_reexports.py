@@ -1,4 +1,4 @@
-"""Names that programs take from modules which only import them, and modules that they use without an import."""
+"""Names that programs import from modules which only re-export them, and modules used without an import."""
 
 from __future__ import annotations
 
@@ -39,26 +39,26 @@ TAKEN_FROM = {
     ("module", "name", "home"),
     [(module, name, home) for module, names in TAKEN_FROM.items() for name, home in names.items()],
 )
-def test_a_name_is_that_of_its_home(module: str, name: str, home: str) -> None:
+def test_reexported_name_is_the_original(module: str, name: str, home: str) -> None:
     found = getattr(importlib.import_module(module), name)
     assert found is getattr(importlib.import_module(home), name)
 
 
-def test_the_message_class_has_another_name_beside_the_class_of_rclpy() -> None:
+def test_message_class_is_available_as_parameter_msg() -> None:
     from rcl_interfaces.msg import Parameter
     from rclpy.parameter import ParameterMsg
 
     assert rclpy.node.ParameterMsg is ParameterMsg is Parameter
 
 
-def test_the_c_extension_is_found_by_its_short_name() -> None:
+def test_c_extension_is_available_by_its_short_name() -> None:
     from rclpy import _rclpy_pybind11
     from rclpy.node import _rclpy
 
     assert _rclpy is _rclpy_pybind11
 
 
-def test_an_unknown_name_is_refused_in_python_s_words() -> None:
+def test_unknown_name_raises_pythons_error() -> None:
     with pytest.raises(AttributeError, match=r"^module 'rclpy\.node' has no attribute 'Sausage'$"):
         _ = rclpy.node.Sausage
     with pytest.raises(ImportError, match=r"cannot import name 'Sausage' from 'rclpy\.node'"):
@@ -77,12 +77,12 @@ print(rclpy.executors.MultiThreadedExecutor.__name__, rclpy.time.Time().nanoseco
 """
 
 
-def test_modules_are_there_once_upstream_has_loaded_them() -> None:
+def test_submodules_exist_once_upstream_would_have_loaded_them() -> None:
     reported = subprocess.run([sys.executable, "-c", SCRIPT], capture_output=True, text=True, check=True, timeout=60)
     assert reported.stdout.splitlines() == ["True False False", "MultiThreadedExecutor 0 False"]
 
 
-def test_the_events_executor_serves(ros: object) -> None:
+def test_events_executor_serves_callbacks(ros: object) -> None:
     from rclpy.experimental import EventsExecutor
     from rclpy.experimental.events_executor import EventsExecutor as FromItsModule
 

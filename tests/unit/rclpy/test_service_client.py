@@ -16,13 +16,13 @@ TIMEOUT_S = 20.0
 
 
 def add(request: Any, response: Any) -> Any:
-    """The usual service."""
+    """The service callback of most tests."""
     response.sum = request.a + request.b
     return response
 
 
 class Pair:
-    """A server and a client in nodes of their own."""
+    """A server and a client in separate nodes."""
 
     def __init__(self, ros: Any, callback: Any = add) -> None:
         self.ros = ros
@@ -32,17 +32,17 @@ class Pair:
         self.client = self.node.create_client(AddTwoInts, "add")
 
     def ask(self, a: int, b: int) -> Any:
-        """The answer."""
+        """Return the response."""
         future = self.client.call_async(AddTwoInts.Request(a=a, b=b))
         self.ros.spin(future.done)
         return future.result()
 
 
-def test_an_answer(ros: Any) -> None:
+def test_service_responds(ros: Any) -> None:
     assert Pair(ros).ask(2, 3) == AddTwoInts.Response(sum=5)
 
 
-def test_answers_reach_those_who_asked(ros: Any) -> None:
+def test_responses_reach_their_callers(ros: Any) -> None:
     pair = Pair(ros)
     other = pair.node.create_client(AddTwoInts, "add")
     asked = [(client, number) for number in range(5) for client in (pair.client, other)]
@@ -52,7 +52,7 @@ def test_answers_reach_those_who_asked(ros: Any) -> None:
 
 
 async def multiply(request: Any, response: Any) -> Any:
-    """A service that is a coroutine."""
+    """A service callback that is a coroutine."""
     response.sum = request.a * request.b
     return response
 
@@ -60,12 +60,12 @@ async def multiply(request: Any, response: Any) -> Any:
 @pytest.mark.parametrize(
     ("callback", "result"), [(multiply, 42), (lambda request, response: AddTwoInts.Response(sum=99), 99)]
 )
-def test_other_callbacks(ros: Any, callback: Any, result: int) -> None:
+def test_callback_may_be_any_callable_or_coroutine(ros: Any, callback: Any, result: int) -> None:
     assert Pair(ros, callback).ask(6, 7).sum == result
 
 
 @pytest.mark.parametrize("wrong", [None, Trigger.Response(), 5])
-def test_a_callback_must_return_the_response(ros: Any, wrong: Any) -> None:
+def test_callback_must_return_the_response(ros: Any, wrong: Any) -> None:
     pair = Pair(ros, lambda request, response: wrong)
     future = pair.client.call_async(AddTwoInts.Request())
     with pytest.raises(TypeError):
@@ -73,7 +73,7 @@ def test_a_callback_must_return_the_response(ros: Any, wrong: Any) -> None:
     assert not future.done()
 
 
-def test_a_callback_that_raises(ros: Any) -> None:
+def test_exception_in_a_callback_leaves_spin(ros: Any) -> None:
     pair = Pair(ros, lambda request, response: 1 / 0)
     future = pair.client.call_async(AddTwoInts.Request())
     with pytest.raises(ZeroDivisionError):
@@ -92,14 +92,14 @@ def test_requests_are_copied(ros: Any) -> None:
 
 
 @pytest.mark.parametrize("wrong", [5, None, AddTwoInts.Response(), Trigger.Request(), AddTwoInts])
-def test_requests_of_other_types(ros: Any, wrong: Any) -> None:
+def test_requests_of_other_types_are_rejected(ros: Any, wrong: Any) -> None:
     client = Pair(ros).client
     for call in (client.call, client.call_async):
         with pytest.raises(TypeError):
             call(wrong)
 
 
-def test_without_a_server_a_request_is_lost(ros: Any) -> None:
+def test_request_without_a_server_is_lost(ros: Any) -> None:
     node = ros.node()
     client = node.create_client(AddTwoInts, "add")
     future = client.call_async(AddTwoInts.Request())
@@ -110,7 +110,7 @@ def test_without_a_server_a_request_is_lost(ros: Any) -> None:
     assert client._pending_requests == {}
 
 
-def test_a_cancelled_call_is_forgotten(ros: Any) -> None:
+def test_cancelled_call_is_forgotten(ros: Any) -> None:
     pair = Pair(ros)
     future = pair.client.call_async(AddTwoInts.Request())
     future.cancel()
@@ -118,7 +118,7 @@ def test_a_cancelled_call_is_forgotten(ros: Any) -> None:
     assert (future.cancelled(), future.done(), pair.client._pending_requests) == (True, False, {})
 
 
-def test_done_callbacks_of_calls(ros: Any) -> None:
+def test_done_callback_gets_the_response(ros: Any) -> None:
     pair, got = Pair(ros), []
     future = pair.client.call_async(AddTwoInts.Request(a=1, b=1))
     future.add_done_callback(lambda done: got.append(done.result().sum))
@@ -126,7 +126,7 @@ def test_done_callbacks_of_calls(ros: Any) -> None:
     assert got == [2]
 
 
-def test_two_servers_of_one_name(ros: Any) -> None:
+def test_two_servers_of_one_name_both_receive_requests(ros: Any) -> None:
     calls = []
     for name in ("s1", "s2"):
         ros.node(name).create_service(
@@ -139,7 +139,7 @@ def test_two_servers_of_one_name(ros: Any) -> None:
     assert calls == ["s1", "s2"]
 
 
-def test_readiness(stepped_ros: Any) -> None:
+def test_readiness_requires_a_server_of_the_same_type(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     client = node.create_client(AddTwoInts, "add")
     node.create_service(Trigger, "add", add)
@@ -150,14 +150,14 @@ def test_readiness(stepped_ros: Any) -> None:
     assert client.wait_for_service() and client.service_is_ready()
 
 
-def test_waiting_ends_with_the_context(stepped_ros: Any) -> None:
+def test_waiting_for_a_service_ends_with_the_context(stepped_ros: Any) -> None:
     client = stepped_ros.node().create_client(AddTwoInts, "add")
     threading.Timer(1.0, stepped_ros.context.shutdown).start()
     with pytest.raises(RCLError, match="rcl node's context is invalid"):
         client.wait_for_service()
 
 
-def test_call_waits_for_its_answer(stepped_ros: Any) -> None:
+def test_call_blocks_until_the_response(stepped_ros: Any) -> None:
     pair = Pair(stepped_ros)
     executor = SingleThreadedExecutor(context=stepped_ros.context)
     for node in (pair.server, pair.node):
@@ -169,13 +169,13 @@ def test_call_waits_for_its_answer(stepped_ros: Any) -> None:
     thread.join()
 
 
-def test_call_gives_up(stepped_ros: Any) -> None:
+def test_call_times_out(stepped_ros: Any) -> None:
     client = stepped_ros.node().create_client(AddTwoInts, "add")
     assert client.call(AddTwoInts.Request(), timeout_sec=0.2) is None
     assert client._pending_requests == {}
 
 
-def test_call_within_a_callback_of_another_group(ros: Any) -> None:
+def test_call_within_a_callback_of_another_group_works(ros: Any) -> None:
     pair, got, done = Pair(ros), [], threading.Event()
     client = pair.node.create_client(AddTwoInts, "add", callback_group=MutuallyExclusiveCallbackGroup())
 
@@ -196,7 +196,7 @@ def test_call_within_a_callback_of_another_group(ros: Any) -> None:
 
 
 @pytest.mark.parametrize("own_group", [True, False])
-def test_awaiting_a_call_within_a_callback(ros: Any, own_group: bool) -> None:
+def test_call_can_be_awaited_within_a_callback(ros: Any, own_group: bool) -> None:
     pair, got = Pair(ros), []
     group = MutuallyExclusiveCallbackGroup() if own_group else None
     client = pair.node.create_client(AddTwoInts, "add", callback_group=group)
@@ -210,7 +210,7 @@ def test_awaiting_a_call_within_a_callback(ros: Any, own_group: bool) -> None:
     assert got == ([9] if own_group else []), "in one exclusive group the answer waits for ever"
 
 
-def test_names(ros: Any) -> None:
+def test_names_are_expanded_and_remapped(ros: Any) -> None:
     ros.init("-r", "do:=act")
     node = ros.node(namespace="/ns")
     service, client = node.create_service(Trigger, "do", add), node.create_client(Trigger, "~/do")
@@ -218,7 +218,7 @@ def test_names(ros: Any) -> None:
     assert (client.srv_name, client.service_name) == ("~/do", "/ns/n/do")
 
 
-def test_destroyed(ros: Any) -> None:
+def test_destroyed_service_and_client_raise_invalid_handle(ros: Any) -> None:
     pair = Pair(ros)
     assert pair.node.destroy_client(pair.client) and not pair.node.destroy_client(pair.client)
     assert pair.server.destroy_service(pair.service) and not pair.server.destroy_service(pair.service)
@@ -228,7 +228,7 @@ def test_destroyed(ros: Any) -> None:
 
 
 @pytest.mark.parametrize("kind", [int, "std_srvs/Trigger", AddTwoInts.Request])
-def test_only_service_types(ros: Any, kind: Any) -> None:
+def test_only_service_types_are_accepted(ros: Any, kind: Any) -> None:
     node = ros.node()
     for make in (lambda: node.create_client(kind, "x"), lambda: node.create_service(kind, "x", add)):
         with pytest.raises((RuntimeError, AttributeError, TypeError)):

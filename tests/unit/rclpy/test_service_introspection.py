@@ -17,7 +17,7 @@ REQUEST_SENT, REQUEST_RECEIVED, RESPONSE_SENT, RESPONSE_RECEIVED = range(4)
 
 
 class Scene:
-    """A node with a service, a client of it and a listener to its events."""
+    """A node with a service, a client, and a subscription to its events."""
 
     def __init__(self) -> None:
         self.context = rclpy.Context()
@@ -55,7 +55,7 @@ def scene() -> Iterator[Scene]:
     rclpy.try_shutdown(context=made.context)
 
 
-def test_metadata_without_contents(scene: Scene) -> None:
+def test_metadata_events_have_no_contents(scene: Scene) -> None:
     scene.configure(State.METADATA)
     scene.call()
     assert sorted(each.info.event_type for each in scene.events) == [0, 1, 2, 3]
@@ -64,7 +64,7 @@ def test_metadata_without_contents(scene: Scene) -> None:
     assert len({each.info.client_gid.tobytes() for each in scene.events}) == 1
 
 
-def test_contents(scene: Scene) -> None:
+def test_content_events_have_request_and_response(scene: Scene) -> None:
     scene.configure(State.CONTENTS)
     scene.call()
     found = {each.info.event_type: each for each in scene.events}
@@ -74,7 +74,7 @@ def test_contents(scene: Scene) -> None:
         assert (found[kind].request, found[kind].response) == ([], [SetBool.Response(success=True)])
 
 
-def test_off_again(scene: Scene) -> None:
+def test_introspection_can_be_switched_off(scene: Scene) -> None:
     scene.configure(State.CONTENTS)
     scene.configure(State.OFF)
     scene.call()
@@ -82,6 +82,6 @@ def test_off_again(scene: Scene) -> None:
     assert scene.node.count_publishers("flip/_service_event") == 0
 
 
-def test_nothing_is_published_unless_asked_for(scene: Scene) -> None:
+def test_nothing_is_published_by_default(scene: Scene) -> None:
     scene.call()
     assert scene.node.count_publishers("flip/_service_event") == 0

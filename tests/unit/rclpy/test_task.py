@@ -10,7 +10,7 @@ import pytest
 from rclpy.task import Future, Task
 
 
-def test_a_result() -> None:
+def test_future_returns_its_result() -> None:
     future: Future[int] = Future()
     assert (future.done(), future.result(), future.exception(), future.cancelled()) == (False, None, None, False)
     assert future.set_result(3) is None
@@ -19,7 +19,7 @@ def test_a_result() -> None:
     assert future.result() == 4
 
 
-def test_an_exception() -> None:
+def test_future_keeps_its_exception() -> None:
     future: Future[int] = Future()
     error = KeyError("x")
     future.set_exception(error)
@@ -28,7 +28,7 @@ def test_an_exception() -> None:
         future.result()
 
 
-def test_a_cancelled_future_is_not_done_and_may_still_be() -> None:
+def test_cancelled_future_is_not_done_and_may_still_complete() -> None:
     future: Future[int] = Future()
     assert future.cancel() is None
     assert (future.cancelled(), future.done(), future.result()) == (True, False, None)
@@ -38,7 +38,7 @@ def test_a_cancelled_future_is_not_done_and_may_still_be() -> None:
     assert not future.cancelled()
 
 
-def test_done_callbacks() -> None:
+def test_done_callbacks_run_in_order() -> None:
     future, got = Future(), []
     future.add_done_callback(lambda each: got.append(("first", each is future)))
     future.add_done_callback(lambda each: got.append(("second", each.result())))
@@ -47,14 +47,14 @@ def test_done_callbacks() -> None:
     assert got == [("first", True), ("second", 5), ("late", 5)]
 
 
-def test_a_cancel_calls_back() -> None:
+def test_cancel_runs_done_callbacks() -> None:
     future, got = Future(), []
     future.add_done_callback(lambda each: got.append(each.cancelled()))
     future.cancel()
     assert got == [True]
 
 
-def test_a_callback_that_raises_does_not_stop_the_next() -> None:
+def test_failing_done_callback_does_not_stop_the_next() -> None:
     future, got = Future(), []
     future.add_done_callback(lambda each: {}["missing"])
     future.add_done_callback(lambda each: got.append("next"))
@@ -63,7 +63,7 @@ def test_a_callback_that_raises_does_not_stop_the_next() -> None:
     assert got == ["next"]
 
 
-def test_a_callback_taken_away() -> None:
+def test_done_callback_can_be_removed() -> None:
     future, got = Future(), []
     future.add_done_callback(got.append)
     assert future.remove_done_callback(got.append) and not future.remove_done_callback(print)
@@ -71,7 +71,7 @@ def test_a_callback_taken_away() -> None:
     assert got == []
 
 
-def test_a_callback_added_twice_is_taken_away_once() -> None:
+def test_done_callback_added_twice_is_removed_once() -> None:
     future: Future[int] = Future()
     got: list[Any] = []
     future.add_done_callback(got.append)
@@ -81,7 +81,7 @@ def test_a_callback_added_twice_is_taken_away_once() -> None:
     assert got == [future]
 
 
-def test_a_callback_added_after_the_cancel_is_called_at_once() -> None:
+def test_done_callback_added_after_cancel_runs_at_once() -> None:
     future: Future[int] = Future()
     got: list[Any] = []
     future.cancel()
@@ -89,7 +89,7 @@ def test_a_callback_added_after_the_cancel_is_called_at_once() -> None:
     assert got == [future]
 
 
-def test_an_exception_that_nobody_asks_for_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
+def test_unretrieved_exception_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
     future: Any = Future()
     future.set_exception(RuntimeError("forgotten"))
     del future
@@ -97,7 +97,7 @@ def test_an_exception_that_nobody_asks_for_is_reported(capsys: pytest.CaptureFix
     assert "The following exception was never retrieved: forgotten" in capsys.readouterr().err
 
 
-def test_awaiting_yields_until_it_is_done() -> None:
+def test_awaiting_yields_until_the_future_is_done() -> None:
     future: Future[int] = Future()
 
     async def wait() -> Any:
@@ -113,7 +113,7 @@ def test_awaiting_yields_until_it_is_done() -> None:
 
 
 @pytest.mark.parametrize("work", [lambda a, b: a + b, None])
-def test_a_task(work: Any) -> None:
+def test_task_runs_a_function_or_coroutine(work: Any) -> None:
     async def add(a: int, b: int) -> int:
         return a + b
 
@@ -125,7 +125,7 @@ def test_a_task(work: Any) -> None:
     assert task.result() == 3
 
 
-def test_a_task_keeps_its_exception() -> None:
+def test_task_keeps_its_exception() -> None:
     task: Task[None] = Task(lambda: {}["x"])
     task()
     assert isinstance(task.exception(), KeyError)
@@ -141,7 +141,7 @@ def test_done_callbacks_run_in_the_executor(ros: Any) -> None:
     assert got == [1]
 
 
-def test_a_cancelled_task_does_not_run(ros: Any) -> None:
+def test_cancelled_task_does_not_run(ros: Any) -> None:
     executor, got = ros.node().executor, []
     task = executor.create_task(got.append, 1)
     task.cancel()
@@ -150,7 +150,7 @@ def test_a_cancelled_task_does_not_run(ros: Any) -> None:
     assert (got, task.cancelled(), task.done()) == ([], True, False)
 
 
-def test_awaiting_futures_of_another_thread(ros: Any) -> None:
+def test_future_set_by_another_thread_can_be_awaited(ros: Any) -> None:
     node, future, got = ros.node(), Future(), []
 
     async def wait() -> None:
@@ -165,7 +165,7 @@ def test_awaiting_futures_of_another_thread(ros: Any) -> None:
     assert got == [9]
 
 
-def test_nested_coroutines(ros: Any) -> None:
+def test_nested_coroutines_are_awaited(ros: Any) -> None:
     node, inner, got = ros.node(), Future(), []
 
     async def deep() -> int:
@@ -181,7 +181,7 @@ def test_nested_coroutines(ros: Any) -> None:
     assert got == [42]
 
 
-def test_a_cancelled_coroutine_does_not_run_and_leaves_the_executor_serving(ros: Any) -> None:
+def test_cancelled_coroutine_does_not_run_and_executor_continues(ros: Any) -> None:
     executor, got = ros.node().executor, []
 
     async def work() -> None:
@@ -193,7 +193,7 @@ def test_a_cancelled_coroutine_does_not_run_and_leaves_the_executor_serving(ros:
     assert (got, task.done(), task.cancelled()) == ([], False, True)
 
 
-def test_a_coroutine_cancelled_while_it_waits_is_closed_once(ros: Any) -> None:
+def test_coroutine_cancelled_while_waiting_is_closed_once(ros: Any) -> None:
     executor, got = ros.node().executor, []
     awaited: Future[int] = Future()
 
@@ -212,7 +212,7 @@ def test_a_coroutine_cancelled_while_it_waits_is_closed_once(ros: Any) -> None:
 
 
 @pytest.mark.parametrize("before", [True, False])
-def test_awaiting_a_cancelled_future_goes_on_with_none(ros: Any, before: bool) -> None:
+def test_awaiting_a_cancelled_future_returns_none(ros: Any, before: bool) -> None:
     executor, got = ros.node().executor, []
     awaited: Future[int] = Future()
 
@@ -229,7 +229,7 @@ def test_awaiting_a_cancelled_future_goes_on_with_none(ros: Any, before: bool) -
 
 
 @pytest.mark.parametrize("timeout", [None, 1000.0])
-def test_spinning_until_a_future_ends_with_its_cancel(ros: Any, timeout: float | None) -> None:
+def test_spin_until_future_complete_ends_on_cancel(ros: Any, timeout: float | None) -> None:
     executor = ros.node().executor
     future: Future[int] = Future()
     executor.create_task(future.cancel)
@@ -237,7 +237,7 @@ def test_spinning_until_a_future_ends_with_its_cancel(ros: Any, timeout: float |
     assert future.cancelled() and not future.done()
 
 
-def test_a_coroutine_cannot_cancel_itself(ros: Any) -> None:
+def test_coroutine_cannot_cancel_itself(ros: Any) -> None:
     executor = ros.node().executor
 
     async def work() -> None:

@@ -24,7 +24,7 @@ from rclpy.time import Time
         ({"nanoseconds": 2**63 - 1}, 2**63 - 1),
     ],
 )
-def test_parts(parts: dict[str, Any], nanoseconds: int) -> None:
+def test_seconds_and_nanoseconds_add_up(parts: dict[str, Any], nanoseconds: int) -> None:
     assert Time(**parts).nanoseconds == nanoseconds
     assert Duration(**parts).nanoseconds == nanoseconds
 
@@ -72,7 +72,7 @@ def test_parts(parts: dict[str, Any], nanoseconds: int) -> None:
         (lambda: Duration.from_msg(5), TypeError, "Must pass a builtin_interfaces.msg.Duration object"),
     ],
 )
-def test_refused(make: Callable[[], Any], kind: type[Exception], words: str) -> None:
+def test_invalid_values_are_rejected(make: Callable[[], Any], kind: type[Exception], words: str) -> None:
     with pytest.raises(kind) as caught:
         make()
     assert str(caught.value) == words
@@ -90,12 +90,12 @@ def test_refused(make: Callable[[], Any], kind: type[Exception], words: str) -> 
         lambda: Time() + 1,
     ],
 )
-def test_what_there_is_not(make: Callable[[], Any]) -> None:
+def test_unsupported_operations_raise_type_error(make: Callable[[], Any]) -> None:
     with pytest.raises(TypeError):
         make()
 
 
-def test_arithmetic() -> None:
+def test_times_and_durations_can_be_added_and_subtracted() -> None:
     five, two, second = Time(seconds=5), Time(seconds=2), Duration(seconds=1)
     assert (five - two) == Duration(seconds=3)
     assert (two - five).nanoseconds == -3_000_000_000
@@ -105,7 +105,7 @@ def test_arithmetic() -> None:
     assert (ros + second).clock_type is ClockType.ROS_TIME
 
 
-def test_comparison() -> None:
+def test_times_can_be_compared() -> None:
     early, late = Time(seconds=1), Time(seconds=2)
     assert early < late and early <= late and late > early and late >= early and early != late
     assert early <= Time(seconds=1) and early == Time(seconds=1)
@@ -122,12 +122,12 @@ def test_comparison() -> None:
         (Infinite, "Duration(nanoseconds=9223372036854775807)", "Infinite"),
     ],
 )
-def test_texts(value: Any, shown: str, text: str | None) -> None:
+def test_times_and_durations_print_as_upstream(value: Any, shown: str, text: str | None) -> None:
     assert repr(value) == shown
     assert str(value) == (text or shown)
 
 
-def test_messages() -> None:
+def test_times_and_durations_convert_to_messages() -> None:
     assert Time(seconds=3, nanoseconds=4).to_msg() == TimeMessage(sec=3, nanosec=4)
     assert Time.from_msg(TimeMessage(sec=3, nanosec=4)).clock_type is ClockType.ROS_TIME
     assert Time.from_msg(TimeMessage(sec=3), clock_type=ClockType.SYSTEM_TIME) == Time(seconds=3)
@@ -136,6 +136,6 @@ def test_messages() -> None:
     assert Time(nanoseconds=1_500_000_001).seconds_nanoseconds() == (1, 500_000_001)
 
 
-def test_they_do_not_change() -> None:
+def test_times_are_immutable() -> None:
     with pytest.raises(AttributeError):
         Time().nanoseconds = 5  # type: ignore[misc]

@@ -17,7 +17,7 @@ MS = 1_000_000
 
 
 class Recorder:
-    """Calls with the time (ms) at which they came."""
+    """Records calls with their time (ms)."""
 
     def __init__(self, node: Any) -> None:
         self._clock = node.get_clock()
@@ -25,14 +25,14 @@ class Recorder:
         self.times: list[int] = []
 
     def now(self) -> int:
-        """The node's time in ms."""
+        """Return the node's time in ms."""
         return self._clock.now().nanoseconds // MS
 
     def __call__(self) -> None:
         self.times.append(self.now() - self._start)
 
 
-def test_fires_first_after_one_period(stepped_ros: Any) -> None:
+def test_timer_fires_first_after_one_period(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     record = Recorder(node)
     node.create_timer(0.1, record)
@@ -40,7 +40,7 @@ def test_fires_first_after_one_period(stepped_ros: Any) -> None:
     assert record.times == [100, 200, 300, 400]
 
 
-def test_fires_by_steady_time_until_it_is_cancelled(stepped_ros: Any) -> None:
+def test_timer_fires_by_steady_time_until_cancelled(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     record = Recorder(node)
 
@@ -76,7 +76,7 @@ def duration(seconds: float) -> Any:
     return Duration(seconds=seconds)
 
 
-def test_timers_due_at_once_are_served_as_they_were_made(stepped_ros: Any) -> None:
+def test_simultaneous_timers_fire_in_order_of_creation(stepped_ros: Any) -> None:
     node, got = stepped_ros.node(), []
     for name in "cab":
         node.create_timer(0.1, lambda name=name: got.append(name))
@@ -84,7 +84,7 @@ def test_timers_due_at_once_are_served_as_they_were_made(stepped_ros: Any) -> No
     assert "".join(got) == "cabcab"
 
 
-def test_different_periods(stepped_ros: Any) -> None:
+def test_timers_with_different_periods_interleave(stepped_ros: Any) -> None:
     node, got = stepped_ros.node(), []
     record = Recorder(node)
     for milliseconds in (30, 20):
@@ -95,7 +95,7 @@ def test_different_periods(stepped_ros: Any) -> None:
     assert got == [(20, 20), (30, 30), (40, 20), (60, 30), (60, 20)]
 
 
-def test_cancel_and_reset(stepped_ros: Any) -> None:
+def test_timer_can_be_cancelled_and_reset(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     record = Recorder(node)
     timer = node.create_timer(0.1, lambda: (record(), timer.cancel()))
@@ -108,7 +108,7 @@ def test_cancel_and_reset(stepped_ros: Any) -> None:
     assert record.times == [100, 1200]
 
 
-def test_reset_puts_a_timer_off(stepped_ros: Any) -> None:
+def test_reset_postpones_a_timer(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     record = Recorder(node)
     watchdog = node.create_timer(0.5, record)
@@ -136,7 +136,7 @@ def test_autostart_false_waits_for_reset(stepped_ros: Any) -> None:
     assert record.times == [1100]
 
 
-def test_a_new_period_counts_from_the_next_call(stepped_ros: Any) -> None:
+def test_new_period_counts_from_the_next_call(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     record = Recorder(node)
     timer = node.create_timer(0.1, record)
@@ -145,7 +145,7 @@ def test_a_new_period_counts_from_the_next_call(stepped_ros: Any) -> None:
     assert record.times == [100, 350, 600]
 
 
-def test_readings(stepped_ros: Any) -> None:
+def test_time_since_and_until_calls_is_reported(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     timer = node.create_timer(0.1, None)
     assert timer.time_until_next_call() == 100 * MS
@@ -156,19 +156,19 @@ def test_readings(stepped_ros: Any) -> None:
 
 
 @pytest.mark.parametrize("period", [1, 1.0, "1", True])
-def test_periods(ros: Any, period: Any) -> None:
+def test_periods_of_numeric_types_are_accepted(ros: Any, period: Any) -> None:
     assert ros.node().create_timer(period, None).timer_period_ns == 1_000_000_000
 
 
 @pytest.mark.parametrize(
     ("period", "kind"), [(None, TypeError), ("fast", ValueError), (float("inf"), OverflowError), (-0.1, RCLError)]
 )
-def test_bad_periods(ros: Any, period: Any, kind: type[Exception]) -> None:
+def test_invalid_periods_are_rejected(ros: Any, period: Any, kind: type[Exception]) -> None:
     with pytest.raises(kind):
         ros.node().create_timer(period, None)
 
 
-def test_a_period_of_zero_is_always_due(ros: Any) -> None:
+def test_zero_period_is_always_due(ros: Any) -> None:
     node, got = ros.node(), []
     node.create_timer(0.0, lambda: got.append(1))
     for _ in range(3):
@@ -176,7 +176,7 @@ def test_a_period_of_zero_is_always_due(ros: Any) -> None:
     assert len(got) == 3
 
 
-def test_a_timer_that_is_due_when_its_node_comes_is_called_once_in_a_wake(ros: Any) -> None:
+def test_timer_due_when_its_node_is_added_fires_once_per_wake(ros: Any) -> None:
     node, got = ros.node(), []
     node.create_timer(0.0, lambda: got.append(1))
     executor = node.executor
@@ -189,7 +189,7 @@ def test_a_timer_that_is_due_when_its_node_comes_is_called_once_in_a_wake(ros: A
     assert calls == [1, 1, 2, 2]
 
 
-def test_a_coroutine(stepped_ros: Any) -> None:
+def test_callback_may_be_a_coroutine(stepped_ros: Any) -> None:
     node, got = stepped_ros.node(), []
 
     async def tick() -> None:
@@ -199,7 +199,7 @@ def test_a_coroutine(stepped_ros: Any) -> None:
     stepped_ros.spin(lambda: len(got) >= 2)
 
 
-def test_another_callback_later(stepped_ros: Any) -> None:
+def test_callback_can_be_replaced(stepped_ros: Any) -> None:
     node, got = stepped_ros.node(), []
     timer = node.create_timer(0.1, lambda: got.append("old"))
 
@@ -211,7 +211,7 @@ def test_another_callback_later(stepped_ros: Any) -> None:
     assert got == ["new"]
 
 
-def test_destroyed(ros: Any) -> None:
+def test_destroyed_timer_raises_invalid_handle(ros: Any) -> None:
     node = ros.node()
     timer = node.create_timer(1.0, None)
     assert node.destroy_timer(timer) and not node.destroy_timer(timer)
@@ -220,7 +220,7 @@ def test_destroyed(ros: Any) -> None:
             use()
 
 
-def test_a_clock_of_its_own(stepped_ros: Any) -> None:
+def test_timer_may_use_another_clock(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     record = Recorder(node)
     steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -229,7 +229,7 @@ def test_a_clock_of_its_own(stepped_ros: Any) -> None:
     assert record.times == [100]
 
 
-def test_moving_a_node_moves_its_timers(stepped_ros: Any) -> None:
+def test_timers_move_with_their_node_to_another_executor(stepped_ros: Any) -> None:
     from rclpy.executors import SingleThreadedExecutor
 
     node = stepped_ros.node()
@@ -243,7 +243,7 @@ def test_moving_a_node_moves_its_timers(stepped_ros: Any) -> None:
     assert record.times == [150]
 
 
-def test_spin_once_again_and_again_leaves_one_entry(stepped_ros: Any) -> None:
+def test_repeated_spin_once_leaves_one_schedule_entry(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     executor = node.executor
     node.create_timer(3600.0, None)
@@ -254,12 +254,12 @@ def test_spin_once_again_and_again_leaves_one_entry(stepped_ros: Any) -> None:
 
 
 @pytest.mark.parametrize("frequency", [0, -1.0])
-def test_rate_needs_a_frequency(ros: Any, frequency: float) -> None:
+def test_rate_needs_a_positive_frequency(ros: Any, frequency: float) -> None:
     with pytest.raises(ValueError, match="frequency must be > 0"):
         ros.node().create_rate(frequency)
 
 
-def test_a_rate_ticks_while_another_thread_serves(stepped_ros: Any) -> None:
+def test_rate_ticks_while_another_thread_spins(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     record = Recorder(node)
     rate = node.create_rate(10)
@@ -273,7 +273,7 @@ def test_a_rate_ticks_while_another_thread_serves(stepped_ros: Any) -> None:
     assert node.destroy_rate(rate) and not node.destroy_rate(rate)
 
 
-def test_a_rate_that_is_late_does_not_wait_for_the_next_tick(stepped_ros: Any) -> None:
+def test_late_rate_does_not_wait_for_the_next_tick(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     record = Recorder(node)
     rate = node.create_rate(10)
@@ -287,7 +287,7 @@ def test_a_rate_that_is_late_does_not_wait_for_the_next_tick(stepped_ros: Any) -
     assert record.times == [150, 300, 450]
 
 
-def test_who_sleeps_on_a_rate_wakes_when_it_is_destroyed(stepped_ros: Any) -> None:
+def test_destroying_a_rate_wakes_its_sleeper(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     rate = node.create_rate(0.001)
     threading.Timer(0.2, node.destroy_rate, (rate,)).start()
@@ -302,14 +302,14 @@ def never() -> Any:
     return Future()
 
 
-def test_rate_after_shutdown(ros: Any) -> None:
+def test_rate_sleep_after_shutdown_raises(ros: Any) -> None:
     rate = ros.node().create_rate(10)
     ros.context.shutdown()
     with pytest.raises(ROSInterruptException, match=r"rclpy.shutdown\(\) has been called"):
         rate.sleep()
 
 
-def test_a_shutdown_wakes_who_sleeps(stepped_ros: Any) -> None:
+def test_shutdown_wakes_a_sleeping_rate(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     rate = node.create_rate(0.001)
     threading.Timer(0.2, node.context.shutdown).start()
@@ -317,7 +317,7 @@ def test_a_shutdown_wakes_who_sleeps(stepped_ros: Any) -> None:
         rate.sleep()
 
 
-def test_a_jump_to_a_multiple_of_the_period_is_one_call(ros: Any) -> None:
+def test_jump_by_several_periods_is_one_call(ros: Any) -> None:
     node = ros.node()
     clock = Clock(clock_type=ClockType.ROS_TIME)
     clock._set_ros_time_is_active(True)
@@ -331,7 +331,7 @@ def test_a_jump_to_a_multiple_of_the_period_is_one_call(ros: Any) -> None:
     assert len(calls) == 2
 
 
-def test_a_clock_that_was_set_back_puts_a_call_off(stepped_ros: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_clock_set_back_postpones_the_call(stepped_ros: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     node = stepped_ros.node()
     record = Recorder(node)
     clock, asked = type(node.get_clock()), set[int]()

@@ -1,4 +1,4 @@
-"""`~/get_type_description`: what it answers, and how it is switched off."""
+"""`~/get_type_description`: its answers, and how it is switched off."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def ask(node: Any, **request: Any) -> Any:
     return future.result()
 
 
-def test_a_type_of_the_node_is_described(node: Any) -> None:
+def test_type_of_the_node_is_described(node: Any) -> None:
     node.create_publisher(Twist, "cmd_vel", 1)
     answer = ask(node, type_name="geometry_msgs/msg/Twist", type_hash=text(Twist), include_type_sources=True)
     assert (answer.successful, answer.failure_reason) == (True, "")
@@ -56,14 +56,14 @@ def test_a_type_of_the_node_is_described(node: Any) -> None:
     assert "linear" in answer.type_sources[0].raw_file_contents
 
 
-def test_a_service_of_the_node_is_described(node: Any) -> None:
+def test_service_of_the_node_is_described(node: Any) -> None:
     node.create_service(Trigger, "go", lambda request, response: response)
     answer = ask(node, type_hash=text(Trigger), include_type_sources=False)
     assert answer.type_description.type_description.type_name == "std_srvs/srv/Trigger"
     assert len(answer.type_sources) == 0
 
 
-def test_an_action_of_the_node_is_described_and_what_the_graph_shows_of_it(node: Any) -> None:
+def test_action_of_the_node_and_its_parts_are_described(node: Any) -> None:
     server = ActionServer(node, Fibonacci, "fib", lambda goal: Fibonacci.Result())
     name = "example_interfaces/action/Fibonacci"
     answer = ask(node, type_hash=text(Fibonacci), include_type_sources=True)
@@ -83,12 +83,12 @@ def test_an_action_of_the_node_is_described_and_what_the_graph_shows_of_it(node:
     assert not ask(node, type_hash=text(Fibonacci)).successful
 
 
-def test_what_it_does_not_know(node: Any) -> None:
+def test_unknown_type_is_reported(node: Any) -> None:
     assert ask(node, type_hash=text(Twist)).failure_reason == "Type not currently in use by this node"
     assert ask(node, type_hash="RIHS01_12").failure_reason == "Failed to parse type hash"
 
 
-def test_the_parameter_switches_it_off() -> None:
+def test_parameter_switches_the_service_off() -> None:
     context = rclpy.Context()
     rclpy.init(args=["--ros-args", "-p", "start_type_description_service:=false"], context=context)
     node = rclpy.create_node("without", context=context)

@@ -1,4 +1,4 @@
-"""What counts as a message, service or action class, and the words for what does not."""
+"""Which classes count as message, service or action types, and the errors for others."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from std_srvs.srv import Trigger
 ROS1 = "This might be a ROS 1 message type but it should be a ROS 2 message type."
 
 
-def test_the_right_kinds_pass() -> None:
+def test_valid_types_are_accepted() -> None:
     check_is_valid_msg_type(String)
     check_is_valid_msg_type(Trigger.Request)
     check_is_valid_srv_type(Trigger)
@@ -34,7 +34,7 @@ def test_the_right_kinds_pass() -> None:
         (check_is_valid_action_type, String, "action", "message or service"),
     ],
 )
-def test_another_kind(check: Any, cls: Any, kind: str, others: str) -> None:
+def test_interface_of_another_kind_is_rejected(check: Any, cls: Any, kind: str, others: str) -> None:
     with pytest.raises(RuntimeError) as caught:
         check(cls)
     assert str(caught.value) == f"The {kind} type provided is not valid ({cls}), this might be a {others}"
@@ -42,12 +42,12 @@ def test_another_kind(check: Any, cls: Any, kind: str, others: str) -> None:
 
 @pytest.mark.parametrize("thing", [int, "std_msgs/msg/String", None, String()])
 @pytest.mark.parametrize("check", [check_is_valid_msg_type, check_is_valid_srv_type])
-def test_no_interface_class_at_all(check: Any, thing: Any) -> None:
+def test_class_that_is_no_interface_is_rejected(check: Any, thing: Any) -> None:
     with pytest.raises(AttributeError, match=ROS1):
         check(thing)
 
 
-def test_serialization() -> None:
+def test_messages_are_serialized_and_deserialized() -> None:
     data = serialize_message(String(data="hi"))
     assert data == bytes.fromhex("0001 0000 0300 0000 6869 00")
     assert deserialize_message(data, String) == String(data="hi")
@@ -57,7 +57,7 @@ def test_serialization() -> None:
         serialize_message("hi")
 
 
-def test_type_hashes() -> None:
+def test_type_hash_is_upstreams() -> None:
     found = type_hash_of(String)
     assert str(found) == "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
     assert found == TypeHash(1, found.value) != TypeHash()

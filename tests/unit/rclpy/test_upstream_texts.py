@@ -1,4 +1,4 @@
-"""What rclpy 7.1 answers to arguments and prints for values, where a program can tell the difference."""
+"""Arguments accepted and texts printed by rclpy 7.1, where a program can notice a difference."""
 
 from __future__ import annotations
 
@@ -34,21 +34,21 @@ from std_srvs.srv import Trigger
         SignalHandlerOptions.ALL,
     ],
 )
-def test_an_enumeration_of_the_c_extension_prints_its_name(member: Any) -> None:
+def test_enumeration_of_the_c_extension_prints_its_name(member: Any) -> None:
     expected = f"{type(member).__name__}.{member.name}"
     assert (str(member), f"{member}") == (expected, expected)
     assert member == member.value
 
 
 @pytest.mark.parametrize("member", [ClockChange.ROS_TIME_ACTIVATED, ClockType.ROS_TIME])
-def test_an_enumeration_of_rclpy_itself_prints_as_those_of_this_python(member: Any) -> None:
+def test_enumeration_of_rclpy_prints_as_in_this_python(member: Any) -> None:
     plain: Any = IntEnum(type(member).__name__, {member.name: member.value})
     plain = plain(member.value)
     assert (str(member), f"{member}", repr(member)) == (str(plain), f"{plain}", repr(plain))
 
 
 @pytest.mark.parametrize("profile", [10, "10", None])
-def test_the_qos_of_a_service_is_a_profile_and_no_number(ros: Any, profile: Any) -> None:
+def test_service_qos_must_be_a_profile(ros: Any, profile: Any) -> None:
     node = ros.node()
     refused = pytest.raises(AttributeError, match="object has no attribute 'get_c_qos_profile'")
     with refused:
@@ -58,12 +58,12 @@ def test_the_qos_of_a_service_is_a_profile_and_no_number(ros: Any, profile: Any)
     assert node.create_client(Trigger, "t", qos_profile=QoSProfile(depth=10)).srv_name == "t"
 
 
-def test_an_unknown_policy_is_named_among_all_that_were_given() -> None:
+def test_unknown_policy_error_lists_all_given_ones() -> None:
     with pytest.raises(AssertionError, match=r"constructor: dict_keys\(\['depth', 'reliable'\]\)"):
         QoSProfile(depth=1, reliable=True)
 
 
-def test_the_durations_that_mean_best_available() -> None:
+def test_best_available_durations_are_upstreams() -> None:
     from rclpy.qos import DeadlineBestAvailable, LivelinessLeaseDurationeBestAvailable
 
     best = QoSPresetProfiles.BEST_AVAILABLE.value
@@ -71,23 +71,23 @@ def test_the_durations_that_mean_best_available() -> None:
     assert best.liveliness_lease_duration == LivelinessLeaseDurationeBestAvailable
 
 
-def test_the_publisher_of_log_lines_is_not_among_the_node_s(ros: Any) -> None:
+def test_rosout_publisher_is_not_among_the_nodes_publishers(ros: Any) -> None:
     node = ros.node()
     node.create_publisher(String, "t", 1)
     assert [each.topic_name for each in node.publishers] == ["/parameter_events", "/t"]
 
 
-def test_a_node_keeps_its_handle(ros: Any) -> None:
+def test_handle_of_a_node_cannot_be_set(ros: Any) -> None:
     with pytest.raises(AttributeError, match=r"^handle cannot be modified after node creation$"):
         ros.node().handle = None
 
 
-def test_a_namespace_that_is_no_text(ros: Any) -> None:
+def test_namespace_must_be_a_string(ros: Any) -> None:
     with pytest.raises(TypeError, match="namespace must be a string, not int"):
         ros.node(namespace=3)
 
 
-def test_a_context_may_be_asked_not_to_set_up_the_log() -> None:
+def test_context_can_be_initialized_without_logging() -> None:
     context = Context()
     context.init([], initialize_logging=False)
     assert context.ok()
@@ -95,13 +95,13 @@ def test_a_context_may_be_asked_not_to_set_up_the_log() -> None:
 
 
 @pytest.mark.parametrize("name", ["pre_callback", "post_callback"])
-def test_what_is_called_at_a_jump_can_be_called(name: str) -> None:
+def test_jump_callback_must_be_callable(name: str) -> None:
     threshold: Any = JumpThreshold(min_forward=None, min_backward=None)
     with pytest.raises(ValueError, match=f"{name} must be callable if given"):
         ROSClock().create_jump_callback(threshold, **{name: 1})  # type: ignore[arg-type]
 
 
-def test_a_change_of_the_source_reports_no_time() -> None:
+def test_change_of_the_time_source_has_zero_delta() -> None:
     clock, jumps = ROSClock(), []
     clock.set_ros_time_override(Time(seconds=5))
     handle = clock.create_jump_callback(JumpThreshold(min_forward=None, min_backward=None), post_callback=jumps.append)
@@ -114,17 +114,17 @@ def test_a_change_of_the_source_reports_no_time() -> None:
     ]
 
 
-def test_a_time_does_not_grow_beyond_its_64_bits() -> None:
+def test_time_beyond_64_bits_overflows() -> None:
     with pytest.raises(OverflowError, match="Total nanoseconds value is too large"):
         _ = Time(nanoseconds=2**63 - 1) - Duration(nanoseconds=-1)
 
 
 @pytest.mark.parametrize(("seconds", "expected"), [(None, -1), (-0.5, -1), (0, 0), (1.5, 1_500_000_000)])
-def test_a_time_out_for_ever_is_minus_one(seconds: float | None, expected: int) -> None:
+def test_infinite_timeout_is_minus_one(seconds: float | None, expected: int) -> None:
     assert timeout_sec_to_nsec(seconds) == expected
 
 
-def test_a_log_line_may_have_another_name(capfd: pytest.CaptureFixture[str]) -> None:
+def test_log_line_may_have_another_name(capfd: pytest.CaptureFixture[str]) -> None:
     logger = get_logger("first")
     for _ in range(2):
         assert logger.info("text", name="second")
@@ -134,17 +134,17 @@ def test_a_log_line_may_have_another_name(capfd: pytest.CaptureFixture[str]) -> 
             logger.info("text", name=name)
 
 
-def test_a_severity_is_given_once() -> None:
+def test_severity_cannot_be_given_twice() -> None:
     with pytest.raises(TypeError, match="got multiple values for argument 'severity'"):
         get_logger("l").fatal("text", severity=10)
 
 
-def test_a_throttle_is_a_number() -> None:
+def test_throttle_duration_must_be_a_number() -> None:
     with pytest.raises(TypeError, match="can't multiply sequence by non-int of type 'float'"):
         get_logger("l").info("text", throttle_duration_sec="1")
 
 
-def test_an_endpoint_that_nothing_is_known_of() -> None:
+def test_unknown_endpoint_info_has_unknown_qos() -> None:
     info = TopicEndpointInfo()
     assert info.qos_profile == QoSPresetProfiles.UNKNOWN.value
     assert "Topic type hash: INVALID" in str(info)
@@ -153,7 +153,7 @@ def test_an_endpoint_that_nothing_is_known_of() -> None:
 
 
 @pytest.mark.parametrize("method", ["set_parameters", "get_parameter", "create_timer", "count_publishers"])
-def test_a_call_without_its_argument_names_the_node_s_method(ros: Any, method: str) -> None:
+def test_missing_argument_error_names_the_node_method(ros: Any, method: str) -> None:
     with pytest.raises(TypeError, match=rf"^Node\.{method}\(\) missing 1 required positional argument"):
         getattr(ros.node(), method)(*(() if method != "create_timer" else (1.0,)))
 
@@ -165,7 +165,7 @@ def test_a_call_without_its_argument_names_the_node_s_method(ros: Any, method: s
         ({"throttle_duration_sec": None, "throttle_time_source_type": ROSClock()}, "throttle_duration_sec"),
     ],
 )
-def test_a_throttle_that_is_given_as_none(options: dict[str, Any], words: str) -> None:
+def test_throttle_with_a_none_option_is_rejected(options: dict[str, Any], words: str) -> None:
     with pytest.raises(
         TypeError, match=f'^Required parameter "{words}" was not specified for logging filter "Throttle"$'
     ):
@@ -173,51 +173,51 @@ def test_a_throttle_that_is_given_as_none(options: dict[str, Any], words: str) -
 
 
 @pytest.mark.parametrize("options", [{"throttle_duration_sec": None}, {"throttle_time_source_type": None}])
-def test_a_throttle_of_none_alone_is_no_throttle(options: dict[str, Any]) -> None:
+def test_throttle_of_none_alone_does_not_throttle(options: dict[str, Any]) -> None:
     assert [get_logger("l").info("text", **options) for _ in range(2)] == [True, True]
 
 
-def test_a_message_class_that_was_not_called(ros: Any) -> None:
+def test_publishing_a_message_class_is_rejected(ros: Any) -> None:
     publisher = ros.node().create_publisher(String, "t", 1)
     with pytest.raises(TypeError, match=r"got <class 'std_msgs\.msg\._string\.Metaclass_String'>$"):
         publisher.publish(String)
 
 
 @pytest.mark.parametrize("name", ["RMW_QOS_POLICY_RELIABILITY_NONE", "RELIABLEE"])
-def test_a_policy_that_there_is_not(name: str) -> None:
+def test_unknown_policy_value_raises_attribute_error(name: str) -> None:
     with pytest.raises(AttributeError, match=rf"\b{name}'?$"):
         getattr(ReliabilityPolicy, name)
 
 
 @pytest.mark.parametrize("text", [5, None, ["a"]])
-def test_a_parameter_s_word_that_is_no_text(text: Any) -> None:
+def test_parameter_value_must_be_text(text: Any) -> None:
     with pytest.raises(AttributeError, match="object has no attribute 'read'"):
         get_parameter_value(text)
 
 
-def test_a_prefix_of_none(ros: Any) -> None:
+def test_prefix_of_none_is_rejected(ros: Any) -> None:
     with pytest.raises(TypeError, match="object of type 'NoneType' has no len"):
         ros.node().get_parameters_by_prefix(None)
 
 
-def test_a_range_that_begins_with_nan_refuses_all(ros: Any) -> None:
+def test_range_starting_with_nan_rejects_all_values(ros: Any) -> None:
     nothing = FloatingPointRange(from_value=float("nan"), to_value=1.0)
     with pytest.raises(InvalidParameterValueException, match=r"out of range Min: nan, Max: nan, value: 0\.5"):
         ros.node().declare_parameter("p", 0.5, ParameterDescriptor(floating_point_range=[nothing]))
 
 
-def test_a_time_out_that_is_no_number_is_refused_at_once(ros: Any) -> None:
+def test_timeout_must_be_a_number(ros: Any) -> None:
     with pytest.raises(TypeError):
         ros.node().create_client(Trigger, "t").wait_for_service("1")
 
 
-def test_the_parts_of_a_service_are_listed_before_they_are_imported() -> None:
+def test_dir_of_a_service_lists_its_parts_before_import() -> None:
     from nav_msgs.srv import GetPlan
 
     assert {"Event", "Request", "Response"} <= set(dir(GetPlan))
 
 
-def test_goals_print_the_module_that_they_are_imported_from() -> None:
+def test_goal_handles_print_the_module_of_their_import() -> None:
     from rclpy.action.client import ClientGoalHandle
     from rclpy.action.server import ServerGoalHandle
 
@@ -225,7 +225,7 @@ def test_goals_print_the_module_that_they_are_imported_from() -> None:
     assert str(ClientGoalHandle) == "<class 'rclpy.action.client.ClientGoalHandle'>"
 
 
-def test_what_is_called_at_the_shutdown_is_kept_without_an_answer() -> None:
+def test_on_shutdown_returns_nothing_and_requires_a_callable() -> None:
     context = Context()
     answers: list[Any] = [context.on_shutdown(lambda: None)]
     with pytest.raises(TypeError) as refused:
@@ -243,13 +243,13 @@ def test_what_is_called_at_the_shutdown_is_kept_without_an_answer() -> None:
         ({"args": [], "domain_id": "5"}, "'<' not supported between instances of 'str' and 'int'"),
     ],
 )
-def test_a_context_is_initialised_with_a_list_and_a_number(given: Any, words: str) -> None:
+def test_context_init_checks_argument_types(given: Any, words: str) -> None:
     context = Context()
     with pytest.raises(TypeError, match=words):
         context.init(**given)
     assert not context.ok()
 
 
-def test_an_endpoint_names_all_that_it_was_given() -> None:
+def test_endpoint_info_error_lists_all_arguments() -> None:
     with pytest.raises(AssertionError, match=r"constructor: dict_keys\(\['node_name', 'nodename'\]\)"):
         TopicEndpointInfo(node_name="a", nodename="b")

@@ -1,4 +1,4 @@
-"""Mistakes of a command line are told with their mend where a person reads stderr, and nowhere else."""
+"""Command-line mistakes are reported with a hint if a person reads stderr, and only then."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def read(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> boo
         (("--zzzz",), ""),
     ],
 )
-def test_an_argument_that_is_refused(read: bool, words: tuple[str, ...], reported: str) -> None:
+def test_refused_argument_gets_a_hint(read: bool, words: tuple[str, ...], reported: str) -> None:
     with pytest.raises(Exception) as refused:
         Context().init(["test", "--ros-args", *words])
     assert (explanation(refused.value) or "") == (reported if read else "")
@@ -49,7 +49,7 @@ def test_an_argument_that_is_refused(read: bool, words: tuple[str, ...], reporte
         ("1", True, "p is a bool: write true or false"),
     ],
 )
-def test_a_value_of_another_type(ros: Any, read: bool, value: str, default: object, reported: str) -> None:
+def test_value_of_another_type_gets_a_hint(ros: Any, read: bool, value: str, default: object, reported: str) -> None:
     node = ros.node(args=("-p", f"p:={value}"))
     with pytest.raises(InvalidParameterTypeException) as refused:
         node.declare_parameter("p", default)
@@ -57,7 +57,7 @@ def test_a_value_of_another_type(ros: Any, read: bool, value: str, default: obje
     assert message.endswith(reported) if read else message == ""
 
 
-def test_a_value_that_no_node_of_the_program_declares(ros: Any) -> None:
+def test_undeclared_override_is_reported(ros: Any) -> None:
     ros.init("-p", "sped:=2.0", "-p", "rate:=1", "-p", "qos_overrides./t.publisher.depth:=3", "-p", "one:only:=1")
     one, two = ros.node("one"), ros.node("two")
     one.declare_parameter("speed", 1.0)
@@ -70,7 +70,7 @@ def test_a_value_that_no_node_of_the_program_declares(ros: Any) -> None:
     assert [*unused_overrides([one, two, free])] == [], "it may take any"
 
 
-def test_spin_reports_it_before_the_first_callback(ros: Any, read: bool) -> None:
+def test_spin_reports_undeclared_overrides_before_the_first_callback(ros: Any, read: bool) -> None:
     lines: list[str] = []
     forget = on_notice(lambda process, text: lines.append(text))
     node = ros.node(args=("-p", "sped:=2.0"))

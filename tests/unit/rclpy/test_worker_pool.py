@@ -1,4 +1,4 @@
-"""The threads of a MultiThreadedExecutor: what has begun goes on to its end, and nothing else begins after that."""
+"""The threads of a MultiThreadedExecutor: running callbacks finish, and nothing else begins afterwards."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ print("main is over", flush=True)
 """
 
 
-def test_a_callback_goes_on_after_the_main_program(tmp_path: Path) -> None:
+def test_callback_continues_after_the_main_program(tmp_path: Path) -> None:
     program = tmp_path / "leaves_early.py"
     program.write_text(LEAVES_EARLY)
     with system() as running:
@@ -44,7 +44,7 @@ def test_a_callback_goes_on_after_the_main_program(tmp_path: Path) -> None:
     assert (leaves.stdout, leaves.exit) == ("main is over\nworked\n", 0)
 
 
-def test_what_was_submitted_is_done_after_the_main_program_and_nothing_else_begins() -> None:
+def test_submitted_work_finishes_after_the_main_program_and_nothing_else_begins() -> None:
     got: list[str] = []
 
     def main() -> None:
@@ -65,7 +65,7 @@ def test_what_was_submitted_is_done_after_the_main_program_and_nothing_else_begi
     assert (got, process.exit_code) == (["first", "second"], 0)
 
 
-def test_what_ends_a_callback_ends_no_thread() -> None:
+def test_exception_ending_a_callback_ends_no_thread() -> None:
     pool, done = WorkerPool(1, "executor"), threading.Event()
 
     def interrupted() -> None:
