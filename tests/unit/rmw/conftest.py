@@ -1,4 +1,4 @@
-"""What tests of the middleware begin with."""
+"""Fixtures for tests of the middleware."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import rclpy
 
 @pytest.fixture
 def node() -> Iterator[Any]:
-    """A node in a context of its own."""
+    """A node with its own context."""
     rclpy.init()
     made = rclpy.create_node("talker")
     yield made

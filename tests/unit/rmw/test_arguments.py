@@ -1,4 +1,4 @@
-"""The ROS part of command lines."""
+"""ROS arguments on command lines."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from bot_console.runtime.rmw.parameter_scalars import scalar_value
         ("prog --", ["prog", "--"], []),
     ],
 )
-def test_whose_words_they_are(words: str, unparsed: list[str], unknown: list[str]) -> None:
+def test_ros_arguments_are_separated_from_others(words: str, unparsed: list[str], unknown: list[str]) -> None:
     parsed = parse(words.split())
     assert (parsed.unparsed, parsed.unknown_ros_args) == (unparsed, unknown)
 
 
-def test_a_rule_outside_is_obeyed_and_noted() -> None:
+def test_rule_outside_ros_args_is_applied_and_noted_as_deprecated() -> None:
     parsed = parse(["prog", "a:=b", "__node:=x", "a:=1"])
     assert parsed.deprecated_rules == ["a:=b", "__node:=x"]
     assert len(parsed.remap_rules) == 2
@@ -37,7 +37,7 @@ def test_a_rule_outside_is_obeyed_and_noted() -> None:
 @pytest.mark.parametrize(
     "name", ["a", "_a1", "a.b.c", "a/b", "/a", "a//b", "/", "a.b/c.d", "qos_overrides./t.publisher.depth"]
 )
-def test_parameter_names(name: str) -> None:
+def test_parameter_names_are_accepted(name: str) -> None:
     assert parse(["--ros-args", "-p", f"{name}:=3"]).parameters.for_node("/n") == {name: 3}
 
 
@@ -65,7 +65,7 @@ def test_parameter_names(name: str) -> None:
          "Invalid index: 0"),
     ],
 )  # fmt: skip
-def test_refused(words: list[str], error: str) -> None:
+def test_invalid_ros_arguments_are_rejected(words: list[str], error: str) -> None:
     with pytest.raises(ArgumentsError) as caught:
         parse(["prog", "--ros-args", *words])
     assert str(caught.value) == error
@@ -83,7 +83,7 @@ def test_refused(words: list[str], error: str) -> None:
         ("a-b c:=info", None, {"a-b c": 20}),
     ],
 )
-def test_log_levels(level: str, default: int | None, loggers: dict[str, int]) -> None:
+def test_log_levels_are_parsed(level: str, default: int | None, loggers: dict[str, int]) -> None:
     parsed = parse(["--ros-args", "--log-level", level])
     assert (parsed.default_level, parsed.logger_levels) == (default, loggers)
 
@@ -101,7 +101,7 @@ def test_log_levels(level: str, default: int | None, loggers: dict[str, int]) ->
         ("n:=m:=warn", "Expected lexeme type 1, got 8 at index 4"),
     ],
 )
-def test_bad_log_levels(level: str, why: str) -> None:
+def test_invalid_log_levels_are_rejected(level: str, why: str) -> None:
     with pytest.raises(ArgumentsError) as caught:
         parse(["--ros-args", "--log-level", level])
     assert str(caught.value) == f"Couldn't parse log level: '--log-level {level}'. Error: {why}"
@@ -116,16 +116,16 @@ def test_bad_log_levels(level: str, why: str) -> None:
         ("--disable-stdout-logs --enable-stdout-logs", True, True, True),
     ],
 )
-def test_where_logs_go(flags: str, stdout: bool, rosout: bool, external: bool) -> None:
+def test_log_flags_select_outputs(flags: str, stdout: bool, rosout: bool, external: bool) -> None:
     parsed = parse(["--ros-args", *flags.split()])
     assert (parsed.stdout_enabled, parsed.rosout_enabled, parsed.external_logs_enabled) == (stdout, rosout, external)
 
 
-def test_words_must_be_strings() -> None:
+def test_arguments_must_be_strings() -> None:
     with pytest.raises(TypeError):
         parse(["prog", 5])  # type: ignore[list-item]
 
 
-def test_an_integer_of_any_length_is_read() -> None:
+def test_integer_of_any_length_is_read() -> None:
     assert scalar_value("9" * 5000) == "9" * 5000
     assert scalar_value("9223372036854775807") == 2**63 - 1

@@ -1,4 +1,4 @@
-"""The tables of the graph say at any moment what a list of all that is there would."""
+"""The tables of the graph always equal a list of all that exists."""
 
 import gc
 import threading
@@ -17,7 +17,7 @@ CLIENTS = [
 
 
 @given(st.lists(st.tuples(st.booleans(), st.sampled_from(CLIENTS))))
-def test_tables_are_those_of_all_that_is_there(changes):
+def test_tables_equal_a_list_of_all_endpoints(changes):
     tables, there = GraphTables(threading.RLock()), {}
     for comes, each in changes:
         if comes:
@@ -36,7 +36,7 @@ def test_tables_are_those_of_all_that_is_there(changes):
 
 
 @given(st.lists(st.tuples(st.booleans(), st.sampled_from(NODES))))
-def test_a_name_is_there_while_one_node_has_it(changes):
+def test_name_exists_while_one_node_has_it(changes):
     tables, there = GraphTables(threading.RLock()), {}
     for comes, each in changes:
         if comes:
@@ -51,14 +51,14 @@ def test_a_name_is_there_while_one_node_has_it(changes):
 
 @pytest.fixture
 def restless() -> Iterator[None]:
-    """The garbage collector comes at every chance it has."""
+    """Make the garbage collector run as often as possible."""
     before = gc.get_threshold()
     gc.set_threshold(1)
     yield
     gc.set_threshold(*before)
 
 
-def test_what_the_garbage_collector_ends_in_the_middle_of_a_change_waits_for_nothing(restless):
+def test_garbage_collection_during_a_change_does_not_deadlock(restless):
     tables = GraphTables(threading.RLock())
     old = [ClientEndpoint(NODES[0], "/s", f"K{number}", lambda: None) for number in range(200)]
     new = [ClientEndpoint(NODES[0], "/s", f"L{number}", lambda: None) for number in range(200)]

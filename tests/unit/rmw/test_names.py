@@ -1,4 +1,4 @@
-"""Names: validity with the words of rcl and rmw and the place of the fault, expansion, hiding."""
+"""Names: validity, expansion and hidden names; error messages and positions are those of rcl and rmw."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ UNALLOWED = "must not contain characters other than alphanumerics"
         ("a" * 256, ("node name length should not exceed '255'", 254)),
     ],
 )
-def test_node_names(name: str, problem: tuple[str, int] | None) -> None:
+def test_node_names_are_validated(name: str, problem: tuple[str, int] | None) -> None:
     assert names.validate_node_name(name) == problem
 
 
@@ -44,7 +44,7 @@ def test_node_names(name: str, problem: tuple[str, int] | None) -> None:
         ("/" + "a" * 245, ("namespace should not exceed 'RMW_NAMESPACE_MAX_NAME_LENGTH'", 244)),
     ],
 )
-def test_namespaces(namespace: str, problem: tuple[str, int] | None) -> None:
+def test_namespaces_are_validated(namespace: str, problem: tuple[str, int] | None) -> None:
     assert names.validate_namespace(namespace) == problem
 
 
@@ -65,7 +65,7 @@ def test_namespaces(namespace: str, problem: tuple[str, int] | None) -> None:
         ("/" + "a" * 247, ("topic length should not exceed '255U - 8U'", 246)),
     ],
 )
-def test_full_topic_names(name: str, problem: tuple[str, int] | None) -> None:
+def test_full_topic_names_are_validated(name: str, problem: tuple[str, int] | None) -> None:
     assert names.validate_full_topic_name(name) == problem
 
 
@@ -105,7 +105,7 @@ BRACES = "topic name must not have unmatched (unbalanced) curly braces '{}'"
         ("{1a}", ("substitution name must not start with a number", 1)),
     ],
 )
-def test_topic_names_as_typed(name: str, problem: tuple[str, int] | None) -> None:
+def test_typed_topic_names_are_validated(name: str, problem: tuple[str, int] | None) -> None:
     assert names.validate_topic_name(name) == problem
 
 
@@ -125,12 +125,12 @@ def test_topic_names_as_typed(name: str, problem: tuple[str, int] | None) -> Non
         ("a{node}b", "/", "/anb"),
     ],
 )
-def test_expansion(name: str, namespace: str, full: str) -> None:
+def test_names_are_expanded(name: str, namespace: str, full: str) -> None:
     assert names.expand(name, "n", namespace) == full
 
 
 @pytest.mark.parametrize(("name", "shown"), [("{x}", "{x}"), ("a/{}", "{}"), ("{node}/{nod}", "{nod}")])
-def test_unknown_substitutions(name: str, shown: str) -> None:
+def test_unknown_substitutions_are_rejected(name: str, shown: str) -> None:
     with pytest.raises(ValueError, match=r"^unknown substitution: ") as caught:
         names.expand(name, "n", "/")
     assert str(caught.value) == f"unknown substitution: {shown}"
@@ -146,7 +146,7 @@ def test_unknown_substitutions(name: str, shown: str) -> None:
         ("/" + "a" * 300, "unknown result code for rmw_validate_node_name"),
     ],
 )
-def test_a_bad_namespace_in_the_words_of_node_names(namespace: str, words: str) -> None:
+def test_namespace_error_is_phrased_as_for_node_names(namespace: str, words: str) -> None:
     problem = names.validate_namespace(namespace)
     assert problem is not None
     assert names.in_words_for_node_names(problem[0]) == words

@@ -1,4 +1,4 @@
-"""Who overhears a bus gets what it carries, and nobody can tell."""
+"""A monitor of a bus receives all its messages without being visible."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from std_msgs.msg import String
 
 @pytest.fixture
 def heard() -> Iterator[list[Any]]:
-    """What is carried on `/words`."""
+    """The messages carried on `/words`."""
     found: list[Any] = []
 
     def hear(by: Any, source: bytes, number: int, sent: int, message: Any) -> None:
@@ -27,7 +27,7 @@ def heard() -> Iterator[list[Any]]:
     bus_of(0).overhear(None)
 
 
-def test_it_hears_what_nobody_subscribes_and_is_not_counted(node: Any, heard: list[Any]) -> None:
+def test_monitor_hears_unsubscribed_messages_and_is_not_counted(node: Any, heard: list[Any]) -> None:
     publisher = node.create_publisher(String, "/words", 10)
     publisher.publish(String(data="to nobody"))
     assert [(number, each.data) for number, each in heard] == [(1, "to nobody")]
@@ -39,7 +39,7 @@ def test_it_hears_what_nobody_subscribes_and_is_not_counted(node: Any, heard: li
     assert len(heard) == 1
 
 
-def test_what_is_overheard_is_not_what_a_subscription_changes(node: Any, heard: list[Any]) -> None:
+def test_monitor_does_not_see_changes_by_a_subscription(node: Any, heard: list[Any]) -> None:
     def spoil(message: Any) -> None:
         message.data = "spoilt"
 
@@ -52,7 +52,7 @@ def test_what_is_overheard_is_not_what_a_subscription_changes(node: Any, heard: 
     assert [each.data for _, each in heard] == ["as it was"]
 
 
-def test_what_was_serialized_is_not_serialized_again(node: Any, heard: list[Any]) -> None:
+def test_serialized_message_is_not_serialized_again(node: Any, heard: list[Any]) -> None:
     node.create_subscription(String, "/words", lambda data: None, 10, raw=True)
     node.create_publisher(String, "/words", 10).publish(String(data="bytes"))
     ((_, data),) = heard

@@ -1,4 +1,4 @@
-"""Parameter files and `-p` values: typing, structure, node keys, order, error texts; rows of the rcl contract."""
+"""Parameter files and `-p` values: types, structure, node keys, order, error messages. Rows of the rcl contract."""
 
 import math
 from pathlib import Path
@@ -96,7 +96,7 @@ SCALARS: dict[str, Any] = {
 
 
 @pytest.mark.parametrize("text", SCALARS)
-def test_values_of_words(text: str) -> None:
+def test_values_are_typed_as_in_rcl(text: str) -> None:
     expected, found = SCALARS[text], by_word(text)
     if expected == NAN:
         assert isinstance(found, float)
@@ -127,7 +127,7 @@ WORD_ERRORS = {
 
 
 @pytest.mark.parametrize("text", WORD_ERRORS)
-def test_words_that_are_refused(text: str) -> None:
+def test_invalid_values_are_rejected(text: str) -> None:
     with pytest.raises(ParameterYamlError) as refused:
         by_word(text)
     assert str(refused.value) == WORD_ERRORS[text]
@@ -167,7 +167,7 @@ FILES: dict[str, tuple[str, dict[str, Any]]] = {
 
 
 @pytest.mark.parametrize("case", FILES)
-def test_files(case: str, tmp_path: Path) -> None:
+def test_files_are_read_as_in_rcl(case: str, tmp_path: Path) -> None:
     content, expected = FILES[case]
     assert by_file(tmp_path, content) == expected
 
@@ -217,7 +217,7 @@ FILE_ERRORS = {
 
 
 @pytest.mark.parametrize("case", FILE_ERRORS)
-def test_files_that_are_refused(case: str, tmp_path: Path) -> None:
+def test_invalid_files_are_rejected(case: str, tmp_path: Path) -> None:
     content, expected = FILE_ERRORS[case]
     with pytest.raises(ParameterYamlError) as refused:
         by_file(tmp_path, content)
@@ -233,7 +233,7 @@ def test_files_that_are_refused(case: str, tmp_path: Path) -> None:
         (section("    [1]: 2\n"), ""),
     ],
 )
-def test_what_rcl_does_not_report_of_a_refused_file(content: str, hint: str, tmp_path: Path) -> None:
+def test_hint_explains_what_rcl_does_not_report(content: str, hint: str, tmp_path: Path) -> None:
     path = tmp_path / "p.yaml"
     path.write_text(content)
     with pytest.raises(ParameterYamlError) as refused:
@@ -241,7 +241,7 @@ def test_what_rcl_does_not_report_of_a_refused_file(content: str, hint: str, tmp
     assert refused.value.hint.startswith(f"{path}{hint}") if hint else refused.value.hint == ""
 
 
-def test_a_file_that_cannot_be_read(tmp_path: Path) -> None:
+def test_unreadable_file_is_rejected(tmp_path: Path) -> None:
     with pytest.raises(ParameterYamlError, match=r"^Error opening YAML file$"):
         ParameterTable().add_file(str(tmp_path / "none.yaml"))
     with pytest.raises(ParameterYamlError, match=r"^Error parsing a event near line 0$"):
@@ -249,13 +249,13 @@ def test_a_file_that_cannot_be_read(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["a\0b.yaml", "half \ud800.yaml"])
-def test_a_name_that_no_file_can_have(name: str, tmp_path: Path) -> None:
+def test_impossible_file_name_is_rejected(name: str, tmp_path: Path) -> None:
     with pytest.raises(ParameterYamlError, match=r"^Error opening YAML file$"):
         ParameterTable().add_file(str(tmp_path / name))
 
 
 @pytest.mark.parametrize("text", ["[half \ud800]", "'half \ud800'"])
-def test_a_value_with_half_a_character(text: str) -> None:
+def test_value_with_a_lone_surrogate_is_rejected(text: str) -> None:
     with pytest.raises(ParameterYamlError, match=r"^Error parsing an event$"):
         read_parameter_value(text, {})
 
@@ -277,11 +277,11 @@ MATCHES = {
 
 
 @pytest.mark.parametrize("key", MATCHES)
-def test_node_keys(key: str) -> None:
+def test_node_keys_match_as_in_rcl(key: str) -> None:
     assert {name: key_matches(key, name) for name in MATCHES[key]} == MATCHES[key]
 
 
-def test_levels_of_namespaces_and_a_trailing_slash(tmp_path: Path) -> None:
+def test_nested_namespaces_and_trailing_slash_are_accepted(tmp_path: Path) -> None:
     assert by_file(tmp_path, "a:\n  b:\n    n:\n      ros__parameters:\n        x: 1\n", "/a/b/n") == {"x": 1}
     assert by_file(tmp_path, "/a/:\n  n:\n    ros__parameters:\n      x: 1\n", "/a/n") == {"x": 1}
 
@@ -293,11 +293,11 @@ def two(first: str, second: str) -> str:
 @pytest.mark.parametrize(
     ("first", "second", "expected"), [("/n", "/**", 2), ("/**", "/n", 2), ("n", "/n", 2), ("/n", "n", 2)]
 )
-def test_the_later_key_counts_however_exact(first: str, second: str, expected: int, tmp_path: Path) -> None:
+def test_later_key_takes_precedence_however_exact(first: str, second: str, expected: int, tmp_path: Path) -> None:
     assert by_file(tmp_path, two(first, second)) == {"a": expected, "only1": 1, "only2": 2}
 
 
-def test_a_key_keeps_its_first_place(tmp_path: Path) -> None:
+def test_key_keeps_its_first_position(tmp_path: Path) -> None:
     wild, exact = section("    a: 1\n", "/**"), section("    a: 2\n")
     assert by_file(tmp_path, wild, "/n", exact)["a"] == 2
     assert by_file(tmp_path, exact, "/n", wild)["a"] == 1
@@ -316,7 +316,7 @@ ORDER: dict[str, tuple[list[tuple[str, str]], Any]] = {
 
 
 @pytest.mark.parametrize("case", ORDER)
-def test_values_given_twice(case: str) -> None:
+def test_last_value_takes_precedence(case: str) -> None:
     given, expected = ORDER[case]
     table = ParameterTable()
     for key, text in given:
@@ -324,7 +324,7 @@ def test_values_given_twice(case: str) -> None:
     assert table.for_node("/n")["v"] == expected
 
 
-def test_each_node_gets_a_list_of_its_own() -> None:
+def test_each_node_gets_its_own_list() -> None:
     table = ParameterTable()
     table.add_value("/**", "v", "[1, 2]")
     table.for_node("/n")["v"].append(3)

@@ -1,4 +1,4 @@
-"""Where only bytes are wanted a message is serialized as it is published, and not copied."""
+"""A message for raw subscriptions only is serialized when it is published, and not copied."""
 
 from __future__ import annotations
 
@@ -35,7 +35,9 @@ def received(node: Any, got: list[Any], count: int) -> None:
         executor.spin_once(timeout_sec=10.0)
 
 
-def test_it_is_not_copied_and_a_later_change_is_not_seen(node: Any, copies: list[String]) -> None:
+def test_message_for_raw_subscriptions_is_not_copied_and_later_changes_are_unseen(
+    node: Any, copies: list[String]
+) -> None:
     got: list[bytes] = []
     for _ in range(2):
         node.create_subscription(String, "/words", got.append, 10, raw=True)
@@ -48,7 +50,7 @@ def test_it_is_not_copied_and_a_later_change_is_not_seen(node: Any, copies: list
     assert not copies
 
 
-def test_it_is_copied_where_one_wants_the_message_itself(node: Any, copies: list[String]) -> None:
+def test_message_is_copied_for_an_ordinary_subscription(node: Any, copies: list[String]) -> None:
     got: list[Any] = []
     node.create_subscription(String, "/words", got.append, 10, raw=True)
     publisher = node.create_publisher(String, "/words", 10)
@@ -65,7 +67,7 @@ def test_it_is_copied_where_one_wants_the_message_itself(node: Any, copies: list
     assert not copies
 
 
-def test_what_is_kept_for_late_ones_is_copied(node: Any, copies: list[String]) -> None:
+def test_latched_message_is_copied(node: Any, copies: list[String]) -> None:
     got: list[bytes] = []
     node.create_subscription(String, "/words", got.append, LATCHED, raw=True)
     publisher = node.create_publisher(String, "/words", LATCHED)
@@ -77,7 +79,7 @@ def test_what_is_kept_for_late_ones_is_copied(node: Any, copies: list[String]) -
     assert [deserialize_message(each, String).data for each in got] == ["as it was"] * 2
 
 
-def test_what_cannot_be_sent_is_refused_and_not_counted(node: Any) -> None:
+def test_invalid_message_is_rejected_and_not_counted(node: Any) -> None:
     got: list[bytes] = []
     node.create_subscription(String, "/words", got.append, 10, raw=True)
     publisher = node.create_publisher(String, "/words", 10)

@@ -1,4 +1,4 @@
-"""Which offers satisfy which requests, and who gets what was published before it came."""
+"""Which offers satisfy which requests, and which subscriptions get earlier messages."""
 
 from __future__ import annotations
 
@@ -48,12 +48,12 @@ def ms(number: int) -> Duration:
         ({"lifespan": ms(1)}, {"lifespan": ms(9)}, ""),
     ],
 )
-def test_pairs(offered: dict[str, Any], requested: dict[str, Any], policy: str) -> None:
+def test_incompatible_policy_is_named(offered: dict[str, Any], requested: dict[str, Any], policy: str) -> None:
     assert incompatible_policy(qos(**offered), qos(**requested)) == policy
 
 
 @pytest.mark.parametrize("offered", [{}, {"reliability": "BEST_EFFORT"}, {"durability": "TRANSIENT_LOCAL"}])
-def test_best_available_takes_every_offer(offered: dict[str, Any]) -> None:
+def test_best_available_accepts_every_offer(offered: dict[str, Any]) -> None:
     assert incompatible_policy(qos(**offered), qos_profile_best_available) == ""
 
 
@@ -66,5 +66,5 @@ def test_best_available_takes_every_offer(offered: dict[str, Any]) -> None:
         ("BEST_AVAILABLE", ["TRANSIENT_LOCAL", "VOLATILE"], False),
     ],
 )
-def test_history_for_late_subscriptions(requested: str, offers: list[str], wanted: bool) -> None:
+def test_transient_local_subscriptions_get_earlier_messages(requested: str, offers: list[str], wanted: bool) -> None:
     assert wants_history(qos(durability=requested), [qos(durability=each) for each in offers]) == wanted

@@ -1,4 +1,4 @@
-"""Remap rules: their grammar, and which of them a name meets."""
+"""Remap rules: their grammar, and which of them matches a name."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ ACCEPTED = (
 
 
 @pytest.mark.parametrize("text", ACCEPTED)
-def test_accepted(text: str) -> None:
+def test_valid_rules_are_accepted(text: str) -> None:
     remapping.parse_rule(text)
 
 
@@ -56,7 +56,7 @@ def test_accepted(text: str) -> None:
         (r"a:=\1", "Backreferences are not implemented"),
     ],
 )
-def test_refused(text: str, words: str) -> None:
+def test_invalid_rules_are_rejected(text: str, words: str) -> None:
     with pytest.raises(GrammarError) as caught:
         remapping.parse_rule(text)
     assert str(caught.value) == words
@@ -85,7 +85,9 @@ def rules(*texts: str) -> list[remapping.RemapRule]:
         (("rosservice://a:=b",), "/", "/a", "/a", "/b"),
     ],
 )
-def test_topics_and_services(texts: tuple[str, ...], namespace: str, full: str, topic: str, service: str) -> None:
+def test_topics_and_services_are_remapped(
+    texts: tuple[str, ...], namespace: str, full: str, topic: str, service: str
+) -> None:
     given = rules(*texts)
     assert remapping.remap_topic(given, "n", namespace, full) == topic
     assert remapping.remap_service(given, "n", namespace, full) == service
@@ -101,7 +103,9 @@ def test_topics_and_services(texts: tuple[str, ...], namespace: str, full: str, 
         (("a:=b",), None, None),
     ],
 )
-def test_names_of_nodes(texts: tuple[str, ...], name: str | None, namespace: str | None) -> None:
+def test_node_names_and_namespaces_are_remapped(
+    texts: tuple[str, ...], name: str | None, namespace: str | None
+) -> None:
     given = rules(*texts)
     assert remapping.remap_node_name(given, "n") == name
     assert remapping.remap_namespace(given, "n") == namespace

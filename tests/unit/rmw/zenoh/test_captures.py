@@ -1,4 +1,4 @@
-"""Captures of running systems, as `bot-console doctor --capture` writes them: each fits our format byte by byte.
+"""Captures of running systems, as written by `bot-console doctor --capture`, agree with our format byte by byte.
 
 `own.json` is from our runtime, `rmw_zenoh_cpp-0.2.10-jazzy.json` from rclpy nodes over rmw_zenoh_cpp and its router.
 """
@@ -18,7 +18,7 @@ CAPTURES = sorted((Path(__file__).parents[3] / "captures").glob("*.json"))
 
 
 def written(token):
-    """The token as we would write it."""
+    """Return the token as we would write it."""
     domain = int(token.key.split("/")[1])
     if token.kind == "NN":
         return node_token(domain, token.node)
@@ -32,16 +32,16 @@ def capture(request):
     return json.loads(request.param.read_text(encoding="utf-8"))
 
 
-def test_the_real_middleware_is_among_them():
+def test_captures_include_the_real_middleware():
     assert "rmw_zenoh_cpp-0.2.10-jazzy" in [each.stem for each in CAPTURES]
 
 
-def test_tokens_are_those_that_we_would_write(capture):
+def test_tokens_are_written_identically(capture):
     for key in capture["tokens"]:
         assert "/".join(key.split("/")[:13]) == written(parse_token(key))
 
 
-def test_attachments_are_those_that_we_would_write_and_name_their_publisher(capture):
+def test_attachments_are_written_identically_and_identify_the_publisher(capture):
     gids = {gid_of(each): each for each in capture["tokens"] if parse_token(each).kind == "MP"}
     for sample in capture["samples"]:
         data = bytes.fromhex(sample["attachment"])
@@ -50,14 +50,14 @@ def test_attachments_are_those_that_we_would_write_and_name_their_publisher(capt
         assert parse_token(gids[attachment[2]]).topic == sample["topic"]
 
 
-def test_profiles_are_read_and_written_alike(capture):
+def test_qos_profiles_are_written_identically(capture):
     for key in capture["tokens"]:
         token = parse_token(key)
         if token.kind != "NN":
             assert encode_qos(token.qos) == key.split("/")[12]
 
 
-def test_types_have_the_hashes_that_we_compute(capture):
+def test_captured_type_hashes_equal_ours(capture):
     tokens = [each for each in map(parse_token, capture["tokens"]) if each.kind != "NN"]
     captured = {each.type_name: each.type_hash for each in tokens if is_embedded(each.type_name.partition("/")[0])}
     assert captured == {name: type_hash.text(get_interface(name)) for name in captured}

@@ -1,4 +1,4 @@
-"""Samples that a thread of its own takes: all of them, in their order, and never for long without a pause."""
+"""Samples taken by a worker thread: all of them, in order, and never for long without a pause."""
 
 import threading
 from collections import deque
@@ -8,11 +8,11 @@ from bot_console.runtime.rmw.zenoh.channel_worker import MAX_POLL_S, PAUSE_S, TU
 
 
 class Over(Exception):
-    """No sample comes any more."""
+    """Raised once no more samples come."""
 
 
 class Channel:
-    """Holds samples, and is over when it has given them all."""
+    """Holds samples, and raises after the last one."""
 
     def __init__(self, samples):
         self._samples = deque(samples)
@@ -24,14 +24,14 @@ class Channel:
 
 
 class Quiet:
-    """Never has any."""
+    """Never has a sample."""
 
     def try_recv(self):
         return None
 
 
 class Clock:
-    """Stands in for the module `time`; each look at it takes a thousandth of a second."""
+    """Replaces the module `time`; each reading of the clock takes a millisecond."""
 
     def __init__(self):
         self.now = 0.0
@@ -42,7 +42,9 @@ class Clock:
 
 
 class Waits:
-    """Stands in for the event of a thread's end; keeps when was waited, and how long, and ends after so many."""
+    """Replaces the event of a thread's end: records when and how long it was waited for, and is set after so many
+    waits.
+    """
 
     def __init__(self, clock, count=1000):
         self.clock, self.left, self.waits = clock, count, []
@@ -54,13 +56,13 @@ class Waits:
         return self.left <= 0
 
 
-def test_all_come_in_their_order_and_the_thread_ends():
+def test_samples_arrive_in_order_and_the_thread_ends():
     taken = []
     drain_in_worker(Channel(range(1000)), taken.append, Over).join()
     assert taken == list(range(1000))
 
 
-def test_it_pauses_after_each_turn(monkeypatch):
+def test_worker_pauses_after_each_turn(monkeypatch):
     clock = Clock()
     monkeypatch.setattr(channel_worker, "time", clock)
     taking = ChannelWorker(Channel(range(30)), lambda sample: None, Over)
@@ -73,7 +75,7 @@ def test_it_pauses_after_each_turn(monkeypatch):
         assert end - begin <= TURN_S + 0.002, "it has taken samples for too long"
 
 
-def test_where_nothing_comes_it_looks_less_and_less_often(monkeypatch):
+def test_idle_worker_polls_less_and_less_often(monkeypatch):
     clock = Clock()
     monkeypatch.setattr(channel_worker, "time", clock)
     taking = ChannelWorker(Quiet(), lambda sample: None, Over)
@@ -83,13 +85,13 @@ def test_where_nothing_comes_it_looks_less_and_less_often(monkeypatch):
     assert lengths == sorted(lengths) and lengths[-1] == MAX_POLL_S
 
 
-def test_it_can_be_ended():
+def test_worker_can_be_ended():
     taking = drain_in_worker(Quiet(), lambda sample: None, Over)
     taking.end()
     assert not taking.is_alive() and taking not in threading.enumerate()
 
 
-def test_all_that_waits_is_taken_at_once_where_that_is_wanted():
+def test_waiting_samples_can_be_taken_at_once():
     taken = []
     ChannelWorker(Channel(range(30)), taken.append, Over).take_waiting()
     assert taken == list(range(30))

@@ -1,4 +1,4 @@
-"""Very much at once is shown with rests, a little at once without any."""
+"""Many declarations at once are made with pauses, a few without any."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from bot_console.runtime.rmw.zenoh.declaration_throttle import AT_ONCE, DECLARAT
 
 
 class Rig:
-    """A pace on a clock that stands still but for rests."""
+    """A throttle with a clock that advances only during pauses."""
 
     def __init__(self) -> None:
         self.now = 100.0
@@ -22,19 +22,19 @@ class Rig:
             self.pace.shown()
 
 
-def test_what_fifty_nodes_show_comes_without_a_rest() -> None:
+def test_declarations_of_fifty_nodes_need_no_pause() -> None:
     rig = Rig()
     rig.show(AT_ONCE)
     assert rig.rests == []
 
 
-def test_more_than_that_rests_again_and_again() -> None:
+def test_more_declarations_pause_repeatedly() -> None:
     rig = Rig()
     rig.show(AT_ONCE + 10 * DECLARATIONS_PER_PAUSE)
     assert rig.rests == [PAUSE_S] * 10
 
 
-def test_after_a_while_as_many_may_come_at_once_again() -> None:
+def test_burst_is_allowed_again_after_a_quiet_time() -> None:
     rig = Rig()
     for _ in range(3):
         rig.show(AT_ONCE)

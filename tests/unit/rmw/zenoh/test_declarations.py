@@ -1,4 +1,4 @@
-"""What a session has declared, as it is taken back."""
+"""How the declarations of a session are undeclared."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 from bot_console.runtime.rmw.zenoh.declarations import Declaration, Publisher
 
 
-def test_what_another_thread_is_sending_with_is_taken_back_after_that() -> None:
+def test_declaration_in_use_by_another_thread_is_undeclared_afterwards() -> None:
     class InUse:
         tries = 0
 
@@ -25,7 +25,7 @@ def test_what_another_thread_is_sending_with_is_taken_back_after_that() -> None:
     assert provided.tries == 4
 
 
-def test_what_is_sent_while_another_thread_takes_the_publisher_back_reaches_nobody() -> None:
+def test_message_sent_while_its_publisher_is_undeclared_is_dropped() -> None:
     class Going:
         def __init__(self, words: str) -> None:
             self.words = words

@@ -20,13 +20,13 @@ from bot_console.runtime.rmw.zenoh.domain.sockets import own_socket
 NOBODY = 65534
 
 
-def test_it_is_named_after_the_user_in_the_temporary_folder_whatever_tmpdir_reports(monkeypatch):
+def test_folder_is_named_after_the_user_regardless_of_tmpdir(monkeypatch):
     monkeypatch.delenv("BOT_CONSOLE_SOCKET_DIR")
     monkeypatch.setenv("TMPDIR", "/var")
     assert base_folder() == f"/tmp/bot-console-{os.geteuid()}"
 
 
-def test_it_is_made_for_the_user_alone_one_per_domain(socket_folder):
+def test_folder_is_private_and_one_per_domain(socket_folder):
     old = os.umask(0)
     try:
         assert domain_folder(7) == os.path.join(socket_folder, "7")
@@ -36,7 +36,7 @@ def test_it_is_made_for_the_user_alone_one_per_domain(socket_folder):
         assert stat.S_IMODE(os.stat(path).st_mode) == 0o700
 
 
-def test_one_that_is_open_to_others_is_refused_with_the_command_that_fixes_it(socket_folder):
+def test_folder_open_to_others_is_refused_with_a_fix(socket_folder):
     domain_folder(0)
     os.chmod(socket_folder, 0o755)
     with pytest.raises(FolderRefusedError) as refused:
@@ -47,7 +47,7 @@ def test_one_that_is_open_to_others_is_refused_with_the_command_that_fixes_it(so
     )
 
 
-def test_a_link_and_a_file_in_its_place_are_refused(socket_folder, tmp_path):
+def test_link_or_file_in_place_of_the_folder_is_refused(socket_folder, tmp_path):
     os.symlink(tmp_path, socket_folder)
     with pytest.raises(FolderRefusedError, match="is a symbolic link"):
         domain_folder(0)
@@ -59,20 +59,20 @@ def test_a_link_and_a_file_in_its_place_are_refused(socket_folder, tmp_path):
     os.unlink(socket_folder)
 
 
-def test_a_folder_that_cannot_be_made_is_reported(monkeypatch):
+def test_folder_that_cannot_be_created_is_reported(monkeypatch):
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", "/proc/nowhere/at/all")
     with pytest.raises(FolderRefusedError, match="cannot make the folder /proc/nowhere/at/all"):
         domain_folder(0)
 
 
-def test_a_folder_in_which_paths_would_be_too_long_is_refused_before_it_is_made(monkeypatch, socket_folder):
+def test_too_long_folder_is_refused_before_it_is_created(monkeypatch, socket_folder):
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", socket_folder.ljust(MAX_PATH_BYTES, "x"))
     with pytest.raises(FolderRefusedError, match="set BOT_CONSOLE_SOCKET_DIR to a shorter folder"):
         open_session(0)
     assert not os.path.exists(socket_folder.ljust(MAX_PATH_BYTES, "x"))
 
 
-def test_the_longest_folder_that_is_taken_holds_every_socket(monkeypatch, tmp_path):
+def test_longest_accepted_folder_holds_every_socket(monkeypatch, tmp_path):
     monkeypatch.setattr("bot_console.runtime.rmw.zenoh.domain.sockets.getpid", lambda: 4194304)
     monkeypatch.setattr("bot_console.runtime.rmw.zenoh.domain.folder._private_folder", lambda path: None)
     length = len(os.fsencode(own_socket("", "0" * 32).path))
@@ -85,7 +85,7 @@ def test_the_longest_folder_that_is_taken_holds_every_socket(monkeypatch, tmp_pa
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can become another user")
-def test_a_second_user_is_denied(socket_folder):
+def test_second_user_is_denied(socket_folder):
     session = open_session(0)
     os.chmod(os.path.dirname(socket_folder), 0o711)
     program = f"""
@@ -111,7 +111,7 @@ except FolderRefusedError as error:
     ]
 
 
-def test_a_folder_that_is_named_like_a_dead_socket_stops_nobody(socket_folder):
+def test_folder_named_like_a_dead_socket_is_ignored(socket_folder):
     os.mkdir(os.path.join(domain_folder(7), "1.0123abcd"))
     session = open_session(7)
     assert os.path.exists(own_socket(domain_folder(7), session.zid).path)

@@ -1,4 +1,4 @@
-"""The wire format of rmw_zenoh against fixed points: captures of live nodes, and hashes that others publish."""
+"""The wire format of rmw_zenoh compared with captures of live nodes and with published hashes."""
 
 import pytest
 from bot_console.runtime.rmw.zenoh.wire.attachment import SEALED, gid_of, pack, unpack
@@ -32,7 +32,7 @@ SCAN = (
 ATTACHMENT = bytes.fromhex("1a00000000000000 05301f32f9a2dc18 10 3e1e8c9234b1602a9dba5860eed86e33".replace(" ", ""))
 
 
-def test_hashes_of_types():
+def test_type_hashes_equal_published_ones():
     assert type_hash.text(String) == STRING_HASH
     assert type_hash.text(LaserScan) == SCAN_HASH
     assert type_hash.text(AddTwoInts).startswith("RIHS01_e118de6b")
@@ -40,14 +40,14 @@ def test_hashes_of_types():
 
 
 @pytest.mark.parametrize(("token", "depth", "reliability"), [(TALKER, 7, 1), (SCAN, 5, 2)])
-def test_a_captured_token_is_read_and_written_again(token, depth, reliability):
+def test_captured_token_survives_a_round_trip(token, depth, reliability):
     read = parse_token(token)
     assert (read.kind, read.qos.depth, read.qos.reliability) == ("MP", depth, reliability)
     reported = read.topic, read.type_name, read.type_hash, encode_qos(read.qos)
     assert entity_token(0, read.node, read.number, "MP", *reported) == token
 
 
-def test_the_attachment_of_the_captured_talker():
+def test_captured_attachment_survives_a_round_trip():
     attachment = unpack(ATTACHMENT)
     number, _, gid = attachment
     assert (number, gid) == (26, gid_of(TALKER))
@@ -55,7 +55,7 @@ def test_the_attachment_of_the_captured_talker():
 
 
 @pytest.mark.parametrize("size", [0, 1, 52, SEALED, SEALED + 1, 1_000_000])
-def test_ours_begins_with_the_bytes_of_rmw_zenoh_and_reports_whether_the_end_of_a_payload_is_its_own(size):
+def test_our_attachment_extends_that_of_rmw_zenoh_and_verifies_the_payload(size):
     attachment = unpack(ATTACHMENT)
     payload = bytes(size)
     data = pack(*attachment, payload)
@@ -67,12 +67,12 @@ def test_ours_begins_with_the_bytes_of_rmw_zenoh_and_reports_whether_the_end_of_
 
 
 @pytest.mark.parametrize("end", [b"xxh", b"xxh3", b"xxh3" + bytes(7), b"xxh4" + bytes(8), bytes(12)])
-def test_another_end_than_ours_is_no_attachment(end):
+def test_attachment_with_an_unknown_end_is_rejected(end):
     with pytest.raises(FormatError, match="no attachment"):
         unpack(ATTACHMENT + end, b"")
 
 
-def test_names_within_namespaces():
+def test_names_are_encoded_with_namespaces():
     node = TokenNode("abc", 3, "/", "/robot/arm", "driver")
     assert node_token(5, node) == "@ros2_lv/5/abc/3/3/NN/%/%robot%arm/driver"
     assert parse_token(node_token(5, node)).node == node
@@ -95,25 +95,25 @@ def test_names_within_namespaces():
         (QoSProfile(depth=10, deadline=Duration(nanoseconds=5)), "::,10:0,5:,:,,"),
     ],
 )
-def test_qualities_of_service(profile, text):
+def test_qos_profiles_are_encoded(profile, text):
     assert encode_qos(profile) == text
     assert encode_qos(decode_qos(text)) == text
 
 
-def test_what_a_text_leaves_out_is_as_by_default():
+def test_omitted_qos_fields_take_defaults():
     assert decode_qos("::,:,:,:,,") == WireQos()
     assert decode_qos("2:1:2,:,:,:,,") == WireQos(Reliability.BEST_EFFORT, Durability.TRANSIENT_LOCAL, History.KEEP_ALL)
 
 
-def test_a_part_that_later_releases_append_is_accepted():
+def test_parts_appended_by_later_releases_are_ignored():
     assert parse_token(SCAN + "/backends:cpu").qos == parse_token(SCAN).qos
 
 
-def test_a_sender_that_is_too_old_is_reported_from_garbage():
+def test_too_old_sender_is_distinguished_from_garbage():
     old = b"\x0fsequence_number" + bytes(40)
     with pytest.raises(FormatError, match="too old"):
         unpack(old)
-    assert unpack(pack(15, 1, bytes(16))) == (15, 1, bytes(16))  # begins with the same byte
+    assert unpack(pack(15, 1, bytes(16))) == (15, 1, bytes(16))  # starts with the same byte
     for wrong in (None, b"", bytes(33), bytes(32)):
         with pytest.raises(FormatError):
             unpack(wrong)

@@ -1,4 +1,4 @@
-"""A frozen process is known to clients of its mesh's router at once, while Zenoh still takes it for alive."""
+"""Clients of a mesh's router learn of a frozen process at once, while Zenoh still considers it alive."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if os.name == "nt":
     pytest.skip("needs SIGSTOP", allow_module_level=True)
 
 
-def test_it_is_reported_until_it_goes_on():
+def test_frozen_process_is_reported_until_it_continues():
     place = f"tcp/127.0.0.1:{free_port()}"
     with members(1) as [member]:
         router = MeshSession(0, Serving((place,)))
@@ -33,7 +33,7 @@ def test_it_is_reported_until_it_goes_on():
             assert eventually(lambda: client.stopped() == {member.zid[:8]: member.process.pid})
             reported: list[str] = []
             forget = on_notice(lambda process, text: reported.append(text))
-            WholeGraph(client, lambda node: None)  # as every verb asks for it
+            WholeGraph(client, lambda node: None)  # as every verb requests it
             forget()
             assert [str(member.process.pid) in each and "is stopped" in each for each in reported] == [True]
             member.process.send_signal(signal.SIGCONT)
@@ -44,7 +44,7 @@ def test_it_is_reported_until_it_goes_on():
             router.close()
 
 
-def test_tokens_of_others_report_nothing():
+def test_tokens_of_other_kinds_report_nothing():
     class Tokens:
         def watch_tokens(self, key: str, seen: Any) -> None:
             self.seen = seen

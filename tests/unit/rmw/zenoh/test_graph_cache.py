@@ -1,4 +1,4 @@
-"""What is looked at of the graph: each token is taken once, whether it is told once or twice."""
+"""The cache of the graph processes each token once, whether it is reported once or twice."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ KEY = node_token(0, TokenNode("ab", 1, "/", "/", "talker"))
 
 
 class FakeSession:
-    """A session whose tokens the test tells."""
+    """A session whose tokens are reported by the test."""
 
     zid = "cd"
 
@@ -20,7 +20,7 @@ class FakeSession:
         self.report = seen
 
 
-def test_a_token_that_is_reported_twice_is_read_and_handed_on_once(monkeypatch):
+def test_token_reported_twice_is_parsed_and_passed_on_once(monkeypatch):
     read: list[str] = []
     parse = watching.parse_token
     monkeypatch.setattr(watching, "parse_token", lambda key: (read.append(key), parse(key))[1])

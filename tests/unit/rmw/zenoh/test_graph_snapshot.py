@@ -1,4 +1,4 @@
-"""What is in the graph when somebody begins to watch it: all of it is there at once, and nothing that has gone."""
+"""A new watch of the graph sees everything at once, and nothing that has left."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def publishers(graph: WholeGraph) -> int:
 
 
 @pytest.mark.parametrize(("known", "single"), [(False, 48), (True, 48), (True, 1)])
-def test_all_is_there_at_once_and_goes_with_its_process(socket_folder, monkeypatch, known, single):
+def test_snapshot_is_complete_at_once_and_leaves_with_its_process(socket_folder, monkeypatch, known, single):
     monkeypatch.setattr(watching, "SINGLE", single)
     holder = open_session(0)
     for _ in range(ROUNDS):
@@ -45,7 +45,7 @@ def test_all_is_there_at_once_and_goes_with_its_process(socket_folder, monkeypat
         watcher = open_session(0)
         assert eventually(lambda watcher=watcher: watcher.linked() == {holder.zid})
         watches = Watches(watcher)
-        if known:  # it was told before, to who wants to know of these topics
+        if known:  # it was reported earlier, to watches of these topics
             for each in range(TOPICS):
                 watches.listen("MP", f"/topic_{each}", lambda token, came: None)
         graph = WholeGraph(watcher, lambda owner: None, watches.known)
@@ -60,7 +60,7 @@ def test_all_is_there_at_once_and_goes_with_its_process(socket_folder, monkeypat
     holder.close()
 
 
-def test_what_another_process_has_behind_a_router_of_the_mesh_is_there_and_goes(socket_folder):
+def test_clients_behind_a_router_of_the_mesh_appear_and_leave(socket_folder):
     place = f"tcp/127.0.0.1:{free_port()}"
     router, client = MeshSession(0, Serving((place,))), open_network_session(0, Way((place,)))
     show(client, MANY)
@@ -76,12 +76,12 @@ def test_what_another_process_has_behind_a_router_of_the_mesh_is_there_and_goes(
 
 
 class Mesh:
-    """A session of direct links whose answers and links the test gives."""
+    """A session of direct links whose answers and links are set by the test."""
 
     timeout_s = 0.0
 
     def __init__(self, *links: str, direct: bool = True, answers: bool = True) -> None:
-        """`links`: the ids of those that are linked."""
+        """`links`: the ids of the linked sessions."""
         self.links, self.direct, self.answers = set(links), direct, answers
         self.asked: list[str] = []
         self.meanwhile: Any = lambda: None
@@ -111,22 +111,22 @@ def taken_in(mesh: Mesh, known: list[str] | None) -> list[tuple[str, bool]]:
 A, B = "a" * 32, "b" * 32
 
 
-def test_where_all_links_have_answered_only_what_other_watches_know_is_taken_in_beside_the_history():
+def test_history_is_completed_by_other_watches_if_all_links_answered():
     mesh = Mesh(A)
     assert taken_in(mesh, ["known"]) == [("known", True)]
     assert mesh.asked == [ROLL_CALL_KEY + "*"]
 
 
 @pytest.mark.parametrize("mesh", [Mesh(A, answers=False), Mesh(A, B), Mesh(A, direct=False)])
-def test_where_that_is_uncertain_all_is_asked_for(mesh):
+def test_all_is_requested_if_that_is_uncertain(mesh):
     assert taken_in(mesh, ["known"]) == [("asked", True)]
 
 
-def test_where_other_watches_have_ended_all_is_asked_for():
+def test_all_is_requested_if_other_watches_have_ended():
     assert taken_in(Mesh(A), None) == [("asked", True)]
 
 
-def test_what_goes_while_it_is_asked_for_does_not_come_back():
+def test_token_that_leaves_during_the_request_does_not_return():
     mesh = Mesh(A)
     mesh.meanwhile = lambda: mesh.watch.saw("known", False)
     assert taken_in(mesh, ["known"]) == [("known", False)]
@@ -136,7 +136,7 @@ def test_what_goes_while_it_is_asked_for_does_not_come_back():
 
 
 class Reporting:
-    """A session that tells its first watch of one token."""
+    """A session that reports one token to its first watch."""
 
     zid, domain = "cd", 0
 
@@ -145,7 +145,7 @@ class Reporting:
         return TokenWatch(cast("Any", self), lambda session: None, seen)
 
     def forget(self, thing: Any) -> None:
-        """Nothing is declared."""
+        """Do nothing: nothing is declared."""
 
 
 def test_watches_know_what_they_saw_until_one_ends():

@@ -1,4 +1,4 @@
-"""The lock of a domain's folder: waited for while it passes from hand to hand, not behind one that hangs in it."""
+"""The lock of a domain's folder: waited for while it passes from process to process, but not if its holder hangs."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from bot_console.runtime.rmw.zenoh.domain import joining
 from bot_console.runtime.rmw.zenoh.domain.joining import folder_lock
 
 TIMEOUT_S = 20.0
-"""Seconds after which a test gives up; nothing is measured by it."""
+"""Seconds until a test gives up; nothing is measured with it."""
 
 
-def test_one_that_hangs_with_the_lock_stops_nobody_from_joining(tmp_path, monkeypatch):
+def test_process_hanging_with_the_lock_stops_nobody_from_joining(tmp_path, monkeypatch):
     monkeypatch.setattr(joining, "LOCK_TIMEOUT_S", 0.01)
     monkeypatch.setattr(joining, "MAX_HOLD_S", 0.05)
     monkeypatch.setattr(joining, "MAX_WAIT_S", 0.05)
@@ -33,7 +33,7 @@ def test_one_that_hangs_with_the_lock_stops_nobody_from_joining(tmp_path, monkey
 
 
 class Queue:
-    """A lock that is got at a given try; `holders` are who has it at each look, and `used` the time they have had."""
+    """A lock acquired at a given try; `holders` has it at each poll and `used` is the processor time of the holder."""
 
     def __init__(self, monkeypatch, holders, seconds, got=50):
         self.tries, self.now = 0, 0.0
@@ -51,7 +51,7 @@ class Queue:
         monkeypatch.setattr(joining.time, "monotonic", lambda: self.now)
 
     def waited_for(self, folder):
-        """The tries until one goes on."""
+        """Return the number of tries until the wait ends."""
         with folder_lock(str(folder)):
             return self.tries
 
@@ -59,37 +59,37 @@ class Queue:
 STOPPED = 99
 
 
-def test_a_long_queue_is_waited_for_while_each_holds_it_only_shortly(tmp_path, monkeypatch):
+def test_long_queue_is_waited_for_while_each_holds_the_lock_briefly(tmp_path, monkeypatch):
     queue = Queue(monkeypatch, itertools.count(1), 0.9 * joining.MAX_HOLD_S)
     assert queue.waited_for(tmp_path) == 50
 
 
-def test_a_lock_that_is_free_at_a_look_was_passed_on(tmp_path, monkeypatch):
+def test_lock_found_free_in_a_poll_was_passed_on(tmp_path, monkeypatch):
     holders = itertools.chain.from_iterable((each, None) for each in range(1, 1000))
     assert Queue(monkeypatch, holders, 0.9 * joining.MAX_HOLD_S).waited_for(tmp_path) == 50
 
 
-def test_one_that_gets_no_processor_time_hangs(tmp_path, monkeypatch):
+def test_holder_without_processor_time_is_considered_hanging(tmp_path, monkeypatch):
     queue = Queue(monkeypatch, itertools.repeat(7), 0.5)
     assert queue.waited_for(tmp_path) == 1 + joining.MAX_HOLD_S / 0.5
 
 
-def test_one_that_works_slowly_is_waited_for_longer(tmp_path, monkeypatch):
+def test_slow_but_working_holder_is_waited_for_longer(tmp_path, monkeypatch):
     queue = Queue(monkeypatch, itertools.repeat(7), 0.5)
     queue.used = itertools.count()
     assert queue.waited_for(tmp_path) == 1 + joining.MAX_WAIT_S / 0.5
 
 
-def test_where_nobody_is_seen_with_the_lock_there_is_an_end(tmp_path, monkeypatch):
+def test_wait_ends_even_if_no_holder_is_seen(tmp_path, monkeypatch):
     queue = Queue(monkeypatch, itertools.repeat(None), 0.5)
     assert queue.waited_for(tmp_path) == joining.MAX_WAIT_S / 0.5
 
 
-def test_a_frozen_one_is_not_waited_for(tmp_path, monkeypatch):
+def test_frozen_holder_is_not_waited_for(tmp_path, monkeypatch):
     assert Queue(monkeypatch, itertools.repeat(STOPPED), 0.1).waited_for(tmp_path) == 1
 
 
-def test_the_time_that_a_process_has_had_is_read():
+def test_processor_time_of_a_process_is_read():
     own = os.getpid()
     before = joining._time_used(own)
     while joining._time_used(own) == before:

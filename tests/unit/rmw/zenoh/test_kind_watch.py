@@ -1,4 +1,4 @@
-"""Many topics are looked at by one watch for their kind: who looks at one hears what a watch of its own would tell."""
+"""Many topics share one watch for their kind: each listener hears what a separate watch would report."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def token(topic: str, number: int = 1, kind: Any = "MP") -> str:
 
 
 class Reported:
-    """A session whose tokens the test tells, to each watch by its key."""
+    """A session whose tokens are reported by the test, to each watch by its key."""
 
     zid, domain = "cd", 0
 
@@ -63,7 +63,7 @@ def hears(heard: Heard) -> TokenCallback:
     return lambda key, came: heard.append((key, came))
 
 
-def test_who_looks_hears_what_is_there_comes_and_goes_of_that_topic_alone(watch, report):
+def test_listener_hears_existing_new_and_leaving_tokens_of_its_topic_only(watch, report):
     there, later, other = token("/a/b"), token("/a/b", 2), token("/a")
     report(there, True)
     report(other, True)
@@ -76,30 +76,30 @@ def test_who_looks_hears_what_is_there_comes_and_goes_of_that_topic_alone(watch,
     assert watch.known() == [later]
 
 
-def test_who_looks_no_more_hears_nothing_and_who_looks_again_hears_what_is_there(watch, report):
+def test_ended_listener_hears_nothing_and_new_one_hears_what_exists(watch, report):
     heard: Heard = []
     first = watch.poll("/t", hears([]))
     report(token("/t"), True)
     again = watch.poll("/t", hears(heard))
-    first.undeclare()  # late: somebody else looks already
+    first.undeclare()  # late: another listener has replaced it
     report(token("/t", 2), True)
     again.undeclare()
     report(token("/t"), False)
     assert heard == [(token("/t"), True), (token("/t", 2), True)]
 
 
-def test_nothing_is_kept_of_what_has_gone_and_nobody_looks_at(watch, report):
+def test_tokens_that_left_or_are_unwatched_are_not_kept(watch, report):
     poll = watch.poll("/watched", hears([]))
     for came in (True, False):
         report(token("/t"), came)
         report(token("/watched"), came)
-    report("@ros2_lv/0/ab/0/1/MP", True)  # no token of the format
+    report("@ros2_lv/0/ab/0/1/MP", True)  # not a token of the format
     assert list(watch._rows) == ["%watched"]
     poll.undeclare()
     assert not watch._rows
 
 
-def test_few_are_watched_singly_and_more_by_their_kind(session, monkeypatch):
+def test_few_topics_are_watched_singly_and_more_by_kind(session, monkeypatch):
     monkeypatch.setattr(watching, "SINGLE", 2)
     watches = Watches(cast("Any", session))
     heard: list[Token] = []
@@ -123,10 +123,10 @@ def test_few_are_watched_singly_and_more_by_their_kind(session, monkeypatch):
     watches.forget("MP", "/t0", listener)
     assert watches.known() is None
     watches.listen("MP", "/t4", listener)
-    assert tokens_of(0, "MP", "/t4") in session.watches  # there is room for one more
+    assert tokens_of(0, "MP", "/t4") in session.watches  # there is capacity for one more
 
 
-def test_in_a_mesh_all_listeners_hear_of_what_is_there_comes_and_goes(socket_folder, monkeypatch):
+def test_all_listeners_in_a_mesh_hear_existing_new_and_leaving_tokens(socket_folder, monkeypatch):
     monkeypatch.setattr(watching, "SINGLE", 1)
     holder, watcher = open_session(0), open_session(0)
     topics = [f"/t{each}" for each in range(4)]

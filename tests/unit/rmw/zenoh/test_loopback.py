@@ -1,4 +1,4 @@
-"""Where there are no Unix sockets, programs meet on ports of 127.0.0.1, and only those that can read a secret."""
+"""Without Unix sockets, programs meet on ports of 127.0.0.1, and only those that can read a secret."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def names(folder: str) -> set[str]:
 
 
 def linked_from(settings: dict[str, Any]) -> bool:
-    """Whether a program with these settings for its links, besides the defaults, gets one; it waits for that."""
+    """Return whether a program with these link settings, besides the defaults, gets a link; waits for it."""
     config = zenoh.Config.from_json5(json.dumps({"mode": "client", "scouting": {"multicast": {"enabled": False}}}))
     for path, value in settings.items():
         config.insert_json5(path, json.dumps(value))
@@ -47,7 +47,7 @@ def linked_from(settings: dict[str, Any]) -> bool:
         return False
 
 
-def test_those_that_start_at_one_moment_meet_and_a_killed_one_is_cleaned_away(socket_folder: str) -> None:
+def test_simultaneous_starts_meet_and_a_killed_process_is_cleaned_up(socket_folder: str) -> None:
     with members(3) as (one, two, killed):
         assert every_pair_talks([one, two, killed])
         killed.end()
@@ -57,7 +57,7 @@ def test_those_that_start_at_one_moment_meet_and_a_killed_one_is_cleaned_away(so
             assert len(names(socket_folder)) == 3
 
 
-def test_one_whose_files_were_taken_away_is_found_again(socket_folder: str) -> None:
+def test_process_whose_files_were_deleted_is_found_again(socket_folder: str) -> None:
     with members(2) as (one, two):
         assert every_pair_talks([one, two])
         for name in os.listdir(f"{socket_folder}/0"):
@@ -67,7 +67,7 @@ def test_one_whose_files_were_taken_away_is_found_again(socket_folder: str) -> N
             assert every_pair_talks([one, two, late])
 
 
-def test_only_the_own_address_is_listened_on(session: MeshSession) -> None:
+def test_only_loopback_is_listened_on(session: MeshSession) -> None:
     assert session.socket.endpoint().startswith("tcp/127.0.0.1:")
     port = int(session.socket.endpoint().rpartition(":")[2])
     with socket.create_connection(("127.0.0.1", port), 5.0):
@@ -76,7 +76,7 @@ def test_only_the_own_address_is_listened_on(session: MeshSession) -> None:
         pass
 
 
-def test_who_does_not_know_the_secret_gets_no_link(session: MeshSession, socket_folder: str) -> None:
+def test_program_without_the_secret_gets_no_link(session: MeshSession, socket_folder: str) -> None:
     place = {"connect/endpoints": [session.socket.endpoint()], "connect/timeout_ms": 2000}
     known = loopback.authentication(f"{socket_folder}/0")["usrpwd"]
     assert linked_from({**place, "transport/auth/usrpwd": {**known}})
@@ -84,15 +84,13 @@ def test_who_does_not_know_the_secret_gets_no_link(session: MeshSession, socket_
     assert not linked_from({**place, "transport/auth/usrpwd": {**known, "password": "guessed"}})
 
 
-def test_the_secret_is_the_users_alone_and_stays(session: MeshSession, socket_folder: str) -> None:
+def test_secret_is_private_and_stable(session: MeshSession, socket_folder: str) -> None:
     path = f"{socket_folder}/0/{loopback.SECRET}"
     assert stat.S_IMODE(os.stat(path).st_mode) == 0o600
     assert loopback.authentication(f"{socket_folder}/0") == loopback.authentication(f"{socket_folder}/0")
 
 
-def test_another_port_is_tried_where_somebody_takes_the_one_found(
-    socket_folder: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_another_port_is_tried_if_the_chosen_one_is_taken(socket_folder: str, monkeypatch: pytest.MonkeyPatch) -> None:
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
@@ -103,7 +101,7 @@ def test_another_port_is_tried_where_somebody_takes_the_one_found(
     assert not names(socket_folder)
 
 
-def test_a_port_that_was_not_written_yet_harms_nobody(session: MeshSession, socket_folder: str) -> None:
+def test_port_file_not_yet_written_is_ignored(session: MeshSession, socket_folder: str) -> None:
     half = loopback.OpenPort(f"{socket_folder}/0/{os.getpid()}.0badc0de.tcp")
     with open(f"{socket_folder}/0/{os.getpid()}.0badc0de.tcp", "w"):
         pass
@@ -113,7 +111,7 @@ def test_a_port_that_was_not_written_yet_harms_nobody(session: MeshSession, sock
     half.close()
 
 
-def test_those_on_sockets_and_those_on_ports_do_not_see_each_other(
+def test_processes_on_sockets_and_on_ports_do_not_see_each_other(
     session: MeshSession, socket_folder: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert [each.pid for each in sockets.sockets(f"{socket_folder}/0")] == [os.getpid()]
@@ -121,12 +119,12 @@ def test_those_on_sockets_and_those_on_ports_do_not_see_each_other(
     assert sockets.sockets(f"{socket_folder}/0") == []
 
 
-def test_other_machines_are_not_let_in(socket_folder: str) -> None:
+def test_other_machines_are_refused(socket_folder: str) -> None:
     with pytest.raises(SessionError, match="BOT_CONSOLE_LOOPBACK"):
         MeshSession(0, Serving(("tcp/127.0.0.1:0",)))
 
 
-def test_it_is_chosen_where_there_are_no_unix_sockets(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_loopback_is_chosen_without_unix_sockets(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("BOT_CONSOLE_LOOPBACK")
     assert not loopback.is_chosen()
     monkeypatch.setattr(sys, "platform", "win32")

@@ -1,4 +1,4 @@
-"""Real processes in one domain: every pair talks, and none that is killed or frozen holds up another."""
+"""Real processes in one domain: every pair communicates, and no killed or frozen process blocks another."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ def sockets_of(folder: str) -> set[str]:
     return {name for name in os.listdir(os.path.join(folder, "0")) if name[0].isdigit() and not name.endswith(".lock")}
 
 
-def test_those_that_start_at_one_moment_all_meet():
+def test_simultaneous_starts_all_meet():
     with members(8) as present:
         assert every_pair_talks(present)
 
 
 @pytest.mark.soak
 @pytest.mark.timeout(600)
-def test_fifty_that_start_at_one_moment_all_meet_ten_times(monkeypatch, socket_folder):
+def test_fifty_simultaneous_starts_all_meet_ten_times(monkeypatch, socket_folder):
     for round_number in range(10):
         monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"{socket_folder}{round_number}")
         with members(50) as present:
             assert every_pair_talks(present)
 
 
-def test_a_killed_process_is_gone_and_its_socket_is_removed_by_the_next(socket_folder):
+def test_socket_of_a_killed_process_is_removed_by_the_next(socket_folder):
     with members(3) as (one, two, killed):
         assert every_pair_talks([one, two, killed])
         killed.end()
@@ -39,7 +39,7 @@ def test_a_killed_process_is_gone_and_its_socket_is_removed_by_the_next(socket_f
             assert len(sockets_of(socket_folder)) == 3
 
 
-def test_one_that_leaves_takes_the_sockets_of_the_dead_along(socket_folder):
+def test_leaving_process_removes_dead_sockets(socket_folder):
     with members(2) as (leaving, killed):
         assert every_pair_talks([leaving, killed])
         killed.end()
@@ -49,7 +49,7 @@ def test_one_that_leaves_takes_the_sockets_of_the_dead_along(socket_folder):
     assert sockets_of(socket_folder) == set()
 
 
-def test_a_folder_full_of_dead_sockets_is_cleaned(socket_folder):
+def test_folder_full_of_dead_sockets_is_cleaned(socket_folder):
     with members(6) as dead:
         for each in dead:
             each.end()
@@ -59,7 +59,7 @@ def test_a_folder_full_of_dead_sockets_is_cleaned(socket_folder):
         assert len(sockets_of(socket_folder)) == 2
 
 
-def test_beside_a_frozen_process_others_join_talk_and_leave(socket_folder):
+def test_processes_join_communicate_and_leave_beside_a_frozen_one(socket_folder):
     with members(2) as (frozen, one):
         assert every_pair_talks([frozen, one])
         frozen.signal(signal.SIGSTOP)
@@ -68,11 +68,11 @@ def test_beside_a_frozen_process_others_join_talk_and_leave(socket_folder):
             assert every_pair_talks([one, late])
             for each in (one, late):
                 each.report("exit")
-                assert float(each.read()) < 5.0  # the library's own settings: 10 s
+                assert float(each.read()) < 5.0  # the library's default: 10 s
         assert time.monotonic() - began < 30.0
 
 
-def test_a_thawed_process_is_found_by_those_that_came_meanwhile():
+def test_thawed_process_is_found_by_newcomers():
     with members(1) as [frozen]:
         frozen.signal(signal.SIGSTOP)
         with members(2) as late:
@@ -81,7 +81,7 @@ def test_a_thawed_process_is_found_by_those_that_came_meanwhile():
             assert every_pair_talks([frozen, *late])
 
 
-def test_a_process_whose_socket_was_taken_away_is_found_again(socket_folder):
+def test_process_whose_socket_was_deleted_is_found_again(socket_folder):
     with members(2) as (one, two):
         assert every_pair_talks([one, two])
         for name in os.listdir(os.path.join(socket_folder, "0")):
@@ -93,7 +93,7 @@ def test_a_process_whose_socket_was_taken_away_is_found_again(socket_folder):
 
 @pytest.mark.soak
 @pytest.mark.timeout(300)
-def test_links_that_were_given_up_in_the_middle_of_their_opening_are_repaired():
+def test_links_abandoned_while_opening_are_repaired():
     with members(10, "hasty") as present:
         ids = {each.zid for each in present}
         assert eventually(lambda: all(each.ask("answer") >= ids - {each.zid} for each in present))
@@ -114,7 +114,7 @@ PORTS = ("tcp", "tcp6", "udp", "udp6", "udplite", "udplite6", "raw", "raw6", "pa
 
 
 def local_sockets(pid: int, kind: str) -> set[str]:
-    """The inodes of the sockets of this kind that a process has open."""
+    """Return the inodes of the sockets of this kind that a process has open."""
     open_ones: set[str] = set()
     for name in os.listdir(f"/proc/{pid}/fd"):
         with contextlib.suppress(FileNotFoundError):

@@ -1,4 +1,4 @@
-"""A client of a router: how it gets there, why it does not, and what it does when the router goes and comes back."""
+"""A client of a router: how it connects, why it fails, and what happens if the router leaves and returns."""
 
 import json
 import re
@@ -46,20 +46,20 @@ def refusal(way: Way) -> str:
     return str(refused.value)
 
 
-def test_both_sides_show_their_certificates(secure, files):
+def test_mutual_tls_connects(secure, files):
     own, _ = files
     session = open_network_session(0, Way((secure,), Tls(own.ca, own.certificate, own.key)))
     assert session.attendance(session.zid[:8], TIMEOUT_S) == {session.zid[:8]}
     session.close()
 
 
-def test_a_router_of_another_authority_is_refused_and_that_is_reported(secure, files):
+def test_router_with_foreign_certificate_is_refused_and_reported(secure, files):
     _, stranger = files
     tls = Tls(stranger.ca, stranger.certificate, stranger.key)
     assert "the router's certificate is refused" in refusal(Way((secure,), tls, timeout_s=0.3))
 
 
-def test_a_client_without_or_with_a_wrong_certificate_is_refused_and_that_is_reported(secure, files):
+def test_client_with_missing_or_wrong_certificate_is_refused_and_reported(secure, files):
     own, stranger = files
     assert "--tls-certificate" in refusal(Way((secure,), Tls(own.ca), timeout_s=0.3))
     wrong = Tls(own.ca, stranger.certificate, stranger.key)
@@ -67,7 +67,7 @@ def test_a_client_without_or_with_a_wrong_certificate_is_refused_and_that_is_rep
     assert stranger.certificate in reported and "X.509 version 3" in reported and "--tls-certificate" not in reported
 
 
-def test_a_certificate_that_zenoh_takes_is_not_blamed_by_a_python_that_is_stricter(secure, files, monkeypatch):
+def test_certificate_accepted_by_zenoh_is_not_blamed_by_stricter_python(secure, files, monkeypatch):
     own, _ = files
     default = ssl.create_default_context
 
@@ -80,7 +80,7 @@ def test_a_certificate_that_zenoh_takes_is_not_blamed_by_a_python_that_is_strict
     assert "--tls-certificate" in refusal(Way((secure,), Tls(own.ca), timeout_s=0.3))
 
 
-def test_files_that_cannot_be_used_are_named(secure, files, tmp_path):
+def test_unusable_certificate_files_are_named(secure, files, tmp_path):
     own, _ = files
     text = tmp_path / "text"
     text.write_text("hello")
@@ -89,23 +89,23 @@ def test_files_that_cannot_be_used_are_named(secure, files, tmp_path):
     assert "go together" in refusal(Way((secure,), Tls(own.ca, own.certificate), timeout_s=0.3))
 
 
-def test_where_nobody_listens_it_is_reported_what_to_start():
+def test_unreachable_router_is_reported_with_what_to_start():
     assert "rmw_zenohd" in refusal(Way((f"tcp/127.0.0.1:{free_port()}",), timeout_s=0.3))
     assert "no host of the name" in refusal(Way(("tcp/no-such-robot.invalid:7447",), timeout_s=0.3))
     assert "no host of the name" in refusal(Way((f"tcp/{'a' * 64}:7447",), timeout_s=0.3))
 
 
 @pytest.mark.parametrize("text", ["robot", "robot:7447", "tcp/robot", "tcp/:7447", "tcp/robot:70000", "tcp/robot:x"])
-def test_what_is_no_endpoint_is_reported_with_an_example(text):
+def test_invalid_endpoint_is_reported_with_an_example(text):
     with pytest.raises(ValueError, match="tcp/robot:7447"):
         place_of(text)
 
 
-def test_places_of_endpoints():
+def test_endpoint_is_split_into_protocol_host_and_port():
     assert place_of("tls/[::1]:7447#iface=lo") == ("tls", "::1", 7447)
 
 
-def test_the_variables_of_rmw_zenoh_are_honoured(monkeypatch, tmp_path):
+def test_environment_variables_of_rmw_zenoh_are_respected(monkeypatch, tmp_path):
     port = free_port()
     router = Router(Serving((f"tcp/127.0.0.1:{port}",)))
     file = tmp_path / "session.json5"
@@ -126,13 +126,13 @@ def test_the_variables_of_rmw_zenoh_are_honoured(monkeypatch, tmp_path):
         ("ZENOH_CONFIG_OVERRIDE", "mode=", "path=value"),
     ],
 )
-def test_variables_that_mean_nothing_are_refused(monkeypatch, name, value, reported):
+def test_invalid_environment_variables_are_rejected(monkeypatch, name, value, reported):
     monkeypatch.setenv(name, value)
     with pytest.raises(SessionError, match=reported):
         with_environment(Way(("tcp/robot:7447",)))
 
 
-def test_what_is_no_token_is_ignored_and_the_first_is_reported():
+def test_invalid_tokens_are_ignored_and_the_first_is_reported():
     serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
     router, way, reported = Router(serving), Way(serving.endpoints), []
     robot, client = open_network_session(0, way), open_network_session(0, way)
@@ -148,18 +148,18 @@ def test_what_is_no_token_is_ignored_and_the_first_is_reported():
         each.close()
 
 
-def test_a_setting_that_zenoh_does_not_know_is_refused():
+def test_setting_unknown_to_zenoh_is_rejected():
     assert "does not take" in refusal(Way(("tcp/127.0.0.1:1",), override=(("mode", "'boss'"),)))
 
 
-def test_a_client_listens_nowhere_and_searches_for_nobody():
+def test_client_does_not_listen_or_scout():
     settings = client_settings("1" * 32, Way(("tcp/robot:7447",)))
     assert settings["mode"] == "client" and settings["listen"] == {"endpoints": []}
     assert not settings["scouting"]["multicast"]["enabled"] and not settings["scouting"]["gossip"]["enabled"]
     assert json.dumps(settings)
 
 
-def test_a_router_that_comes_back_is_found_again_and_what_was_declared_works():
+def test_client_reconnects_and_its_declarations_work_after_router_restart():
     serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
     router, way = Router(serving), Way(serving.endpoints)
     one, two = open_network_session(0, way), open_network_session(0, way)
@@ -182,7 +182,7 @@ def test_a_router_that_comes_back_is_found_again_and_what_was_declared_works():
 
 
 @pytest.mark.parametrize("settings", [session_settings, router_settings])
-def test_little_waits_on_the_way_to_other_machines(settings):
+def test_queues_to_other_machines_are_short(settings):
     serving = Serving(("tls/localhost:1",), {"listen_certificate": "c"})
     beside = ("unixsock-stream/a", ["unixsock-stream/b"]) if settings is session_settings else ()
     link = settings("1" * 32, *beside, serving)["transport"]["link"]
@@ -193,7 +193,7 @@ def test_little_waits_on_the_way_to_other_machines(settings):
     assert "tcp" not in at_home and "batch_size" not in at_home["tx"]
 
 
-def test_the_access_list_of_the_documentation_keeps_guests_from_moving_and_changing_the_robot(tmp_path):
+def test_documented_access_list_keeps_guests_from_controlling_the_robot(tmp_path):
     text = (Path(__file__).parents[4] / "docs" / "your-robot.md").read_text(encoding="utf-8")
     (listed,) = re.findall(r"^```json5\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
     file = tmp_path / "access.json5"
@@ -227,7 +227,7 @@ def test_the_access_list_of_the_documentation_keeps_guests_from_moving_and_chang
         each.close()
 
 
-def test_a_taken_port_is_reported():
+def test_taken_port_is_reported():
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
@@ -237,7 +237,7 @@ def test_a_taken_port_is_reported():
 
 
 class Link:
-    """A link whose answers are given by hand; its probe looks when it is told to."""
+    """A link whose answers are given by the test; its probe runs on request."""
 
     def __init__(self) -> None:
         self.now = 100.0
@@ -251,7 +251,7 @@ class Link:
         return lambda: answer[0] if answer else None
 
     def pass_time(self, seconds: float, delay: float | None) -> None:
-        """Let time go by on a link that answers each question after `delay` s; None: not at all."""
+        """Let time pass on a link that answers each question after `delay` s; None: never."""
         for _ in range(round(seconds * 8)):
             self.now += STEP
             for asked, answer in self.asked:
@@ -261,7 +261,7 @@ class Link:
 
     @property
     def silent(self) -> float:
-        """For how long nothing was answered, in s."""
+        """Return how long nothing was answered, in s."""
         return self.now - (self.probe.state.heard or 0.0)
 
     @property
@@ -276,14 +276,14 @@ def link():
     return link
 
 
-def test_a_link_that_does_not_answer_keeps_the_time_of_its_last_answer(link):
+def test_unanswered_link_keeps_the_delay_of_its_last_answer(link):
     link.pass_time(1.0, 0.25)
     assert (link.silent, link.delay) == (0.25, 0.25)
     link.pass_time(3.0, None)
     assert (link.silent, link.delay) == (3.25, 0.25)
 
 
-def test_a_link_that_always_answers_late_is_slow_and_not_silent(link):
+def test_link_that_always_answers_late_is_slow_but_not_silent(link):
     link.pass_time(1.0, 0.25)
     link.pass_time(9.0, 2.5)
     assert link.silent <= 0.5 and link.delay == 2.5
@@ -292,10 +292,10 @@ def test_a_link_that_always_answers_late_is_slow_and_not_silent(link):
     assert link.silent == 0.0
 
 
-def test_what_was_asked_before_a_silence_ended_is_not_believed(link):
+def test_questions_asked_before_a_silence_ended_are_not_believed(link):
     link.pass_time(1.0, 0.25)
     link.pass_time(9.0, None)
-    link.pass_time(STEP, 0.0)  # all that was open is over at once, as when the link is given up
+    link.pass_time(STEP, 0.0)  # all open questions end at once, as when the link is dropped
     link.pass_time(2.0, None)
     assert link.silent == 11.25 + STEP
     link.pass_time(1.0, 0.25)

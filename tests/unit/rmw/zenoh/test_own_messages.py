@@ -1,4 +1,4 @@
-"""What goes from object to object within a process does not come a second time over the mesh."""
+"""Messages delivered within a process do not arrive a second time over the mesh."""
 
 import time
 
@@ -12,7 +12,7 @@ from std_msgs.msg import String
 LATCHED = QoSProfile(depth=5, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
-def test_a_late_subscription_gets_what_a_publisher_of_its_own_process_kept_once():
+def test_late_subscription_gets_latched_message_of_its_own_process_once():
     share_domains()
     context = Context()
     context.init([], domain_id=37)
@@ -25,7 +25,7 @@ def test_a_late_subscription_gets_what_a_publisher_of_its_own_process_kept_once(
         publisher.publish(String(data=text))
     node.create_subscription(String, "/kept", lambda message: heard.append(message.data), LATCHED)
     publisher.publish(String(data="three"))
-    until = time.monotonic() + 0.3  # the answer of the session's cache takes 1 ms
+    until = time.monotonic() + 0.3  # the session's cache answers within 1 ms
     while time.monotonic() < until:
         executor.spin_once(timeout_sec=0.05)
     node.destroy_node()

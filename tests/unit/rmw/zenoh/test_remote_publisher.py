@@ -1,4 +1,4 @@
-"""Whether a publisher sends itself, or lets the thread do so that drops nothing: what its QoS says of its queue."""
+"""Whether a publisher sends directly or through the thread that drops nothing depends on its QoS."""
 
 from types import SimpleNamespace
 
@@ -8,7 +8,7 @@ from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 
 
 class Link:
-    """A session and its sender, which note who sends what."""
+    """A session and its sender, which record who sends what."""
 
     def __init__(self):
         self.sent = []
@@ -32,7 +32,7 @@ class Link:
         ("/rosout", QoSProfile(depth=10), "thread"),
     ],
 )
-def test_what_keeps_much_is_sent_by_the_thread_that_drops_nothing(topic, qos, who):
+def test_publisher_with_a_deep_queue_sends_through_the_sender_thread(topic, qos, who):
     link = Link()
     endpoint = SimpleNamespace(topic=topic, qos=qos, gid=bytes(16))
     remote_publisher = RemotePublisher(link, link, SimpleNamespace(endpoint=endpoint, history=None), "key")

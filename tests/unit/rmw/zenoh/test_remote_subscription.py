@@ -1,4 +1,4 @@
-"""What comes from other processes: numbers tell what was lost, garbage is dropped and said."""
+"""Messages from other processes: sequence numbers reveal losses, garbage is dropped and reported."""
 
 from types import SimpleNamespace
 
@@ -33,7 +33,7 @@ def give(remote_subscription, number, stamp=5):
     remote_subscription.received(serialize_message(String(data=str(number))), pack(number, stamp, GID))
 
 
-def test_a_gap_in_the_numbers_is_an_event(received, notices):
+def test_gap_in_sequence_numbers_is_an_event(received, notices):
     remote_subscription, queue, events = received
     for number in (7, 8, 11):
         give(remote_subscription, number)
@@ -46,7 +46,7 @@ def test_a_gap_in_the_numbers_is_an_event(received, notices):
 
 
 @pytest.mark.parametrize(("topic", "lost"), [("/rosout", 2), ("/t", 0)])
-def test_lines_of_a_log_that_make_room_are_counted_and_reported_once(received, notices, topic, lost):
+def test_dropped_log_lines_are_counted_and_reported_once(received, notices, topic, lost):
     remote_subscription, queue, events = received
     for number in range(1, 13):
         give(remote_subscription, number)
@@ -57,7 +57,7 @@ def test_lines_of_a_log_that_make_room_are_counted_and_reported_once(received, n
 
 
 @pytest.mark.parametrize("topic", ["/rosout"])
-def test_lines_of_before_that_find_no_room_are_not_reported(received, notices, topic):
+def test_dropped_log_lines_from_history_are_not_reported(received, notices, topic):
     remote_subscription, queue, events = received
     remote_subscription._session.declare_subscriber = lambda *what, **how: None
     remote_subscription.open()
@@ -68,14 +68,14 @@ def test_lines_of_before_that_find_no_room_are_not_reported(received, notices, t
     assert events == [("lost", 1)]
 
 
-def test_bytes_that_are_no_message_are_dropped_when_they_are_taken(received, notices):
+def test_invalid_message_is_dropped_when_taken(received, notices):
     remote_subscription, queue, _ = received
     remote_subscription.received(b"\0\1\0\0\xff", pack(1, 1, GID))
     assert own(queue.popleft()[0]) is None
     assert "'/t' was dropped" in notices[0]
 
 
-def test_a_message_whose_end_is_not_its_own_is_dropped_reported_and_counted(received, notices):
+def test_corrupted_message_is_dropped_reported_and_counted(received, notices):
     remote_subscription, queue, events = received
     give(remote_subscription, 1)
     whole = serialize_message(String(data="forward, slowly"))

@@ -1,4 +1,4 @@
-"""What must not be dropped is sent in order by a thread of its own; who publishes never waits for it."""
+"""Messages that must not be dropped are sent in order by a separate thread; publishing never blocks."""
 
 import threading
 
@@ -11,7 +11,7 @@ TIMEOUT_S = 20.0
 
 
 class Slow:
-    """A publisher whose link is full until it is let go."""
+    """A publisher whose link is full until it is freed."""
 
     def __init__(self):
         self.free = threading.Event()
@@ -28,7 +28,7 @@ class Slow:
 
 
 class Stepwise:
-    """A publisher whose link takes one message each time it is let."""
+    """A publisher whose link takes one message at a time."""
 
     def __init__(self):
         self.reached = threading.Semaphore(0)
@@ -40,7 +40,7 @@ class Stepwise:
 
 
 class Awaited(threading.Event):
-    """Set, and calls back before each wait for it."""
+    """An event that is set, and calls back before each wait for it."""
 
     def __init__(self, on_wait):
         super().__init__()
@@ -59,7 +59,7 @@ def sender():
     made.end(TIMEOUT_S)
 
 
-def test_nobody_waits_and_the_order_is_kept(sender):
+def test_publishing_does_not_block_and_order_is_kept(sender):
     publisher = Slow()
     for each in (b"1", b"2", b"3"):
         assert sender.send(publisher, "/t", each, b"a")
@@ -71,7 +71,7 @@ def test_nobody_waits_and_the_order_is_kept(sender):
     assert publisher.sent == [b"1", b"2", b"3", "undeclared"]
 
 
-def test_without_room_a_message_is_dropped_and_reported(sender, monkeypatch):
+def test_message_without_room_is_dropped_and_reported(sender, monkeypatch):
     monkeypatch.setattr(module, "ROOM", 10)
     message, publisher = [], Slow()
     forget = on_notice(lambda process, text: message.append(text))
@@ -83,20 +83,20 @@ def test_without_room_a_message_is_dropped_and_reported(sender, monkeypatch):
     publisher.free.set()
 
 
-def test_a_leaving_process_waits_so_long_and_no_longer(sender):
+def test_leaving_process_waits_for_a_limited_time(sender):
     publisher = Slow()
     sender.send(publisher, "/t", b"1", b"a")
     assert not sender.end(0.01)
     publisher.free.set()
 
 
-def test_a_publisher_with_nothing_to_send_is_taken_back_at_once(sender):
+def test_idle_publisher_is_undeclared_at_once(sender):
     publisher = Slow()
     sender.undeclare(publisher)
     assert publisher.sent == ["undeclared"]
 
 
-def test_the_thread_that_had_nothing_left_is_woken(sender):
+def test_idle_sender_thread_is_woken(sender):
     publisher = Slow()
     publisher.free.set()
     for number in range(200):
@@ -107,7 +107,7 @@ def test_the_thread_that_had_nothing_left_is_woken(sender):
     assert publisher.sent == [b"%d" % number for number in range(200)]
 
 
-def test_a_publisher_whose_last_message_is_being_sent_is_taken_back_after_it(sender):
+def test_publisher_is_undeclared_after_its_last_message_was_sent(sender):
     publisher = Slow()
     sender.send(publisher, "/t", b"1", b"a")
     assert publisher.reached.wait(TIMEOUT_S)
@@ -119,20 +119,20 @@ def test_a_publisher_whose_last_message_is_being_sent_is_taken_back_after_it(sen
 
 
 @pytest.mark.parametrize("limit, value, count", [("MANY", 4, 4), ("MUCH", 8, 5)])
-def test_whoever_publishes_a_burst_lets_the_thread_send_it(sender, monkeypatch, limit, value, count):
+def test_burst_yields_to_the_sender_thread(sender, monkeypatch, limit, value, count):
     monkeypatch.setattr(module, limit, value)
     monkeypatch.setattr(module, "LET_SEND", TIMEOUT_S)
     publisher = Slow()
     sender._emptied = Awaited(publisher.free.set)
     for _ in range(count - 1):
         sender.send(publisher, "/t", b"12", b"a")
-        assert publisher.reached.wait(TIMEOUT_S)  # what is being sent is no byte that waits
+        assert publisher.reached.wait(TIMEOUT_S)  # the message being sent does not count as waiting bytes
     assert publisher.sent == []
     sender.send(publisher, "/t", b"12", b"a")
     assert publisher.sent == [b"12"] * count
 
 
-def test_beside_a_full_link_it_lets_the_thread_send_once_until_nothing_waits(sender, monkeypatch):
+def test_burst_to_a_full_link_yields_only_once_until_the_queue_is_empty(sender, monkeypatch):
     monkeypatch.setattr(module, "MANY", 2)
     monkeypatch.setattr(module, "LET_SEND", 0.0)
     waits = []
@@ -146,7 +146,7 @@ def test_beside_a_full_link_it_lets_the_thread_send_once_until_nothing_waits(sen
         assert sender._is_emptied(TIMEOUT_S)
 
 
-def test_beyond_half_of_the_room_it_lets_the_thread_send_again_where_that_gets_on(sender, monkeypatch):
+def test_burst_yields_again_beyond_half_of_the_room_if_sending_progresses(sender, monkeypatch):
     monkeypatch.setattr(module, "MUCH", 4)
     monkeypatch.setattr(module, "ROOM", 20)
     monkeypatch.setattr(module, "LET_SEND", 0.0)

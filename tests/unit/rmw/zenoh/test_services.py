@@ -1,4 +1,4 @@
-"""Requests and responses of other processes whose end is not their own: neither is served nor believed."""
+"""Corrupted requests and responses from other processes are dropped, and ended servers are recognized."""
 
 import os
 import subprocess
@@ -19,7 +19,7 @@ SESSION = SimpleNamespace(declare_queryable=lambda key, asked: None)
 
 
 class Request:
-    """A request as a session gives it."""
+    """A request as delivered by a session."""
 
     def __init__(self, payload, attachment):
         self.payload, self.attachment = payload, attachment
@@ -33,7 +33,7 @@ def spoilt(payload):
     return payload[:-4] + b"\1\2\3\4"
 
 
-def test_a_request_that_was_cut_is_not_served(notices):
+def test_corrupted_request_is_not_served(notices):
     service = ServiceEndpoint(NodeId("n", "/"), NAME, TYPE, lambda: None, AddTwoInts)
     served = Served(SESSION, service, "key")
     sent = serialize_message(AddTwoInts.Request(a=1, b=2))
@@ -46,7 +46,7 @@ def test_a_request_that_was_cut_is_not_served(notices):
     assert (number, request.a, request.b) == (2, 1, 2)
 
 
-def test_a_response_that_was_cut_is_not_believed(notices):
+def test_corrupted_response_is_not_accepted(notices):
     client = ClientEndpoint(NodeId("n", "/"), NAME, TYPE, lambda: None, AddTwoInts, gid=GID)
     asking = Asking(SESSION, client, "key")
     sent = serialize_message(AddTwoInts.Response(sum=3))
@@ -85,7 +85,7 @@ def asked_of(session, *servers):
     return asking, asking.watch_servers()
 
 
-def test_a_server_that_is_withdrawn_over_a_link_that_stands_has_ended():
+def test_server_withdrawn_over_a_working_link_has_ended():
     asking, ended = asked_of(Links(), "a", "b")
     assert asking.has_server and not ended()
     asking.saw(server("a"), False)
@@ -94,7 +94,7 @@ def test_a_server_that_is_withdrawn_over_a_link_that_stands_has_ended():
     assert ended() and not asking.has_server
 
 
-def test_a_lost_link_is_no_end_unless_the_process_has_ended():
+def test_lost_link_does_not_end_the_server_unless_its_process_ended():
     links = Links()
     asking, ended = asked_of(links, "a")
     links.ids = set()
@@ -108,5 +108,5 @@ def test_a_lost_link_is_no_end_unless_the_process_has_ended():
     assert ended()
 
 
-def test_where_no_server_was_present_nothing_is_known():
+def test_nothing_is_known_if_no_server_was_present():
     assert not asked_of(Links())[1]()

@@ -1,4 +1,4 @@
-"""Two sessions in one domain: they find each other, and what they declare works."""
+"""Two sessions in one domain find each other, and their declarations work."""
 
 import os
 import threading
@@ -37,7 +37,7 @@ def tokens(session: Session, key: str) -> set[str]:
 
 
 def shown(one: Session, two: Session, key: str) -> threading.Event:
-    """Wait until `two` sees a token of `one`, and so all that it declared before; returns what is set when it goes."""
+    """Wait until `two` sees a token of `one`, and so all declared before; return an event set when the token leaves."""
     came, went = threading.Event(), threading.Event()
     two.watch_tokens(key, lambda _, there: (came if there else went).set())
     one.declare_token(key)
@@ -45,12 +45,12 @@ def shown(one: Session, two: Session, key: str) -> threading.Event:
     return went
 
 
-def test_each_knows_the_other(pair):
+def test_sessions_know_each_other(pair):
     one, two = pair
     assert (one.linked(), two.linked()) == ({two.zid}, {one.zid})
 
 
-def test_a_late_subscriber_gets_what_was_kept(pair):
+def test_late_subscriber_gets_cached_messages(pair):
     one, two = pair
     publisher = one.declare_publisher("t", cache=2)
     for payload in (b"1", b"2", b"3"):
@@ -68,7 +68,7 @@ def test_a_late_subscriber_gets_what_was_kept(pair):
     assert got[-2:] == [(b"2", b"a"), (b"3", b"a")]
 
 
-def test_a_question_is_answered_until_it_is_taken_back(pair):
+def test_query_is_answered_until_undeclared(pair):
     one, two = pair
     queryable = one.declare_queryable("s", lambda query: query.answer(query.payload * 2, b"answer"))
     shown(one, two, "s/1")
@@ -87,7 +87,7 @@ def test_tokens_are_seen_until_their_session_ends(pair):
     assert went.wait(TIMEOUT_S)
 
 
-def test_a_session_that_ends_takes_its_socket_away(pair, socket_folder):
+def test_closing_session_removes_its_socket(pair, socket_folder):
     one, two = pair
     assert len(os.listdir(os.path.join(socket_folder, "0"))) == 4
     one.close()
@@ -96,7 +96,7 @@ def test_a_session_that_ends_takes_its_socket_away(pair, socket_folder):
     assert os.listdir(os.path.join(socket_folder, "0")) == []
 
 
-def test_a_session_is_reopened_though_its_close_took_zenoh_too_long(pair) -> None:
+def test_session_reopens_although_zenoh_closes_too_slowly(pair) -> None:
     one, two = pair
     old = one._zenoh
 
@@ -112,7 +112,7 @@ def test_a_session_is_reopened_though_its_close_took_zenoh_too_long(pair) -> Non
     assert linked.wait(TIMEOUT_S) and one.linked() == {two.zid}
 
 
-def test_the_tokens_of_others_are_collected(pair):
+def test_tokens_of_others_are_collected(pair):
     one, two = pair
     shown(one, two, "token/1")
     assert two.collect_tokens("token/*", TIMEOUT_S) == (["token/1"], True)

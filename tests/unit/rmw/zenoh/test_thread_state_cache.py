@@ -1,4 +1,4 @@
-"""A thread of Zenoh's that calls back keeps what is local to it, which is what the interpreter makes for it."""
+"""Zenoh's callback threads keep their thread-local data, which the interpreter would discard after each callback."""
 
 import ctypes  # noqa: F401  -- a program that has it keeps a thread from its first callback on
 import itertools
@@ -20,7 +20,7 @@ class Local(threading.local):
 
 @pytest.fixture
 def calls(socket_folder, monkeypatch):
-    """The numbers of a hundred callbacks, each counted by its thread, by thread."""
+    """The numbers of a hundred callbacks, counted by each thread, by thread."""
     monkeypatch.setattr(thread_state_cache, "_cached", itertools.count(1))  # others may have used it up
     one, two = open_session(0), open_session(0)
     local, counted, all_here = Local(), defaultdict(list), threading.Event()
@@ -44,7 +44,7 @@ def calls(socket_folder, monkeypatch):
     two.close()
 
 
-def test_a_thread_counts_on(calls):
+def test_thread_local_counter_persists_between_callbacks(calls):
     assert all(each == list(range(1, len(each) + 1)) for each in calls.values())
 
 
@@ -62,7 +62,7 @@ def cached_after(count):
     return here.kept
 
 
-def test_a_program_that_receives_little_imports_nothing_for_it(monkeypatch):
+def test_program_with_few_callbacks_imports_nothing_extra(monkeypatch):
     monkeypatch.delitem(sys.modules, "ctypes", raising=False)
     monkeypatch.setattr(thread_state_cache, "_calls", iter(range(1, 1000)))
     monkeypatch.setattr(thread_state_cache, "_cached", iter(range(1, 1000)))
@@ -71,7 +71,7 @@ def test_a_program_that_receives_little_imports_nothing_for_it(monkeypatch):
     assert in_a_thread(lambda: cached_after(1))
 
 
-def test_no_more_threads_are_kept_than_zenoh_has(monkeypatch):
+def test_cached_threads_are_limited(monkeypatch):
     monkeypatch.setattr(
         thread_state_cache, "_cached", iter(range(thread_state_cache.MAX_THREADS, thread_state_cache.MAX_THREADS + 10))
     )

@@ -1,4 +1,4 @@
-"""A publisher that keeps samples: the name of its token is Zenoh's own, and it can be taken back at any moment."""
+"""A publisher with a cache: its token has Zenoh's name, and it can be undeclared at any moment."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ os._exit(0)
 
 
 @pytest.mark.parametrize("misses", [True, False])
-def test_its_token_has_the_name_that_zenoh_would_give_it(socket_folder: object, misses: bool) -> None:
+def test_token_has_the_name_given_by_zenoh(socket_folder: object, misses: bool) -> None:
     session = open_session(0)
     try:
         inner = session._zenoh
@@ -121,7 +121,7 @@ def test_its_token_has_the_name_that_zenoh_would_give_it(socket_folder: object, 
     [TAKEN_BACK_WHILE_A_SAMPLE_COMES_IN, TAKEN_BACK_WHILE_THE_SESSION_IS_LOCKED],
     ids=["while a sample comes in", "while the session is locked"],
 )
-def test_it_is_taken_back_at_any_moment(socket_folder: object, program: str) -> None:
+def test_publisher_can_be_undeclared_at_any_moment(socket_folder: object, program: str) -> None:
     done = subprocess.run(
         [sys.executable, "-c", program],
         env=dict(os.environ),

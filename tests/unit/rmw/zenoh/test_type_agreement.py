@@ -1,4 +1,4 @@
-"""Ends of one topic and type name hear each other only where the definition is the same; else it is told, once."""
+"""Endpoints of one topic and type communicate only if their definitions agree; otherwise it is reported, once."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ KEY = "0/scan/a::msg::dds_::Scan_/RIHS01_1"
         ("a/msg/Scan", "RIHS01_2", False, False, 0),
     ],
 )
-def test_another_definition_is_reported_when_it_comes(
+def test_differing_definition_is_reported_once(
     type_name: str, type_hash: str, came: bool, same: bool, reported: int
 ) -> None:
     process: Any = SimpleNamespace(name="laser", notices=[], stderr=io.StringIO())

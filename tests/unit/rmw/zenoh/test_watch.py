@@ -1,4 +1,4 @@
-"""When a session is opened anew because of another: a link that carries nothing, never one that is frozen or slow."""
+"""When a session is reopened because of another: if a link carries nothing, never if the process is frozen or slow."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LOWER = "99999999"
 
 
 class FakeSession:
-    """A session whose links and answers are given."""
+    """A session whose links and answers are set by the test."""
 
     def __init__(self, folder: str) -> None:
         self.zid = OWN + "0" * 24
@@ -54,25 +54,25 @@ class Bench:
         self.watch = Watch(self.session, lambda: self.now)
 
     def appear(self, pid: int, zid: str) -> None:
-        """A process that lives: it holds its lock."""
+        """Add a living process, which holds its lock."""
         path = os.path.join(self.folder, f"{pid}.{zid}")
         os.close(os.open(path, os.O_CREAT))
         self._locks[path] = os.open(path + ".lock", os.O_CREAT)
         fcntl.flock(self._locks[path], fcntl.LOCK_EX | fcntl.LOCK_NB)
 
     def replace(self, pid: int, zid: str) -> None:
-        """It has opened its session anew."""
+        """Replace it as if it had reopened its session."""
         path = os.path.join(self.folder, f"{pid}.{zid}")
-        os.rename(path, os.path.join(self.folder, "old"))  # so that its number is not given again
+        os.rename(path, os.path.join(self.folder, "old"))  # so that its inode is not reused
         os.close(os.open(path, os.O_CREAT))
 
     def links(self, zid: str, *, answers: bool) -> None:
-        """There is a link to it, which carries questions or not."""
+        """Add a link to it, which does or does not carry questions."""
         self.session.links.add(zid)
         (self.session.answering.add if answers else self.session.answering.discard)(zid)
 
     def reopened(self, seconds: float) -> int:
-        """How often the session would be opened anew in this time, with a look each second."""
+        """Return how often the session would be reopened in this time, with one poll per second."""
         times = 0
         for _ in range(int(seconds)):
             self.now += 1.0
@@ -91,14 +91,14 @@ def bench(tmp_path, monkeypatch) -> Iterator[Bench]:
     made.close()
 
 
-def test_a_link_that_answers_is_asked_once_and_left_alone(bench: Bench) -> None:
+def test_answering_link_is_asked_once_and_left_alone(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=True)
     assert bench.reopened(1000) == 0
     assert bench.session.asked == [OTHER]
 
 
-def test_those_that_start_within_seconds_are_asked_together_and_a_later_one_alone(bench: Bench) -> None:
+def test_processes_started_within_seconds_are_asked_together_and_later_ones_alone(bench: Bench) -> None:
     for number in range(4):
         bench.appear(10 + number, f"{number}" * 8)
         bench.links(f"{number}" * 8, answers=True)
@@ -111,7 +111,7 @@ def test_those_that_start_within_seconds_are_asked_together_and_a_later_one_alon
     assert bench.session.asked == ["*", OTHER]
 
 
-def test_one_that_is_gone_at_once_is_not_asked(bench: Bench) -> None:
+def test_process_that_leaves_at_once_is_not_asked(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=True)
     bench.reopened(1)
@@ -120,7 +120,7 @@ def test_one_that_is_gone_at_once_is_not_asked(bench: Bench) -> None:
     assert bench.session.asked == []
 
 
-def test_a_link_that_carries_nothing_is_repaired_after_the_grace(bench: Bench) -> None:
+def test_link_that_carries_nothing_is_repaired_after_the_grace_period(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=False)
     assert bench.reopened(LINK_TIMEOUT_S) == 0
@@ -129,25 +129,25 @@ def test_a_link_that_carries_nothing_is_repaired_after_the_grace(bench: Bench) -
     assert bench.reopened(1000) == 0
 
 
-def test_one_without_a_link_is_repaired_too(bench: Bench) -> None:
+def test_missing_link_is_repaired_too(bench: Bench) -> None:
     bench.appear(2, OTHER)
     assert (bench.reopened(LINK_TIMEOUT_S), bench.reopened(1)) == (0, 1)
 
 
-def test_of_a_pair_one_is_reopened_before_the_other(bench: Bench) -> None:
+def test_one_of_a_pair_reopens_before_the_other(bench: Bench) -> None:
     bench.appear(2, LOWER)
     bench.links(LOWER, answers=False)
     assert (bench.reopened(2 * LINK_TIMEOUT_S), bench.reopened(1)) == (0, 1)
 
 
-def test_on_a_busy_machine_the_grace_is_longer(bench: Bench) -> None:
+def test_grace_period_is_longer_on_a_busy_machine(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=False)
     bench.slowness = 10.0
     assert (bench.reopened(10 * LINK_TIMEOUT_S), bench.reopened(1)) == (0, 1)
 
 
-def test_each_time_that_it_was_reopened_the_grace_is_longer(bench: Bench) -> None:
+def test_grace_period_grows_with_each_reopening(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=False)
     assert bench.reopened(LINK_TIMEOUT_S + 1) == 1
@@ -157,14 +157,14 @@ def test_each_time_that_it_was_reopened_the_grace_is_longer(bench: Bench) -> Non
     assert (bench.reopened(2 * LINK_TIMEOUT_S), bench.reopened(1)) == (0, 1)
 
 
-def test_the_machine_reports_how_busy_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_slowness_follows_the_load_of_the_machine(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "cpu_count", lambda: 2)
     for load, expected in ((0.1, 1.0), (7.0, 1.0), (80.0, 10.0)):
         monkeypatch.setattr(os, "getloadavg", lambda load=load: (load, 0.0, 0.0))
         assert watching.slowness() == expected
 
 
-def test_one_that_never_answers_counts_as_the_same_when_it_reopens_its_session(bench: Bench) -> None:
+def test_silent_process_counts_as_the_same_after_reopening_its_session(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=False)
     times = 0
@@ -174,7 +174,7 @@ def test_one_that_never_answers_counts_as_the_same_when_it_reopens_its_session(b
     assert times == MAX_REOPENS
 
 
-def test_one_that_answers_late_is_left_alone(bench: Bench) -> None:
+def test_late_answer_prevents_repair(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=False)
     assert bench.reopened(LINK_TIMEOUT_S) == 0
@@ -182,7 +182,7 @@ def test_one_that_answers_late_is_left_alone(bench: Bench) -> None:
     assert bench.reopened(1000) == 0
 
 
-def test_a_frozen_one_is_left_alone_and_has_its_grace_when_it_runs_again(bench: Bench) -> None:
+def test_frozen_process_is_left_alone_and_has_its_grace_period_when_it_continues(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=False)
     assert bench.reopened(LINK_TIMEOUT_S - 1) == 0
@@ -193,7 +193,7 @@ def test_a_frozen_one_is_left_alone_and_has_its_grace_when_it_runs_again(bench: 
     assert bench.reopened(2) == 1
 
 
-def test_one_that_never_answers_costs_few_sessions(bench: Bench) -> None:
+def test_reopenings_for_a_silent_process_are_limited(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=False)
     assert bench.reopened(4000) == MAX_REOPENS
@@ -202,7 +202,7 @@ def test_one_that_never_answers_costs_few_sessions(bench: Bench) -> None:
     assert bench.reopened(1000) == 0
 
 
-def test_a_link_that_was_cut_and_made_again_is_asked_again(bench: Bench) -> None:
+def test_link_cut_and_reestablished_is_asked_again(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=True)
     assert bench.reopened(100) == 0
@@ -211,7 +211,7 @@ def test_a_link_that_was_cut_and_made_again_is_asked_again(bench: Bench) -> None
     assert bench.reopened(LINK_TIMEOUT_S + 1) == 1
 
 
-def test_another_session_in_the_same_place_is_asked_again(bench: Bench) -> None:
+def test_new_session_in_the_same_place_is_asked_again(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=True)
     assert bench.reopened(100) == 0
@@ -220,7 +220,7 @@ def test_another_session_in_the_same_place_is_asked_again(bench: Bench) -> None:
     assert bench.reopened(LINK_TIMEOUT_S + 1) == 1
 
 
-def test_who_is_repaired_by_the_other_meanwhile_does_nothing(bench: Bench) -> None:
+def test_nothing_is_done_if_the_other_side_repairs_the_link(bench: Bench) -> None:
     bench.appear(2, OTHER)
     bench.links(OTHER, answers=False)
     bench.reopened(LINK_TIMEOUT_S)
@@ -230,13 +230,13 @@ def test_who_is_repaired_by_the_other_meanwhile_does_nothing(bench: Bench) -> No
     assert not bench.watch._still_lost(bench.folder)
 
 
-def test_a_socket_that_was_taken_away_is_missed_at_once(bench: Bench) -> None:
+def test_deleted_socket_is_noticed_at_once(bench: Bench) -> None:
     assert bench.reopened(10) == 0
     os.unlink(bench.session.socket.path)
     assert bench.watch.has_lost_its_place()
 
 
-def test_one_that_was_killed_is_taken_for_lost_by_nobody(bench: Bench) -> None:
+def test_killed_process_is_removed_without_reopening(bench: Bench) -> None:
     bench.appear(2, OTHER)
     os.close(bench._locks.pop(os.path.join(bench.folder, f"2.{OTHER}")))
     assert bench.reopened(100) == 0
