@@ -10,6 +10,7 @@ from types import TracebackType
 from typing import Any, NamedTuple
 
 import rclpy
+from bot_console.runtime.exit_messages import is_read
 from bot_console.runtime.rmw.endpoints import Owner
 from bot_console.runtime.rmw.names import full_name
 from rclpy._rclpy_pybind11 import InvalidHandle, NodeNameNonExistentError
@@ -20,13 +21,13 @@ from rclpy.parameter import Parameter
 
 HIDDEN = "_"
 SERVER_POLL_S = 0.5
-"""Seconds without an answer after which it is looked whether there can be one, again and again."""
-GONE = 20
-"""Looks for which whoever was asked has to be gone: links are made anew meanwhile, and upstream waits for good."""
-
-
-SURE = 2
-"""Looks for which it has to be gone where it has ended for certain: its link may be noted as lost a little later."""
+"""Seconds between checks whether a request can still be answered."""
+GONE_POLLS = 20
+"""Checks in a row without a server after which it counts as gone: a lost link may be restored meanwhile."""
+ENDED_POLLS = 2
+"""The same for a server that is known to have ended, whose link may be noticed as lost a little later."""
+ENDED_POLLS_FOR_PROGRAMS = 14
+"""The same if no person reads stderr: upstream waits forever, and programs that stop it expect no output before."""
 
 
 class NodeName(NamedTuple):
@@ -169,16 +170,22 @@ def answer(node: Node, client: Any, future: Any) -> Any:
     """
     service = client.service_name
     gone = 0
+    ended_polls = polls_until_ended()
     has_ended = node.context.bus.watch_servers(client.endpoint)
     while not spin_until(node, future.done, SERVER_POLL_S):
         gone = 0 if client.service_is_ready() else gone + 1
-        if gone > GONE or (gone >= SURE and has_ended()):
+        if gone > GONE_POLLS or (gone >= ended_polls and has_ended()):
             raise NoAnswer(f"nobody answers {service}: its node has ended since it was asked; see what it printed")
         for pid, nodes in node.context.bus.stopped().items():
             for name in nodes:
                 if _serves(node, name, service):
                     raise NoAnswer(f"{name} does not answer: its process {pid} is stopped")
     return future.result()
+
+
+def polls_until_ended() -> int:
+    """Return the number of checks in a row without a server after which one that has ended is reported."""
+    return ENDED_POLLS if is_read() else ENDED_POLLS_FOR_PROGRAMS
 
 
 def _serves(node: Node, name: str, service: str) -> bool:

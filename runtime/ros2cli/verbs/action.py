@@ -20,13 +20,13 @@ from rclpy.signals import uninstall_signal_handlers
 from rclpy.validate_full_topic_name import validate_full_topic_name
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import (
-    GONE,
+    GONE_POLLS,
     SERVER_POLL_S,
-    SURE,
     DirectNode,
     NoAnswer,
     add_strategy_arguments,
     node_names,
+    polls_until_ended,
     spin_until,
 )
 from ros2cli.type_discovery import typed_class
@@ -165,10 +165,11 @@ def _follow(node: Node, client: ActionClient, goal: Any, feedback: bool) -> Resu
 def _outcome(node: Node, client: ActionClient, future: Any) -> Any:
     """Wait for the server's part of the work; raises `NoAnswer` if it has left, where upstream waits forever."""
     gone = 0
+    ended_polls = polls_until_ended()
     has_ended = node.context.bus.watch_servers(client._endpoints.goal)
     while not spin_until(node, future.done, SERVER_POLL_S):
         gone = 0 if client.server_is_ready() else gone + 1
-        if gone > GONE or (gone >= SURE and has_ended()):
+        if gone > GONE_POLLS or (gone >= ended_polls and has_ended()):
             name = client._action_name
             raise NoAnswer(f"nobody answers {name}: its server has ended since it was asked; see what it printed")
     return future.result()

@@ -214,7 +214,7 @@ def test_a_goal_in_a_wall_is_aborted_with_the_reason(running: System) -> None:
     running.run(1.0)
     done = goal(running, "navigate_to_pose", "NavigateToPose", "{pose: {pose: {position: {x: -5.0, y: -5.0}}}}")
     assert "ABORTED" in done and "error_code: 208" in done
-    assert "Goal failed: the goal is in a wall or outside" in nav.stderr
+    assert "Goal failed: the goal is inside a wall or outside the map" in nav.stderr
 
 
 def test_turning_backing_up_and_waiting(running: System) -> None:

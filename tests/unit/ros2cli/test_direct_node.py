@@ -41,7 +41,7 @@ class Asking:
 @pytest.fixture(autouse=True)
 def no_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(direct_node, "spin_until", lambda node, done, timeout: done())
-    monkeypatch.setattr(direct_node, "GONE", 2)
+    monkeypatch.setattr(direct_node, "GONE_POLLS", 2)
 
 
 def asked(it: Any) -> Any:
@@ -69,13 +69,17 @@ def test_node_that_ends_during_the_request_is_reported() -> None:
     assert it.polls == 6
 
 
-def test_node_known_to_have_ended_is_reported_at_the_second_poll(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(direct_node, "GONE", 99)
+@pytest.mark.parametrize(("is_read", "polls"), [(True, 2), (False, 14)])
+def test_node_known_to_have_ended_is_reported_sooner_to_a_person(
+    monkeypatch: pytest.MonkeyPatch, is_read: bool, polls: int
+) -> None:
+    monkeypatch.setattr(direct_node, "GONE_POLLS", 99)
+    monkeypatch.setattr(direct_node, "is_read", lambda: is_read)
     it = Asking(answers=False)
     it.gone_at, it.ended = tuple(range(1, 20)), True
     with pytest.raises(NoAnswer, match=r"^nobody answers /robot/get: its node has ended"):
         asked(it)
-    assert it.polls == 2
+    assert it.polls == polls
 
 
 def test_node_still_in_the_graph_is_waited_for() -> None:

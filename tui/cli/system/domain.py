@@ -48,10 +48,11 @@ def why_alone() -> str:
     return ""
 
 
-def take_part() -> str:
+def take_part(*, starts_nodes: bool = True) -> str:
     """Make contexts initialised from now on share the graph of their domain; never in a stepped run.
 
-    Returns why that fails in one line, or an empty text on success.
+    A program that starts nodes also tells them where the stops of a robot are kept. Returns why joining fails in one
+    line, or an empty text on success.
     """
     global _taking_part
     if alone := why_alone():
@@ -61,7 +62,8 @@ def take_part() -> str:
 
     share_domains()
     let_children_meet(True)
-    os.environ[STOP_FILE_VARIABLE] = str(stop_file())
+    if starts_nodes:
+        os.environ[STOP_FILE_VARIABLE] = str(stop_file())
     _taking_part = True
     return ""
 

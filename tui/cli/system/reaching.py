@@ -15,7 +15,7 @@ def reach_system() -> str:
     """Join the domain of this machine, or become a client of the robot's router named by the environment."""
     endpoints = os.environ.get(CONNECT_VARIABLE, "").split()
     if not endpoints:
-        return take_part()
+        return take_part(starts_nodes=False)
     from bot_console.tui.cli.system.connecting import connect_to
 
     return connect_to(endpoints)
