@@ -68,10 +68,10 @@ class SafetyMonitor(Node):
 
     def _declare(self) -> None:
         self.declare_parameter(
-            "emergency_stop_distance", 0.3, number("No driving on towards a thing nearer than this (m)", 0.05, 2.0)
+            "emergency_stop_distance", 0.3, number("Stop when an obstacle is closer than this (m)", 0.05, 2.0)
         )
-        self.declare_parameter("warning_distance", 0.7, number("Slower from this distance on (m)", 0.1, 5.0))
-        self.declare_parameter("start_locked", False, plain("Begin with the emergency stop locked"))
+        self.declare_parameter("warning_distance", 0.7, number("Slow down below this distance (m)", 0.1, 5.0))
+        self.declare_parameter("start_locked", False, plain("Start with the emergency stop on"))
         declare_stop_file(self)
         self.add_on_set_parameters_callback(self._check)
         offer_check(self, self._check)

@@ -326,7 +326,7 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
         """Switch to the next theme."""
         names = [each.name for each in THEMES.values()]
         self.theme = names[(names.index(self.theme) + 1) % len(names)]
-        self.notify(f"Theme: {self.theme.removeprefix('bot-')}; `bot-console config --edit` makes it last.")
+        self.notify(f"Theme: {self.theme.removeprefix('bot-')}; to keep it: `bot-console config --edit`")
 
     def action_glyphs(self) -> None:
         """Switch between ASCII, and lines and braille."""

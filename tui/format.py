@@ -135,7 +135,7 @@ def _integer(text: str) -> int:
     except ValueError:
         # Python refuses to convert more than 4,300 digits.
         wide = text.lstrip("+-").isdecimal() and len(text) > 4000
-        raise ValueError(f"'{_short(text)}' {'does not fit into 64 bits' if wide else 'is no integer'}") from None
+        raise ValueError(f"'{_short(text)}' {'does not fit into 64 bits' if wide else 'is not an integer'}") from None
     if not -(2**63) <= value < 2**63:
         raise ValueError(f"'{_short(text)}' does not fit into 64 bits")
     return value
@@ -146,7 +146,7 @@ def parse_number(text: str) -> float:
     try:
         value = float(text.replace(".inf", "inf").replace(".nan", "nan"))
     except ValueError:
-        raise ValueError(f"'{_short(text)}' is no number") from None
+        raise ValueError(f"'{_short(text)}' is not a number") from None
     if math.isinf(value) and "inf" not in text.lower():
         raise ValueError(f"'{_short(text)}' is too large for a double")
     return value

@@ -115,7 +115,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("graph.leaves", "L", "hide('leaves')", "Hide topics with a single connection", shown="L"),
         Key("graph.services", "s", "hide('services')", "Draw services and actions, too", footer=True, short="Services"),
         Key("graph.rates", "r", "rates", "Write the rates of topics on them, or no more", footer=True, short="Rates"),
-        Key("graph.findings", "w", "findings", "What is odd, in words", footer=True, short="Findings"),
+        Key("graph.findings", "w", "findings", "List the findings", footer=True, short="Findings"),
         Key("graph.focus", "c", "focus", "Only what is linked to the selected item; again: one hop more"),
         Key("graph.back", "b", "focus_history('back')", "Where the focus was before"),
         Key("graph.forth", "f", "focus_history('forth')", "Where the focus was before b"),

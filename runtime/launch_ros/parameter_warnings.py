@@ -25,7 +25,7 @@ def warn_of_files(files: Iterable[str], node_name: str, origin: str) -> None:
         keys = _keys_of(path) if os.path.isfile(path) else ()
         if keys and not any(key_matches(key, node_name) for key, _ in keys):
             named = ", ".join(f"{key} (line {line})" for key, line in keys[:5])
-            _warn(origin, f"no key of the parameter file {path} means the node {node_name}; it has {named}")
+            _warn(origin, f"parameter file {path} has no section for node {node_name}, only for {named}")
 
 
 def _keys_of(path: str) -> tuple[tuple[str, int], ...]:

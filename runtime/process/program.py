@@ -19,7 +19,7 @@ NO_MAIN = (
 )
 
 
-NO_ENTRY = "The line of 'console_scripts' in setup.py that starts this names {0}, which is not there{1}. Mend that line"
+NO_ENTRY = "The 'console_scripts' entry in setup.py refers to {0}, which does not exist{1}. Correct that entry"
 """Message for an entry point that does not exist, with what the module has instead."""
 
 

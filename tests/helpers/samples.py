@@ -213,7 +213,7 @@ def profiles() -> tuple[Profile, ...]:
 def differences() -> tuple[ProfileDifference, ...]:
     """What the competition profile changes; one value would be refused."""
     return (
-        ProfileDifference("/robot_navigator", "max_speed", 1.0, 3.0, unsafe="raises a limit"),
+        ProfileDifference("/robot_navigator", "max_speed", 1.0, 3.0, unsafe="raises a safety limit"),
         ProfileDifference("/robot_navigator", "enable_safety", True, False, unsafe="turns a protection off"),
         ProfileDifference("/robot_navigator", "turn_rate", 1.0, 9.0, "Parameter turn_rate must be within 0.1 and 3.0"),
         ProfileDifference("/simulator", "world", "indoor", "competition", needs_reset=True),

@@ -30,7 +30,7 @@ def stop_text(drive: DriveInfo) -> str:
     if holder_is_gone(drive) and not drive.stopped_here:
         key = "! twice releases"  # shorter: that nobody else will is to be seen in 80 columns
     if drive.refused:
-        key = "released elsewhere: this console only looks on"
+        key = "released elsewhere: read-only console"
     # The key first: in a narrow terminal the end of the line is not seen.
     loose = f"  {may_move(drive)}" if drive.stopped_here and drive.unlocked and not drive.held_by_means else ""
     return f"ALL STOP held ({key}){loose}{held_by(drive)}"

@@ -9,6 +9,7 @@ from bot_console.tui.format import sanitize
 from bot_console.tui.screens.box import Boxed
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.widgets.prompt.question import Confirmation
+from rich.cells import cell_len
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType
@@ -19,9 +20,12 @@ from textual.widgets import Static
 YES, NO = range(12, 17), range(4, 9)
 """Cells from the right end of the lower edge at which the two answers are written."""
 
+MAX_TITLE_CELLS = 56
+"""Cells of a question that fit into the frame at 80 columns; a longer one is repeated in full inside."""
+
 
 class ConfirmScreen(QuestionScreen[None], Boxed):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
-    """Asks whether something shall happen."""
+    """Asks for confirmation of an action, which the title names."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("confirm")]
     DEFAULT_CSS = """
@@ -35,13 +39,15 @@ class ConfirmScreen(QuestionScreen[None], Boxed):  # pyright: ignore[reportIncom
         self._confirmation = confirmation
 
     def compose(self) -> ComposeResult:
-        """The question and why it is asked."""
+        """The action as the title, and the reasons for asking."""
         reasons = self._confirmation.reasons
         with VerticalScroll(can_focus=False) as box:
-            box.border_title = "Really?"
+            label = sanitize(self._confirmation.label)
+            box.border_title = Text(label)
             box.border_subtitle = "y yes · n no"
             text = Text("\n".join(sanitize(line) for line in reasons.splitlines()))
-            text.append(("\n\n" if reasons else "") + sanitize(self._confirmation.label), "bold")
+            if cell_len(label) > MAX_TITLE_CELLS:
+                text.append(("\n\n" if reasons else "") + label, "bold")
             yield Static(text)
 
     def on_click(self, event: Click) -> None:

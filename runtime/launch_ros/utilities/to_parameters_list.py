@@ -73,7 +73,7 @@ def _values_of_file(context: LaunchContext, path: Path, full_name: str) -> dict[
     elif not values:
         warnings.warn(
             "node name not provided to launch; parameter files will not apply "
-            f"(no key of {path} means the node {full_name})",
+            f"({path} has no section for node {full_name})",
             UserWarning,
             stacklevel=2,
         )

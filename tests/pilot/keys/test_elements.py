@@ -66,7 +66,7 @@ def test_a_wrong_element_is_explained_and_not_taken() -> None:
         await session.press("enter")
         await session.type("x")
         await session.press("enter")
-        assert "is no integer" in session.text()
+        assert "is not an integer" in session.text()
         await session.press("escape", "s")
 
     assert edited(Kind.INTEGER_ARRAY, (1,), play) == []

@@ -46,7 +46,7 @@ def test_it_is_reported_once_for_each_crossing_also_while_the_pane_is_hidden() -
         assert reported(session) == 1, "it goes on holding"
         assert "⚠ too fast" in session.lines()[-2], "the status bar names it in every pane"
         await session.press("B")
-        assert "✗ holds" in session.text() and "1 time" in session.text() and "1 of 1 hold" in session.text()
+        assert "✗ active" in session.text() and "1 time" in session.text() and "1 of 1 active" in session.text()
         await later(session, 1.0, 3.0, 1.0)
         assert reported(session) == 1, "the notice of the first time still stands"
         session.pane(AlarmsPane).clock.now += 8.0
@@ -100,7 +100,7 @@ def test_what_is_wrong_is_reported_before_it_is_taken_and_what_is_missing_is_wai
         session.console.series["/battery/percentage"] = ([1.0], [0.1])
         await later(session)
         await later(session)
-        assert "✗ holds" in session.text() and reported(session) == 1
+        assert "✗ active" in session.text() and reported(session) == 1
 
     run(live(), play, (120, 30))
 

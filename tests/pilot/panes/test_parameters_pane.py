@@ -77,7 +77,7 @@ def test_a_bool_toggles_and_a_text_that_is_no_value_is_explained() -> None:
         await session.press("up", "enter")
         await session.type("many")
         await session.press("enter")
-        assert "is no integer" in session.text() and len(asked(session)) == 1
+        assert "is not an integer" in session.text() and len(asked(session)) == 1
         await session.press("escape")
 
     run(live(), play)

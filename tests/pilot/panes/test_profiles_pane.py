@@ -61,7 +61,7 @@ def test_a_refusal_or_safety_is_asked_about_and_no_means_no() -> None:
         await session.press("7", "down", "a")
         assert isinstance(session.app.screen, ConfirmScreen)
         assert "enable_safety true → false turns a protection off" in session.text()
-        assert "max_speed 1.0 → 3.0 raises a limit" in session.text()
+        assert "max_speed 1.0 → 3.0 raises a safety limit" in session.text()
         await session.press("n")
         assert applied(session) == []
         await session.press("a", "y")
@@ -159,12 +159,12 @@ def test_a_node_that_can_be_asked_without_setting_is_asked_before_anything_is_ap
         await session.press("7", "down")
         value = {"type": 3, "double_value": SANITIZED.then}
         assert questions == [(check.name, {"parameters": [{"name": SANITIZED.name, "value": value}]})]
-        assert f"{SANITIZED.node}  asking ..." in session.text()
-        assert "/safety_monitor  cannot be asked without setting" in session.text()
+        assert f"{SANITIZED.node}  checking ..." in session.text()
+        assert "/safety_monitor  can't check in advance" in session.text()
         answers[0].set_result(Answer(False, "not in this hall"))
         await session.settle()
         assert (
-            "✗ asked:" in session.text()
+            "✗ checked:" in session.text()
             and "not in this hall" in session.text()
             and "1 node against it" in session.text()
         )
@@ -174,7 +174,7 @@ def test_a_node_that_can_be_asked_without_setting_is_asked_before_anything_is_ap
         assert len(questions) == 2, "another time it is looked at is another question"
         answers[1].set_result(Answer(True, ""))
         await session.settle()
-        assert "asked: would take it" in session.text()
+        assert "checked: will accept" in session.text()
         await session.press("a")
         assert applied(session) == [("competition", False)]
 
@@ -191,7 +191,7 @@ def test_a_console_that_is_read_only_asks_no_node_and_blames_none() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "down")
         text = session.text()
-        assert SANITIZED.name in text and "asking ..." not in text and "against it" not in text
+        assert SANITIZED.name in text and "checking ..." not in text and "against it" not in text
         assert not [each for each in console.asked if each[0] == "call"]
 
     run((console, *rest), play, (120, 40))

@@ -191,10 +191,10 @@ def test_a_robot_without_a_lock_that_stands_after_the_dead_man_time_is_steered_o
 
 def test_a_console_that_is_read_only_does_not_arm_and_stops_nothing_by_leaving() -> None:
     async def play(session: Session) -> None:
-        session.console.change(drive=replace(driving(), refused="this console only looks on"))
+        session.console.change(drive=replace(driving(), refused="read-only console"))
         await session.settle()
         await session.press("6", "enter")
-        assert "this console only looks on" in session.text() and not steering(session).state.armed
+        assert "read-only console" in session.text() and not steering(session).state.armed
         await session.press("1")
         assert stops(session) == []
 
@@ -224,10 +224,10 @@ def test_space_stops_armed_or_not() -> None:
 def test_who_is_read_only_is_shown_no_key_that_is_refused() -> None:
     async def play(session: Session) -> None:
         await session.press("6")
-        drive = replace(driving(), refused="this console only looks on")
+        drive = replace(driving(), refused="read-only console")
         session.console.change(drive=drive)
         await session.settle()
-        assert "this console only looks on" in session.text() and "enter arms" not in session.text()
+        assert "read-only console" in session.text() and "enter arms" not in session.text()
         session.console.change(
             drive=replace(drive, stopped=True, stop_confirmed=True, stop_holder="bot-console of a@b")
         )
@@ -375,12 +375,12 @@ def test_the_mouse_moves_sliders_and_the_pad_as_a_stick() -> None:
 def test_nodes_that_publish_on_the_pane_s_topic_are_named() -> None:
     async def play(session: Session) -> None:
         await session.press("6")
-        assert "obeys whoever was last" not in session.text(), "the safety monitor chooses"
+        assert "newest command wins" not in session.text(), "the safety monitor chooses"
         graph = session.console.current.graph
         end = Endpoint("/cmd_vel", ("geometry_msgs/msg/Twist",))
         own = (NodeInfo("/robot_navigator", publishers=(end,)), NodeInfo("/_bot_console", publishers=(end,)))
         session.console.change(graph=replace(graph, nodes=own), drive=replace(driving(), topic="/cmd_vel"))
         await session.settle()
-        assert "/robot_navigator on /cmd_vel too: the robot obeys whoever was last" in session.text()
+        assert "/robot_navigator also publishes here: the newest command wins" in session.text()
 
     run(live(), play)

@@ -145,7 +145,7 @@ def test_a_message_is_filled_in_and_published_once_and_at_a_rate() -> None:
         await at(session, "/cmd_vel")
         await session.press("P", "enter")
         await session.type("fast")
-        assert "no number" in session.text()
+        assert "not a number" in session.text()
         await session.press("ctrl+u")
         await session.type("0.5")
         await session.press("enter", "s", "r", "enter")

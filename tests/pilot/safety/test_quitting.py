@@ -163,6 +163,6 @@ def test_an_edit_that_takes_from_safety_is_reported_once_with_the_way_back() -> 
         session.console.undo()
         await session.settle()
         *_, last = (each.message for each in session.app._notifications)
-        assert last.startswith("⚠ turn_rate 0.5 → 1.0 raises a limit. U in the Parameters pane takes it back.")
+        assert last.startswith("⚠ turn_rate 0.5 → 1.0 raises a safety limit. U in the Parameters pane takes it back.")
 
     run(live(), play)

@@ -117,6 +117,6 @@ def test_without_a_tuner_it_is_reported_why_before_anything_is_asked() -> None:
         session.app.screen.dismiss()
         await session.settle()
         await session.press("T")
-        assert "Nothing is tuned here" in session.text() and "tune within" not in session.text()
+        assert "Tuning is not available" in session.text() and "tune within" not in session.text()
 
     run(live(), play)

@@ -95,7 +95,7 @@ def test_two_sets_are_swapped_with_one_key() -> None:
         await session.press("A")
         assert "A sends set A" in session.text() and value(session, "turn_rate") == 0.98
         await session.press("A")
-        assert "Send set A?" in session.text() and "raises a limit" in session.text()
+        assert "Send set A?" in session.text() and "raises a safety limit" in session.text()
         await session.press("y")
         assert "A sends set B" in session.text() and value(session, "turn_rate") == 1.0
         await session.press("A")
@@ -109,12 +109,12 @@ def test_what_takes_from_safety_is_reported_before_in_each_way_to_set_it() -> No
     async def play(session: Session) -> None:
         await session.press("1")
         await go_to(session, "max_speed")
-        assert "⚠ a greater value raises a limit" in session.text(), "before any key"
+        assert "⚠ a greater value raises a safety limit" in session.text(), "before any key"
         await session.press("e")
         await session.type("4")
-        assert "⚠ raises a limit" in session.lines()[-4]
+        assert "⚠ raises a safety limit" in session.lines()[-4]
         await session.press("escape", "m", "greater_than_sign", "a")
-        assert "Apply what is marked?" in session.text() and "raises a limit" in session.text()
+        assert "Apply what is marked?" in session.text() and "raises a safety limit" in session.text()
         await session.press("n")
         assert sent(session) == [] and value(session, "max_speed") == 1.0
         await session.press("A")

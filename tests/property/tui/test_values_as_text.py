@@ -97,10 +97,10 @@ def test_the_copied_command_sets_the_value(parameter: ParameterInfo) -> None:
     [
         (Kind.INTEGER, "9" * 5000, "does not fit into 64 bits"),
         (Kind.INTEGER, str(2**63), "does not fit into 64 bits"),
-        (Kind.INTEGER, "2.5", "is no integer"),
+        (Kind.INTEGER, "2.5", "is not an integer"),
         (Kind.NOT_SET, "9" * 5000, "does not fit into 64 bits"),
         (Kind.DOUBLE, "1e999", "too large for a double"),
-        (Kind.DOUBLE, "fast", "is no number"),
+        (Kind.DOUBLE, "fast", "is not a number"),
         (Kind.BOOL, "maybe", "neither true nor false"),
         (Kind.BYTE_ARRAY, "[256]", "is no byte"),
         (Kind.BYTE_ARRAY, "[0a]", "is no byte"),

@@ -50,7 +50,7 @@ FILES: list[tuple[str, str, Found]] = [
     ("one level", "/*/n:\n  ros__parameters: {a: 1}\n", {"a": 1}),
     ("one level is not two", "/*/*/n:\n  ros__parameters: {a: 1}\n", {}),
     (
-        "the last that means the node wins",
+        "the last section for the node wins",
         "/**:\n  ros__parameters: {a: 1, b: 2}\n/ns/n:\n  ros__parameters: {a: 3}\n/x:\n  ros__parameters: {a: 9}\n",
         {"a": 3, "b": 2},
     ),

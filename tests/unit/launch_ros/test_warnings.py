@@ -50,7 +50,7 @@ def test_parameter_file_without_section_for_the_node_is_warned_about(run_file: L
     file.write_text(FILE)
     text = f'<launch>\n  <node exec="true" name="robot_node">\n    <param from="{file}"/>\n  </node>\n</launch>\n'
     assert warnings(run_file(text, "x.launch.xml")) == [
-        f"{tmp_path}/x.launch.xml:2: no key of the parameter file {file} means the node /robot_node; it has "
+        f"{tmp_path}/x.launch.xml:2: parameter file {file} has no section for node /robot_node, only for "
         "robot_nod (line 1), ns/other (line 5)"
     ]
 

@@ -98,8 +98,8 @@ def test_syntax_error_is_printed_as_by_the_interpreter(run, script):
 @pytest.mark.parametrize(
     ("entry_point", "message"),
     [
-        ("entered_of_test:mian", "names mian() of entered_of_test, which is not there; it has main."),
-        ("entered_of_test.nope:main", "names the module entered_of_test.nope, which is not there."),
+        ("entered_of_test:mian", "refers to mian() of entered_of_test, which does not exist; it has main."),
+        ("entered_of_test.nope:main", "refers to the module entered_of_test.nope, which does not exist."),
         ("wants_of_test:main", None),
     ],
 )

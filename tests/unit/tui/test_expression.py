@@ -54,6 +54,22 @@ def test_everything_else_is_refused_in_words(text: str) -> None:
         evaluate(text)
 
 
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("0.3*", r"'0\.3\*' is incomplete: a number must follow \*$"),
+        ("max(1,", "incomplete: a number must follow ,"),
+        ("(1 + 2", "incomplete: a closing bracket is missing"),
+        (" ", "a number is expected, but nothing was typed"),
+        ("1 2", "not a number: an operator is expected at '2'"),
+        ("2 * ]", r"not a number: a number must follow \* at '\]'"),
+    ],
+)
+def test_refusal_names_the_missing_part_and_its_place(text: str, why: str) -> None:
+    with pytest.raises(ValueError, match=why):
+        evaluate(text)
+
+
 def of(kind: Kind, unit: str, limits: Range | None = None, value: Value = 1.0) -> ParameterInfo:
     return ParameterInfo("/n", "p", kind, value, f"What it is for ({unit})", range=limits)
 
@@ -92,7 +108,7 @@ def test_a_decimal_comma_is_reported_with_the_number_that_is_meant() -> None:
 
 def test_integers_stay_whole() -> None:
     assert typed_value("360/4*2", of(Kind.INTEGER, "", value=1)) == 180
-    with pytest.raises(ValueError, match="no integer"):
+    with pytest.raises(ValueError, match="not an integer"):
         typed_value("1/3", of(Kind.INTEGER, "", value=1))
     with pytest.raises(ValueError, match="64 bits"):
         typed_value("2**63*1", of(Kind.INTEGER, "", value=1))

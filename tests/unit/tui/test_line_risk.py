@@ -10,7 +10,7 @@ from samples import live
 @pytest.mark.parametrize(
     ("line", "risk"),
     [
-        ("ros2 param set /robot_navigator max_speed 4.0", "raises a limit"),
+        ("ros2 param set /robot_navigator max_speed 4.0", "raises a safety limit"),
         ("ros2 param set robot_navigator enable_safety false", "turns a protection off"),
         ("ros2 param set /robot_navigator max_speed 0.5", ""),
         ("ros2 param set /robot_navigator max_speed fast", ""),

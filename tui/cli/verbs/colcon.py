@@ -13,7 +13,7 @@ from bot_console.tui.cli.verbs.sourced import write_setup_files
 from bot_console.tui.format import counted
 
 NOTHING_TO_DO = "Nothing has to be built or sourced: packages of the workspace are read from their sources."
-GOOD_FOR = "makes ros2 a command of a shell that sources it, and these packages known in every folder."
+GOOD_FOR = "makes the ros2 command and these packages available in any folder of a shell that sources it."
 SELECTING = ("--packages-select", "--packages-up-to")
 
 

@@ -43,8 +43,8 @@ def warnings(graph: GraphInfo) -> Iterator[tuple[Hashable, str]]:
 def rivals(topic: str, nodes: tuple[str, ...]) -> str:
     """Says that several nodes command whoever listens to a velocity topic, and what that causes."""
     return (
-        f"{topic} is published by {', '.join(nodes[:-1])} and {nodes[-1]}: a robot obeys whoever was last, and no "
-        "limit of one of them holds for the others; end one, or remap its topic"
+        f"{topic} is published by {', '.join(nodes[:-1])} and {nodes[-1]}: the newest command wins, and the "
+        "limits of one node do not apply to the others; stop one of them, or remap its topic"
     )
 
 

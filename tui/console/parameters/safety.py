@@ -18,9 +18,9 @@ class Worse(Enum):
     """Which direction of change makes the robot less safe."""
 
     LOWER = "lowers a safety margin"
-    HIGHER = "raises a limit"
+    HIGHER = "raises a safety limit"
     BLINDER = "makes the robot see less"
-    LATER = "lets the robot go on longer without word"
+    LATER = "lets the robot drive longer without commands"
     OFF = "turns a protection off"
     ON = "turns a protection off by switching it on"
 

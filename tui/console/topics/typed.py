@@ -60,7 +60,7 @@ def _integer(kind: str, words: str, names: Mapping[int, str]) -> int | bytes:
         value = int(first if rest.lower() in known else words, 0) if named is None else named
     except ValueError:
         choices = f" or one of {', '.join(name for _, name in sorted(names.items()))}" if names else ""
-        raise ValueError(f"'{words}' is no integer{choices}") from None
+        raise ValueError(f"'{words}' is not an integer{choices}") from None
     bits = INTEGERS.get(kind, 8)
     low, high = (
         (0, 2**bits - 1) if kind.startswith("u") or kind == "octet" else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
@@ -77,7 +77,7 @@ def _real(words: str) -> float:
     try:
         return float(words.replace(".inf", "inf").replace(".nan", "nan"))
     except ValueError:
-        raise ValueError(f"'{words}' is no number") from None
+        raise ValueError(f"'{words}' is not a number") from None
 
 
 def _time(kind: str, words: str) -> Any:

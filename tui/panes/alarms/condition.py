@@ -60,7 +60,7 @@ class Condition:
 def read(text: str) -> Condition:
     """Parse a condition; raises `ValueError` that says what is wrong and how to fix it."""
     if len(text) > MAX_CHARACTERS:
-        raise ValueError(f"a condition of more than {MAX_CHARACTERS} letters")
+        raise ValueError(f"a condition of more than {MAX_CHARACTERS} characters")
     if not text.strip():
         raise ValueError(NOTHING_NAMED)
     alternatives = _ConditionReader(text, paths=True).alternatives()

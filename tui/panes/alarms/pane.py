@@ -129,7 +129,7 @@ class AlarmsPane(ListPane):
         shown = [each for each in every if self._query.matches(f"{each.name} {each.condition}")]
         self._list.exchange(shown)
         holding = sum(each.holds is True for each in every)
-        self.report_filter(len(shown), len(every), f"{holding} of {len(every)} hold" if holding else "")
+        self.report_filter(len(shown), len(every), f"{holding} of {len(every)} active" if holding else "")
         self._describe()
 
     def _describe(self) -> None:

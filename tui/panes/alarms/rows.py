@@ -15,7 +15,7 @@ from rich.style import Style
 from textual.events import Click
 from textual.message import Message
 
-STATES = {True: ("✗", "holds", "error"), False: ("○", "quiet", "good"), None: ("?", "unknown", "warn")}
+STATES = {True: ("✗", "active", "error"), False: ("○", "quiet", "good"), None: ("?", "unknown", "warn")}
 NAME, STATE, AGE = 24, 11, 8
 """Cells of the name at most, of the state, and of how long it is so."""
 

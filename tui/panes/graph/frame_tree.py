@@ -82,7 +82,7 @@ def _wrong(info: Frames, clock: float) -> dict[str, str]:
 def summary(row: FrameRow | None, info: Frames) -> str:
     """One line on a frame."""
     if row is None:
-        return info.problem or ("Nothing has these words." if info.frames else "Nobody has told of a frame yet.")
+        return info.problem or ("Nothing matches." if info.frames else "Nobody has told of a frame yet.")
     if row.frame is None:
         return f"{row.name}  stands in no other frame"
     x, y, z = row.frame.place
@@ -98,16 +98,16 @@ def facts(row: FrameRow, info: Frames, clock: float) -> list[Section]:
     frame = row.frame
     reported = [text for name, text in findings(info, clock) if name == row.name]
     if frame is None:
-        return [("Frame", ["stands in no other frame; nobody tells where it is"]), ("What is odd", reported)]
+        return [("Frame", ["has no parent: no transform leads to it"]), ("Findings", reported)]
     where = summary(row, info).partition("  ")[2].replace("  ", ", ")
-    how = ["fixed, told on /tf_static"] if frame.fixed else list(_how(frame, clock))
+    how = ["static, published on /tf_static"] if frame.fixed else list(_how(frame, clock))
     by = info.publishers(frame)
     several = ["one of them; messages do not say which"] if len(by) > 1 else []
     return [
         (f"In {frame.parent}", [where]),
-        ("Told", how),
+        ("Published", how),
         ("By", [*by, *several] or ["a node that has left"]),
-        ("What is odd", reported),
+        ("Findings", reported),
     ]
 
 

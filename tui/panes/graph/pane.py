@@ -282,23 +282,23 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             return
         links = self._shown.bundles.links.get(item)
         if links is not None:
-            self._offer(summary_of(info, self._shown, item), line_options(info, links), "Nothing has these words.")
+            self._offer(summary_of(info, self._shown, item), line_options(info, links), "Nothing matches.")
             return
         self._list_details(item)
 
     def _list_details(self, item: str) -> None:
         name = item.partition(":")[2] if is_link(item) else item
-        self._offer(name, details(self._snapshot, item), "Nothing has these words.")
+        self._offer(name, details(self._snapshot, item), "Nothing matches.")
 
     def action_findings(self) -> None:
         """List the findings."""
         if self._frames.open:
-            self._offer("What is odd about the frames", self._frames.anomalies(self.clock()), "Nothing is odd.")
+            self._offer("Findings about the frames", self._frames.anomalies(self.clock()), "There are no findings.")
             return
-        self._offer("What is odd", finding_options(self._info or GraphInfo()), "Nothing is odd.")
+        self._offer("Findings", finding_options(self._info or GraphInfo()), "There are no findings.")
 
     def _offer(self, title: str, options: Sequence[Option], empty: str) -> None:
-        self.ask(Choice(title, self._go, find=narrowed(options), hint="words; enter goes there", empty=empty))
+        self.ask(Choice(title, self._go, find=narrowed(options), hint="type to filter, Enter jumps there", empty=empty))
 
     def _go(self, where: str) -> None:
         """Go where an option leads."""

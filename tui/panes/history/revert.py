@@ -43,7 +43,7 @@ def returns(
         tree = trees.get(node)
         parameter = tree.get(name) if tree else None
         if parameter is None:
-            missing.append(f"{node} {name}: " + ("there is no such parameter now" if tree else "the node is not there"))
+            missing.append(f"{node} {name}: " + ("the parameter no longer exists" if tree else "node not running"))
         elif not same(parameter.value, value) and value is not None and not parameter.read_only:
             found.append(Return(node, name, parameter.value, value))
     return found, missing

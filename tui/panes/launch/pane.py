@@ -242,7 +242,7 @@ class LaunchPane(ListPane):
                 "Open a launch file",
                 self._chosen,
                 find=partial(files_for, self.launcher.files()),
-                hint="words of its name, or a path",
+                hint="type part of a name, or a path",
                 empty="No launch files in the workspace; type a path.",
             )
         )

@@ -42,7 +42,7 @@ class LinePane(ListPane):
         """Open the place that logged the line in the person's editor."""
         record = self._list.record
         if record is None or not record.file:
-            self.notify("Nothing tells where this was logged: it was printed, or comes from a file.")
+            self.notify("No source location is known: the line was printed, or read from a file.")
         else:
             self.post_message(self.EditWanted(record.file, record.line))
 

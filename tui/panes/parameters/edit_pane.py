@@ -157,7 +157,7 @@ class EditPane(ListPane):
         return all(each.accepted for each in done.result())
 
     def action_dismiss(self) -> bool:
-        """Take the mark of a refusal away, or the marked value; whether there was one."""
+        """Dismiss the refusal at the cursor, or unmark its value; returns whether there was one."""
         row = self._list.current
         key = (row.node, row.parameter.name if row.parameter else "") if row else ("", "")
         marked = self._list.refused.pop(key, None) is not None or self.staging.marked.pop(key, None) is not None

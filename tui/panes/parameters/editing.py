@@ -41,7 +41,7 @@ def _calculated(text: str, parameter: ParameterInfo) -> Value:
         return float(f"{value:.12g}")  # 30 cm is 0.3 m, whatever binary fractions make of it
     nearest = round(value)
     if abs(value - nearest) > 1e-9 * max(1.0, abs(value)):
-        raise ValueError(f"{value:g} is no integer")
+        raise ValueError(f"{value:g} is not an integer")
     if not -(2**63) <= nearest < 2**63:
         raise ValueError(f"{nearest} does not fit into 64 bits")
     return nearest

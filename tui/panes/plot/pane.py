@@ -344,7 +344,7 @@ class PlotPane(PlotQuestions):
         self.draw()
 
     def action_clear(self) -> None:
-        """Forget what has been drawn."""
+        """Clear the plot."""
         self._timeline.clear()
         self.draw()
 

@@ -107,7 +107,7 @@ class PlotQuestions(Pane):
             self.draw()
 
         text = thresholds_text(curve.thresholds)
-        self.ask(Asked("too much is (> 1.5, < 0.2; empty: nothing)", take, text=text, check=wrong_thresholds))
+        self.ask(Asked("threshold, e.g. > 1.5 or < 0.2 (empty: none)", take, text=text, check=wrong_thresholds))
 
     def action_export(self) -> None:
         """Ask where the samples go."""

@@ -32,7 +32,7 @@ def thresholds_of(text: str) -> tuple[Threshold, ...]:
     for part in filter(None, (each.strip() for each in text.split(","))):
         match = re.fullmatch(r"([<>])=?\s*(.+)", part)
         if match is None:
-            raise ValueError("write what is too much, such as: > 1.5, < 0.2")
+            raise ValueError("write thresholds such as > 1.5, < 0.2")
         found.append(Threshold(float(evaluate(match[2])), match[1] == ">"))
     return tuple(found)
 

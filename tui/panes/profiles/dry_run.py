@@ -28,7 +28,7 @@ class Asking:
     later: Callable[..., object]
     heard: Callable[[], object]
     unasked: frozenset[str] = frozenset()
-    """The nodes that cannot be asked without setting."""
+    """The nodes that can't check in advance."""
     answers: dict[str, Answer | None] = field(default_factory=dict[str, "Answer | None"])
     """What each node said that was asked; None until it has said something."""
     _asked: dict[str, Asked] = field(default_factory=dict[str, "Asked"])
@@ -80,10 +80,10 @@ class Asking:
     def words(self, node: str) -> tuple[str, str]:
         """What is to be said beside a node's name, and in which style; empty where nothing is to be changed."""
         if node in self.unasked:
-            return "cannot be asked without setting", "dim"
+            return "can't check in advance", "dim"
         if node not in self.answers:
             return "", "dim"
         answer = self.answers[node]
         if answer is None:
-            return "asking ...", "dim"
-        return ("asked: would take it", "good") if answer.ok else ("✗ asked:", "error")
+            return "checking ...", "dim"
+        return ("checked: will accept", "good") if answer.ok else ("✗ checked:", "error")

@@ -44,7 +44,7 @@ class ProfilesPane(ListPane):
     TITLE = "Profiles"
     HELP = (
         "A profile is a ROS parameter file with the settings for one environment. Below the list stands what it\n"
-        "would change, and what would be refused: by descriptors, and by nodes that can be asked without setting.\n"
+        "would change, and what would be refused: by descriptors, and by nodes that can check values in advance.\n"
         "a sets the values live, all or nothing over all nodes; w also resets the simulator into the profile's world.\n"
         "o opens any parameter file the same way, S saves what runs as a profile; m renames and d deletes one that\n"
         "was saved so. A launch profile takes the place of the running system, after a question. p shows the presets\n"

@@ -36,7 +36,7 @@ class SteeringPane(Pane):
     HELP = (
         "Enter arms; then w s a d or the arrow keys drive, Shift takes ten steps, x and c zero one velocity and\n"
         "Space stops. While armed only a person's commands count, where a safety monitor chooses between them;\n"
-        "without one the robot obeys whoever was last, and the other nodes are named. When no key comes for the\n"
+        "without one the newest command wins, and the other nodes are named. When no key comes for the\n"
         "dead-man time, when the pane is left, and when this console is frozen or gone, the robot stands, locked:\n"
         "Enter steers on, ! hands it back to its own program (h does so while armed). The limits are max_speed and\n"
         "turn_rate. Below stands what became of the command, and what has limited it."

@@ -72,7 +72,7 @@ def _others(nodes: Sequence[str], topic: str) -> list[Line]:
     if not nodes:
         return []
     who = f"{sanitize(nodes[0])} and {len(nodes) - 1} more" if len(nodes) > 1 else sanitize(nodes[0])
-    return [((f" {who} on {sanitize(topic)} too: the robot obeys whoever was last", "warn"),)]
+    return [((f" {who} also publishes here: the newest command wins", "warn"),)]
 
 
 def _highlighted(drive: DriveInfo, topic: str) -> Line:

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from bot_console.tui.panes.pane import Pane
     from bot_console.tui.tuning.tuner import Tuner
 
-NO_TUNER = "Nothing is tuned here: this console only looks on, or was given no simulator."
+NO_TUNER = "Tuning is not available: this console is read-only, or has no simulator."
 
 
 class TuningRequests(App[None]):

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
 from bot_console.tui.format import cut
-from bot_console.tui.text.expression.parse import parse
+from bot_console.tui.text.expression.parse import Incomplete, parse
 from bot_console.tui.text.expression.tree import Call, Minus, Name, Path, Tree, Two
 from bot_console.tui.text.expression.tree import Number as Typed
 
@@ -44,7 +44,8 @@ def evaluate(text: str, names: Mapping[str, Number] | None = None) -> Number:
     except ValueError as error:
         if DECIMAL_COMMA.fullmatch(text.strip()):
             raise ValueError(f"decimals have a point: {text.strip().replace(',', '.')}") from None
-        raise ValueError(f"'{cut(text, 24)}' is no number: {error}") from None
+        state = "incomplete" if isinstance(error, Incomplete) else "not a number"
+        raise ValueError(f"'{cut(text, 24)}' is {state}: {error}") from None
     return value_of(tree, names or {}, cut(text, 24))
 
 

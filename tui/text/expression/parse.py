@@ -9,9 +9,9 @@ from bot_console.tui.format import cut
 from bot_console.tui.text.expression.tree import OF_ARRAYS, Call, Minus, Name, Number, Path, Span, Tree, Two
 
 MAX_CHARACTERS = 400
-"""Letters of an expression at most."""
+"""The maximum length of an expression."""
 MAX_DEPTH = 40
-"""Brackets, signs and powers within each other at most, so that no input exhausts the stack."""
+"""The maximum nesting of brackets, signs and powers, so that no input exhausts the stack."""
 
 TIME_UNITS_S = {"s": 1.0, "ms": 0.001, "min": 60.0}
 """Units of a length of time."""
@@ -30,8 +30,12 @@ _RANKS = {"+": 1, "-": 1, "*": 2, "/": 2, "//": 2, "%": 2}
 def parse(text: str, *, paths: bool = False) -> Tree:
     """The tree of an expression; raises `ValueError` with what is wrong and where. Paths are read where asked for."""
     if len(text) > MAX_CHARACTERS:
-        raise ValueError(f"an expression of more than {MAX_CHARACTERS} letters")
+        raise ValueError(f"an expression of more than {MAX_CHARACTERS} characters")
     return Reader(text, paths).whole()
+
+
+class Incomplete(ValueError):
+    """The text ends where the expression must go on."""
 
 
 class Reader:
@@ -66,10 +70,10 @@ class Reader:
         return found[0]
 
     def fail(self, why: str) -> NoReturn:
-        """Raise `ValueError` with the position and the reason."""
-        rest = self.rest()
-        where = f"at '{cut(rest, 20)}'" if rest else "at the end"
-        raise ValueError(f"{where} {why}" if self._text.strip() else "nothing was typed where a number should be")
+        """Raise `ValueError` with the reason and the position; `Incomplete` at the end of the text."""
+        if rest := self.rest():
+            raise ValueError(f"{why} at '{cut(rest, 20)}'")
+        raise Incomplete(why if self._text.strip() else f"{why}, but nothing was typed")
 
     def sum(self, least: int = 1) -> Tree:
         """What binds at least as closely as `+` (1) or `*` (2)."""
@@ -115,14 +119,16 @@ class Reader:
             return self._number(number)
         if name := self.take(NAME):
             return self._call(name) if self.rest().startswith("(") else Name(name)
-        self.fail("a number, a name or a path is expected" if self._paths else "no number and no name stands")
+        before = re.search(rf"(?:{OPERATOR.pattern}|[<>=!]=?|[(,])$", self._text[: self._at].rstrip())
+        what = "a number or a path" if self._paths else "a number"
+        self.fail(f"{what} must follow {before[0]}" if before else f"{what} is expected")
 
     def _number(self, text: str) -> Tree:
         try:
             value = float(text) if re.search(r"[.eE]", text) and text[:2] not in ("0x", "0X") else int(text, 0)
             float(value)
         except ValueError:
-            raise ValueError(f"'{cut(text, 20)}' is no number") from None
+            raise ValueError(f"'{cut(text, 20)}' is not a number") from None
         except OverflowError:
             raise ValueError(f"'{cut(text, 20)}' is too large") from None
         begin = self._at
@@ -137,7 +143,7 @@ class Reader:
         arguments: list[Tree] = []
         while not self.rest().startswith(")"):
             if arguments and not self._comma():
-                self.fail("a comma or a bracket is expected")
+                self.fail("a comma or a closing bracket is expected")
             arguments.append(self.sum(1))
         self._close()
         if function in OF_ARRAYS and len(arguments) == 1 and isinstance(one := arguments[0], Path):

@@ -58,7 +58,7 @@ def runner() -> tuple[LineRunner, Any, FakeCommandLine]:
         ("set", "write it as: set NODE PARAMETER VALUE"),
         ("set /robot max_speed 1", "there is no node /robot with parameters"),
         ("set /robot_navigator speed 1", "/robot_navigator has no parameter speed"),
-        ("set /robot_navigator max_speed fast", "'fast' is no number"),
+        ("set /robot_navigator max_speed fast", "'fast' is not a number"),
         ("bag open", "write it as: bag open FOLDER"),
         ("ros2 topic hz /full", "no room"),
         ("topic hz /full", "no room"),

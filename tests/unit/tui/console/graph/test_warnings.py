@@ -26,7 +26,7 @@ def logged(*graphs: GraphInfo) -> list[str]:
 
 def test_two_that_command_one_robot_are_named_with_the_topic() -> None:
     (line,) = logged(RIVALS)
-    assert line.startswith("/cmd_vel is published by /navigator and /teleop: a robot obeys whoever was last")
+    assert line.startswith("/cmd_vel is published by /navigator and /teleop: the newest command wins")
 
 
 @pytest.mark.parametrize("nodes", [(BASE, NAVIGATOR), (BASE, NAVIGATOR, HIDDEN), (NAVIGATOR, TELEOP)])

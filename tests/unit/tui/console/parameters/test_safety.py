@@ -4,7 +4,7 @@ import pytest
 from bot_console.tui.console.model import Kind, ParameterInfo
 from bot_console.tui.console.parameters.safety import takes_safety
 
-LESS, MORE = "lowers a safety margin", "raises a limit"
+LESS, MORE = "lowers a safety margin", "raises a safety limit"
 OFF = "turns a protection off"
 
 
@@ -26,7 +26,7 @@ def result(name, before, after, description=""):
         ("max_acceleration", 1, 2, MORE),
         ("speed_limit", 1.0, 2.0, MORE),
         ("detection_threshold", 100, 150, "makes the robot see less"),
-        ("cmd_vel_timeout", 0.5, 5.0, "lets the robot go on longer without word"),
+        ("cmd_vel_timeout", 0.5, 5.0, "lets the robot drive longer without commands"),
         ("enable_safety", True, False, OFF),
         ("filter_enabled", True, False, OFF),
         ("disable_collision_check", False, True, "turns a protection off by switching it on"),

@@ -49,16 +49,16 @@ def test_enumerations_are_typed_by_name_or_number() -> None:
 @pytest.mark.parametrize(
     ("type_name", "path", "text", "output"),
     [
-        (BATTERY, "voltage", "much", "no number"),
+        (BATTERY, "voltage", "much", "not a number"),
         (BATTERY, "power_supply_status", "256", "does not fit into uint8: 0 .. 255"),
         (BATTERY, "power_supply_status", "BOILING", "one of UNKNOWN"),
         (BATTERY, "present", "perhaps", "neither true nor false"),
         (BATTERY, "colour", "1", "there is no field colour"),
         (SCAN, "ranges", "1.0, 2.0", "as in YAML"),
-        (SCAN, "ranges", "[far]", "no number"),
+        (SCAN, "ranges", "[far]", "not a number"),
         (ODOM, "pose.covariance", "[1.0]", "it has 36"),
         (ODOM, "pose.pose.orientation", "north", "no yaw"),
-        (ODOM, "header.stamp", "soon", "no number"),
+        (ODOM, "header.stamp", "soon", "not a number"),
     ],
 )
 def test_what_cannot_stand_in_a_field_is_reported(type_name: str, path: str, text: str, output: str) -> None:

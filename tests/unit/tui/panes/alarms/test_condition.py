@@ -46,13 +46,13 @@ def test_it_holds_or_not(text: str, values: dict[str, float], holds: bool) -> No
         ("/a/b <", "side of a comparison"),
         ("/a/b < 1 and", "a comparison is missing"),
         ("/a/b < nonsense", "nonsense"),
-        ("min(/a/b", "at the end a comma or a bracket"),
+        ("min(/a/b", "a comma or a closing bracket is expected"),
         ("mean(/a/b, 1 s) > 2", "length of time"),
         ("/a/b or", "compares nothing"),
         ("/a/b < __import__('os')", ""),
         ("/a/b < (1).__class__", ""),
         ("/a/b < 9**9**9", ""),
-        (f"/a/b < {'1+' * 300}1", "letters"),
+        (f"/a/b < {'1+' * 300}1", "characters"),
     ],
 )
 def test_what_is_wrong_is_reported(text: str, why: str) -> None:

@@ -39,7 +39,7 @@ def test_facts_do_not_report_more_than_is_known() -> None:
     base, laser = (next(each for each in rows(TREE, 0.5, parse("")) if each.name == name) for name in ("base", "laser"))
     assert ("By", ["/a", "/b", "one of them; messages do not say which"]) in facts(base, TREE, 0.5)
     assert ("By", ["/mast"]) in facts(laser, TREE, 0.5)
-    assert ("Told", ["fixed, told on /tf_static"]) in facts(laser, TREE, 0.5)
+    assert ("Published", ["static, published on /tf_static"]) in facts(laser, TREE, 0.5)
 
 
 def test_a_system_that_is_reconnected_is_asked_again() -> None:

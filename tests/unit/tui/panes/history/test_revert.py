@@ -45,4 +45,4 @@ def test_only_what_differs_is_set_and_what_is_not_there_is_reported() -> None:
     }
     found, missing = returns(then, {"/n": tree})
     assert found == [Return("/n", "speed", 3.0, 2.0)]
-    assert missing == ["/gone x: the node is not there", "/n mode: there is no such parameter now"]
+    assert missing == ["/gone x: node not running", "/n mode: the parameter no longer exists"]

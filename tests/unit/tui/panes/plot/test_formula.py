@@ -56,14 +56,15 @@ def test_what_is_made_of_each_message_is_a_path(text: str, path: str) -> None:
 @pytest.mark.parametrize(
     ("text", "why"),
     [
-        ("2 + 3", "name a path"), ("/a/x +", "at the end"), ("/a/x 2", "operator"), ("(/a/x", "bracket is missing"),
+        ("2 + 3", "name a path"), ("/a/x +", r"a number or a path must follow \+"),
+        ("/a/x 2", "operator"), ("(/a/x", "bracket is missing"),
         ("speed + /a/x", "no path; paths begin with /"), ("sine(/a/x)", "none of derivative, abs"),
         ("mean(/a/x + 1)", r"write mean\(a path, 1 s\)"), ("mean(1 s, /a/x)", "stands last"),
         ("atan2(/a/x)", "takes 2"),
         ("/a/x + 1 s", "only at the end"), ("derivative(/a/x, 1 s)", "over a length of time"),
         ("mean(/a/x, 0 s)", "more than 0"), ("__import__('os')", "at ''os'"), ("/a/x.__class__()", "operator"),
-        ("(" * 50 + "/a/x", "within each other"), ("/a/x+" * 90 + "1", "400 letters"), ("", "nothing was typed"),
-        ("/a/x ^ 2", "operator"), ("lambda: /a/x", "operator"), ("hypot(/a/x,", "at the end"),
+        ("(" * 50 + "/a/x", "within each other"), ("/a/x+" * 90 + "1", "400 characters"), ("", "nothing was typed"),
+        ("/a/x ^ 2", "operator"), ("lambda: /a/x", "operator"), ("hypot(/a/x,", "a number or a path must follow ,"),
         ("/a/x + abs()", "takes 1"), (f"/a/x + 0x{'f' * 300}", "too large"),
     ],
 )  # fmt: skip

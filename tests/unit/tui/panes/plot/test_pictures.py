@@ -75,7 +75,7 @@ def test_a_crossed_threshold_is_marked_where_it_begins_and_beside_the_value() ->
 def test_thresholds_as_they_are_typed() -> None:
     assert thresholds_text(thresholds_of("> 3/2,<= 0.2")) == "> 1.5, < 0.2"
     assert thresholds_of("") == ()
-    assert "such as" in wrong_thresholds("1.5") and "no number" in wrong_thresholds("> a b")
+    assert "such as" in wrong_thresholds("1.5") and "not a number" in wrong_thresholds("> a b")
 
 
 def test_facts_of_a_window() -> None:
