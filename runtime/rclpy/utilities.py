@@ -57,7 +57,9 @@ def try_shutdown(*, context: Any = None) -> None:
 
 def get_rmw_implementation_identifier() -> str:
     """The name of the middleware."""
-    return "rmw_bot_console"
+    from bot_console.runtime.rmw.middleware import qos_rules
+
+    return qos_rules().identifier
 
 
 def get_available_rmw_implementations() -> set[str]:

@@ -23,7 +23,7 @@ from bot_console.runtime.rmw.endpoints import (
 )
 from bot_console.runtime.rmw.graph_tables import GraphTables
 from bot_console.runtime.rmw.local_publisher import LocalPublisher
-from bot_console.runtime.rmw.qos_matching import incompatible_policy, wants_history
+from bot_console.runtime.rmw.qos_matching import DDS, QosRules, wants_history
 
 _T = TypeVar("_T")
 
@@ -31,7 +31,8 @@ _T = TypeVar("_T")
 class LocalBus:
     """The middleware of one ROS domain of this process."""
 
-    def __init__(self) -> None:
+    def __init__(self, rules: QosRules = DDS) -> None:
+        self.rules = rules
         # Callbacks about matches may create or remove endpoints.
         self._lock = threading.RLock()
         self._numbers = itertools.count(1)
@@ -74,7 +75,7 @@ class LocalBus:
 
     def create_publisher(self, endpoint: Endpoint, on_event: OnEvent) -> LocalPublisher:
         """Create a publisher and match it with the subscriptions."""
-        publisher = LocalPublisher(endpoint, on_event, self._lock, self.tap)
+        publisher = LocalPublisher(endpoint, on_event, self._lock, self.tap, self.rules.lifespan(endpoint.qos))
         with self._lock:
             if not self._own(endpoint.node, publisher):
                 return publisher
@@ -110,7 +111,7 @@ class LocalBus:
         """Whether a publisher and a subscription match; notifies both."""
         if publisher.endpoint.type_name != subscription.endpoint.type_name:
             return False
-        policy = incompatible_policy(publisher.endpoint.qos, subscription.endpoint.qos)
+        policy = self.rules.incompatible_policy(publisher.endpoint.qos, subscription.endpoint.qos)
         if policy:
             publisher.on_event("incompatible", policy)
             subscription.on_event("incompatible", policy)

@@ -44,7 +44,10 @@ class LocalPublisher:
         *("lease", "on_event", "on_publish", "open"),
     )
 
-    def __init__(self, endpoint: Endpoint, on_event: OnEvent, lock: threading.RLock, tap: Tap) -> None:
+    def __init__(
+        self, endpoint: Endpoint, on_event: OnEvent, lock: threading.RLock, tap: Tap, lifespan: int | None
+    ) -> None:
+        """`lifespan`: how long its messages are valid, in ns; None for ever."""
         self.endpoint = endpoint
         self._tap = tap
         self._lock = lock
@@ -63,7 +66,7 @@ class LocalPublisher:
         self._number = 0
         # Looked up once: a publisher keeps the process, and so the clock, that it was created in.
         self._now = current().clock.system_ns
-        self._lifespan = endpoint.qos.lifespan.nanoseconds
+        self._lifespan = lifespan
         keeps = endpoint.qos.durability.name in LATCHING
         self.history: deque[Any] | None = deque(maxlen=depth(endpoint.qos)) if keeps else None
 

@@ -6,17 +6,24 @@ from collections.abc import Callable
 
 from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.local import local_bus
+from bot_console.runtime.rmw.qos_matching import DDS, QosRules
 
 BusOf = Callable[[int], Bus]
 """Returns the bus of a ROS domain; always the same one for a domain."""
 
 _bus_of: BusOf = local_bus
+_rules: QosRules = DDS
 
 
-def choose_middleware(bus_of: BusOf) -> None:
+def choose_middleware(bus_of: BusOf, rules: QosRules = DDS) -> None:
     """Make contexts initialised from now on use another middleware; only for the program's composition root."""
-    global _bus_of
-    _bus_of = bus_of
+    global _bus_of, _rules
+    _bus_of, _rules = bus_of, rules
+
+
+def qos_rules() -> QosRules:
+    """The QoS rules of the chosen middleware."""
+    return _rules
 
 
 def is_chosen(bus_of: BusOf) -> bool:

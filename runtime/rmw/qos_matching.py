@@ -1,8 +1,9 @@
-"""Whether a publisher's QoS satisfies a subscription's."""
+"""What a middleware makes of QoS: whether a publisher's satisfies a subscription's, and whether messages expire."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 from bot_console.runtime.rmw.qos import Profile
 
@@ -27,6 +28,33 @@ def incompatible_policy(offered: Profile, requested: Profile) -> str:
     if _shorter(*lease):
         worst = "LIVELINESS"
     return worst
+
+
+def _every_policy_fits(offered: Profile, requested: Profile) -> str:
+    """No policy keeps rmw_zenoh's publishers and subscriptions apart: what is offered is delivered."""
+    return ""
+
+
+class QosRules(NamedTuple):
+    """How a middleware treats QoS policies."""
+
+    identifier: str
+    """The name of the middleware, as rclpy gives it."""
+    incompatible_policy: Callable[[Profile, Profile], str]
+    """Returns the policy that keeps a publisher (first) and a subscription apart; empty if they match."""
+    enforces_lifespan: bool
+    """Whether messages older than their publisher's lifespan are dropped on receipt."""
+
+    def lifespan(self, offered: Profile) -> int | None:
+        """How long a publisher's messages are valid, in ns; None for ever."""
+        nanoseconds = offered.lifespan.nanoseconds
+        return nanoseconds if self.enforces_lifespan and nanoseconds not in INFINITE else None
+
+
+DDS = QosRules("rmw_bot_console", incompatible_policy, True)
+"""The rules of the embedded domain, which are those of the DDS middlewares."""
+RMW_ZENOH = QosRules("rmw_zenoh_cpp", _every_policy_fits, False)
+"""The rules of nodes behind a Zenoh router: no two profiles are incompatible, and nothing expires on its way."""
 
 
 def _shorter(requested: int, offered: int) -> bool:

@@ -8,7 +8,6 @@ from typing import Any
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import SubscriptionEndpoint, depth
 from bot_console.runtime.rmw.local_publisher import LocalPublisher
-from bot_console.runtime.rmw.qos_matching import incompatible_policy
 from bot_console.runtime.rmw.zenoh.declarations import Publisher
 from bot_console.runtime.rmw.zenoh.sender import Sender
 from bot_console.runtime.rmw.zenoh.session import Session
@@ -46,6 +45,8 @@ class RemotePublisher(deque[Any]):
         self.gid = publisher.endpoint.gid
         self._out: Publisher | None = None
         self._process = current()
+        self._incompatible: set[str] = set()
+        """The tokens of the present subscriptions that do not match."""
         self._sender = sender
         qos = publisher.endpoint.qos
         all_count = (depth(qos) or MANY) >= MANY or publisher.endpoint.topic in BLOCKING_TOPICS
@@ -79,10 +80,14 @@ class RemotePublisher(deque[Any]):
         endpoint = publisher.endpoint
         if not has_same_type(self._process, endpoint, self._key, token, came):
             return
-        policy = incompatible_policy(endpoint.qos, token.qos)
-        if policy:
-            if came:
+        if came:
+            rules = self._session.qos_rules(token.node.zid)
+            if policy := rules.incompatible_policy(endpoint.qos, token.qos):
+                self._incompatible.add(token.key)
                 publisher.on_event("incompatible", policy)
+                return
+        elif token.key in self._incompatible:
+            self._incompatible.remove(token.key)
             return
         publisher.elsewhere += 1 if came else -1
         if not self.latching:

@@ -8,7 +8,6 @@ from collections.abc import Container
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import Held, Message, SubscriptionEndpoint, Tap, depth
-from bot_console.runtime.rmw.qos_matching import INFINITE, incompatible_policy
 from bot_console.runtime.rmw.zenoh.declarations import Declaration
 from bot_console.runtime.rmw.zenoh.remote_publisher import BLOCKING_TOPICS
 from bot_console.runtime.rmw.zenoh.session import Session
@@ -153,17 +152,17 @@ class RemoteSubscription:
         if not has_same_type(self._process, endpoint, self._key, token, came):
             return
         gid = gid_of(token.key)
-        policy = incompatible_policy(token.qos, endpoint.qos)
         if came:
             publisher = self._publishers.setdefault(gid, RemotePublisher())
+            rules = self._session.qos_rules(token.node.zid)
+            policy = rules.incompatible_policy(token.qos, endpoint.qos)
             publisher.fits = not policy
-            lifespan = token.qos.lifespan.nanoseconds
-            publisher.lifespan = None if lifespan in INFINITE else lifespan
+            publisher.lifespan = rules.lifespan(token.qos)
+            if policy:
+                subscription.on_event("incompatible", policy)
         else:
             publisher = self._publishers.pop(gid, RemotePublisher())
-        if policy:
-            if came:
-                subscription.on_event("incompatible", policy)
+        if not publisher.fits:
             return
         subscription.matched += 1 if came else -1
         subscription.on_event("matched", 1 if came else -1)

@@ -17,6 +17,7 @@ import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from bot_console.runtime.rmw.qos_matching import DDS, QosRules
 from bot_console.runtime.rmw.zenoh.channel_worker import MAX_WAITING_SAMPLES, drain_in_worker
 from bot_console.runtime.rmw.zenoh.declarations import (
     Declaration,
@@ -92,6 +93,10 @@ class Session(Lifetime):
         import zenoh
 
         return zenoh.ZError
+
+    def qos_rules(self, zid: str) -> QosRules:
+        """The QoS rules between this process and the session with that id."""
+        return DDS
 
     def watch(self) -> None:
         """Watch the session's connection while it is open; not for short-lived programs."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.model import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
 from bot_console.tui.console.sensors.frame_model import Frame, Frames
 from bot_console.tui.panes.graph.pane import GraphPane
 from bot_console.tui.widgets.diagram_view import DiagramView
@@ -214,7 +214,7 @@ def test_a_large_graph_is_laid_out_beside_the_event_loop() -> None:
 def fleet(count: int) -> GraphInfo:
     """Robots in namespaces, each with a LIDAR that is best effort and a navigator that wants it reliable."""
     kind = ("a/msg/B",)
-    nodes = []
+    nodes, incompatible = [], {}
     for number in range(count):
         space = f"/robot_{number}"
         scan, odom = f"{space}/scan", f"{space}/odom"
@@ -223,7 +223,9 @@ def fleet(count: int) -> GraphInfo:
             NodeInfo(f"{space}/drive", (Endpoint(odom, kind, "reliable volatile 10"),)),
             NodeInfo(f"{space}/nav", (), tuple(Endpoint(name, kind, "reliable volatile 10") for name in (scan, odom))),
         ]
-    return GraphInfo(tuple(nodes))
+        pair = IncompatiblePair(f"{space}/lidar", f"{space}/nav", "best effort publisher and reliable subscription")
+        incompatible[scan] = (pair,)
+    return GraphInfo(tuple(nodes), incompatible=incompatible)
 
 
 def test_qos_that_does_not_match_is_drawn_as_a_fault_and_reported_in_words() -> None:
@@ -234,7 +236,7 @@ def test_qos_that_does_not_match_is_drawn_as_a_fault_and_reported_in_words() -> 
         line = "line:/robot_0/lidar>/robot_0/nav"
         assert picture(session)._faults == {("/robot_0/lidar", line), (line, "/robot_0/nav")}
         await session.press("w")
-        assert "/robot_0/scan best effort to reliable: nothing arrives from /robot_0/lidar" in session.text()
+        assert "/robot_0/scan: nothing arrives from /robot_0/lidar at /robot_0/nav: best effort" in session.text()
         await session.press("enter")
         assert picture(session).selected == line
         await draw_topics(session)

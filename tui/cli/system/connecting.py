@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from bot_console.runtime.importer import install
 from bot_console.runtime.rmw.middleware import bus_of, choose_middleware
+from bot_console.runtime.rmw.qos_matching import RMW_ZENOH
 from bot_console.runtime.rmw.zenoh.network.client import Way, with_environment
 from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
 from bot_console.runtime.rmw.zenoh.network.reachability import place_of
@@ -17,7 +18,7 @@ def connect(way: Way) -> NetworkBuses:
     """Make the contexts of this process clients of a router from now on; raises `SessionError` with the reason."""
     install()
     buses = NetworkBuses(with_environment(way))
-    choose_middleware(buses)
+    choose_middleware(buses, RMW_ZENOH)
     bus_of(domain())  # Connect now, so that a failure is reported before there is a screen.
     return buses
 

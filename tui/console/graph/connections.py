@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Container, Iterable, Iterator
 from fnmatch import fnmatchcase
 
-from bot_console.tui.console.graph.qos import mismatched
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 
 NOBODY = "(none)"
@@ -24,7 +23,6 @@ def connections(
     info: GraphInfo, kinds: Iterable[str] = ("topic", "service", "action")
 ) -> Iterator[tuple[str, str, str]]:
     """Kind, name and text of each connection, by kind and name: `/scan  /lidar → /navigator /monitor`."""
-    broken = mismatched(info)
     dead = {*info.silent, *(node for node, _ in info.frozen)}
 
     def message(nodes: Iterable[str], wrong: Container[str] = ()) -> str:
@@ -36,7 +34,7 @@ def connections(
             continue
         givers, takers = _by_name(info.nodes, give), _by_name(info.nodes, take)
         for name in sorted(givers.keys() | takers.keys()):
-            wrong = {each for _, each, _ in broken.get(name, ())} if kind == "topic" else set[str]()
+            wrong = {each.subscription for each in info.incompatible.get(name, ())} if kind == "topic" else set[str]()
             what = name if kind == "topic" else f"{kind} {name}"
             yield kind, name, f"{what}  {message(givers.get(name, ()))} → {message(takers.get(name, ()), wrong)}"
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from bot_console.tui.console.graph.qos import mismatched
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 
 SHARED = ("/rosout", "/parameter_events", "/tf", "/tf_static", "/diagnostics", "/clock", "/statistics")
@@ -29,7 +28,7 @@ class GraphFinding:
 def findings(info: GraphInfo) -> tuple[GraphFinding, ...]:
     """Everything odd, faults first, by subject; hidden nodes and topics are left out."""
     nodes = [each for each in info.nodes if not each.hidden]
-    visible = GraphInfo(tuple(nodes), info.topics, info.services)
+    visible = replace(info, nodes=tuple(nodes))
     otherwise = (GraphFinding(each.partition(": ")[0], each, True) for each in info.unheard)
     frozen = (GraphFinding(node, f"{node} is frozen: {finding_hint(pid)}", True) for node, pid in info.frozen)
     silent = (GraphFinding(node, f"{node} {SILENT}", True) for node in info.silent)
@@ -45,7 +44,6 @@ def finding_hint(pid: int) -> str:
 def _topics(info: GraphInfo) -> Iterator[GraphFinding]:
     publishers = _ends(info.nodes, "publishers")
     subscribers = _ends(info.nodes, "subscriptions")
-    broken = mismatched(info)
     for topic in sorted(publishers.keys() | subscribers.keys()):
         if "/_" in topic:
             continue
@@ -55,8 +53,8 @@ def _topics(info: GraphInfo) -> Iterator[GraphFinding]:
             yield GraphFinding(
                 topic, f"{topic} has different types, which do not hear each other: {_list(types)}", True
             )
-        for publisher, subscriber, why in broken.get(topic, ()):
-            yield GraphFinding(topic, f"{topic} {why}: nothing arrives from {publisher} at {subscriber}", True)
+        for publisher, subscriber, why in info.incompatible.get(topic, ()):
+            yield GraphFinding(topic, f"{topic}: nothing arrives from {publisher} at {subscriber}: {why}", True)
         if topic in SHARED:
             continue
         if takes and not gives and not topic.endswith(ON_OCCASION):

@@ -5,16 +5,20 @@ It uses the public rclpy API only, so that it works on every middleware.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 from bot_console.tui.console.graph.full_name import node_name_of
-from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.model import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
+from rclpy import get_rmw_implementation_identifier
 from rclpy.node import Node
 from rclpy.qos import QoSCompatibility, qos_check_compatible
 
 if TYPE_CHECKING:
     from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+RMW_ZENOH = "rmw_zenoh_cpp"
+"""A middleware that delivers whatever the QoS, although rclpy's function judges by DDS's rules there, too."""
 
 Ask = Callable[[str], "Sequence[TopicEndpointInfo]"]
 
@@ -30,9 +34,12 @@ class UnheardPairs:
         """Of each topic, which nodes publish (True) and subscribe."""
         self._known: dict[str, tuple[str, ...]] = {}
         self.found: tuple[str, ...] = ()
+        """What the types of endpoints keep from passing, in words; the same object if nothing has changed."""
+        self.incompatible: Mapping[str, tuple[IncompatiblePair, ...]] = {}
+        """By topic, what their QoS keeps from passing; the same object if nothing has changed."""
 
-    def follow(self, graph: GraphInfo) -> tuple[str, ...]:
-        """All findings of a graph; the same object if nothing has changed."""
+    def follow(self, graph: GraphInfo) -> None:
+        """Update the findings."""
         nodes = {each.name: each for each in graph.nodes}
         touched: set[str] = set()
         for name in nodes.keys() | self._nodes.keys():
@@ -40,18 +47,23 @@ class UnheardPairs:
             if before is not now:
                 touched |= self._moved(name, _ends(before), _ends(now))
         self._nodes = nodes
+        incompatible = {topic: pairs for topic, pairs in self.incompatible.items() if topic not in touched}
         for topic in touched:
             ends = self._ends[topic]
-            texts = self._poll(topic) if len({publishes for publishes, _ in ends}) == 2 else ()
             self._known.pop(topic, None)
-            if texts:
-                self._known[topic] = texts
+            if len({publishes for publishes, _ in ends}) == 2:
+                publishers, subscriptions = self._publishers(topic), self._subscriptions(topic)
+                if texts := _differences(topic, publishers, subscriptions):
+                    self._known[topic] = texts
+                if pairs := tuple(_incompatible(publishers, subscriptions)):
+                    incompatible[topic] = pairs
             if not ends:
                 del self._ends[topic]
+        if incompatible != self.incompatible:
+            self.incompatible = incompatible
         found = tuple(text for _, texts in sorted(self._known.items()) for text in texts)
         if found != self.found:
             self.found = found
-        return self.found
 
     def _moved(self, node: str, before: set[tuple[bool, Endpoint]], now: set[tuple[bool, Endpoint]]) -> set[str]:
         """Update a node's endpoints; returns the topics whose endpoints have changed."""
@@ -61,13 +73,46 @@ class UnheardPairs:
             self._ends.setdefault(each.name, set()).add((publishes, node))
         return {each.name for _, each in before ^ now}
 
-    def _poll(self, topic: str) -> tuple[str, ...]:
-        """Only what cannot be seen from the QoS and types in the graph's own texts."""
-        publishers, subscriptions = self._publishers(topic), self._subscriptions(topic)
-        if len({hash_of(each) for each in (*publishers, *subscriptions)} - {""}) < 2:
-            return ()
-        pairs = ((one, other) for one in publishers for other in subscriptions)
-        return tuple(dict.fromkeys(text for one, other in pairs if (text := otherwise_defined(topic, one, other))))
+
+def _differences(
+    topic: str, publishers: Sequence[TopicEndpointInfo], subscriptions: Sequence[TopicEndpointInfo]
+) -> tuple[str, ...]:
+    """The types that the endpoints of a topic define differently, in words."""
+    if len({hash_of(each) for each in (*publishers, *subscriptions)} - {""}) < 2:
+        return ()
+    pairs = ((one, other) for one in publishers for other in subscriptions)
+    return tuple(dict.fromkeys(text for one, other in pairs if (text := otherwise_defined(topic, one, other))))
+
+
+def _incompatible(
+    publishers: Sequence[TopicEndpointInfo], subscriptions: Sequence[TopicEndpointInfo]
+) -> Iterator[IncompatiblePair]:
+    """The pairs of nodes whose QoS does not match; each two profiles are judged once, however many nodes use them."""
+    offers, requests = _by_profile(publishers), _by_profile(subscriptions)
+    for offered, givers in offers.values():
+        for requested, takers in requests.values():
+            if reason := why_incompatible(offered, requested):
+                yield from (IncompatiblePair(one, other, reason) for one in givers for other in takers)
+
+
+def _by_profile(endpoints: Sequence[TopicEndpointInfo]) -> dict[Any, tuple[Any, dict[str, None]]]:
+    """The nodes that use each QoS profile, without tools, which choose for themselves."""
+    found: dict[Any, tuple[Any, dict[str, None]]] = {}
+    for each in endpoints:
+        if not _hidden(each):
+            qos = each.qos_profile
+            durations = qos.deadline.nanoseconds, qos.liveliness_lease_duration.nanoseconds
+            key = qos.reliability, qos.durability, qos.liveliness, durations
+            found.setdefault(key, (qos, {}))[1][node_name_of(each)] = None
+    return found
+
+
+def why_incompatible(offered: Any, requested: Any) -> str:
+    """Why the connected middleware passes no messages between two QoS profiles, in words; empty if it passes them."""
+    if get_rmw_implementation_identifier() == RMW_ZENOH:
+        return ""
+    verdict, why = qos_check_compatible(offered, requested)
+    return _words(why) if verdict == QoSCompatibility.ERROR else ""
 
 
 def _ends(node: NodeInfo | None) -> set[tuple[bool, Endpoint]]:
@@ -98,10 +143,8 @@ def _pair(topic: str, publisher: TopicEndpointInfo, subscription: TopicEndpointI
         return f"{topic}: {one} publishes {publisher.topic_type}, {other} wants {subscription.topic_type}: rename one"
     if text := otherwise_defined(topic, publisher, subscription):
         return text
-    fits, why = qos_check_compatible(publisher.qos_profile, subscription.qos_profile)
-    if fits != QoSCompatibility.ERROR:
-        return ""
-    return f"{topic}: {other} hears nothing of {one}: {_words(why)}; change the QoS of one of them"
+    why = why_incompatible(publisher.qos_profile, subscription.qos_profile)
+    return f"{topic}: {other} hears nothing of {one}: {why}; change the QoS of one of them" if why else ""
 
 
 def otherwise_defined(topic: str, publisher: TopicEndpointInfo, subscription: TopicEndpointInfo) -> str:
@@ -118,8 +161,9 @@ def otherwise_defined(topic: str, publisher: TopicEndpointInfo, subscription: To
 
 
 def _words(why: str) -> str:
-    """The reasons of rclpy, less emphatic, such as `Best effort publisher and reliable subscription`."""
-    return ", ".join(each.removeprefix("ERROR: ").strip() for each in why.split(";") if each.strip())
+    """The reasons of rclpy, less emphatic, such as `best effort publisher and reliable subscription`."""
+    reasons = (each.strip().removeprefix("ERROR: ") for each in why.split(";"))
+    return ", ".join(each[0].lower() + each[1:] for each in reasons if each)
 
 
 def hash_of(endpoint: TopicEndpointInfo) -> str:

@@ -117,7 +117,8 @@ class GraphWatch:
             frozen=old.frozen,
             silent=old.silent,
         )
-        self.info = replace(self.info, unheard=self._unheard.follow(self.info))
+        self._unheard.follow(self.info)
+        self.info = replace(self.info, unheard=self._unheard.found, incompatible=self._unheard.incompatible)
         self._nodes, self._topics, self._services = nodes, topics, services
         self._changed(self.info)
         self._silence.follow(self.info)

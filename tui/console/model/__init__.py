@@ -5,7 +5,7 @@ not changed since the last snapshot is the same object, so a pane redraws by com
 """
 
 from bot_console.tui.console.model.changes import RESTARTED, Change, ChangeSource, JournalState, SetOutcome
-from bot_console.tui.console.model.graph import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.model.graph import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
 from bot_console.tui.console.model.launch import LaunchArgument, LaunchEvent, LaunchInfo, ProcessInfo, ProcessState
 from bot_console.tui.console.model.logs import LogFilter, LoggerLevel, LogRecord, LogState, Severity
 from bot_console.tui.console.model.parameters import Kind, ParameterInfo, ParameterTree, Range, Value, same
@@ -20,6 +20,7 @@ __all__ = [
     "ConsoleSnapshot",
     "Endpoint",
     "GraphInfo",
+    "IncompatiblePair",
     "JournalState",
     "Kind",
     "LaunchArgument",

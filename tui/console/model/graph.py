@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,11 +37,20 @@ class NodeInfo:
         return "/_" in self.name
 
 
+class IncompatiblePair(NamedTuple):
+    """A publisher and a subscription, by their nodes, between which the middleware passes no messages, and why."""
+
+    publisher: str
+    subscription: str
+    reason: str
+
+
 @dataclass(frozen=True, slots=True)
 class GraphInfo:
     """The ROS graph.
 
-    `unheard`: why messages do not get through; `frozen`: stopped nodes, with their pids; `silent`: nodes that do not
+    `unheard`: why messages of different definitions do not get through; `incompatible`: by topic, the pairs whose QoS
+    does not match; `frozen`: stopped nodes, with their pids; `silent`: nodes that do not
     answer.
     """
 
@@ -49,3 +60,6 @@ class GraphInfo:
     unheard: tuple[str, ...] = ()
     frozen: tuple[tuple[str, int], ...] = ()
     silent: tuple[str, ...] = ()
+    incompatible: Mapping[str, tuple[IncompatiblePair, ...]] = field(
+        default_factory=dict[str, tuple[IncompatiblePair, ...]]
+    )

@@ -9,7 +9,6 @@ from enum import Enum
 from types import MappingProxyType
 
 from bot_console.tui.console.graph.connections import TOOL_NAMES, connections, is_hidden, unconnected
-from bot_console.tui.console.graph.qos import mismatched
 from bot_console.tui.console.model import GraphInfo, NodeInfo
 from bot_console.tui.console.query import Query
 from bot_console.tui.format import counted, sanitize
@@ -117,10 +116,9 @@ def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingPr
         {each.name for each in nodes} | kept, edges, view.query, both_ends=view.mode in (Mode.FLOW, Mode.LIST)
     )
     edges = [(a, b) for a, b in edges if a in ids and b in ids]
-    broken = mismatched(info)
     faults = {
         (TOPIC + topic, subscriber)
-        for topic, pairs in broken.items()
+        for topic, pairs in info.incompatible.items()
         if TOPIC + topic in ids
         for _, subscriber, _ in pairs
     }
@@ -148,7 +146,7 @@ def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingPr
         return found
     triples = frozenset(
         (box_of(a, view.folded), TOPIC + topic, box_of(b, view.folded))
-        for topic, pairs in broken.items()
+        for topic, pairs in info.incompatible.items()
         for a, b, _ in pairs
     )
     bundles = bundled((each for each in ids if not is_link(each)), edges, label.members, triples, rates)

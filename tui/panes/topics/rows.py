@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from bot_console.tui.console.graph.qos import mismatch
-from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.model import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
 from bot_console.tui.console.query import Query
 from bot_console.tui.console.traffic import Payload
 
@@ -76,7 +75,11 @@ def rows(info: GraphInfo, kind: Kind, *, hidden: bool) -> list[Row]:
     for each in {Kind.TOPICS: info.topics, Kind.SERVICES: info.services, Kind.ACTIONS: ()}[kind]:
         one = found.setdefault(each.name, _Endpoints())
         one.types.update(dict.fromkeys(each.types))
-    made = (_row(name, each, kind) for name, each in sorted(found.items()) if each.gives or each.takes or not each.own)
+    made = (
+        _row(name, each, kind, info.incompatible.get(name, ()) if kind is Kind.TOPICS else ())
+        for name, each in sorted(found.items())
+        if each.gives or each.takes or not each.own
+    )
     return [row for row in made if hidden or not is_built_in(row.name, kind)]
 
 
@@ -101,22 +104,18 @@ def is_built_in(name: str, kind: Kind) -> bool:
     return "/_" in name or (kind is Kind.SERVICES and name.endswith(BUILT_IN))
 
 
-def _row(name: str, found: _Endpoints, kind: Kind) -> Row:
+def _row(name: str, found: _Endpoints, kind: Kind, broken: Sequence[IncompatiblePair]) -> Row:
     offers = list(dict.fromkeys(qos for _, qos in found.gives if qos))
     qos = offers[0] + ("  +" if len(offers) > 1 else "") if offers else ""
     gives, takes = (tuple(node for node, _ in ends) for ends in (found.gives, found.takes))
-    return Row(name, tuple(found.types), gives, takes, qos, _problem(found, kind))
+    return Row(name, tuple(found.types), gives, takes, qos, _problem(found, kind, broken))
 
 
-def _problem(found: _Endpoints, kind: Kind) -> str:
+def _problem(found: _Endpoints, kind: Kind, broken: Sequence[IncompatiblePair]) -> str:
     if len(found.types) > 1:
         return f"different types, which do not hear each other: {', '.join(found.types)}"
-    if kind is Kind.TOPICS:
-        for publisher, offered in found.gives:
-            for subscriber, wanted in found.takes:
-                why = mismatch(offered, wanted)
-                if why:
-                    return f"{publisher} to {subscriber}: {why}, so nothing arrives"
+    for publisher, subscription, why in broken:
+        return f"nothing arrives from {publisher} at {subscription}: {why}"
     if found.takes and not found.gives:
         return "nobody publishes it: is the name right?" if kind is Kind.TOPICS else "no server: calls wait in vain"
     return ""

@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable, Generator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from bot_console.runtime.rmw.qos_matching import DDS, RMW_ZENOH, QosRules
 from bot_console.runtime.rmw.zenoh.domain import loopback
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 from bot_console.runtime.rmw.zenoh.domain.joining import folder_lock, remove_dead
@@ -36,6 +37,7 @@ class MeshSession(Session):
         super().__init__(domain)
         self._serving = serving
         self._opened = False
+        self._rules: dict[str, QosRules] = {}
         self._watch: Watch | None = None
         self._tokens: StoppedTokens | None = None
         self._port: loopback.OpenPort | None = None
@@ -95,6 +97,12 @@ class MeshSession(Session):
         """
         first, self._opened = not self._opened, True
         return self.zid if first else f"{self.zid[:8]}{os.urandom(12).hex()}"
+
+    def qos_rules(self, zid: str) -> QosRules:
+        """The rules of the domain within the mesh, those of rmw_zenoh for nodes behind a router."""
+        if zid not in self._rules:
+            self._rules[zid] = RMW_ZENOH if self.pid_of(zid) is None else DDS
+        return self._rules[zid]
 
     def watch(self) -> None:
         """Watch the session's place in the mesh while it is open; not for short-lived programs."""

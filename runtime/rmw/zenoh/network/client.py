@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from bot_console.runtime.rmw.qos_matching import RMW_ZENOH, QosRules
 from bot_console.runtime.rmw.zenoh.link_probe import LinkProbe, LinkState
 from bot_console.runtime.rmw.zenoh.network.frozen_processes import StoppedBehind
 from bot_console.runtime.rmw.zenoh.network.reachability import Tls, why_unreachable
@@ -89,6 +90,10 @@ class NetworkSession(Session):
         self.declare_token(ROLL_CALL_KEY + self.zid[:8])
         self._probe: LinkProbe | None = None
         self._stopped: StoppedBehind | None = None
+
+    def qos_rules(self, zid: str) -> QosRules:
+        """The rules of rmw_zenoh, between all nodes that meet at its routers."""
+        return RMW_ZENOH
 
     def watch(self) -> None:
         """Probe the link to the router repeatedly, and watch which processes the router reports as frozen."""

@@ -6,6 +6,7 @@ import threading
 
 from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.local import LocalBus
+from bot_console.runtime.rmw.qos_matching import RMW_ZENOH
 from bot_console.runtime.rmw.zenoh.bus import ZenohBus
 from bot_console.runtime.rmw.zenoh.link_probe import LinkState
 from bot_console.runtime.rmw.zenoh.network.client import NetworkSession, Way, open_network_session
@@ -25,7 +26,7 @@ class NetworkBuses:
             if domain not in self._open:
                 session = open_network_session(domain, self._way)
                 session.watch()
-                self._open[domain] = session, ZenohBus(session, LocalBus())
+                self._open[domain] = session, ZenohBus(session, LocalBus(RMW_ZENOH))
             return self._open[domain][1]
 
     def link(self) -> LinkState:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bot_console.tui.cli.verbs.graph import lines_of
-from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.model import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
 
 TRIGGER = ("std_srvs/srv/Trigger",)
 
@@ -22,6 +22,7 @@ INFO = GraphInfo(
         NodeInfo("/_hidden", ends("/cmd_vel")),
     ),
     silent=("/base",),
+    incompatible={"/scan": (IncompatiblePair("/lidar", "/nav", "best effort publisher and reliable subscription"),)},
 )
 
 

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from bot_console.tui.console.graph.findings import findings
-from bot_console.tui.console.graph.qos import mismatch
-from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.model import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
 
 SCAN, TWIST = ("sensor_msgs/msg/LaserScan",), ("geometry_msgs/msg/Twist",)
-BEST, RELIABLE, LATCHED = "best effort volatile 5", "reliable volatile 10", "reliable transient local 1"
+BEST, RELIABLE = "best effort volatile 5", "reliable volatile 10"
 OWN = Endpoint("/a/get_parameters", ("rcl_interfaces/srv/GetParameters",))
 
 
@@ -15,18 +14,17 @@ def message(*nodes: NodeInfo) -> list[str]:
     return [each.text for each in findings(GraphInfo(nodes))]
 
 
-def pair(offered: str, wanted: str) -> list[str]:
-    return message(
-        NodeInfo("/lidar", (Endpoint("/scan", SCAN, offered),)),
-        NodeInfo("/nav", (), (Endpoint("/scan", SCAN, wanted),)),
+def test_incompatible_qos_is_reported_with_both_nodes_and_only_where_the_middleware_says_so() -> None:
+    nodes = (
+        NodeInfo("/lidar", (Endpoint("/scan", SCAN, BEST),)),
+        NodeInfo("/nav", (), (Endpoint("/scan", SCAN, RELIABLE),)),
     )
-
-
-def test_qos_that_does_not_match_is_reported_with_both_nodes() -> None:
-    assert pair(BEST, RELIABLE) == ["/scan best effort to reliable: nothing arrives from /lidar at /nav"]
-    assert pair(RELIABLE, LATCHED) == ["/scan volatile to transient local: nothing arrives from /lidar at /nav"]
-    assert pair(RELIABLE, BEST) == pair(LATCHED, RELIABLE) == pair(BEST, BEST) == []
-    assert mismatch("", RELIABLE) == "", "what is not known is no fault"
+    assert message(*nodes) == []
+    pair = IncompatiblePair("/lidar", "/nav", "best effort publisher and reliable subscription")
+    (found,) = findings(GraphInfo(nodes, incompatible={"/scan": (pair,)}))
+    assert found.fault and found.text == (
+        "/scan: nothing arrives from /lidar at /nav: best effort publisher and reliable subscription"
+    )
 
 
 def test_a_topic_without_a_publisher_is_a_fault_one_without_a_listener_is_not() -> None:

@@ -3,9 +3,10 @@
 from types import SimpleNamespace
 
 import pytest
-from bot_console.tui.console.graph.pairs import UnheardPairs, hash_of, unheard
-from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from bot_console.tui.console.graph.pairs import RMW_ZENOH, UnheardPairs, hash_of, unheard
+from bot_console.tui.console.model import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
+from rclpy.duration import Duration
+from rclpy.qos import DurabilityPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 
 RELIABLE = QoSProfile(depth=10)
 WEAK = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -75,7 +76,9 @@ def test_ends_of_two_types_are_no_two_definitions_of_one():
     node = FakeNode([end("/lidar")], [end("/nav", kind="std_msgs/msg/String", type_hash=TWO)])
     publisher = NodeInfo("/lidar", publishers=(Endpoint("/scan", (SCAN,)),))
     subscription = NodeInfo("/nav", subscriptions=(Endpoint("/scan", ("std_msgs/msg/String",)),))
-    assert UnheardPairs(node).follow(GraphInfo(nodes=(publisher, subscription))) == ()
+    pairs = UnheardPairs(node)
+    pairs.follow(GraphInfo(nodes=(publisher, subscription)))
+    assert pairs.found == ()
 
 
 def test_a_topic_is_asked_about_once_and_again_when_its_ends_change():
@@ -84,10 +87,54 @@ def test_a_topic_is_asked_about_once_and_again_when_its_ends_change():
     alone = NodeInfo("/lidar", publishers=(publishes, Endpoint("/odom", ())))
     both = GraphInfo(nodes=(alone, NodeInfo("/nav", subscriptions=(listens,))))
     findings = UnheardPairs(node)
-    found = findings.follow(both)
-    assert len(found) == 1 and findings.follow(both) is found and node.asked == ["/scan"]
+    findings.follow(both)
+    found = findings.found
+    findings.follow(both)
+    assert len(found) == 1 and findings.found is found and node.asked == ["/scan"]
     changed = NodeInfo("/nav", subscriptions=(Endpoint("/scan", (SCAN,), "best effort"),))
     node.ends = [end("/lidar")], [end("/nav")]
-    assert findings.follow(GraphInfo(nodes=(alone, changed))) == ()
-    assert node.asked == ["/scan", "/scan"]
-    assert findings.follow(GraphInfo(nodes=(alone,))) == ()
+    findings.follow(GraphInfo(nodes=(alone, changed)))
+    assert findings.found == () and node.asked == ["/scan", "/scan"]
+    findings.follow(GraphInfo(nodes=(alone,)))
+    assert findings.found == ()
+
+
+DEADLINE = QoSProfile(depth=10, deadline=Duration(seconds=1))
+AUTOMATIC = QoSProfile(depth=10, liveliness=LivelinessPolicy.AUTOMATIC)
+MANUAL = QoSProfile(depth=10, liveliness=LivelinessPolicy.MANUAL_BY_TOPIC)
+INCOMPATIBLE = [
+    (WEAK, RELIABLE, "best effort publisher and reliable subscription"),
+    (RELIABLE, LATCHED, "volatile publisher and transient local subscription"),
+    (RELIABLE, DEADLINE, "subscription has a deadline, but publisher does not"),
+    (AUTOMATIC, MANUAL, "publisher's liveliness is automatic and subscription's is manual by topic"),
+]
+
+
+def graph_of_one_topic(offered, requested):
+    """A graph with one publisher and two subscriptions, and the pairs found in it."""
+    subscriptions = [end("/nav", requested), end("/log", WEAK), end("/_tool", requested)]
+    scan = (Endpoint("/scan", (SCAN,)),)
+    nodes = NodeInfo("/lidar", scan), *(NodeInfo(name, (), scan) for name in ("/nav", "/log", "/_tool"))
+    pairs = UnheardPairs(FakeNode([end("/lidar", offered)], subscriptions))
+    pairs.follow(GraphInfo(nodes=nodes))
+    return pairs
+
+
+@pytest.mark.parametrize(("offered", "requested", "reason"), INCOMPATIBLE)
+def test_graph_and_doctor_give_the_reason_of_the_middleware_for_each_policy(offered, requested, reason):
+    pairs = graph_of_one_topic(offered, requested)
+    assert pairs.incompatible == {"/scan": (IncompatiblePair("/lidar", "/nav", reason),)}
+    (text,) = unheard("/scan", [end("/lidar", offered)], [end("/nav", requested)])
+    assert reason in text
+    before = pairs.incompatible
+    pairs.follow(GraphInfo(nodes=tuple(pairs._nodes.values())))
+    assert pairs.incompatible is before
+    pairs.follow(GraphInfo())
+    assert pairs.incompatible == {}
+
+
+@pytest.mark.parametrize(("offered", "requested", "reason"), INCOMPATIBLE)
+def test_no_qos_is_incompatible_over_rmw_zenoh(monkeypatch, offered, requested, reason):
+    monkeypatch.setattr("bot_console.tui.console.graph.pairs.get_rmw_implementation_identifier", lambda: RMW_ZENOH)
+    assert graph_of_one_topic(offered, requested).incompatible == {}
+    assert list(unheard("/scan", [end("/lidar", offered)], [end("/nav", requested)])) == []

@@ -1,0 +1,189 @@
+"""QoS over a router follows rmw_zenoh, which knows no incompatible profiles and lets nothing expire on its way.
+
+The other side is a bare session that declares the tokens of captured nodes of rmw_zenoh_cpp and sends as they do.
+"""
+
+import json
+import threading
+import time
+from pathlib import Path
+
+import pytest
+import rclpy
+from bot_console.runtime.rmw.local import LocalBus, local_bus
+from bot_console.runtime.rmw.middleware import choose_middleware
+from bot_console.runtime.rmw.qos_matching import DDS, RMW_ZENOH
+from bot_console.runtime.rmw.zenoh.bus import ZenohBus
+from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession
+from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network.router import Router
+from bot_console.runtime.rmw.zenoh.settings import Serving
+from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, pack, unpack
+from bot_console.runtime.rmw.zenoh.wire.keys import data_key
+from bot_console.runtime.rmw.zenoh.wire.tokens import parse_token
+from bot_console.tui.cli.system.connecting import connect
+from bot_console.tui.console.graph.pairs import unheard
+from processes.ports import free_port
+from rcl_interfaces.msg import Log
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.serialization import serialize_message
+from std_msgs.msg import String
+
+CAPTURE = Path(__file__).parents[3] / "captures" / "rmw_zenoh_cpp-0.2.10-jazzy.json"
+BASE = "/%/%/base/"
+BEST_EFFORT, VOLATILE = "2::,5:,:,:,,", "::,10:,:,:,,"
+TIMEOUT_S, POLL_S = 20.0, 0.02
+MANY = 900
+LATCHED = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+WEAK = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+
+def captured(kind, topic):
+    """The token of the captured node `base` for a publisher (MP) or subscription (MS)."""
+    tokens = json.loads(CAPTURE.read_text(encoding="utf-8"))["tokens"]
+    return next(each for each in tokens if f"/{kind}{BASE}{topic.replace('/', '%')}/" in each)
+
+
+class RealNode:
+    """An endpoint of the captured node, on a session of its own."""
+
+    def __init__(self, way, kind, topic, *, qos=None, cache=0):
+        self.session = open_network_session(0, way)
+        parts = captured(kind, topic).split("/")
+        parts[2] = self.session.zid
+        parts[12] = qos or parts[12]
+        self.token = parse_token("/".join(parts))
+        key = data_key(0, topic, self.token.type_name, self.token.type_hash)
+        self.heard = []
+        if kind == "MP":
+            self.publisher = self.session.declare_publisher(key, cache=cache)
+        else:
+            self.session.declare_subscriber(key, lambda data, attachment: self.heard.append(unpack(attachment, data)))
+        self.session.declare_token(self.token.key)
+        self.number = 0
+
+    def send(self, message, stamp=None):
+        """Publish a message, which was sent at `stamp` (ns)."""
+        data = serialize_message(message)
+        self.number += 1
+        stamp = time.time_ns() if stamp is None else stamp
+        self.publisher.put(data, pack(self.number, stamp, gid_of(self.token.key), data))
+
+
+@pytest.fixture
+def way():
+    serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
+    router = Router(serving)
+    yield Way(serving.endpoints)
+    router.close()
+
+
+@pytest.fixture
+def real(way):
+    made = []
+
+    def make(*what, **how):
+        made.append(RealNode(way, *what, **how))
+        return made[-1]
+
+    yield make
+    for each in made:
+        each.session.close()
+
+
+@pytest.fixture
+def console(way):
+    buses, context = connect(way), Context()
+    rclpy.init(args=[], context=context, domain_id=0)
+    node = rclpy.create_node("console", context=context, enable_rosout=False, start_parameter_services=False)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    yield node
+    executor.shutdown()
+    node.destroy_node()
+    context.shutdown()
+    buses.close()
+    choose_middleware(local_bus)
+
+
+def until(done, node=None, step=lambda: None):
+    """Take what arrives until `done`; fails after the time-out."""
+    end = time.monotonic() + TIMEOUT_S
+    while not done():
+        assert time.monotonic() < end
+        step()
+        if node is None:
+            threading.Event().wait(POLL_S)
+        else:
+            node.executor.spin_once(timeout_sec=POLL_S)
+
+
+@pytest.mark.parametrize(
+    ("offered", "requested"),
+    [(BEST_EFFORT, QoSProfile(depth=10)), (VOLATILE, LATCHED), (BEST_EFFORT, LATCHED)],
+    ids=["best effort to reliable", "volatile to transient local", "both"],
+)
+def test_a_subscription_that_requests_more_than_is_offered_receives(real, console, offered, requested):
+    heard = []
+    talker = real("MP", "/latched", qos=offered)
+    subscription = console.create_subscription(String, "/latched", heard.append, requested)
+    until(lambda: console.count_publishers("/latched") and subscription.handle.get_publisher_count(), console)
+    until(lambda: heard, console, lambda: talker.send(String(data="hello")))
+    infos = console.get_publishers_info_by_topic("/latched"), console.get_subscriptions_info_by_topic("/latched")
+    assert all(infos) and list(unheard("/latched", *infos)) == []
+    assert rclpy.get_rmw_implementation_identifier() == "rmw_zenoh_cpp"
+
+
+def test_a_publisher_that_offers_less_than_is_requested_matches_and_delivers(real, console):
+    listener = real("MS", "/tl_sub")
+    publisher = console.create_publisher(String, "/tl_sub", WEAK)
+    until(lambda: publisher.get_subscription_count() == 1, console)
+    until(lambda: listener.heard, console, lambda: publisher.publish(String(data="hello")))
+    listener.session.close()
+    until(lambda: publisher.get_subscription_count() == 0, console)
+
+
+def test_nodes_of_one_program_match_by_the_same_rules(console):
+    heard = []
+    console.create_subscription(String, "/t", heard.append, 10)
+    publisher = console.create_publisher(String, "/t", WEAK)
+    assert publisher.get_subscription_count() == 1
+    publisher.publish(String(data="hello"))
+    until(lambda: heard, console)
+
+
+def test_a_log_longer_ago_than_its_lifespan_is_received(real, console):
+    base = real("MP", "/rosout", cache=1000)
+    assert base.token.qos.lifespan.nanoseconds == 10_000_000_000
+    minute_ago = time.time_ns() - 60_000_000_000
+    for number in range(MANY):
+        base.send(Log(msg=f"line {number}", name="base"), minute_ago + number)
+    heard = []
+    console.create_subscription(Log, "/rosout", lambda line: heard.append(line.msg), LATCHED)
+    until(lambda: len(heard) >= MANY, console)
+    assert heard == [f"line {number}" for number in range(MANY)]
+
+
+def test_a_served_robot_keeps_the_rules_of_its_domain_within_and_those_of_rmw_zenoh_behind_its_router(socket_folder):
+    serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
+    robot, beside = MeshSession(0, serving), MeshSession(0)
+    listener = RealNode(Way(serving.endpoints), "MS", "/tl_sub")
+    bus = ZenohBus(robot, LocalBus())
+    choose_middleware(lambda domain: bus)
+    context = Context()
+    rclpy.init(args=[], context=context, domain_id=0)
+    try:
+        assert robot.qos_rules(beside.zid) is robot.qos_rules(robot.zid) is DDS
+        assert robot.qos_rules(listener.session.zid) is RMW_ZENOH
+        node = rclpy.create_node("robot", context=context, enable_rosout=False, start_parameter_services=False)
+        publisher = node.create_publisher(String, "/tl_sub", WEAK)
+        until(lambda: publisher.get_subscription_count() == 1)
+        until(lambda: listener.heard, None, lambda: publisher.publish(String(data="hello")))
+        node.destroy_node()
+    finally:
+        context.shutdown()
+        choose_middleware(local_bus)
+        for each in (listener.session, beside, robot):
+            each.close()
