@@ -1,6 +1,6 @@
-"""Whether programs started by launches join the domain: not if what runs here is isolated in its process.
+"""Whether programs started by launches join the domain: not if the present system is isolated in its process.
 
-A module of its own, because verbs that start nothing set it too.
+It is a separate module because verbs that start nothing set it, too.
 """
 
 from __future__ import annotations
@@ -9,11 +9,11 @@ _meet = False
 
 
 def let_children_meet(meet: bool) -> None:
-    """Let the programs that launches start take part in the domain, as this program does, or keep them apart."""
+    """Allow programs started by launches to join the domain, as this program does, or keep them separate."""
     global _meet
     _meet = meet
 
 
 def children_meet() -> bool:
-    """Whether they take part."""
+    """Whether they join the domain."""
     return _meet

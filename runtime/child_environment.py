@@ -1,6 +1,6 @@
 """The environment of processes started by a launch: `ros2` on the PATH, `rclpy` and all messages importable.
 
-It is what sourcing a ROS installation gives. Only such processes have it.
+It corresponds to sourcing a ROS installation. Only such processes have it.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from bot_console.runtime.process.scratch import scratch
 from bot_console.runtime.workspace.program import source_folders
 
 RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
-"""Not imported from `rmw`: launch, which uses this module, knows no middleware."""
+"""Not imported from `rmw`: launch, which uses this module, does not depend on the middleware."""
 
 SHIM = '''\
 """Stands in for an embedded package until the embedded runtime is in place, and gives way to it."""
@@ -37,7 +37,7 @@ give_way(__name__)
 
 
 class ChildEnvironment:
-    """Folders of this process for its children: executables, and a stand-in for each embedded package."""
+    """Folders of this process for its children: executables, and a shim for each embedded package."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -45,7 +45,9 @@ class ChildEnvironment:
         self._shimmed: set[str] = set()
 
     def added_to(self, env: Mapping[str, str]) -> dict[str, str]:
-        """An environment with the folders first on both paths; one without PATH was not inherited, and stays."""
+        """Return an environment with the folders first on both paths; one without PATH was not inherited and is
+        unchanged.
+        """
         if "PATH" not in env:
             return dict(env)
         return {
@@ -61,12 +63,12 @@ class ChildEnvironment:
         return Path(tempfile.mkdtemp(prefix="child-", dir=scratch()))
 
     def _shims(self) -> Path:
-        """The folder of stand-ins; a package that has come to the workspace since the last process gets one now."""
+        """Return the folder of shims, adding one for each package that is new in the workspace."""
         with self._lock:
             folder = self._folder / "python"
             folder.mkdir(exist_ok=True)
             new = [each for each in embedded_names() if each not in self._shimmed]
-            for name in new:  # links, as writing so many files would take longer than starting a process
+            for name in new:  # links, because writing so many files would take longer than starting a process
                 os.symlink(self._shim, folder / f"{name}.py")
             self._shimmed.update(new)
             return folder
@@ -79,12 +81,12 @@ class ChildEnvironment:
 
 
 def _venv() -> list[str]:
-    """The folder of `python3`, where that has been installed for this program alone."""
+    """Return the folder of `python3` if it was installed for this program alone."""
     return [os.path.dirname(sys.executable)] if sys.prefix != sys.base_prefix else []
 
 
 def _dependencies() -> list[str]:
-    """Where what this package needs is installed: another interpreter that runs a program may have none of it."""
+    """Return where this package's dependencies are installed: another interpreter may have none of them."""
     return list(dict.fromkeys(sysconfig.get_path(each) for each in ("purelib", "platlib")))
 
 
@@ -97,8 +99,8 @@ _environment = ChildEnvironment()
 
 
 def child_environment(env: Mapping[str, str]) -> dict[str, str]:
-    """The environment of a process that a launch starts, made from the one that the launch file describes.
+    """Return the environment of a process that a launch starts, based on the one given by the launch file.
 
-    Nothing is added for a launch on the rclpy of the machine, whose processes find all that they need there.
+    It is unchanged for a launch on the machine's own rclpy, whose processes find everything there.
     """
     return _environment.added_to(env) if os.name == "posix" and is_installed() else dict(env)

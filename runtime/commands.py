@@ -1,4 +1,4 @@
-"""Where the commands of a ROS installation are, and which program each of them calls."""
+"""Where the commands of a ROS installation are, and which program each of them runs."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ They are files because scripts, `timeout` and `watch` do not find shell function
 """
 
 COMMAND_VARIABLE = "BOT_CONSOLE_COMMAND"
-"""Tells them which `bot-console` they are, whatever environment is active where they are called."""
+"""The `bot-console` that these commands run, whatever environment is active where they are called."""
 
 
 def command() -> str:
-    """The path of the `bot-console` that belongs to this program."""
+    """Return the path of the `bot-console` that belongs to this program."""
     called = sys.argv[0] if os.path.basename(sys.argv[0]) == "bot-console" else ""
     beside = os.path.join(os.path.dirname(sys.executable), "bot-console")
     if called:

@@ -1,4 +1,4 @@
-"""The ROS domain id from the environment."""
+"""The ROS domain ID from the environment."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ MAX_DIGITS = 10
 
 
 def domain_id() -> int:
-    """The domain of the environment, 0 unless one is named; raises `ValueError`."""
+    """Return the domain ID from the environment, 0 if none is set; raises `ValueError` for an invalid one."""
     text = os.environ.get(VARIABLE, "")
     if not is_domain(text):
         raise ValueError(f"{VARIABLE} is '{text[:40]}', not a number")
@@ -17,5 +17,5 @@ def domain_id() -> int:
 
 
 def is_domain(text: str) -> bool:
-    """Whether a text is a domain's number; an empty one stands for domain 0."""
+    """Whether a text is a domain ID; an empty one means domain 0."""
     return not text or (text.isascii() and text.isdecimal() and len(text) <= MAX_DIGITS)

@@ -1,4 +1,6 @@
-"""How a command ends that cannot go on: one-line messages for faults of its environment, silence after an interrupt."""
+"""How a command that cannot continue ends: a one-line message for faults of its environment, silence after an
+interrupt.
+"""
 
 from __future__ import annotations
 
@@ -12,26 +14,26 @@ from typing import Any
 
 DELETED = "the folder you are in was deleted; go to another one (cd) and try again"
 RECOGNIZED = 60
-"""Characters of a name that are shown where it is too long."""
+"""Characters shown of a name that is too long."""
 ENDED = "ExternalShutdownException"
-"""What a wait raises when SIGTERM has ended the context; named, as not every command imports rclpy."""
+"""The exception raised by a wait when SIGTERM has ended the context; by name, as not every command imports rclpy."""
 NO_THREAD = "can't start new thread"
-"""How Python puts that in a RuntimeError."""
+"""Python's message for this in a RuntimeError."""
 UNMAPPED = "failed to map segment"
-"""How a library that does not fit into memory is put in an ImportError."""
+"""The message in an ImportError for a library that does not fit into memory."""
 NO_TEMPORARY = "No usable temporary directory"
-"""How Python puts that in a FileNotFoundError."""
+"""Python's message for this in a FileNotFoundError."""
 RAISING = ("strict", "surrogateescape")
-"""Ways of a stream to treat characters that it cannot encode that raise; the second is that of the C locale."""
+"""Error handlers of streams that raise for characters they cannot encode; the second is that of the C locale."""
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG)
 
 
 def place_fault(error: BaseException) -> str:
-    """What to say of an error that names no file: of standard output, or of the working directory; else empty.
+    """Return the message for an error that names no file: of standard output, or the working directory; else empty.
 
-    Of a file whose name is too long it is said, too: it is not even looked for. So it is of limits of this process.
+    Also covers a file name that is too long, which fails before the lookup, and limits of this process.
     """
-    if isinstance(error, SystemError) and not _has_folder():  # so says an import of Python 3.13.0 there
+    if isinstance(error, SystemError) and not _has_folder():  # raised by an import of Python 3.13.0 in a deleted folder
         return DELETED
     unloaded = isinstance(error, ImportError) and UNMAPPED in str(error)
     if unloaded or isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno == errno.ENOMEM):
@@ -54,7 +56,7 @@ def place_fault(error: BaseException) -> str:
 
 
 def _shortened(name: object) -> str:
-    """The beginning of a name, quoted, as much of it as one recognizes it by."""
+    """Return enough of the beginning of a name to recognize it, quoted."""
     text = os.fsdecode(name) if isinstance(name, (str, bytes)) else "what was given"
     return repr(text if len(text) <= RECOGNIZED else f"{text[:RECOGNIZED]}...")
 
@@ -68,7 +70,7 @@ def _has_folder() -> bool:
 
 
 def report_help_errors() -> None:
-    """Let the help of every parser fail where it cannot be written: argparse would drop the fault, and end with 0."""
+    """Make the help of every parser fail if it cannot be written: argparse would ignore the error and end with 0."""
     import argparse
 
     def write(self: argparse.ArgumentParser, message: str, file: Any = None) -> None:
@@ -79,9 +81,9 @@ def report_help_errors() -> None:
 
 
 def help_is_english() -> None:
-    """Let parsers take their texts as they are: for each they would look for translations, of which Python has none.
+    """Make parsers use their texts unchanged: they would search for translations, of which Python has none.
 
-    That is a thirtieth of a short verb's time.
+    That takes a thirtieth of a short verb's time.
     """
     import argparse
 
@@ -89,21 +91,21 @@ def help_is_english() -> None:
 
 
 def is_read() -> bool:
-    """Whether stderr is a terminal: what is said beyond the words of ROS 2 is for people alone."""
+    """Whether stderr is a terminal: anything beyond the output of ROS 2 is only for people."""
     return sys.stderr is not None and sys.stderr.isatty()
 
 
 def ended_code(error: BaseException) -> int:
-    """The exit code that shells give to what this ended: Ctrl-C, or SIGTERM; 0 for any other error."""
+    """Return the exit code that shells use for Ctrl-C or SIGTERM; 0 for any other error."""
     if isinstance(error, KeyboardInterrupt):
         return 128 + signal.SIGINT
     return 128 + signal.SIGTERM if type(error).__name__ == ENDED else 0
 
 
 def run_and_report(run: Callable[[], int]) -> int:
-    """Run a command and flush what it has printed; a fault of its place is told on one line, with exit code 1.
+    """Run a command and flush its output; a fault of its environment is reported on one line, with exit code 1.
 
-    What Ctrl-C or SIGTERM has ended has the exit code that shells give it.
+    After Ctrl-C or SIGTERM the exit code is the one that shells use.
     """
     code = 0
     _make_streams_usable()
@@ -116,7 +118,7 @@ def run_and_report(run: Callable[[], int]) -> int:
                 print(end.code, file=sys.stderr)
         sys.stdout.flush()
         return code
-    except BrokenPipeError:  # as of `head`, which has read enough
+    except BrokenPipeError:  # as with `head`, which has read enough
         _give_up_output()
         return code or 1
     except (OSError, SystemError, RuntimeError, MemoryError, ImportError) as error:
@@ -129,28 +131,29 @@ def run_and_report(run: Callable[[], int]) -> int:
         if not (code := ended_code(error)):
             raise
         return code
-    if not code:  # else the command has told why
+    if not code:  # otherwise the command has said why
         print(f"{os.path.basename(sys.argv[0])}: {text}", file=sys.stderr)
     _give_up_output()
     return code or 1
 
 
 def _make_streams_usable() -> None:
-    """Open standard streams that were closed on nothing, and let no character fail that a terminal does not have.
+    """Open closed standard streams on the null device, and let no character fail that a terminal cannot show.
 
-    A descriptor of 0 to 2 that stays free is given to the next file or socket, which would then get what is printed.
+    A free descriptor from 0 to 2 would be given to the next file or socket, which would then receive the output.
     """
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         stream = getattr(sys, name)
         if stream is None:
-            # As the interpreter's own, it does not take its descriptor along: in a fork that has become that of a node.
+            # Like the interpreter's own streams, it does not close its descriptor: in a fork that may be a node's by
+            # then.
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), mode, closefd=False))
         elif isinstance(stream, io.TextIOWrapper) and mode == "w" and stream.errors in RAISING:
             stream.reconfigure(errors="replace")
 
 
 def _give_up_output() -> None:
-    """What was not written is dropped, or it would fail once more at the end."""
+    """Discard unwritten output, which would fail once more at exit."""
     try:
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, sys.stdout.fileno())

@@ -13,22 +13,22 @@ from pathlib import Path
 from bot_console.runtime.user_folders import data_folder
 
 UNVERIFIED = Path(__file__).resolve().parent / "rosidl" / "unverified"
-"""Definitions whose fields were read from public sources, and whose hashes were not compared with ROS 2."""
+"""Definitions whose fields come from public sources and whose hashes were not compared with ROS 2."""
 KINDS = ("msg", "srv", "action")
 
 
 class NotAdded(Exception):
-    """Interfaces cannot be added; the text says why and how to mend it."""
+    """Interfaces cannot be added; the message says why and what to do."""
 
 
 @cache
 def unverified_folders() -> Mapping[str, Path]:
-    """The packages that come along unverified."""
+    """Return the included unverified packages."""
     return {each.name: each for each in sorted(UNVERIFIED.iterdir()) if each.is_dir()}
 
 
 def added_by_user() -> Mapping[str, Path]:
-    """The packages that `interface add` has kept."""
+    """Return the packages kept by `interface add`."""
     try:
         return {each.name: each for each in sorted(_kept().iterdir()) if each.is_dir()}
     except OSError:
@@ -40,9 +40,9 @@ def _kept() -> Path:
 
 
 def add(folder: Path) -> dict[str, list[str]]:
-    """Keep the interfaces of each package in a folder or checkout; their names by package. Raises `NotAdded`.
+    """Keep the interfaces of each package in a folder or checkout; return their names by package. Raises `NotAdded`.
 
-    All definitions are read first, so that a fault in one adds nothing.
+    All definitions are read first, so that a mistake in one adds nothing.
     """
     from bot_console.runtime.rosidl.sources import EXAMPLES
     from bot_console.runtime.rosidl.texts import standard_packages
@@ -66,7 +66,7 @@ def add(folder: Path) -> dict[str, list[str]]:
 
 
 def _packages(folder: Path) -> Iterator[tuple[str, Path]]:
-    """Names and folders of the packages at or below a folder that define interfaces."""
+    """Yield names and folders of the packages at or below a folder that define interfaces."""
     from xml.etree import ElementTree
 
     for manifest in sorted(folder.rglob("package.xml")):
@@ -84,7 +84,7 @@ def _definitions(folder: Path) -> Iterator[Path]:
 
 
 def _checked(package: str, folder: Path) -> list[str]:
-    """Names such as `msg/Num` of definitions that can be read; raises `NotAdded` with file and line of a fault."""
+    """Return names such as `msg/Num` of valid definitions; raises `NotAdded` with file and line of a mistake."""
     from bot_console.runtime.rosidl.parse import DefinitionError, parse
 
     names: list[str] = []

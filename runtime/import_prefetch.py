@@ -1,7 +1,7 @@
-"""What the fork server imports for a program before it forks a process for it, judging by the program's own imports.
+"""What the fork server imports for a program before it forks a process for it, judged by the program's own imports.
 
-NumPy takes as long to import as all of rclpy. A program that does not need it starts without; where that cannot be
-told it is imported, as each process would otherwise do so by itself.
+NumPy takes as long to import as all of rclpy. A program that does not need it starts without; if that is unknown, it is
+imported, as otherwise each process would do so itself.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ from bot_console.runtime.importer import GENERATED, PACKAGES
 from bot_console.runtime.process.fork_server import Job
 
 UNKNOWN = "numpy"
-"""Imported for a program that may import anything."""
+"""Imported for a program whose imports are unknown."""
 WITH_ARRAYS = ("rclpy.action",)
-"""Modules that use NumPy: the ids of goals are arrays of it."""
+"""Modules that use NumPy: goal IDs are arrays."""
 MAX_SOURCE_BYTES = 1_000_000
-"""Bytes of source text that are read at most."""
+"""The maximum number of bytes of source text that are read."""
 
 _seen: set[tuple[str | None, int]] = set()
 
 
 def import_needed(job: Job) -> None:
-    """Import what the program of a job will need; leaves faults to the program."""
-    with contextlib.suppress(Exception):  # the program meets the fault itself, and tells it
+    """Import what the program of a job will need; errors are left to the program."""
+    with contextlib.suppress(Exception):  # the program meets the error itself, and reports it
         path = _source(*job.arguments[1:])
         seen = path, os.stat(path).st_mtime_ns if path else 0
         if seen not in _seen:
@@ -41,7 +41,7 @@ def import_needed(job: Job) -> None:
 
 
 def _source(function: str, arguments: Sequence[Any]) -> str | None:
-    """The file of a program, see `workspace.launched`; None if it is not found."""
+    """Return the file of a program, see `workspace.launched`; None if it is not found."""
     kind = function.rpartition(":")[2]
     if kind == "python_file":
         return arguments[1]
@@ -53,7 +53,7 @@ def _source(function: str, arguments: Sequence[Any]) -> str | None:
 
 
 def _needed(path: str) -> Iterator[str]:
-    """The modules to import for a file."""
+    """Yield the modules to import for a file."""
     with open(path, "rb") as file:
         text = file.read(MAX_SOURCE_BYTES + 1)
     if len(text) > MAX_SOURCE_BYTES:
@@ -85,7 +85,7 @@ def _of_module(module: str, names: Sequence[str] = ()) -> Iterator[str]:
 
 
 def _are_made(module: str, names: Sequence[str]) -> bool:
-    """Make one of each interface, which imports NumPy for one with arrays of fixed size; whether all are known."""
+    """Create one object of each interface, which imports NumPy for fixed-size arrays; return whether all are known."""
     for name in names:
         cls = getattr(importlib.import_module(module), name, None)
         if cls is None:

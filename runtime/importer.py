@@ -1,6 +1,6 @@
-"""Makes the ROS import names (`rclpy`, `std_msgs.msg`, `launch` ...) mean the embedded runtime.
+"""Makes the ROS import names (`rclpy`, `std_msgs.msg`, `launch` ...) refer to the embedded runtime.
 
-`install()` puts one finder first on `sys.meta_path`. The modules load under their ROS names, so that texts show
+`install()` puts one finder first on `sys.meta_path`. The modules load under their ROS names, so that they print as
 `std_msgs.msg._string.String`; `bot_console.runtime.rclpy` is an alias of the same module object.
 """
 
@@ -23,7 +23,7 @@ from bot_console.runtime.rosidl.sources import EXAMPLES, add_source
 if TYPE_CHECKING:
     from bot_console.runtime.process.virtual.fresh_import import FreshModules
 
-# No importlib.abc, importlib.util or pathlib here: they are a fifth of the time to the first message.
+# No importlib.abc, importlib.util or pathlib here: they take a fifth of the time to the first message.
 RUNTIME = os.path.dirname(os.path.realpath(__file__))
 GENERATED = os.path.join(RUNTIME, "rosidl", "generated")
 PACKAGES = (
@@ -51,11 +51,11 @@ PACKAGES = (
 )
 ALIAS = "bot_console.runtime."
 OWN_PACKAGE = "bot_console_robot"
-"""The ROS package that the folder `nodes/` is."""
+"""The ROS package in the folder `nodes/`."""
 OWN_PACKAGES = (OWN_PACKAGE, "intelligent_robot")
-"""Its two names; the second means it where the workspace has no package of that name."""
+"""Its two names; the second applies if the workspace has no package of that name."""
 DEMOS = "bot_console_demos"
-"""What the folder `nodes/demos/` is imported as: the nodes of the tutorials."""
+"""The import name of `nodes/demos/`: the nodes of the tutorials."""
 
 
 class RosFinder:
@@ -64,7 +64,7 @@ class RosFinder:
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """The spec of an embedded package or alias; None for every other name."""
+        """Return the spec of an embedded package or alias; None for every other name."""
         if path is None:
             return self._find_package(fullname)
         if fullname.startswith(ALIAS) and fullname[len(ALIAS) :].split(".", maxsplit=1)[0] in PACKAGES:
@@ -87,7 +87,9 @@ class RosFinder:
 
 
 def _own_package(name: str) -> ModuleSpec | None:
-    """What one of our names means: the package of that name of a workspace or a path, else our own nodes."""
+    """Return what one of our names refers to: the package of that name in a workspace or on the path, else our own
+    nodes.
+    """
     from bot_console.runtime.workspace.discover import workspace
 
     theirs = workspace().packages.get(name)
@@ -111,7 +113,7 @@ def _alias(name: str, stands_for: str) -> ModuleSpec:
 
 
 class _AliasLoader:
-    """Loads a module by giving the one that stands under another name."""
+    """Loads a module by returning the one known under another name."""
 
     def __init__(self, name: str) -> None:
         self.stands_for = name
@@ -126,12 +128,12 @@ class _AliasLoader:
 
 
 def is_embedded(name: str) -> bool:
-    """Whether a top-level import name means a part of the embedded runtime."""
+    """Whether a top-level import name refers to a part of the embedded runtime."""
     return name in PACKAGES or os.path.isdir(os.path.join(GENERATED, name))
 
 
 def embedded_names() -> list[str]:
-    """All top-level names that `install` leads somewhere: the runtime's, ours, the workspace's interfaces."""
+    """Return all top-level names handled by `install`: the runtime's, ours, and the workspace's interfaces."""
     return sorted({*PACKAGES, *_generated(), *OWN_PACKAGES, DEMOS, *interface_folders()})
 
 
@@ -142,9 +144,11 @@ def _generated() -> tuple[str, ...]:
 
 
 def node_modules(folders: Sequence[str | os.PathLike[str]] = ()) -> FreshModules:
-    """Modules for one start of a node: what lies in `folders`, and our own nodes, anew; the embedded runtime is shared.
+    """Return the modules for one start of a node: those in `folders` and our own nodes are fresh, the runtime is
+    shared.
 
-    A folder is what would be on `sys.path`: that of a node file, or the one in which a Python package lies.
+    Each folder corresponds to an entry of `sys.path`: that of a node file, or the one that contains a Python
+    package.
     """
     from bot_console.runtime.process.virtual.fresh_import import FreshModules
 
@@ -156,7 +160,7 @@ _interfaces = InterfaceFinder()
 
 
 def install() -> None:
-    """Make the ROS names mean the embedded runtime; a second call does nothing."""
+    """Make the ROS names refer to the embedded runtime; a second call does nothing."""
     if is_installed():
         return
     os.environ.setdefault("ROS_DISTRO", "jazzy")  # as in a shell that has sourced ROS 2
@@ -169,12 +173,12 @@ def install() -> None:
 
 
 def is_installed() -> bool:
-    """Whether the ROS names mean the embedded runtime in this process."""
+    """Whether the ROS names refer to the embedded runtime in this process."""
     return _finder in sys.meta_path
 
 
 def uninstall() -> None:
-    """Take the finders away again; modules already imported stay."""
+    """Remove the finders; modules already imported stay."""
     for finder in (_finder, _interfaces):
         if finder in sys.meta_path:
             sys.meta_path.remove(finder)

@@ -1,4 +1,4 @@
-"""Keeps the compiled modules of interfaces that are generated on import, by the content of their definitions."""
+"""Caches the compiled modules of generated interfaces, by the content of their definitions."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ GENERATOR = Path(__file__).resolve().parent / "rosidl"
 
 
 def compiled(module: str, definition: str, source: Callable[[], str]) -> CodeType:
-    """The code of a module that `source` generates from a definition; from the cache where it has been made before.
+    """Return the code of a module that `source` generates from a definition, from the cache if it has it.
 
-    What cannot be read or written there is made anew each time, in silence: a cache is no reason to fail.
+    If the cache cannot be read or written, the code is generated each time, silently: a cache is no reason to fail.
     """
     key = hashlib.sha256("\n".join((_generator(), module, definition)).encode()).hexdigest()
     place = cache_folder() / "interfaces" / f"{key}.{sys.implementation.cache_tag}"
@@ -38,14 +38,14 @@ def compiled(module: str, definition: str, source: Callable[[], str]) -> CodeTyp
 
 @cache
 def _generator() -> str:
-    """What tells one generator from another: sizes and times of its files, and of the interpreter's format."""
+    """Return what distinguishes one generator from another: sizes and times of its files, and the bytecode format."""
     files = sorted(GENERATOR.glob("*.py"))
     states = [(path.name, path.stat().st_size, path.stat().st_mtime_ns) for path in files]
     return repr((sys.hexversion, states))
 
 
 def _keep(place: Path, content: bytes) -> None:
-    """Write a file so that who reads it meanwhile sees all or nothing."""
+    """Write a file so that a concurrent reader sees all or nothing."""
     try:
         place.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
         handle, name = tempfile.mkstemp(dir=place.parent)

@@ -13,13 +13,13 @@ if TYPE_CHECKING:
 
 KINDS = ("msg", "srv", "action")
 NEVER_OURS = sys.stdlib_module_names | {"org"}
-"""Names for which no workspace is read; `org` is Jython's, which the standard library's `copy` asks for."""
+"""Names for which no workspace is searched; `org` is Jython's, which the standard library's `copy` imports."""
 
 
 def interface_folders() -> Mapping[str, Path]:
-    """Packages that define interfaces, with the folders in which `msg`, `srv`, `action` lie.
+    """Return the packages that define interfaces, with the folders that contain `msg`, `srv` and `action`.
 
-    Those of the workspace count first, then those that were added for good, those that come along, and what was told.
+    Those of the workspace take precedence, then those added by the user, the included ones, and the learned ones.
     """
     from bot_console.runtime.further_interfaces import added_by_user, unverified_folders
     from bot_console.runtime.learned_interfaces import learned_folders
@@ -38,7 +38,7 @@ class InterfaceFinder:
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """The spec of a generated module; None for every other name."""
+        """Return the spec of a generated module; None for every other name."""
         top, *inside = fullname.split(".")
         if top in NEVER_OURS or len(inside) > 2 or (inside and inside[0] not in KINDS):
             return None
@@ -68,7 +68,7 @@ def _definition(folder: Path, kind: str, module: str) -> Path | None:
 
 
 class InterfaceLoader:
-    """Generates a module when it is imported; all node processes get the same one, as they exchange its messages."""
+    """Generates a module when it is imported; all node processes share it, as they exchange its messages."""
 
     def __init__(self, folder: Path, modules: dict[str, ModuleType]) -> None:
         self._folder = folder
@@ -80,7 +80,7 @@ class InterfaceLoader:
         return fullname.count(".") < 2
 
     def get_source(self, fullname: str) -> str:
-        """The Python source; raises `ImportError` that names file, line and fault of a definition."""
+        """Return the Python source; raises `ImportError` with file, line and mistake of a definition."""
         from bot_console.runtime.rosidl.emit import modules
         from bot_console.runtime.rosidl.emit_holder import package_module
         from bot_console.runtime.rosidl.parse import DefinitionError, parse
@@ -100,7 +100,7 @@ class InterfaceLoader:
             raise ImportError(str(error), name=fullname) from None
 
     def _classes(self, kind: str) -> dict[str, str]:
-        """Names that a folder's module gives, with the modules that have them."""
+        """Return the names provided by a folder's module, with the modules that define them."""
         from bot_console.runtime.rosidl.names import module_name
         from bot_console.runtime.rosidl.parse import PARTS
 
@@ -113,7 +113,7 @@ class InterfaceLoader:
         return found
 
     def _defining(self, fullname: str) -> str:
-        """All that the source of a module depends on: a definition's text, or which definitions there are."""
+        """Return what the source of a module depends on: a definition's text, or the list of definitions."""
         _, *inside = fullname.split(".")
         if len(inside) == 2:
             path = _definition(self._folder, *inside)
@@ -124,13 +124,13 @@ class InterfaceLoader:
         return repr(sorted(self._classes(inside[0]).items())) if inside else ""
 
     def create_module(self, spec: ModuleSpec) -> ModuleType | None:
-        """The module that another node process has imported already, or a new one."""
+        """Return the module already imported by another node process, or a new one."""
         module = self._modules.get(spec.name)
         self._kept = module.__spec__ if module is not None else None
         return module
 
     def exec_module(self, module: ModuleType) -> None:
-        """Run a new module; one that is there already stays as it is."""
+        """Run a new module; an existing one is unchanged."""
         if self._kept is not None:
             module.__spec__ = self._kept
             return

@@ -17,10 +17,7 @@ if TYPE_CHECKING:
 
 KINDS = ("msg", "srv", "action")
 TYPE_NAME = rf"[a-z][a-z0-9_]*/(?:{'|'.join(KINDS)})/[A-Z][A-Za-z0-9]*"
-"""What a folder and a file may be named after: the names come from another program, perhaps of another machine.
-
-A pattern, compiled when it is needed.
-"""
+"""The pattern, compiled when needed, of valid names of folders and files: they come from another program or machine."""
 FALSE = "tells of it what does not have the hash"
 UNREADABLE = "describes it in a way that cannot be read"
 
@@ -28,14 +25,14 @@ _folders: dict[str, Path] = {}
 
 
 def learned_folders() -> Mapping[str, Path]:
-    """The packages that were learned."""
+    """Return the learned packages."""
     return _folders
 
 
 def learn(type_name: str, type_hash: str, reported: Any) -> str:
-    """Take the response of a node's `get_type_description`; the type can be imported afterwards.
+    """Learn from the response of a node's `get_type_description`; the type can be imported afterwards.
 
-    Gives why it cannot, with the node as the subject that is left out; empty where all is well.
+    Returns why it cannot be learned, as a sentence whose omitted subject is the node; empty on success.
     """
     from bot_console.runtime.rosidl.parse import DefinitionError
 
@@ -56,7 +53,7 @@ def learn(type_name: str, type_hash: str, reported: Any) -> str:
 
 
 def refusal(reported: Any) -> str:
-    """Why a response of `get_type_description` tells nothing; empty for one that does."""
+    """Return why a response of `get_type_description` is useless; empty if it is not."""
     if reported is None:
         return "has not described it"
     return "" if reported.successful else f"does not describe it: {reported.failure_reason}"
@@ -70,7 +67,7 @@ def _has_hash(type_name: str, type_hash: str, texts: Mapping[str, str]) -> bool:
 
 
 def _hash_here(type_name: str) -> str:
-    """The hash of the class that is imported under a name."""
+    """Return the hash of the class imported under this name."""
     import importlib
 
     from bot_console.runtime.rosidl.type_hash import text
@@ -80,7 +77,7 @@ def _hash_here(type_name: str) -> str:
 
 
 def _keep(texts: Mapping[str, str]) -> None:
-    """Write the definitions where imports find them; a package that is here stays as it is."""
+    """Write the definitions where imports find them; an existing package is unchanged."""
     import importlib.util
 
     new: list[str] = []
@@ -99,7 +96,7 @@ def _keep(texts: Mapping[str, str]) -> None:
 
 
 def _report_more(modules: Iterable[str]) -> None:
-    """Modules that were imported before they had all their classes look again which there are."""
+    """Let modules that were imported before they had all their classes list them again."""
     import importlib
     import sys
 

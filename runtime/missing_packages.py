@@ -1,4 +1,4 @@
-"""What to say when a program imports a missing ROS 2 package: what provides it, or why nothing does."""
+"""Explains the import of a missing ROS 2 package: what provides it, or why nothing does."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ NO_INTERFACES = (
 )
 ROS_1 = "{0} belongs to ROS 1, and this is ROS 2: {1}."
 INTERFACES = ("_actions", "_interfaces", "_msg", "_msgs", "_srvs")
-"""How the names of packages with interfaces usually end."""
+"""Usual endings of names of interface packages."""
 
 KNOWN: dict[str, tuple[str, str]] = {
     "PyKDL": (
@@ -62,7 +62,7 @@ KNOWN: dict[str, tuple[str, str]] = {
         "urdf_parser_py",
     )
 }
-"""What brings a package, by the name that programs import."""
+"""What provides a package, by its import name."""
 
 
 GAZEBO = "It starts Gazebo; the simulated robot stands in for it: bot_console_robot simulator.launch.py."
@@ -78,7 +78,7 @@ EXECUTABLES: dict[str, str] = {
     "slam_toolbox": "It is C++, not here; the simulated robot publishes its map on /map.",
     "image_view": "It makes windows, and bot-console has none.",
 }
-"""What stands in for the executables of a package that is not here."""
+"""What replaces the executables of a package that is not included."""
 NO_EXECUTABLE = (
     "Packages in C++ are not here, because bot-console compiles nothing; "
     "Python ones run from their sources in the workspace."
@@ -86,7 +86,7 @@ NO_EXECUTABLE = (
 
 
 def what_brings(package: str) -> str:
-    """What brings the executables of a package, or what does the same here; a sentence."""
+    """Return a sentence saying what provides the executables of a package, or an equivalent here."""
     if package in EXECUTABLES:
         return EXECUTABLES[package]
     if package in KNOWN:
@@ -96,7 +96,7 @@ def what_brings(package: str) -> str:
 
 
 def explain_missing_package(exception: BaseException) -> str | None:
-    """Why a package cannot be imported, and what to do; None for every other exception."""
+    """Explain why a package cannot be imported, and what to do; None for every other exception."""
     if not isinstance(exception, ModuleNotFoundError) or exception.name is None:
         return None
     package = exception.name.partition(".")[0]
@@ -108,7 +108,7 @@ def explain_missing_package(exception: BaseException) -> str | None:
 
 
 def _imports_interfaces(exception: BaseException, package: str) -> bool:
-    """Whether the line that failed imports messages, services or actions of a package, whatever its name."""
+    """Whether the failed line imports messages, services or actions of a package, whatever its name."""
     import traceback
 
     lines = [each.line or "" for each in traceback.extract_tb(exception.__traceback__)]

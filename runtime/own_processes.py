@@ -1,4 +1,4 @@
-"""The fork server of this process, and what each process forked from it does first.
+"""The fork server of this process, and the first steps of each process forked from it.
 
 It imports little: a program that will need processes starts the server first, which warms up while the rest is
 imported.
@@ -23,7 +23,7 @@ _servers: list[ForkServer] = []
 
 
 def fork_server() -> ForkServer:
-    """The fork server of this process, started when it is first asked for, and anew when it was killed."""
+    """Return the fork server of this process, started on first use and restarted if it was killed."""
     with _guard:
         if not _servers or not _servers[0].is_alive:
             _servers[:] = [ForkServer(WARM_UP, PREPARE)]
@@ -36,7 +36,7 @@ def fork_off_server() -> None:
 
 
 def close_fork_server() -> None:
-    """End the server, and with it all that it has started; waits for that."""
+    """End the server and all its children; waits for that."""
     with _guard:
         servers, _servers[:] = list(_servers), []
     for each in servers:
@@ -44,18 +44,20 @@ def close_fork_server() -> None:
 
 
 def begin_children_with(function: str) -> None:
-    """Let each process of its own call `package.module:function` before anything else, as to choose its middleware."""
+    """Make each child process call `package.module:function` before anything else, for instance to choose its
+    middleware.
+    """
     if function not in _beginnings:
         _beginnings.append(function)
 
 
 def beginnings() -> list[str]:
-    """What each process of its own is to call."""
+    """Return the functions that each child process calls first."""
     return list(_beginnings)
 
 
 def begun(called: Sequence[str], function: str, arguments: Sequence[Any]) -> Callable[[], object]:
-    """In the process: what it is to run, once its beginnings were called."""
+    """In the child process: return what to run, after calling the functions that come first."""
     for each in called:
         function_named(each)()
     return function_named(function)(*arguments)

@@ -1,4 +1,4 @@
-"""Inspects a Python file before it is run as a node: whether it starts anything, and what to say if it does not."""
+"""Inspects a Python file before it is run as a node: whether it starts anything, and what to say if not."""
 
 from __future__ import annotations
 
@@ -17,11 +17,13 @@ QT_PLUGIN = (
     "buttons do can be done here: set parameters in the pane Parameters, plot topics in Plot, and call services by a "
     "ros2 line after a colon. The file is for rqt on a machine with ROS 2; what it does without Qt can be a node"
 )
-"""What becomes of plug-ins of rqt."""
+"""The message for rqt plug-ins."""
 
 
 class PlainFile(NamedTuple):
-    """`problem` says why a file cannot be run, `hint` what its reader should know; empty where there is none."""
+    """`problem` says why a file cannot be run, `hint` what the user should know; both empty if there is nothing to
+    say.
+    """
 
     problem: str = ""
     hint: str = ""
@@ -30,7 +32,7 @@ class PlainFile(NamedTuple):
 
 
 def examine(path: Path) -> PlainFile:
-    """Read a file without running it."""
+    """Inspect a file without running it."""
     try:
         tree = ast.parse(path.read_bytes(), str(path))
     except SyntaxError as error:
@@ -55,7 +57,7 @@ def examine(path: Path) -> PlainFile:
 
 
 def then_main(runs: Callable[[], object]) -> Callable[[], None]:
-    """What runs a file and then the `main()` that it defines, as `ros2 run` would."""
+    """Return a function that runs a file and then the `main()` defined in it, as `ros2 run` would."""
 
     def run() -> None:
         runs()

@@ -6,5 +6,5 @@ SCHEMES = ("https://", "http://")
 
 
 def is_remote(place: str) -> bool:
-    """Whether a parameter file is named by an address, not by a path."""
+    """Whether a parameter file is given by a URL rather than a path."""
     return place.lower().startswith(SCHEMES)

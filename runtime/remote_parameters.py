@@ -1,6 +1,6 @@
 """Parameter files on a server: downloaded over `https://`, cached, and read from the cache while it is unreachable.
 
-A server on this machine may speak plain `http://`: nobody is on the way.
+A server on this machine may use plain `http://`, since nobody can intercept it.
 """
 
 from __future__ import annotations
@@ -25,25 +25,25 @@ from bot_console.runtime.user_folders import cache_folder
 
 SCHEME = "https://"
 MAX_FILE_BYTES = 1_000_000
-"""Bytes of a parameter file at most."""
+"""The maximum size of a parameter file in bytes."""
 SILENCE = 5.0
-"""Seconds that a server may be silent."""
+"""Seconds without data after which a server counts as unreachable."""
 FETCH_TIMEOUT_S = 15.0
-"""Seconds that all of it may take."""
+"""The time limit (s) for a whole download."""
 PIECE = 65_536
 
 
 class RemoteError(OSError):
-    """A parameter file cannot be had from a server; the text says why."""
+    """A parameter file cannot be fetched from a server; the message says why."""
 
 
 def local_copy(address: str) -> Path:
-    """The path of what stands at an address now; or, with a WARN on stderr, of what stood there when last asked.
+    """Return the path of the file now at an address; or, with a WARN on stderr, of the copy fetched last.
 
-    The certificate of the server is verified, by `SSL_CERT_FILE` where that is set. Only a text that is YAML is kept.
-    Raises `RemoteError`: for `http://` from another machine and certificates that do not fit, as whoever is on the way
-    could write the file; for a server that answers, but not with a parameter file; and for one out of reach, of which
-    no copy is kept.
+    The server's certificate is verified, with `SSL_CERT_FILE` if that is set. Only valid YAML is kept. Raises
+    `RemoteError`: for `http://` from another machine and for invalid certificates, because anyone on the network could
+    have written the file; for a server that answers, but not with a parameter file; and for an unreachable one without
+    a cached copy.
     """
     _check(address)
     kept = _Kept(address)
@@ -59,7 +59,7 @@ def local_copy(address: str) -> Path:
         )
         return kept.path
     if answer is None:
-        kept.path.touch()  # which tells how old a copy is
+        kept.path.touch()  # its time shows the age of a copy
     else:
         _check_yaml(address, answer[0])
         kept.keep(*answer)
@@ -67,11 +67,11 @@ def local_copy(address: str) -> Path:
 
 
 class _OutOfReach(Exception):
-    """The server did not answer, or said that it cannot for now."""
+    """The server did not answer, or said that it cannot do so now."""
 
 
 class _Kept:
-    """The copy of one address, whole or not at all: the text, and beside it the server's name for that version."""
+    """The cached copy of one address, complete or absent: the text, and beside it the server's ETag."""
 
     def __init__(self, address: str) -> None:
         name = hashlib.blake2b(address.encode(), digest_size=12).hexdigest()
@@ -82,7 +82,7 @@ class _Kept:
 
     @property
     def tag(self) -> str:
-        """The ETag of what is kept; empty where there is none, or where the two files do not belong together."""
+        """The ETag of the cached copy; empty if there is none, or if the two files do not belong together."""
         try:
             about: Any = json.loads(self._about.read_bytes())
             fits = about["digest"] == _digest(self.path.read_bytes()) and about["address"] == self._address
@@ -136,17 +136,17 @@ def _check(address: str) -> None:
 
 
 def _is_here(address: str) -> bool:
-    """Whether an address means a server on this machine, without TLS."""
+    """Whether an address is a server on this machine, without TLS."""
     try:
         parts = urllib.parse.urlsplit(address)
         host = parts.hostname or ""
         return parts.scheme == "http" and (host == "localhost" or ipaddress.ip_address(host).is_loopback)
-    except ValueError:  # a name, or nothing that is an address
+    except ValueError:  # a name, or not an address
         return False
 
 
 class _SafePlaces(urllib.request.HTTPRedirectHandler):
-    """Follows a server to another place, never out of TLS, and without TLS only on this machine."""
+    """Follows redirects, but never from TLS to plain HTTP, and without TLS only on this machine."""
 
     def redirect_request(
         self, req: urllib.request.Request, fp: IO[bytes], code: int, msg: str, headers: Message, newurl: str
@@ -157,14 +157,14 @@ class _SafePlaces(urllib.request.HTTPRedirectHandler):
 
 
 def _asked(address: str, tag: str) -> tuple[bytes, str] | None:
-    """Content and ETag; None where it is the one that is known already."""
+    """Return content and ETag; None if it is unchanged."""
     request = urllib.request.Request(address, headers={"User-Agent": "bot-console", "Accept-Encoding": "identity"})
     if tag:
         request.add_header("If-None-Match", tag)
     try:
         handlers = [urllib.request.HTTPSHandler(context=ssl.create_default_context()), _SafePlaces()]
         if _is_here(address):
-            handlers.append(urllib.request.ProxyHandler({}))  # a proxy would be on the way, and is not this machine
+            handlers.append(urllib.request.ProxyHandler({}))  # a proxy would be in between, and is not on this machine
         with urllib.request.build_opener(*handlers).open(request, timeout=SILENCE) as answer:
             return _content(address, answer), answer.headers.get("ETag", "")
     except urllib.error.HTTPError as error:
@@ -187,7 +187,7 @@ def _asked(address: str, tag: str) -> tuple[bytes, str] | None:
 
 
 def _content(address: str, answer: Any) -> bytes:
-    """The body, as far as size and time allow."""
+    """Return the body, within the limits of size and time."""
     end = time.monotonic() + FETCH_TIMEOUT_S
     content = b""
     while piece := answer.read1(PIECE):
@@ -202,7 +202,7 @@ def _content(address: str, answer: Any) -> bytes:
 
 
 def _check_yaml(address: str, content: bytes) -> None:
-    """Raise `RemoteError` for what is no YAML. Only its events are looked at: nothing is built from it."""
+    """Raise `RemoteError` for invalid YAML. Only its events are read: nothing is constructed from it."""
     import yaml
 
     loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)

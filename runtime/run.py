@@ -15,11 +15,11 @@ from bot_console.runtime.workspace.parameter_files import hint_for
 from bot_console.runtime.workspace.program import Program, program, python_file
 
 INTERRUPTED = 130
-"""What a shell says of a program that SIGINT has ended."""
+"""The exit code that shells report for a program ended by SIGINT."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run what the words name and give its exit code."""
+    """Run what the arguments name and return its exit code."""
     words = list(sys.argv[1:] if argv is None else argv)
     install()
     find_with(hint_for)
@@ -55,7 +55,7 @@ def run_package(package: str, words: Sequence[str]) -> int:
 
 
 def run_file(path: Path, words: Sequence[str]) -> int:
-    """Run a Python file as `python FILE` does; where it only defines `main()`, that is called as `ros2 run` would."""
+    """Run a Python file as `python FILE` does; if it only defines `main()`, call that, as `ros2 run` would."""
     from bot_console.runtime.plain_file import examine, then_main
 
     if not path.is_file():
@@ -70,14 +70,14 @@ def run_file(path: Path, words: Sequence[str]) -> int:
 
 
 def _run(runs: Program, argv: Sequence[str]) -> int:
-    """Run to the end; an uncaught exception is a traceback that begins in the user's own file."""
+    """Run to the end; an uncaught exception prints a traceback that begins in the user's own file."""
     from bot_console.runtime.process import MAIN, current
     from bot_console.runtime.process.ending import wait_for_threads
     from bot_console.runtime.process.node.main_thread import SIGINT_EXIT, exit_code_of
 
     sys.argv = list(argv)
     code = exit_code_of(runs)
-    if current() is MAIN:  # else the node process does so at its own end
+    if current() is MAIN:  # otherwise the node process does so at its end
         wait_for_threads()
     return INTERRUPTED if code == SIGINT_EXIT else code
 

@@ -1,4 +1,4 @@
-"""The code behind the stand-in module that a launched program imports as `rclpy`: see `child_environment`."""
+"""The code of the shim modules that a launched program imports as `rclpy` etc.: see `child_environment`."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
 
 
 def give_way(name: str) -> None:
-    """Put the runtime in place of a stand-in module, which is just being imported from a folder of such.
+    """Replace a shim, which is just being imported, by the runtime's module.
 
-    The program takes part in its domain, unless its environment keeps it apart.
+    The program joins its domain, unless its environment prevents that.
     """
     folder = os.path.dirname(os.fspath(sys.modules[name].__file__ or ""))
     sys.path[:] = [each for each in sys.path if each != folder]

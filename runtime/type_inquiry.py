@@ -1,4 +1,4 @@
-"""The requests that fetch an unknown type from a node; who sends them, and how long it waits, is up to the caller."""
+"""The requests that fetch an unknown type from a node; the caller sends them and decides how long to wait."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ Question = tuple[str, str]
 
 
 def whole(type_name: str) -> str:
-    """The action that a type is a part of, as `pkg/action/Name_Feedback` is; every other type as it is."""
+    """Return the action that a type is a part of, as `pkg/action/Name_Feedback` is; any other type unchanged."""
     package, kind, name = type_name.split("/")
     return f"{package}/{kind}/{name.partition('_')[0]}" if kind == "action" else type_name
 
 
 def inquiries(domain: int, type_name: str) -> Mapping[str, Generator[Question, Any, str]]:
-    """What to ask for a type, by the nodes of other processes that can be asked, sorted by name."""
+    """Return the inquiries for a type, by the nodes of other processes that can be asked, sorted by name."""
     wanted = _types_in_graph(type_name)
     found: dict[str, dict[str, str]] = {}
     for tables in bus_of(domain).tables():
@@ -33,15 +33,15 @@ def inquiries(domain: int, type_name: str) -> Mapping[str, Generator[Question, A
 
 
 def _types_in_graph(type_name: str) -> Sequence[str]:
-    """The types whose hashes the graph tells: of an action those of its services and its feedback, else itself."""
+    """Return the types whose hashes are in the graph: for an action its services and feedback, else the type itself."""
     return [f"{type_name}_{part}" for _, part in ACTION_TYPES] if "/action/" in type_name else [type_name]
 
 
 def inquiry(type_name: str, hashes: Mapping[str, str]) -> Generator[Question, Any, str]:
-    """What to ask one node: yields questions and takes the responses, after which the type can be imported.
+    """Ask one node: yields requests and receives the responses, after which the type can be imported.
 
-    `hashes` are the graph's: of the type, or of the services and the feedback of an action, of which the action's own
-    follows. Returns why the type cannot be had, with the node as the subject that is left out; empty where all is well.
+    `hashes` are from the graph: of the type, or of an action's services and feedback, from which the action's own
+    follows. Returns why the type is unavailable, as a sentence whose omitted subject is the node; empty on success.
     """
     if "/action/" not in type_name:
         return learn(type_name, hashes[type_name], (yield type_name, hashes[type_name]))

@@ -1,4 +1,4 @@
-"""A log file that cannot be written, as on a full disk: told once, and nothing else stops for it."""
+"""Log files that cannot be written, as on a full disk: reported once, without stopping anything else."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ _reported: set[str] = set()
 class UnwritableLog(logging.Handler):
     """Mixin for a handler of a log file.
 
-    The standard library prints a traceback for each record instead. That ends in the same file where the standard
-    error stream is logged, and so never ends.
+    The standard library would print a traceback for each record. If the standard error stream is logged, that ends in
+    the same file, and so never stops.
     """
 
     def handleError(self, record: logging.LogRecord) -> None:
-        """Give one notice per folder and reason; other mistakes are reported as usual."""
+        """Give one notice per folder and reason; other errors are handled as usual."""
         error = sys.exc_info()[1]
         if not isinstance(error, OSError):
             super().handleError(record)
@@ -33,7 +33,7 @@ class UnwritableLog(logging.Handler):
 
 
 class LogFile(UnwritableLog, logging.FileHandler):
-    """The standard library's log file, with that, also where it cannot be opened."""
+    """The standard library's log file with this error handling, also for errors on opening it."""
 
     def emit(self, record: logging.LogRecord) -> None:
         """Write a record."""

@@ -1,4 +1,4 @@
-"""The runtime's files in the user's folders; the console's own are next to them."""
+"""The runtime's files in the user's folders; those of the console are next to them."""
 
 from __future__ import annotations
 
@@ -8,20 +8,22 @@ from functools import cache
 from pathlib import Path
 
 OVERRIDE = "BOT_CONSOLE_USER_DIR"
-"""Environment variable: one folder for all of it, for instance on a borrowed account."""
+"""Environment variable: one folder for all files, for instance on a borrowed account."""
 
 XDG = {"user_data_path": ("XDG_DATA_HOME", "~/.local/share"), "user_cache_path": ("XDG_CACHE_HOME", "~/.cache")}
-"""Where Linux has them. For these two, platformdirs would be a thirtieth of the time to a launch's first node."""
+"""The places on Linux. Importing platformdirs for these two would take a thirtieth of the time to a launch's first
+node.
+"""
 
 
 def data_folder() -> Path:
-    """What a person has added for good (`~/.local/share/bot-console` on Linux)."""
+    """Return the folder for permanent additions by the user (`~/.local/share/bot-console` on Linux)."""
     given = os.environ.get(OVERRIDE)
     return Path(given) / "data" if given else _platform("user_data_path")
 
 
 def cache_folder() -> Path:
-    """What can be made again (`~/.cache/bot-console` on Linux)."""
+    """Return the folder for files that can be regenerated (`~/.cache/bot-console` on Linux)."""
     given = os.environ.get(OVERRIDE)
     return Path(given) / "cache" if given else _platform("user_cache_path")
 

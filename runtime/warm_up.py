@@ -6,7 +6,7 @@ from bot_console.runtime.importer import install
 
 INTERFACES = ("action_msgs", "builtin_interfaces", "geometry_msgs", "nav_msgs", "rcl_interfaces", "sensor_msgs",
               "std_msgs", "std_srvs", "tf2_msgs")  # fmt: skip
-"""Those whose messages, services and actions most nodes import."""
+"""Packages whose messages, services and actions most nodes import."""
 MODULES = ("rclpy.executors", "rclpy.qos", "bot_console.runtime.own_processes",
            "bot_console.runtime.workspace.launched", "bot_console.runtime.rosidl.cdr_read",
            "bot_console.runtime.rosidl.cdr_write", "bot_console.runtime.rmw.zenoh.bus",
@@ -14,22 +14,22 @@ MODULES = ("rclpy.executors", "rclpy.qos", "bot_console.runtime.own_processes",
 
 
 SHARED = ("rclpy.validate_node_name", "bot_console.runtime.workspace.launched")
-"""What a launch imports as well."""
+"""Modules that a launch imports, too."""
 
 
 def import_shared() -> None:
-    """Import what the server and its parent both need, before the one is forked from the other."""
+    """Import what both the server and its parent need, before one is forked from the other."""
     import gc
     import importlib
 
-    gc.disable()  # what is imported stays
+    gc.disable()  # the imported modules stay
     install()
     for name in SHARED:
         importlib.import_module(name)
 
 
 def warm_up() -> None:
-    """Import the runtime, and make and destroy one node. No thread and no session of a middleware stays."""
+    """Import the runtime, and create and destroy one node. No thread and no middleware session remains."""
     import contextlib
     import gc
     import importlib
@@ -44,10 +44,10 @@ def warm_up() -> None:
                 importlib.import_module(f"{package}.{kind}")
     for name in MODULES:
         importlib.import_module(name)
-    with contextlib.suppress(ImportError, MemoryError):  # where it does not fit into memory, the node says so
+    with contextlib.suppress(ImportError, MemoryError):  # if it does not fit into memory, the node reports it
         preload()
-    gid_of("warm_up")  # which imports what hashes
-    gc.freeze()  # what was imported is no garbage: only what the node leaves behind has to be looked through
+    gid_of("warm_up")  # imports what is needed for hashes
+    gc.freeze()  # imported modules are no garbage: only what the node leaves behind has to be examined
     _make_one_node()
 
 

@@ -11,18 +11,20 @@ from bot_console.runtime.workspace.share import link
 
 NAME = "bot_console_robot"
 PAGE_NAME = "intelligent_robot"
-"""A second name for the same package, where nobody else has taken it: courses call their robot so."""
+"""A second name for the same package, used by courses; valid unless another package has that name."""
 ROOT = Path(__file__).resolve().parents[2]
-"""Where `nodes/`, `launch/` and `profiles/` lie side by side, in a checkout and in an installed wheel."""
+"""The folder with `nodes/`, `launch/` and `profiles/`, in a checkout and in an installed wheel."""
 FIRST_VARIABLE = "BOT_CONSOLE_ROBOT_FIRST"
-"""In the environment of a launch of our own, and so of its processes: our package comes before others of its name."""
+"""Set in the environment of our own launches, and so of their processes: our package comes before others of its
+name.
+"""
 
 SECOND_SPELLING = "environment_launch.py"
-"""`environment.launch.py` under the name that courses give it."""
+"""The name that courses use for `environment.launch.py`."""
 
 
 def own_package() -> Package:
-    """The package as if it had been read from a source folder: each `*_node.py` is an executable."""
+    """Return the package as if it had been read from a source folder: each `*_node.py` is an executable."""
     nodes = ROOT / "nodes"
     names = sorted(each.stem for each in nodes.glob("*_node.py"))
     entry_points = {name: EntryPoint(f"{NAME}.{name}", "main") for name in names}
@@ -30,7 +32,7 @@ def own_package() -> Package:
 
 
 def is_own(package: Package) -> bool:
-    """Whether a package is the one that comes along, not one of the user's with its name."""
+    """Whether a package is the included one, not a user's package of the same name."""
     return package.folder == ROOT / "nodes"
 
 
@@ -40,7 +42,7 @@ def own_is_first() -> bool:
 
 
 def own_share(links: Path) -> Path:
-    """Its share folder: `launch/`, `config/` with each profile under both its names, and `worlds/`."""
+    """Return its share folder: `launch/`, `config/` with each profile under both its names, and `worlds/`."""
     place = links / NAME
     for path in (ROOT / "launch").glob("*.launch.*"):
         link(path, place / "launch" / path.name)

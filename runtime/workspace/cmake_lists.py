@@ -1,7 +1,8 @@
-"""Reads what a `CMakeLists.txt` installs of Python programs and files, without running CMake.
+"""Reads which Python programs and files a `CMakeLists.txt` installs, without running CMake.
 
-Understood are `project`, `set`, `file(GLOB)`, `ament_python_install_package`, and `install` of PROGRAMS, FILES and
-DIRECTORY; `${NAME}` stands for what was set above. All else, such as conditions and compiled programs, is passed over.
+It understands `project`, `set`, `file(GLOB)`, `ament_python_install_package`, and `install` of PROGRAMS, FILES and
+DIRECTORY; `${NAME}` is replaced by the value set above. It ignores everything else, such as conditions and compiled
+programs.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ _KEYWORDS = frozenset(
 
 
 def read_cmake_lists(folder: Path) -> SetupFile:
-    """Read the `CMakeLists.txt` of a package folder; raises `ValueError` when it cannot be read."""
+    """Read the `CMakeLists.txt` of a package folder; raises `ValueError` if it cannot be read."""
     try:
         text = (folder / "CMakeLists.txt").read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
@@ -45,7 +46,7 @@ def read_cmake_lists(folder: Path) -> SetupFile:
 
 
 def _commands(text: str, variables: Mapping[str, list[str]]) -> Iterator[tuple[str, list[str]]]:
-    """Commands in their order with their words; a variable that stands alone gives all its values."""
+    """Yield each command with its arguments; a variable that is a whole argument expands to all its values."""
     for name, inside in _COMMAND.findall(text):
         words: list[str] = []
         for quoted, bare in _WORD.findall(inside):
@@ -70,7 +71,7 @@ class _Reader:
         self.data_files: list[tuple[str, tuple[Path, ...]]] = []
 
     def take(self, command: str, words: list[str]) -> None:
-        """Take one command in."""
+        """Process one command."""
         if command == "project" and words:
             self._name = words[0]
             self.variables["PROJECT_NAME"] = words[:1]

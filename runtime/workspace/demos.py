@@ -12,7 +12,7 @@ from bot_console.runtime.workspace.package import EntryPoint, Package
 from bot_console.runtime.workspace.share import link
 
 IMPORT_NAME = "bot_console_demos"
-"""What `nodes/demos/` is imported as."""
+"""The import name of `nodes/demos/`."""
 FOLDER = ROOT / "nodes" / "demos"
 EXECUTABLES: Mapping[str, Mapping[str, str]] = {
     "action_tutorials_cpp": {
@@ -81,14 +81,14 @@ EXECUTABLES: Mapping[str, Mapping[str, str]] = {
         "turtlesim_node": "turtlesim.turtlesim_node:main",
     },
 }
-"""What runs each executable, by the names that the packages have in ROS 2."""
+"""The program of each executable, by the package names of ROS 2."""
 SECOND_SPELLING = {"_launch.py": ".launch.py"}
-"""Endings of launch files, and the other ones that older releases gave them."""
+"""Endings of launch files, and the endings they had in older releases."""
 
 
 @cache
 def demo_packages() -> Mapping[str, Package]:
-    """The packages by name."""
+    """Return the packages by name."""
     return MappingProxyType({name: _package(name, rows) for name, rows in EXECUTABLES.items()})
 
 
@@ -101,12 +101,12 @@ def _package(name: str, rows: Mapping[str, str]) -> Package:
 
 
 def is_demo(package: Package) -> bool:
-    """Whether a package is one of these, not one of the user's with its name."""
+    """Whether a package is one of these, not a user's package of the same name."""
     return package.folder == FOLDER
 
 
 def demo_share(package: Package, links: Path) -> Path:
-    """Its share folder, with its launch files."""
+    """Return its share folder, with its launch files."""
     place = links / package.name
     place.mkdir(parents=True, exist_ok=True)
     for path in sorted((ROOT / "launch" / package.name).glob("*.py")):

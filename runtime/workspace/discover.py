@@ -22,13 +22,13 @@ DEPTH = 6
 SOURCED_VARIABLE = "BOT_CONSOLE_WORKSPACE"
 """The workspaces whose `install/setup.bash` a shell has sourced, joined by colons; the last one sourced is first."""
 FOLDERS = 20_000
-"""Folders that are looked into at most, so that a start in a home directory does not take minutes."""
+"""The maximum number of folders searched, so that a start in a home directory does not take minutes."""
 
 
 class Workspace:
-    """The source packages below some folders, ours, and those of the tutorials; the first of a name wins.
+    """The source packages below some folders, the included one, and those of the tutorials; the first of a name wins.
 
-    Ours comes behind the folders', but in a launch of our own first.
+    The included package comes after those in the folders, but first in our own launches.
     """
 
     def __init__(self, folders: Sequence[Path]) -> None:
@@ -40,7 +40,7 @@ class Workspace:
         return self._with_ours_first if own_is_first() else self._with_ours_last
 
     def find(self, name: str) -> Package | None:
-        """The package that a name means, or None; ours has a second name where no other package has it."""
+        """Return the package of this name, or None; ours also has a second name unless another package has it."""
         packages = self.packages
         return packages.get(name) or (packages[NAME] if name == PAGE_NAME else None)
 
@@ -60,7 +60,7 @@ class Workspace:
         return MappingProxyType({**self._with_ours_last, NAME: own_package()})
 
     def share(self, name: str) -> Path | None:
-        """The share folder of a package, or None when the workspace does not have it."""
+        """Return the share folder of a package, or None if it is not in the workspace."""
         package = self.find(name)
         if package is None:
             return None
@@ -82,19 +82,20 @@ class Workspace:
 
     @cached_property
     def _links(self) -> Path:
-        """A folder of this process for share folders made of links; it goes with the process."""
+        """A folder of this process for share folders made of links; deleted with the process."""
         return Path(tempfile.mkdtemp(prefix="share-", dir=scratch()))
 
 
 def default_folders(start: Path) -> tuple[Path, ...]:
-    """Where packages are looked for without an option: the folder itself, and `src/` below it."""
+    """Return the folders searched by default: the folder itself, and `src/` below it."""
     return (start, start / "src") if (start / "src").is_dir() else (start,)
 
 
 def _package_folders(folder: str, depth: int, budget: list[int]) -> Iterator[str]:
-    """Folders with a `package.xml`, as colcon finds them: not below another package, not where told to ignore.
+    """Yield folders with a `package.xml`, as colcon finds them: not below another package, not where it is to be
+    ignored.
 
-    Each folder is read once, and no paths are made of it: a launch waits for this.
+    Each folder is read once, and no `Path` objects are created: a launch waits for this.
     """
     budget[0] -= 1
     if budget[0] == 0:
@@ -108,7 +109,8 @@ def _package_folders(folder: str, depth: int, budget: list[int]) -> Iterator[str
         return
     if any(os.path.exists(entries[marker]) for marker in MARKERS & entries.keys()):
         return
-    if "package.xml" in entries and os.path.isfile(entries["package.xml"]):  # its own method raises for some links
+    # the method of the entry raises for some links
+    if "package.xml" in entries and os.path.isfile(entries["package.xml"]):
         yield folder
     elif depth:
         below = (name for name, each in entries.items() if each.is_dir(follow_symlinks=False))
@@ -128,7 +130,7 @@ _current: list[Workspace] = []
 
 
 def workspace() -> Workspace:
-    """The workspace of this run; the working directory's, then those that were sourced, until `use` names another."""
+    """Return the workspace of this run: the working directory's and the sourced ones, unless `use` sets another."""
     if not _current:
         here = default_folders(Path.cwd())
         sourced = (Path(each) for each in os.environ.get(SOURCED_VARIABLE, "").split(os.pathsep) if each)
@@ -137,5 +139,5 @@ def workspace() -> Workspace:
 
 
 def use(chosen: Workspace) -> None:
-    """Make a workspace the one of this run."""
+    """Set the workspace of this run."""
     _current[:] = [chosen]

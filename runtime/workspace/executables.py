@@ -26,12 +26,14 @@ class Executable(NamedTuple):
 
 
 def executables(package: str) -> dict[str, Executable]:
-    """Executables of a package by name; raises `ament_index_python.PackageNotFoundError` for an unknown package."""
+    """Return a package's executables by name; raises `ament_index_python.PackageNotFoundError` for an unknown
+    package.
+    """
     from ament_index_python.resources import get_resources
 
     source = workspace().find(package)
     if source is not None and (source.name != package or is_demo(source)) and package in get_resources("packages"):
-        source = None  # an installed package has our second name, or is the tutorial's own
+        source = None  # an installed package has our second name, or is the tutorial's
     found = {} if source is None else _of_source(source)
     if source is None or not found:
         found = {**_of_prefix(package, required=source is None), **found}
@@ -41,7 +43,7 @@ def executables(package: str) -> dict[str, Executable]:
 
 
 def executable_names(package: str) -> dict[str, str]:
-    """Names of a package's executables with what they are, for `ros2 pkg executables`."""
+    """Return the names of a package's executables, each with a description, for `ros2 pkg executables`."""
     return {name: str(each) for name, each in executables(package).items()}
 
 

@@ -10,7 +10,7 @@ import yaml
 
 
 def readme(name: str, place: Path, executables: Iterable[str]) -> str:
-    """The text for the package that was written to `place`."""
+    """Return the text for the package that was written to `place`."""
     files = {each.stem.removesuffix("_config"): each for each in sorted((place / "config").glob("*.yaml"))}
     profiles = list(files)
     launch_files = sorted(each.name for each in (place / "launch").iterdir())

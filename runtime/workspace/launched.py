@@ -1,4 +1,4 @@
-"""The program of a launched Python node, as a thread or as a process; it finds the packages that its launch finds."""
+"""The program of a launched Python node, as a thread or as a process; it finds the same packages as its launch."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ Program = Callable[[], object]
 
 
 def entry_point(workspace_folders: Sequence[str], function: str, folders: Sequence[str]) -> Program:
-    """The program of `module:function`, imported from folders."""
+    """Return the program of `module:function`, imported from these folders."""
     find_packages_in(workspace_folders)
     return entry_point_program(function, node_modules(folders))
 
 
 def python_file(workspace_folders: Sequence[str], path: str, folders: Sequence[str], calls_main: bool) -> Program:
-    """The program of a file whose modules lie in folders; where it only defines `main()`, that is called."""
+    """Return the program of a file whose modules are in these folders; if it only defines `main()`, that is called."""
     find_packages_in(workspace_folders)
     runs = file_program(path, node_modules(folders))
     return then_main(runs) if calls_main else runs
 
 
 def find_packages_in(folders: Sequence[str]) -> None:
-    """In a process of its own: look where the launch looks."""
+    """Make a separate process search the same workspace folders as the launch."""
     if [str(each) for each in workspace().folders] != list(folders):
         use(Workspace([Path(each) for each in folders]))

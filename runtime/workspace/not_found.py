@@ -1,4 +1,4 @@
-"""What to say when a package or an executable is missing: which ones exist, and what to add."""
+"""Messages for a missing package or executable: which ones exist, and what to add."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from bot_console.runtime.workspace.discover import workspace
 
 
 def no_package(package: str) -> str:
-    """For a package that nobody has."""
+    """Return the message for an unknown package."""
     folders = ", ".join(map(str, workspace().folders)) or "no folder"
     names = package_names()
     meant = did_you_mean(package, names, "'")
@@ -19,13 +19,15 @@ def no_package(package: str) -> str:
 
 
 def no_executable(package: str, name: str) -> str:
-    """For a package without that executable."""
+    """Return the message for a package without that executable."""
     has = ", ".join(all_executable_names(package)) or "none"
     return f"No executable found: '{name}' is not in package '{package}', which has: {has}{to_add(package, name)}"
 
 
 def to_add(package: str, name: str) -> str:
-    """What is to be mended for a package of the workspace to have it, after a full stop; nothing for others."""
+    """Return what to repair so that a workspace package has it, to append after a full stop; empty for other
+    packages.
+    """
     source = workspace().packages.get(package)
     if source is None or not (source.folder / "setup.py").is_file():
         return ""

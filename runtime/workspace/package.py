@@ -25,7 +25,7 @@ class EntryPoint(NamedTuple):
 
 @dataclass(frozen=True)
 class Package:
-    """A package by its name. `problem` says why it cannot be used as it is, empty when it can."""
+    """A package by name. `problem` says why it cannot be used as it is; empty if it can."""
 
     name: str
     folder: Path
@@ -38,7 +38,7 @@ class Package:
     data_files: tuple[tuple[str, tuple[Path, ...]], ...] = ()
     problem: str = ""
     panes: Mapping[str, EntryPoint] = field(default_factory=lambda: MappingProxyType({}))
-    """Panes that it brings for the console."""
+    """Panes that it provides for the console."""
 
     @cached_property
     def has_interfaces(self) -> bool:
@@ -48,7 +48,7 @@ class Package:
 
 def read_package(folder: Path) -> Package:
     """Read the package in a folder that holds a `package.xml`."""
-    from xml.etree import ElementTree  # not for a launch without packages
+    from xml.etree import ElementTree  # not imported by launches without packages
 
     try:
         root = ElementTree.parse(folder / "package.xml").getroot()

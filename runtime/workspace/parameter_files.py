@@ -1,4 +1,4 @@
-"""Parameter files of packages that were named by a path of theirs, as in `config_file:=config/robot.yaml`."""
+"""Hints for parameter files given by a path within their package, as in `config_file:=config/robot.yaml`."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from bot_console.runtime.workspace.discover import workspace
 from bot_console.runtime.workspace.package import Package
 
 SHOWN = 3
-"""Places that a hint names at most."""
+"""The maximum number of places named in a hint."""
 
 
 def hint_for(path: str) -> str:
-    """The hint which packages have a file that does not exist at a relative path; empty if none has."""
+    """Return a hint naming packages that have a file which does not exist at the given relative path; else empty."""
     if os.path.isabs(path):
         return ""
     packages = workspace().packages
@@ -24,13 +24,13 @@ def hint_for(path: str) -> str:
 
 
 def _files(package: Package, path: str) -> Iterator[Path]:
-    """The file at that path of the package, or of that name in its `config/`."""
+    """Yield the file at that path in the package, or with that name in its `config/`."""
     return (
         each for each in (package.folder / path, package.folder / "config" / os.path.basename(path)) if each.is_file()
     )
 
 
 def _written(file: Path) -> str:
-    """The path as it would be typed here."""
+    """Return the path as it would be typed in the working directory."""
     here = os.path.relpath(file)
     return os.fspath(file) if here.startswith(os.pardir) else here

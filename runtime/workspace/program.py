@@ -1,4 +1,4 @@
-"""The program behind an executable of the workspace, for a node process or for the real process."""
+"""The program of a workspace executable, for a node process or for the real process."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Program = Callable[[], object]
 
 
 def program(executable: Executable) -> Program | None:
-    """What runs an executable as the process that calls it; None where it is not Python."""
+    """Return the function that runs an executable in the calling process; None if it is not Python."""
     entry = executable.entry_point
     if entry is not None:
         return entry_point_program(f"{entry.module}:{entry.function}", node_modules(source_folders(executable.package)))
@@ -24,12 +24,12 @@ def program(executable: Executable) -> Program | None:
 
 
 def python_file(path: Path) -> Program:
-    """What runs a Python file as the process that calls it; it can import what the workspace's packages have."""
+    """Return the function that runs a Python file in the calling process; it can import the workspace's packages."""
     return file_program(str(path), node_modules([str(path.resolve().parent), *source_folders()]))
 
 
 def source_folders(first: str = "") -> list[str]:
-    """Folders in which the workspace's Python packages lie, those of the package `first` before the others."""
+    """Return the folders of the workspace's Python packages, those of the package `first` before the others."""
     packages = workspace().packages
     ordered = sorted(packages, key=lambda name: name != first)
     folders = (str(path.parent) for name in ordered for path in packages[name].modules.values())
@@ -37,7 +37,7 @@ def source_folders(first: str = "") -> list[str]:
 
 
 def is_python(path: Path) -> bool:
-    """Whether a file is a Python program by its name or its first line; False for one that cannot be read."""
+    """Whether a file is a Python program, judged by its name or first line; False for an unreadable one."""
     try:
         with path.open("rb") as file:
             first = file.readline(200)

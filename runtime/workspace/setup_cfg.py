@@ -8,8 +8,8 @@ from bot_console.runtime.workspace.setup_py import PANES, SetupFile, entry_lines
 
 
 def read_setup_cfg(folder: Path) -> SetupFile:
-    """Read `setup.cfg` of a package folder; an absent one says nothing. Raises `ValueError` with file and line."""
-    import configparser  # not for a launch without packages
+    """Read `setup.cfg` of a package folder; a missing one is empty. Raises `ValueError` with file and line."""
+    import configparser  # not imported by launches without packages
 
     parser = configparser.ConfigParser(delimiters=("=",), interpolation=None)
     parser.optionxform = str  # type: ignore[assignment,method-assign] -- as the documentation of configparser has it

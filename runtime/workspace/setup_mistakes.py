@@ -1,4 +1,4 @@
-"""Mistakes with which a `setup.py` cannot be run, found without running it."""
+"""Finds mistakes that keep a `setup.py` from running, without running it."""
 
 from __future__ import annotations
 
@@ -8,15 +8,17 @@ from collections.abc import Iterator
 
 ALWAYS_THERE = frozenset(dir(builtins)) | {"__file__", "__builtins__", "__annotations__", "__class__", "__qualname__"}
 HIDDEN_SCOPES = frozenset({"exec", "globals", "locals", "vars", "NameError"})
-"""What a file reads that defines names without writing them, as `exec` of a version file, or can do without one."""
+"""Names whose use means that a file may define names invisibly, as by `exec` of a version file, or handle a missing
+one.
+"""
 NEVER_CALLED = (ast.Tuple, ast.List, ast.Dict, ast.Constant, ast.JoinedStr)
 
 
 def first_mistake(tree: ast.Module) -> str:
-    """The line and what is wrong there, as `line N: ...`; empty if nothing was found.
+    """Return the line and the mistake there as `line N: ...`; empty if none was found.
 
-    Found are names that nothing in the file defines, as of a module that is not imported, and a comma that is missing
-    before a parenthesis. Python stops at both: here such a package would work, and `colcon build` of ROS 2 would fail.
+    Finds names that nothing in the file defines, such as a module that is not imported, and a missing comma before a
+    parenthesis. Python stops at both: such a package would work here, but `colcon build` of ROS 2 would fail.
     """
     found = sorted([*_missing_commas(tree), *_undefined(tree)])
     return f"line {found[0][0]}: {found[0][1]}" if found else ""
@@ -30,7 +32,7 @@ def _missing_commas(tree: ast.Module) -> Iterator[tuple[int, str]]:
 
 
 def _undefined(tree: ast.Module) -> Iterator[tuple[int, str]]:
-    """Names that are read and bound nowhere in the file, in whatever order: those that certainly fail."""
+    """Yield names that are read but bound nowhere in the file, regardless of order: those that certainly fail."""
     bound = set(ALWAYS_THERE)
     read: list[ast.Name] = []
     for each in _evaluated(tree):
@@ -41,7 +43,8 @@ def _undefined(tree: ast.Module) -> Iterator[tuple[int, str]]:
                 bound.add(each.id)
         else:
             bound.update(_bound_by(each))
-    if "*" in bound or any(name.id in HIDDEN_SCOPES for name in read):  # which names that brings is not known here
+    # it is not known here which names that import provides
+    if "*" in bound or any(name.id in HIDDEN_SCOPES for name in read):
         return
     for name in read:
         if name.id not in bound:
@@ -49,7 +52,7 @@ def _undefined(tree: ast.Module) -> Iterator[tuple[int, str]]:
 
 
 def _evaluated(node: ast.AST) -> Iterator[ast.AST]:
-    """A node and all below it, except for annotations: of those only some are evaluated."""
+    """Yield a node and all below it, except annotations, of which only some are evaluated."""
     yield node
     for name, below in ast.iter_fields(node):
         if name not in ("annotation", "returns"):
@@ -59,7 +62,9 @@ def _evaluated(node: ast.AST) -> Iterator[ast.AST]:
 
 
 def _bound_by(node: ast.AST) -> Iterator[str]:
-    """The names bound by a node that is no name: imports, arguments, definitions, exceptions, captures of `match`."""
+    """Yield the names bound by nodes other than names: imports, arguments, definitions, exceptions, captures of
+    `match`.
+    """
     if isinstance(node, ast.alias):
         yield node.asname or node.name.partition(".")[0]
     elif isinstance(node, ast.arg):
@@ -69,7 +74,7 @@ def _bound_by(node: ast.AST) -> Iterator[str]:
 
 
 def _import_of(name: str) -> str:
-    """How to import what the setup files of ROS packages use."""
+    """Return how to import a name commonly used by setup files of ROS packages."""
     lines = {"os": "import os", "glob": "from glob import glob", "setup": "from setuptools import setup"}
     lines["find_packages"] = "from setuptools import find_packages"
     return f"; add `{lines[name]}`" if name in lines else ""

@@ -1,6 +1,6 @@
 """Reads the call of `setup()` in a `setup.py` without running the file.
 
-Understood are the expressions that ROS packages write there: texts and their methods, names assigned above, `+`, `%`,
+It understands the expressions commonly used by ROS packages: strings and their methods, names assigned above, `+`, `%`,
 f-strings, `os.path`, `glob`, `find_packages`, lists, tuples, dicts, and comprehensions over them.
 """
 
@@ -16,11 +16,11 @@ from bot_console.runtime.workspace.setup_mistakes import first_mistake
 from bot_console.runtime.workspace.setup_values import Unreadable, Values, called
 
 PANES = "bot_console.panes"
-"""The group of entry points by which a package brings panes for the console."""
+"""The group of entry points by which a package provides panes for the console."""
 
 WRITTEN_OUT = "Write them out: 'name = package.module:main'"
 TARGET = re.compile(r"[\w.]+\s*(:\s*[\w.]+)?\s*(\[.*\])?")
-"""What stands behind the `=` of an entry point: a module, its function, extras."""
+"""The part of an entry point after the `=`: a module, its function, extras."""
 
 
 @dataclass(frozen=True)
@@ -32,12 +32,14 @@ class SetupFile:
     modules: dict[str, Path] = field(default_factory=dict)
     data_files: tuple[tuple[str, tuple[Path, ...]], ...] = ()
     panes: dict[str, str] = field(default_factory=dict)
-    """Panes of the console that a package brings, as `module:class` (entry points of the group `bot_console.panes`)."""
+    """Panes that a package provides for the console, as `module:class` (entry points of the group
+    `bot_console.panes`).
+    """
     problem: str = ""
-    """Why some of it is missing; empty when nothing is."""
+    """Why some of it is missing; empty if nothing is."""
 
     def merged(self, other: SetupFile) -> SetupFile:
-        """Both together; what stands here wins."""
+        """Return both combined; values of this one take precedence."""
         return SetupFile(
             {**other.console_scripts, **self.console_scripts},
             {**other.scripts, **self.scripts},
@@ -49,7 +51,7 @@ class SetupFile:
 
 
 def read_setup_py(folder: Path) -> SetupFile:
-    """Read `setup.py` of a package folder; raises `ValueError` with file and line when it is not Python."""
+    """Read `setup.py` of a package folder; raises `ValueError` with file and line if it is not Python."""
     path = folder / "setup.py"
     try:
         tree = ast.parse(path.read_text(encoding="utf-8"))
@@ -67,7 +69,7 @@ def read_setup_py(folder: Path) -> SetupFile:
 
 
 def _statements(tree: ast.Module) -> list[ast.stmt]:
-    """Top-level statements, and those of a `main` or an `if __name__` block, in order."""
+    """Return top-level statements, and those of a `main` or an `if __name__` block, in order."""
     found: list[ast.stmt] = []
     for statement in tree.body:
         if isinstance(statement, (ast.If, ast.FunctionDef)):
@@ -78,7 +80,7 @@ def _statements(tree: ast.Module) -> list[ast.stmt]:
 
 
 class _Reader:
-    """Walks the statements, remembers assigned names, and keeps what the setup() call says."""
+    """Walks the statements, remembers assigned names, and records the arguments of the setup() call."""
 
     def __init__(self, folder: Path, names: dict[str, Any]) -> None:
         self._folder = folder
@@ -133,7 +135,7 @@ class _Reader:
         return SetupFile(programs, scripts, self._modules(), self._data_files(), panes, problem)
 
     def _entry_points(self) -> tuple[Any, str]:
-        """What stands there, or why it cannot be made out."""
+        """Return the entry points, and why they cannot be evaluated."""
         if "entry_points" not in self._keywords:
             return {}, ""
         try:
@@ -156,7 +158,7 @@ class _Reader:
         rows = self._keywords.get("data_files")
         if rows is None:
             return ()
-        # Row by row, so that one row that cannot be read does not lose the others.
+        # Row by row, so that one unreadable row does not lose the others.
         elements = rows.elts if isinstance(rows, (ast.List, ast.Tuple)) else []
         values = [self._row(each) for each in elements] if elements else self._keyword("data_files", [])
         return tuple(
@@ -171,7 +173,7 @@ class _Reader:
 
 
 def entry_lines(lines: Any) -> dict[str, str]:
-    """Entry point lines `name = module:function` as a dict."""
+    """Return entry point lines `name = module:function` as a dict."""
     rows = lines.splitlines() if isinstance(lines, str) else lines
     pairs = (str(row).partition("=") for row in rows)
     return {name.strip(): target.strip() for name, sign, target in pairs if sign}

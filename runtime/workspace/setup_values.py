@@ -1,4 +1,4 @@
-"""Works out the values of expressions in a `setup.py` without running it."""
+"""Evaluates expressions in a `setup.py` without running it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ OF_TEXTS = frozenset(
     | {"startswith", "strip"}
 )
 FORMATTED = re.compile(r"\{[^{}]*[:!.\[]")
-"""A field with more than a name: such as a width, for which any memory is too small."""
+"""A replacement field with more than a name, such as a width, which could demand any amount of memory."""
 COMPARED: Mapping[type[ast.cmpop], Callable[[Any, Any], bool]] = {
     ast.Eq: operator.eq,
     ast.NotEq: operator.ne,
@@ -32,7 +32,7 @@ COMPARED: Mapping[type[ast.cmpop], Callable[[Any, Any], bool]] = {
 
 
 class Unreadable(ValueError):
-    """An expression that can only be evaluated by running the file; the text says which and where."""
+    """An expression that can only be evaluated by running the file; the message says which and where."""
 
 
 def called(call: ast.Call) -> str:
