@@ -1,6 +1,6 @@
 """Serialization of messages: CDR version 1, as rmw implementations send it.
 
-What generates the functions is imported with the first message: many short-lived programs serialize none.
+The generators of the functions are imported with the first message: many short-lived programs serialize none.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ def serialize(message: Any) -> bytes:
     """Serialize a message, including the header; raises `FieldTypeError` if a field holds what cannot be sent."""
     try:
         return _writer(message.__class__)(message)
-    except Exception:  # whatever it is: making a copy raises for what cannot be sent, and converts the rest
+    except Exception:  # any error: copying raises for values that cannot be sent, and converts the rest
         pass
     copy = message._copy_()
     return _writer(copy.__class__)(copy)

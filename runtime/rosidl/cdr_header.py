@@ -1,4 +1,4 @@
-"""The header of serialized messages, and the error for bytes that are no message."""
+"""The header of serialized messages, and the error for invalid bytes."""
 
 from __future__ import annotations
 

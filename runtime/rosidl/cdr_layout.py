@@ -91,10 +91,10 @@ ANYWHERE = Place(1, 0)
 
 
 def row(codes: Sequence[str], place: Place, order: str) -> tuple[Sequence[struct.Struct], Place]:
-    """Structures for numbers in a row that begin at a place, and the place behind them.
+    """Return the structures for numbers in a row that begin at a place, and the place after them.
 
-    One structure where the place says all about the bytes between the numbers, else eight: by the place modulo 8.
-    Codes are those of `struct` with a count, if any: `0d` only aligns, `x` is a byte that holds nothing.
+    One structure if the place determines all padding between the numbers, else eight: by the place modulo 8. Codes are
+    those of `struct` with a count, if any: `0d` only aligns, `x` is an unused byte.
     """
     behind, known = place, True
     for code in codes:

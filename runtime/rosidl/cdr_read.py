@@ -42,7 +42,9 @@ def reader(cls: Any, order: str = "<") -> Callable[[bytes], Any]:
 
 @cache
 def element_reader(cls: Any, order: str) -> Callable[[bytes, memoryview, int, int], tuple[Any, int]]:
-    """The function `(data, view, at, end)` for an element of a sequence: gives it and the place behind it."""
+    """Return the function `(data, view, at, end)` for an element of a sequence: it returns the element and the place
+    after it.
+    """
     reading = _Reading(cls, order, outermost=False)
     return reading.source.compiled(
         "data, view, at, end", reading.lines(), f"CDR reader of {cls.__name__} in a sequence"
@@ -184,7 +186,7 @@ def missing(at: int, stop: int) -> CdrError:
 
 
 def texts(order: str, is_wide: bool, data: bytes, at: int, length: int, end: int) -> tuple[list[str], int]:
-    """Strings."""
+    """Read strings."""
     lengths, found = LENGTHS[order], list[str]()
     for _ in range(length):
         structure = lengths[(at + START.rest) & 7]
@@ -203,7 +205,7 @@ def texts(order: str, is_wide: bool, data: bytes, at: int, length: int, end: int
 
 
 def wide(order: str, data: bytes, at: int, length: int, end: int) -> tuple[str, int]:
-    """A wide string of `length` UTF-16 units, each in four bytes."""
+    """Read a wide string of `length` UTF-16 units, each in four bytes."""
     stop = at + 4 * length
     if stop > end:
         raise missing(at, stop)
@@ -217,7 +219,7 @@ def wide(order: str, data: bytes, at: int, length: int, end: int) -> tuple[str, 
 
 
 def fixed(data: bytes, at: int, length: int, wire: str, end: int) -> Any:
-    """Numbers as a NumPy array."""
+    """Read numbers into a NumPy array."""
     import numpy
 
     dtype = numpy.dtype(wire)
@@ -227,14 +229,14 @@ def fixed(data: bytes, at: int, length: int, wire: str, end: int) -> Any:
 
 
 def octets(data: bytes, at: int, length: int, end: int) -> tuple[list[bytes], int]:
-    """Bytes, each on its own."""
+    """Read single bytes."""
     if at + length > end:
         raise missing(at, at + length)
     return [bytes([each]) for each in data[at : at + length]], at + length
 
 
 def flags(data: bytes, at: int, length: int, end: int) -> tuple[list[bool], int]:
-    """Booleans."""
+    """Read booleans."""
     if at + length > end:
         raise missing(at, at + length)
     return [each != 0 for each in data[at : at + length]], at + length

@@ -18,7 +18,7 @@ class Source:
     def __init__(
         self, names: dict[str, Any], order: str, place: Place, begin: int | None = None, shift: int = 0
     ) -> None:
-        """A function that begins at byte `begin`, or at the `at` it is given; alignment counts `shift` bytes more."""
+        """Start a function at byte `begin`, or at the `at` passed to it; alignment counts `shift` more bytes."""
         self.names = names
         self.place = place
         self._order = order
@@ -40,7 +40,9 @@ class Source:
         return f"{character}{self._locals}"
 
     def nested(self, cls: Any) -> Iterator[tuple[str, str, Any]]:
-        """The single nested messages, outer ones first: a local name, the expression it stands for, and the class."""
+        """Yield the single nested messages, outer ones first: a local name, the expression it replaces, and the
+        class.
+        """
         for path, inner in nested(cls):
             expression = self.field(path)
             self._holders[path] = self.local("m")

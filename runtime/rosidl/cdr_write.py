@@ -1,4 +1,4 @@
-"""Writes, for a message class, the function that gives the bytes of a message in one pass.
+"""Writes, for a message class, the function that returns the bytes of a message in one pass.
 
 Numbers in a row are one call of `struct`, together with the length of the text or sequence that follows; for
 `std_msgs/msg/String` the function is
@@ -30,7 +30,7 @@ Put = Callable[[Any], None]
 HEADER = "256"
 """The header as a number: plain CDR, little endian, no options (00 01 00 00)."""
 EXACT = {"boolean": "bool", "float": "float", "double": "float"}
-"""Classes of numbers. For the others `struct` takes and refuses what a field does."""
+"""Python classes of numbers. For all other types `struct` accepts and rejects the same values as a field."""
 ZEROS = tuple(bytes(length) for length in range(8))
 LENGTHS = row(["I"], ANYWHERE, "<")[0]
 
@@ -41,9 +41,9 @@ class InexactError(TypeError):
 
 @cache
 def writer(cls: Any) -> Callable[[Any], bytes]:
-    """The function that gives the bytes of a message, header first.
+    """Return the function that serializes a message, with its header.
 
-    It raises any exception where a field does not hold just what a copy of the message would.
+    The function raises any exception if a field does not hold exactly what a copy of the message would.
     """
     writing = _Writing(cls, outermost=True)
     return writing.source.compiled("m", writing.lines(), f"CDR writer of {cls.__name__}")
@@ -51,7 +51,7 @@ def writer(cls: Any) -> Callable[[Any], bytes]:
 
 @cache
 def element_writer(cls: Any) -> Callable[[Any, Put, int], int]:
-    """The function `(message, put, at)` that puts the bytes of an element of a sequence; gives the place behind it."""
+    """Return the function `(message, put, at)` that writes an element of a sequence and returns the place after it."""
     writing = _Writing(cls, outermost=False)
     return writing.source.compiled("m, put, at", writing.lines(), f"CDR writer of {cls.__name__} in a sequence")
 
@@ -195,7 +195,7 @@ class _Writing:
         if numbers:
             self._numbers(part, value)
             return
-        # Elements that another thread adds meanwhile are not counted.
+        # Elements added meanwhile by another thread are not counted.
         self.source.line(f"{value} = [*{value}]")
         if kind.size or kind.bound:
             self._want(f"len({value}) {f'== {kind.size}' if kind.size else f'<= {kind.bound}'}")
@@ -259,7 +259,7 @@ def is_octets(values: Sequence[Any]) -> bool:
 
 
 def texts(values: Sequence[str], at: int, limit: int, is_wide: bool) -> bytes:
-    """The bytes of a sequence of strings at a place, each of at most `limit` characters (0: any length)."""
+    """Return the bytes of a sequence of strings at a place, each of at most `limit` characters (0: any length)."""
     chunks: list[bytes] = []
     for value in values:
         if not isinstance(value, str) or (limit and len(value) > limit):
@@ -278,7 +278,7 @@ def _text(value: str, at: int) -> bytes:
 
 
 def wide(value: str, at: int) -> bytes:
-    """A wide string: its number of UTF-16 units, then each in four bytes, as ROS 2's middlewares agree."""
+    """Return a wide string: its number of UTF-16 units, then each in four bytes, as ROS 2's middlewares agree."""
     if "\0" in value:
         raise InexactError
     units = array("H", value.encode(f"utf-16-{sys.byteorder[0]}e"))

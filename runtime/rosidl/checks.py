@@ -52,7 +52,7 @@ def _one(kind: Type, owner: Any, field: str, value: Any) -> None:
 
 
 def _range(kind: Type, number: str) -> tuple[Callable[[Any], bool], str]:
-    """Whether a number is in the range of its type, and how that range is called; `number` formats the bounds."""
+    """Return whether a number is in the range of its type, and the range's name; `number` formats the bounds."""
     if kind.item in INTEGERS:
         low, high = LIMITS[kind.item]
         word = "an integer" if low else "an unsigned integer"

@@ -21,7 +21,7 @@ class FieldTypeError(TypeError):
     def __str__(self) -> str:
         try:
             shown = repr(self.value)
-        except Exception:  # a class of the node's own, or a whole number of more digits than Python writes
+        except Exception:  # a class defined by the node, or an integer with more digits than Python prints
             shown = "which cannot be written"
         shown = shown if len(shown) <= 60 else shown[:57] + "..."
         return f"field '{self.field}' of {self.owner} must be {self.wanted}, not {type(self.value).__name__} ({shown})"
@@ -43,7 +43,7 @@ def _below(message: Any, field: str, error: FieldTypeError) -> FieldTypeError:
 
 
 def to_float(message: Any, field: str) -> float:
-    """A float, or a subclass such as `numpy.float64`, as a float."""
+    """Return a float, or a subclass such as `numpy.float64`, as a float."""
     value = getattr(message, "_" + field)
     if isinstance(value, float):
         return float(value)
@@ -51,7 +51,7 @@ def to_float(message: Any, field: str) -> float:
 
 
 def to_int(message: Any, field: str, low: int, high: int) -> int:
-    """An integer (a bool counts as one) within the field's limits."""
+    """Return an integer (a bool counts as one) within the field's limits."""
     value = getattr(message, "_" + field)
     if hasattr(value, "__index__"):
         number = value.__index__()
@@ -62,7 +62,7 @@ def to_int(message: Any, field: str, low: int, high: int) -> int:
 
 
 def to_bool(message: Any, field: str) -> bool:
-    """A bool; NumPy's counts."""
+    """Return a bool, also from NumPy's."""
     value = getattr(message, "_" + field)
     if type(value).__name__ in ("bool_", "bool"):
         return bool(value)
@@ -70,7 +70,7 @@ def to_bool(message: Any, field: str) -> bool:
 
 
 def to_str(message: Any, field: str, limit: int = 0) -> str:
-    """A string of at most `limit` characters (0: any length), cut at a NUL, which ends a string on the wire."""
+    """Return a string of at most `limit` characters (0: any length), cut at a NUL, which ends a string on the wire."""
     value = getattr(message, "_" + field)
     if not isinstance(value, str):
         raise _refuse(message, field, "a string", value)
@@ -80,7 +80,7 @@ def to_str(message: Any, field: str, limit: int = 0) -> str:
 
 
 def to_octet(message: Any, field: str) -> bytes:
-    """One byte."""
+    """Return one byte."""
     value = getattr(message, "_" + field)
     if isinstance(value, (bytes, bytearray)) and len(value) == 1:
         return bytes(value)
@@ -88,7 +88,7 @@ def to_octet(message: Any, field: str) -> bytes:
 
 
 def to_message(message: Any, field: str, cls: Any) -> Any:
-    """A nested message of the class, or one of a subclass."""
+    """Return a nested message of the class, or of a subclass."""
     value = getattr(message, "_" + field)
     if not isinstance(value, cls):
         raise _refuse(message, field, f"a {type_name(cls)}", value)
@@ -99,7 +99,7 @@ def to_message(message: Any, field: str, cls: Any) -> Any:
 
 
 def too_long(message: Any, field: str, bound: int) -> None:
-    """Refuse a sequence over its bound."""
+    """Raise an error for a sequence beyond its bound."""
     value = getattr(message, "_" + field)
     raise _refuse(message, field, f"a sequence of at most {bound}", value)
 
@@ -118,15 +118,15 @@ def _sized(message: Any, field: str, size: int, bound: int) -> Any:
 
 
 _own_arrays: dict[str, tuple[Any, Any]] = {}
-"""NumPy's class of arrays and its dtype by name, once one was made: its import is left to who uses it."""
+"""NumPy's array class and its dtype by name, once an array was created: NumPy is imported only if used."""
 
 
 def to_fixed(message: Any, field: str, dtype: str, size: int) -> Any:
-    """A NumPy array of the field's dtype and size."""
+    """Return a NumPy array of the field's dtype and size."""
     value = getattr(message, "_" + field)
     kind, own = _own_arrays.get(dtype) or (None, None)
     if value.__class__ is kind and value.dtype is own and value.shape == (size,):
-        return value.copy()  # what it nearly always is: a third of what the general way costs
+        return value.copy()  # nearly always the case, at a third of the cost of the general way
     import numpy
 
     _own_arrays[dtype] = numpy.ndarray, numpy.dtype(dtype)
@@ -138,7 +138,7 @@ def to_fixed(message: Any, field: str, dtype: str, size: int) -> Any:
 
 
 def to_list(message: Any, field: str, kind: type, size: int, bound: int, limit: int) -> list[Any]:
-    """A list of texts, bools or single bytes."""
+    """Return a list of strings, bools or single bytes."""
     values = getattr(message, "_" + field)
     if values.__class__ is list and not values and not size:
         return []
@@ -153,7 +153,7 @@ def to_list(message: Any, field: str, kind: type, size: int, bound: int, limit: 
 
 
 def to_messages(message: Any, field: str, cls: Any, size: int, bound: int) -> list[Any]:
-    """A list of copies of nested messages."""
+    """Return a list of copies of nested messages."""
     values = getattr(message, "_" + field)
     if values.__class__ is list and not values and not size:
         return []
@@ -170,14 +170,14 @@ def to_messages(message: Any, field: str, cls: Any, size: int, bound: int) -> li
 
 
 def to_ndarray(dtype: str, value: Any) -> Any:
-    """What a setter makes of a value for numbers of fixed size."""
+    """Return the array that a setter stores for a fixed-size field of numbers."""
     import numpy
 
     return numpy.array(value, dtype)
 
 
 def zeros(dtype: str, size: int) -> Any:
-    """The default of numbers of fixed size."""
+    """Return the default of a fixed-size field of numbers."""
     import numpy
 
     return numpy.zeros(size, dtype)

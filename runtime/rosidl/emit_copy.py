@@ -1,6 +1,6 @@
-"""Generates the copy function of a message class: the effect of a CDR round trip, in straight Python.
+"""Generates the copy function of a message class: the effect of a CDR round trip, in plain Python.
 
-Where every field holds exactly the type of its definition, a copy is a few slot assignments; anything else goes to
+If every field holds exactly the type of its definition, a copy is a few slot assignments; anything else goes to
 `conversion`, which either converts as the wire would or raises with the field's name.
 """
 
@@ -20,7 +20,9 @@ EXACT = {"boolean": "bool", "double": "float", "string": "str", "wstring": "str"
 
 
 def copy_lines(definition: Definition, module_of: dict[str, str]) -> list[str]:
-    """The body of `_copy_(self)`; `module_of` gives the name by which a nested class is known in the module."""
+    """Return the body of `_copy_(self)`; `module_of` maps nested classes to the names by which the module knows
+    them.
+    """
     lines = [f"new = _new({definition.name})", "new._check_fields = False"]
     singles = [each for each in definition.fields if each.type.text == "float"]
     nested = [each for each in definition.fields if not (each.type.primitive or each.type.sequence or each.type.size)]
@@ -31,7 +33,7 @@ def copy_lines(definition: Definition, module_of: dict[str, str]) -> list[str]:
 
 
 def _nested(fields: Sequence[Field], module_of: dict[str, str]) -> list[str]:
-    """All single nested messages; a fault inside one is looked for again, by the slow way that knows its path."""
+    """Copy all single nested messages; an error inside one is located by the slow way, which knows its path."""
     if not fields:
         return []
     lines = ["try:"]
@@ -47,7 +49,7 @@ def _nested(fields: Sequence[Field], module_of: dict[str, str]) -> list[str]:
 
 
 def _singles(fields: Sequence[Field]) -> list[str]:
-    """All float32 fields at once: one array does their rounding."""
+    """Copy all float32 fields at once: one array rounds them."""
     if not fields:
         return []
     values = ", ".join(f"self._{each.name}" for each in fields)

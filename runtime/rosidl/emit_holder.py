@@ -29,7 +29,7 @@ def __getattr__(name: str) -> Any:
 
 
 def service_module(interface: Interface, parts_module: str) -> str:
-    """The module of a service's class; request, response and event are imported when first asked for."""
+    """Return the module of a service's class; request, response and event are imported on first use."""
     name = interface.name
     parts = [f"{name}_{each}" for each in SERVICE_PARTS]
     lines = [SERVICE_HEAD.format(package=interface.package, name=name).rstrip()]
@@ -47,7 +47,7 @@ def service_module(interface: Interface, parts_module: str) -> str:
 
 
 def service(name: str) -> list[str]:
-    """A service of an action."""
+    """Return the class of a service of an action."""
     return [
         "",
         f"class {name}(metaclass=_ServiceType):",
@@ -59,7 +59,7 @@ def service(name: str) -> list[str]:
 
 
 def action(name: str) -> list[str]:
-    """The class of an action."""
+    """Return the class of an action."""
     return [
         "",
         f"class {name}(metaclass=_ServiceType):",
@@ -83,7 +83,7 @@ def action(name: str) -> list[str]:
 
 
 def package_module(classes: dict[str, str]) -> str:
-    """The `__init__` of a `msg`, `srv` or `action` folder: classes by name, each imported when it is asked for."""
+    """Return the `__init__` of a `msg`, `srv` or `action` folder: classes by name, each imported on first use."""
     lines = ["from typing import TYPE_CHECKING", "", "if TYPE_CHECKING:"]
     rows = sorted(classes.items())
     lines += [f"    from .{file} import {name} as {name}" for name, file in rows] or ["    pass"]

@@ -9,11 +9,11 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 PREFIX = "ament-prefix"
-"""Where the definition files lie as installed packages have them; no name that could be imported."""
+"""The folder of definition files, laid out as in installed packages; its name cannot be imported."""
 
 
 def main() -> None:
-    """Write all modules afresh."""
+    """Regenerate all modules."""
     _make_importable()
     from bot_console.runtime.rosidl.emit import modules
     from bot_console.runtime.rosidl.emit_holder import package_module
@@ -47,7 +47,7 @@ def main() -> None:
 
 
 def _make_importable() -> None:
-    """Let `bot_console.runtime.rosidl` be imported from the source folder, which may not be installed yet."""
+    """Make `bot_console.runtime.rosidl` importable from the source folder, which may not be installed yet."""
     for name, folder in (("bot_console", None), ("bot_console.runtime", HERE.parent)):
         package = types.ModuleType(name)
         package.__path__ = [str(folder)] if folder else []

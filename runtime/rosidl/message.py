@@ -15,7 +15,7 @@ CHECK_VARIABLE = "ROS_PYTHON_CHECK_FIELDS"
 
 
 class _Asked(threading.local):
-    """What the environment says, for each thread as each node process has its own; None before it was looked at."""
+    """The environment's setting, per thread because each node process has its own; None before it was read."""
 
     value: bool | None = None
 
@@ -24,10 +24,10 @@ _asked = _Asked()
 
 
 def checks_asked_for() -> bool:
-    """Whether fields are to be checked although the constructor was not asked to; off by default since Jazzy.
+    """Whether fields are checked without an argument to the constructor; off by default since Jazzy.
 
-    The environment is read by a thread's first message, and again after a message module was imported: reading it
-    takes longer than making a message, and upstream reads it when a module is imported.
+    The environment is read with a thread's first message, and again after a message module was imported: reading it
+    takes longer than creating a message, and upstream reads it when a module is imported.
     """
     value = _asked.value
     if value is None:
@@ -41,7 +41,7 @@ def read_checks_again() -> None:
 
 
 class MessageType(type):
-    """The class of message classes: their constants cannot be set, as those of upstream cannot."""
+    """The class of message classes: as upstream, their constants cannot be set."""
 
     def __setattr__(cls, name: str, value: Any) -> None:
         if name.isupper() and isinstance(cls.__dict__.get(name), (bool, int, float, str, bytes)):
@@ -50,7 +50,7 @@ class MessageType(type):
 
 
 def type_shown(value: object) -> str:
-    """The class of a value as text; a message class itself is of a class of its own, as upstream."""
+    """Return the class of a value as text; a message class has a metaclass of its own, as upstream."""
     if isinstance(value, MessageType):
         return f"<class '{value.__module__}.Metaclass_{value.__name__}'>"
     return str(type(value))
@@ -71,13 +71,15 @@ class Message(metaclass=MessageType):
         return dict(cls._fields_and_field_types)
 
     def _check(self, field: str, value: Any) -> bool:
-        """Refuse a value as rclpy does with checks on, by `AssertionError`; whether it may be kept as it is."""
+        """Reject a value by `AssertionError` as rclpy does with checks on; return whether it may be kept as it is."""
         from bot_console.runtime.rosidl.checks import check
 
         return check(type(self), field, value)
 
     def _unknown(self, names: Iterable[str]) -> None:
-        """Refuse unknown keywords by `AssertionError` with checks on; else ignore them as Jazzy does, but say so."""
+        """Reject unknown keywords by `AssertionError` with checks on; else ignore them as Jazzy does, but with a
+        warning.
+        """
         text = ", ".join(sorted(names))
         if self._check_fields:
             raise AssertionError(f"Invalid arguments passed to constructor: {text}")
@@ -100,12 +102,14 @@ def _shown(value: Any) -> str:
 
 def _equal(one: Any, other: Any) -> bool:
     different = one != other
-    # Upstream takes arrays of fixed size as different only where all of their elements differ.
+    # Upstream treats fixed-size arrays as different only if all of their elements differ.
     return not different.all() if hasattr(different, "all") else not different
 
 
 class ServiceType(type):
-    """The type of service and action classes, which only hold others; `_later` names those that come when asked for."""
+    """The type of service and action classes, which only hold other classes; `_later` names those imported on first
+    use.
+    """
 
     _later: tuple[str, ...] = ()
 
@@ -120,7 +124,7 @@ class ServiceType(type):
         return part
 
     def __dir__(cls) -> list[str]:
-        """Name the parts that are not yet imported as well."""
+        """Include the parts that are not yet imported."""
         return sorted({*super().__dir__(), *cls._later})
 
     def __call__(cls, *args: Any, **kwargs: Any) -> Any:

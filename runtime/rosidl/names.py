@@ -6,6 +6,6 @@ import re
 
 
 def module_name(name: str) -> str:
-    """The module of an interface: `LaserScan` is in `_laser_scan`, `UInt8` in `_u_int8`."""
+    """Return the module of an interface: `LaserScan` is in `_laser_scan`, `UInt8` in `_u_int8`."""
     name = re.sub(r"(.)([A-Z][a-z]+)", r"\1_\2", name)
     return "_" + re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", name).lower()

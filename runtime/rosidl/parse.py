@@ -18,7 +18,7 @@ TEXTS = ("string", "wstring")
 
 
 class DefinitionError(ValueError):
-    """A definition file that cannot be read; the text gives file and line."""
+    """A definition file that cannot be read; the message has file and line."""
 
 
 def parse(text: str, package: str, kind: str, name: str, file: str = "") -> Interface:

@@ -10,7 +10,7 @@ GOAL_ID = Field("goal_id", Type("unique_identifier_msgs/UUID"))
 
 
 def companions(interface: Interface) -> Sequence[Definition]:
-    """The event of a service; the services, their events and the feedback message of an action."""
+    """Return the event of a service; or the services, their events and the feedback message of an action."""
     package, name = interface.package, interface.name
     if interface.kind == "srv":
         return [_event(package, name)]

@@ -21,22 +21,22 @@ ACTION_TYPES = (
     ("get_result_service", "GetResult"),
     ("feedback_message", "FeedbackMessage"),
 )
-"""What of an action nodes meet by, each with a type and a hash of its own in the graph."""
+"""The types by which action servers and clients match, each with its own type and hash in the graph."""
 ACTION_SERVICES = ("SendGoal", "GetResult")
 FIELD_TYPE = ("type_id", "capacity", "string_capacity", "nested_type_name")
-"""What of a field's type its hash is made of, in order; defaults and comments are not."""
+"""The properties of a field's type that enter its hash, in order; defaults and comments do not."""
 MESSAGE = Type("/")
-"""What a message in a message is, whichever it is."""
+"""The type that represents any nested message."""
 
 Row = tuple[str, Type, str]
 """A field's name, its type, and the full name of the message it holds; empty for a primitive."""
 
 
 def describe_texts(wanted: str, texts: Mapping[str, str]) -> Description:
-    """The description of the interface `wanted`, as `describe` gives it for its class.
+    """Return the description of the interface `wanted`, as `describe` does for its class.
 
-    `texts` are definitions by the full names of their types, of all that it consists of. Raises `DefinitionError` for
-    one that cannot be read, or is missing.
+    `texts` are the definitions of all types it consists of, by full type name. Raises `DefinitionError` for one that is
+    invalid or missing.
     """
     structures: dict[str, Sequence[Row]] = {}
     for name, text in texts.items():
@@ -47,7 +47,7 @@ def describe_texts(wanted: str, texts: Mapping[str, str]) -> Description:
 
 
 def plain_description(reported: Any) -> Description:
-    """A `type_description_interfaces/msg/TypeDescription` as plain data."""
+    """Convert a `type_description_interfaces/msg/TypeDescription` to plain data."""
     return {
         "type_description": _plain(reported.type_description),
         "referenced_type_descriptions": [_plain(each) for each in reported.referenced_type_descriptions],
@@ -65,10 +65,10 @@ def _plain(reported: Any) -> Description:
 
 
 def describe_action(wanted: str, parts: Iterable[Description]) -> Description:
-    """The description of an action from those of its `ACTION_TYPES`, of which a graph tells the hashes.
+    """Return the description of an action from those of its `ACTION_TYPES`, whose hashes are in the graph.
 
-    The action itself is in no graph: its hash follows from theirs. Raises `DefinitionError` where they leave out what
-    it consists of.
+    The action itself is not in the graph: its hash follows from theirs. Raises `DefinitionError` if they lack a type
+    that it consists of.
     """
     found = {each["type_name"]: each for part in parts for each in _all(part)}
     rows = _action_rows(wanted)
@@ -109,7 +109,9 @@ def _description(name: str, rows: Sequence[Row]) -> Description:
 
 
 def _structures(name: str, text: str) -> Iterator[tuple[str, Sequence[Row]]]:
-    """The structures of one definition: a message is one, a service and an action have parts and what holds them."""
+    """Return the structures of one definition: a message is one, a service or an action has parts and containers of
+    them.
+    """
     package, kind, short = name.split("/")
     if kind not in PARTS:
         raise DefinitionError(f"{name} is no interface")
@@ -138,6 +140,8 @@ def _rows(part: Definition, kind: str) -> list[Row]:
 
 
 def _full(item: str, kind: str) -> str:
-    """The full name of what a field holds; only the parts of a definition of this `kind` have an underscore."""
+    """Return the full name of a field's message type; only the parts of a definition of this `kind` have an
+    underscore.
+    """
     package, _, name = item.partition("/")
     return f"{package}/{kind if '_' in name else 'msg'}/{name}"

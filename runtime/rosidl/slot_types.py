@@ -1,4 +1,4 @@
-"""`SLOT_TYPES` of message classes, made on first use."""
+"""`SLOT_TYPES` of message classes, created on first use."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 def nested_class(owner: Any, item: str) -> Any:
-    """The class of a nested message, such as `geometry_msgs/Vector3`, in a message class that has one."""
+    """Return the class of a nested message, such as `geometry_msgs/Vector3`, of the message class that contains it."""
     package, _, name = item.partition("/")
     names = owner._copy_.__globals__
     return names.get(f"_{package}__{name}") or names[name]

@@ -9,7 +9,9 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 EXAMPLES = frozenset({"action_tutorials_interfaces", "example_interfaces", "turtlesim"})
-"""Standard packages of the tutorials: whoever writes one, as they ask, means that one. The others are used by all."""
+"""Standard packages of the tutorials: a workspace package of the same name replaces them. The others are used by
+all.
+"""
 
 Folders = Callable[[], Mapping[str, "Path"]]
 _sources: list[Folders] = []

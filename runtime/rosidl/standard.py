@@ -15,7 +15,7 @@ EMPTY = "structure_needs_at_least_one_member"
 
 
 def interfaces() -> Iterator[tuple[Interface, str]]:
-    """All standard interfaces with their text; a definition of ours wins over the type store's."""
+    """Yield all standard interfaces with their text; our definitions take precedence over the type store's."""
     ours = list(_ours())
     known = {(each.package, each.kind, each.name) for each, _ in ours}
     yield from ours

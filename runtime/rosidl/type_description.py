@@ -28,7 +28,7 @@ IDS = {
 }
 BOUNDED_TEXT = {"string": 21, "wstring": 22}
 ARRAY, BOUNDED, UNBOUNDED = 48, 96, 144
-"""What is added to the number of an element's type."""
+"""Numbers added to that of an element's type."""
 
 FILLER = "structure_needs_at_least_one_member"
 SERVICE_PARTS = (("request_message", "Request"), ("response_message", "Response"), ("event_message", "Event"))
@@ -43,7 +43,7 @@ Description = dict[str, Any]
 
 
 def describe(cls: Any) -> Description:
-    """The description of a message, service or action class, and of all that it consists of, sorted by name."""
+    """Return the description of a message, service or action class, and of all that it consists of, sorted by name."""
     found: dict[str, Description] = {}
     _collect(cls, found)
     top = found.pop(type_name(cls))
@@ -66,7 +66,7 @@ def _collect(cls: Any, found: dict[str, Description]) -> None:
 
 
 def _fields(cls: Any) -> Iterator[tuple[str, Type, Any]]:
-    """Names and types of the fields, with the class of nested ones; services and actions count as structures."""
+    """Yield names and types of the fields, with the class of nested ones; services and actions count as structures."""
     for name, inner in _members(cls):
         yield name, Type("/"), inner
     texts = getattr(cls, "_fields_and_field_types", None)
@@ -86,7 +86,7 @@ def _members(cls: Any) -> Iterator[tuple[str, Any]]:
 
 
 def field_type(kind: Type, nested: str) -> Description:
-    """A field's type as it stands in a description; `nested` is the full name of the message it holds, or empty."""
+    """Return a field's type as in a description; `nested` is the full name of its message type, or empty."""
     number = NESTED if nested else (BOUNDED_TEXT if kind.limit else IDS)[kind.item]
     if kind.sequence:
         number += BOUNDED if kind.bound else UNBOUNDED

@@ -32,7 +32,7 @@ def _field(field: Field, package: str) -> str:
 
 
 def _read(literal: str) -> Any:
-    """The value of a Python literal; `float('inf')` and its like are none for Python, and the parser makes them."""
+    """Return the value of a Python literal, including `float('inf')` and the like, which the parser produces."""
     inner = literal.removeprefix("float('").removesuffix("')")
     return float(inner) if inner != literal else ast.literal_eval(literal)
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 
 class AbstractType:
-    """Any type; two are equal where class and attributes are."""
+    """Any type; two are equal if class and attributes are."""
 
     __slots__ = ()
     __hash__ = None  # type: ignore[assignment] -- not hashable, as upstream

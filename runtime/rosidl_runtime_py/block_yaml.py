@@ -1,6 +1,6 @@
-"""The YAML of most messages without the library, which takes longer to import than a short verb has to run.
+"""YAML of most messages without the YAML library, whose import takes longer than a short verb.
 
-Writes what PyYAML would, or nothing: texts that might need quotes, and whatever else is rare, are left to it.
+Writes the same as PyYAML, or nothing: strings that might need quotes, and other rare cases, are left to the library.
 """
 
 from __future__ import annotations
@@ -9,16 +9,16 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 WORDS = frozenset({"yes", "no", "true", "false", "on", "off", "null"})
-"""Texts that YAML takes for something else."""
+"""Words that YAML reads as something other than a string."""
 SPECIAL = {"inf": ".inf", "-inf": "-.inf", "nan": ".nan"}
 
 
 class _UncommonError(Exception):
-    """Something that is left to the library."""
+    """A case that is left to the library."""
 
 
 def block_yaml(values: Mapping[str, Any]) -> str | None:
-    """The fields of a message, one per line; None where the library is to write them."""
+    """Return the fields of a message, one per line; None if the library has to write them."""
     try:
         return "".join(_lines(values, "")) if values else None
     except _UncommonError:
@@ -57,7 +57,7 @@ def _scalar(value: Any) -> str:
 
 
 def _is_plain(text: str) -> bool:
-    """Whether a text is written as it is: ASCII words, a letter first, or nothing."""
+    """Whether a string needs no quotes: ASCII words, a letter first, or empty."""
     if not text:
         return True
     words = text.replace("_", "a").split(" ")

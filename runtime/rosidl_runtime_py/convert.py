@@ -14,7 +14,7 @@ from rosidl_runtime_py.block_yaml import block_yaml
 
 
 class Shortening(NamedTuple):
-    """What is left out: elements and characters beyond `length`, arrays, strings."""
+    """What is omitted: elements and characters beyond `length`, arrays, strings."""
 
     length: int | None = None
     no_arrays: bool = False
@@ -33,13 +33,13 @@ def message_to_yaml(
     no_str: bool = False,
     flow_style: bool = False,
 ) -> str:
-    """A message as YAML; each sequence and string up to `truncate_length`, followed by `...`."""
+    """Return a message as YAML; sequences and strings are cut at `truncate_length` and followed by `...`."""
     values = message_to_ordereddict(msg, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str)
     return ordereddict_to_yaml(values, flow_style=flow_style)
 
 
 def ordereddict_to_yaml(values: OrderedDict[str, Any], *, flow_style: bool = False) -> str:
-    """Fields as YAML in their order; sequences in brackets where `flow_style`."""
+    """Return fields as YAML in their order; sequences in brackets if `flow_style`."""
     quick = None if flow_style else block_yaml(values)
     if quick is not None:
         return quick
@@ -64,7 +64,7 @@ def _dumper() -> Any:
 
 
 def message_to_csv(msg: Any, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False) -> str:
-    """The values of a message with commas between them."""
+    """Return the values of a message separated by commas."""
     return _csv(msg, Shortening(truncate_length, no_arr, no_str))
 
 
@@ -74,7 +74,7 @@ def _csv(msg: Any, short: Shortening) -> str:
 
 
 def _joined(texts: Iterable[str]) -> str:
-    """Texts with commas between them; as upstream, what is empty at the beginning leaves no comma."""
+    """Join texts with commas; as upstream, empty ones at the beginning leave no comma."""
     joined = ""
     for each in texts:
         joined += f",{each}" if joined else each
@@ -102,7 +102,7 @@ def _csv_value(value: Any, kind: Any, short: Shortening) -> str:
 def message_to_ordereddict(
     msg: Any, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
 ) -> OrderedDict[str, Any]:
-    """The fields of a message in their order, nested ones as dictionaries too."""
+    """Return the fields of a message in their order, nested ones as dictionaries, too."""
     return _ordered(msg, Shortening(truncate_length, no_arr, no_str))
 
 
@@ -166,5 +166,5 @@ def _item_words(kind: Any) -> str:
 
 
 def get_message_slot_types(msg: Any) -> OrderedDict[str, Any]:
-    """The types of a message's fields by name, as `rosidl_parser.definition` has them."""
+    """Return the types of a message's fields by name, as in `rosidl_parser.definition`."""
     return OrderedDict(zip((slot[1:] for slot in msg.__slots__), msg.SLOT_TYPES, strict=False))

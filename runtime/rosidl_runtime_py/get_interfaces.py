@@ -9,14 +9,14 @@ Interfaces = dict[str, list[str]]
 
 
 def get_interface_packages() -> list[str]:
-    """All packages that define interfaces."""
+    """Return all packages that define interfaces."""
     from bot_console.runtime.rosidl.texts import known_packages
 
     return list(known_packages())
 
 
 def get_interfaces(package_names: Iterable[str] = ()) -> Interfaces:
-    """Interfaces such as `msg/String` by package, of all packages where none is named.
+    """Return interfaces such as `msg/String` by package, of all packages by default.
 
     Raises `LookupError` for an unknown package.
     """
@@ -58,9 +58,9 @@ def _is_package(name: str) -> bool:
 
 
 def get_interface_path(interface_name: str) -> str:
-    """The definition file of an interface, its ending left out or not.
+    """Return the definition file of an interface, given with or without its file extension.
 
-    Raises `ValueError` for a name in a wrong form, `LookupError` for an unknown package or interface.
+    Raises `ValueError` for a malformed name, `LookupError` for an unknown package or interface.
     """
     from bot_console.runtime.rosidl.texts import definition_path, package_folder
 

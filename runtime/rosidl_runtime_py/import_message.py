@@ -10,7 +10,7 @@ from rosidl_parser.definition import NamespacedType
 
 
 def import_message_from_namespaced_type(message_type: Any) -> Any:
-    """The class of a `NamespacedType`; raises `ImportError` or `AttributeError` where there is none."""
+    """Return the class of a `NamespacedType`; raises `ImportError` or `AttributeError` if there is none."""
     if not isinstance(message_type, NamespacedType) and hasattr(message_type, "value_type"):
         message_type = message_type.value_type
         warnings.warn(

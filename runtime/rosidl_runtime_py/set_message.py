@@ -18,9 +18,9 @@ Setter = Callable[[Any], None]
 def set_message_fields(
     msg: Any, values: dict[str, Any], expand_header_auto: bool = False, expand_time_now: bool = False
 ) -> list[Setter]:
-    """Set fields by name; returns what sets the times for which `auto` or `now` was given.
+    """Set fields by name; return functions that set the times given as `auto` or `now`.
 
-    Raises `AttributeError` for a field that is not there, `TypeError` or `ValueError` for a value that does not fit.
+    Raises `AttributeError` for an unknown field, `TypeError` or `ValueError` for an invalid value.
     """
     filling = _Filling(expand_header_auto, expand_time_now)
     filling.fill(msg, values)
@@ -43,7 +43,7 @@ class _Filling:
                 self._set(msg, name, field, value)
 
     def _is_time(self, msg: Any, name: str, field: Any, value: Any) -> bool:
-        """Whether the value stands for the current time; then it is set later."""
+        """Whether the value means the current time; then it is set later."""
         kind = f"{type(field).__module__}.{type(field).__name__}"
         if self._auto and value == "auto" and kind == "std_msgs.msg._header.Header":
             self.times.append(partial(setattr, field, "stamp"))
@@ -65,7 +65,7 @@ class _Filling:
         setattr(msg, name, value)
 
     def _converted(self, field: Any, value: Any) -> Any:
-        """The value as the type that the field holds now."""
+        """Return the value converted to the type of the field's present value."""
         kind = type(field)
         if kind is array:
             return array(field.typecode, value)

@@ -9,12 +9,12 @@ from rosidl_runtime_py.import_message import import_message_from_namespaced_type
 
 
 def get_interface(identifier: str) -> Any:
-    """The class of any interface; raises `ImportError` or `AttributeError` where there is none."""
+    """Return the class of any interface; raises `ImportError` or `AttributeError` if there is none."""
     return import_message_from_namespaced_type(get_namespaced_type(identifier))
 
 
 def get_message(identifier: str) -> Any:
-    """The class of a message, `std_msgs/String` will do; raises `ValueError` for a service or action."""
+    """Return the class of a message, also by `std_msgs/String`; raises `ValueError` for a service or action."""
     interface = import_message_from_namespaced_type(get_message_namespaced_type(identifier))
     if not is_message(interface):
         raise ValueError(f"Expected the full name of a message, got '{identifier}'")
@@ -22,7 +22,7 @@ def get_message(identifier: str) -> Any:
 
 
 def get_service(identifier: str) -> Any:
-    """The class of a service, `std_srvs/Trigger` will do; raises `ValueError` for a message or action."""
+    """Return the class of a service, also by `std_srvs/Trigger`; raises `ValueError` for a message or action."""
     interface = import_message_from_namespaced_type(get_service_namespaced_type(identifier))
     if not is_service(interface):
         raise ValueError(f"Expected the full name of a service, got '{identifier}'")
@@ -30,7 +30,7 @@ def get_service(identifier: str) -> Any:
 
 
 def get_action(identifier: str) -> Any:
-    """The class of an action, `example_interfaces/Fibonacci` will do; raises `ValueError` for anything else."""
+    """Return the class of an action, also by `example_interfaces/Fibonacci`; raises `ValueError` for anything else."""
     interface = import_message_from_namespaced_type(get_action_namespaced_type(identifier))
     if not is_action(interface):
         raise ValueError(f"Expected the full name of an action, got '{identifier}'")
@@ -43,17 +43,17 @@ def get_namespaced_type(identifier: str) -> NamespacedType:
 
 
 def get_message_namespaced_type(identifier: str) -> NamespacedType:
-    """The type of a message's name, `msg` added where it is left out."""
+    """Return the type of a message's name, which may lack `msg`."""
     return _namespaced(identifier, "msg")
 
 
 def get_service_namespaced_type(identifier: str) -> NamespacedType:
-    """The type of a service's name, `srv` added where it is left out."""
+    """Return the type of a service's name, which may lack `srv`."""
     return _namespaced(identifier, "srv")
 
 
 def get_action_namespaced_type(identifier: str) -> NamespacedType:
-    """The type of an action's name, `action` added where it is left out."""
+    """Return the type of an action's name, which may lack `action`."""
     return _namespaced(identifier, "action")
 
 

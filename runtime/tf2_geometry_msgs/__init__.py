@@ -35,12 +35,12 @@ __all__ = [
 
 
 def to_msg_msg(msg: object) -> object:
-    """A message as the message that it is."""
+    """Return the message unchanged."""
     return msg
 
 
 def from_msg_msg(msg: object) -> object:
-    """A message as the message that it is."""
+    """Return the message unchanged."""
     return msg
 
 

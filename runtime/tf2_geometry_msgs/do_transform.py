@@ -40,31 +40,31 @@ def _turned(place: Rigid, vector: Any) -> tuple[float, float, float]:
 
 
 def do_transform_point(point: PointStamped, transform: TransformStamped) -> PointStamped:
-    """A point, moved and turned."""
+    """Transform a point: rotate and translate it."""
     x, y, z = _moved(_rigid(transform), point.point)
     return PointStamped(header=transform.header, point=Point(x=x, y=y, z=z))
 
 
 def do_transform_vector3(vector3: Vector3Stamped, transform: TransformStamped) -> Vector3Stamped:
-    """A direction, which is turned alone."""
+    """Transform a direction, which is only rotated."""
     x, y, z = _turned(_rigid(transform), vector3.vector)
     return Vector3Stamped(header=transform.header, vector=Vector3(x=x, y=y, z=z))
 
 
 def do_transform_pose(pose: Pose, transform: TransformStamped) -> Pose:
-    """A pose without a header."""
+    """Transform a pose without a header."""
     at, turn = pose.position, pose.orientation
     x, y, z, qx, qy, qz, qw = compose(_rigid(transform), (at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w))
     return Pose(position=Point(x=x, y=y, z=z), orientation=Quaternion(x=qx, y=qy, z=qz, w=qw))
 
 
 def do_transform_pose_stamped(pose: PoseStamped, transform: TransformStamped) -> PoseStamped:
-    """A pose with a header."""
+    """Transform a pose with a header."""
     return PoseStamped(header=transform.header, pose=do_transform_pose(pose.pose, transform))
 
 
 def do_transform_polygon_stamped(polygon: PolygonStamped, transform: TransformStamped) -> PolygonStamped:
-    """All points of a polygon."""
+    """Transform all points of a polygon."""
     place = _rigid(transform)
     result = PolygonStamped(header=transform.header)
     for each in polygon.polygon.points:
@@ -76,7 +76,7 @@ def do_transform_polygon_stamped(polygon: PolygonStamped, transform: TransformSt
 def do_transform_pose_with_covariance_stamped(
     pose: PoseWithCovarianceStamped, transform: TransformStamped
 ) -> PoseWithCovarianceStamped:
-    """A pose and its 6x6 covariance."""
+    """Transform a pose and its 6x6 covariance."""
     result = PoseWithCovarianceStamped(header=transform.header)
     result.pose.pose = do_transform_pose(pose.pose.pose, transform)
     result.pose.covariance = transform_covariance(pose.pose.covariance, transform)
@@ -84,7 +84,7 @@ def do_transform_pose_with_covariance_stamped(
 
 
 def do_transform_wrench(wrench: WrenchStamped, transform: TransformStamped) -> WrenchStamped:
-    """Force and torque, which are turned alone."""
+    """Transform force and torque, which are only rotated."""
     place = _rigid(transform)
     result = WrenchStamped(header=transform.header)
     for name in ("force", "torque"):
@@ -94,7 +94,7 @@ def do_transform_wrench(wrench: WrenchStamped, transform: TransformStamped) -> W
 
 
 def transform_covariance(cov_in: Any, transform: Any) -> np.ndarray:
-    """A 6x6 covariance (row by row), both halves turned; of a `Transform` or a `TransformStamped`."""
+    """Rotate both halves of a 6x6 covariance (row by row) by a `Transform` or a `TransformStamped`."""
     turn = getattr(transform, "transform", transform).rotation
     place: Rigid = (*ORIGIN, turn.x, turn.y, turn.z, turn.w)
     rotation = np.array([compose(place, (x, y, z, *UPRIGHT))[:3] for x, y, z in AXES]).T

@@ -23,9 +23,9 @@ _EMPTY = TransformStamped()
 
 
 class BufferCore:
-    """Keeps transforms for `cache_time`; one thread may fill it while others ask.
+    """Keeps transforms for `cache_time`; one thread may add them while others look them up.
 
-    Times are `rclpy.time.Time`, or stamps of messages; the zero time means the newest that is known. What asks raises
+    Times are `rclpy.time.Time`, or stamps of messages; time zero means the newest known. Lookups raise
     `LookupException`, `ConnectivityException`, `ExtrapolationException` and `InvalidArgumentException`.
     """
 
@@ -39,22 +39,22 @@ class BufferCore:
         self._histories = {name: each for name, each in self._histories.items() if each.is_static}
 
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
-        """Take a transform; one that makes no sense is ignored, and the log says why."""
+        """Add a transform; an invalid one is ignored, and the log says why."""
         self._insert(transform, authority, is_static=False)
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
-        """Take a transform that holds at any time."""
+        """Add a transform that is valid at any time."""
         self._insert(transform, authority, is_static=True)
 
     def _take_later(self, messages: list[TransformStamped]) -> None:
-        """Keep what messages tell; it is looked at when their frame is asked for."""
+        """Keep received messages unread; they are read when their frame is looked up."""
         histories = self._histories
         for each in messages:
             history = histories.get(each.child_frame_id)
             if history is None or history.is_static:
                 self._insert(each, "default_authority", is_static=False)
                 continue
-            header, transform = each._header, each._transform  # past the properties: half the time
+            header, transform = each._header, each._transform  # bypassing the properties takes half the time
             stamp, move, turn = header._stamp, transform._translation, transform._rotation
             when = stamp._sec * NANO + stamp._nanosec
             waiting = history.waiting
@@ -69,11 +69,11 @@ class BufferCore:
         entry = stamp.sec * NANO + stamp.nanosec, message.header.frame_id.removeprefix("/"), place, authority
         child = message.child_frame_id.removeprefix("/")
         if child in self._histories:
-            self._histories[child].digest()  # what came before: of two of one time the first holds
+            self._histories[child].digest()  # read earlier ones first: of two with the same time the first counts
         self._keep_entry(child, entry, is_static)
 
     def _keep_entry(self, child: str, entry: Entry, is_static: bool) -> None:
-        """Keep a transform that makes sense; else the log says why not."""
+        """Add a valid transform; for an invalid one the log says why not."""
         stamp, parent, place, authority = entry
         problem = _problem(child, parent, place, authority)
         if problem is None:
@@ -94,21 +94,23 @@ class BufferCore:
         self._keep_entry(child, entry, is_static=False)
 
     def lookup_transform_core(self, target_frame: str, source_frame: str, time: Time) -> TransformStamped:
-        """What takes points of `source_frame` to `target_frame` at a time."""
+        """Return the transform that takes points of `source_frame` to `target_frame` at a time."""
         stamp, place = self._look_up(target_frame, source_frame, nanoseconds_of(time), "lookupTransform")
         return _message(target_frame, source_frame, stamp, place)
 
     def lookup_transform_full_core(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> TransformStamped:
-        """From `source_frame` at one time to `target_frame` at another, by way of a frame that did not move."""
+        """Return the transform from `source_frame` at one time to `target_frame` at another, via a frame that is
+        fixed.
+        """
         self._check(fixed_frame, "lookupTransform argument fixed_frame")
         _, first = self._look_up(fixed_frame, source_frame, nanoseconds_of(source_time), "lookupTransform")
         stamp, second = self._look_up(target_frame, fixed_frame, nanoseconds_of(target_time), "lookupTransform")
         return _message(target_frame, source_frame, stamp, compose(second, first))
 
     def can_transform_core(self, target_frame: str, source_frame: str, time: Time) -> tuple[bool, str]:
-        """Whether `lookup_transform_core` would answer, and why not."""
+        """Return whether `lookup_transform_core` would succeed, and why not."""
         try:
             self._look_up(target_frame, source_frame, nanoseconds_of(time), "canTransform")
         except TransformException as error:
@@ -118,7 +120,7 @@ class BufferCore:
     def can_transform_full_core(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> tuple[bool, str]:
-        """Whether `lookup_transform_full_core` would answer, and why not."""
+        """Return whether `lookup_transform_full_core` would succeed, and why not."""
         try:
             self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
         except TransformException as error:
@@ -126,17 +128,17 @@ class BufferCore:
         return True, ""
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
-        """The newest time at which the way between two frames is known."""
+        """Return the newest time at which the path between two frames is known."""
         self._check(target_frame, "getLatestCommonTime argument target_frame")
         self._check(source_frame, "getLatestCommonTime argument source_frame")
         return Time(nanoseconds=latest_common_time(self._histories.get, target_frame, source_frame))
 
     def all_frames_as_string(self) -> str:
-        """All frames with their parents, one a line."""
+        """Return all frames with their parents, one per line."""
         return descriptions.as_string(dict(self._histories))
 
     def all_frames_as_yaml(self) -> str:
-        """All frames with parent, broadcaster, rate and times, as YAML."""
+        """Return all frames with parent, broadcaster, rate and times, as YAML."""
         return descriptions.as_yaml(dict(self._histories))
 
     def _frameExists(self, frame_id: str) -> bool:
@@ -149,7 +151,7 @@ class BufferCore:
         return descriptions.as_dot(dict(self._histories))
 
     def _check(self, frame: str, where: str) -> None:
-        """Raise for a name that can be no frame's, or is not known."""
+        """Raise for an invalid or unknown frame name."""
         if not frame:
             raise InvalidArgumentException(
                 f"Invalid argument passed to {where} in tf2 frame_ids cannot be empty",
@@ -162,7 +164,7 @@ class BufferCore:
             raise LookupException(f'"{frame}" passed to {where} does not exist. ')
 
     def _look_up(self, target: str, source: str, time: int, what: str) -> tuple[int, Rigid]:
-        """Time (ns) and place; `what` is the question that a refusal names."""
+        """Return time (ns) and transform; `what` is the function named in an error message."""
         histories = self._histories
         if target not in histories:
             self._check(target, f"{what} argument target_frame")
@@ -178,7 +180,7 @@ class BufferCore:
 
 
 def nanoseconds_of(time: Any) -> int:
-    """A time, or the stamp of a message, in ns; raises `TypeError` for anything else."""
+    """Return a time, or the stamp of a message, in ns; raises `TypeError` for anything else."""
     found = getattr(time, "nanoseconds", None)
     if found is not None:
         return found
@@ -217,8 +219,8 @@ def _problem(child: str, parent: str, place: Rigid, authority: str) -> str | Non
 
 
 def _message(target: str, source: str, time: int, place: Rigid) -> TransformStamped:
-    message = _EMPTY._copy_()  # in less time than a new one
-    header, transform = message._header, message._transform  # past the properties: half the time of filling it in
+    message = _EMPTY._copy_()  # takes less time than a new one
+    header, transform = message._header, message._transform  # bypassing the properties takes half the time
     header._frame_id = target
     message._child_frame_id = source
     stamp = header._stamp

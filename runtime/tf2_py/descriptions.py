@@ -10,7 +10,7 @@ NO_PARENT = "NO_PARENT"
 
 
 def as_string(frames: Mapping[str, FrameHistory]) -> str:
-    """A line for each frame that has a parent."""
+    """Return a line for each frame that has a parent."""
     lines = []
     for name, history in sorted(frames.items()):
         latest = history.latest()
@@ -20,7 +20,7 @@ def as_string(frames: Mapping[str, FrameHistory]) -> str:
 
 
 def as_yaml(frames: Mapping[str, FrameHistory]) -> str:
-    """Parent, broadcaster, rate (Hz) and times (s) of each frame."""
+    """Return parent, broadcaster, rate (Hz) and times (s) of each frame."""
     texts = []
     for name, history in sorted(frames.items()):
         latest = history.latest()
@@ -40,7 +40,7 @@ def as_yaml(frames: Mapping[str, FrameHistory]) -> str:
 
 
 def rate(history: FrameHistory) -> float:
-    """Transforms a second (Hz); of a static frame 10000, as upstream."""
+    """Return the rate of transforms (Hz); 10000 for a static frame, as upstream."""
     if history.is_static:
         return 10000.0
     entries = history.entries[history.first :]
@@ -49,7 +49,7 @@ def rate(history: FrameHistory) -> float:
 
 
 def as_dot(frames: Mapping[str, FrameHistory]) -> str:
-    """A Graphviz graph with an arrow from each parent."""
+    """Return a Graphviz graph with an arrow from each parent."""
     arrows = []
     for name, history in sorted(frames.items()):
         latest = history.latest()

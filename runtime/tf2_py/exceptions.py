@@ -2,7 +2,7 @@
 
 
 class TransformException(Exception):
-    """A transform cannot be given."""
+    """A transform is not available."""
 
 
 class ConnectivityException(TransformException):
@@ -10,16 +10,16 @@ class ConnectivityException(TransformException):
 
 
 class LookupException(TransformException):
-    """A frame is not known."""
+    """A frame is unknown."""
 
 
 class ExtrapolationException(TransformException):
-    """The time lies outside what is known."""
+    """The time is outside the known range."""
 
 
 class InvalidArgumentException(TransformException):
-    """An argument cannot be meant."""
+    """An argument is invalid."""
 
 
 class TimeoutException(TransformException):
-    """What was waited for did not come in time."""
+    """No answer came in time."""

@@ -10,21 +10,21 @@ from tf2_py.rigid import Rigid, interpolate
 
 NANO = 1_000_000_000
 DIGEST_AFTER = 256
-"""After so many the old ones are let go."""
+"""The number of entries after which old ones are dropped."""
 
 Entry = tuple[int, str, Rigid, str]
-"""Time (ns), parent, place in it, and who said so."""
+"""Time (ns), parent, transform, and authority."""
 Unread = tuple[int, str, float, float, float, float, float, float, float]
-"""Time (ns), parent, translation (m) and rotation quaternion of a message; the garbage collector passes it over."""
+"""Time (ns), parent, translation (m) and rotation quaternion of a message; not tracked by the garbage collector."""
 
 
 class FrameHistory:
-    """Transforms of one frame by time; most wait unread until somebody asks, as they never matter."""
+    """Transforms of one frame by time; most stay unread, as nobody asks for them."""
 
     __slots__ = ("_keep", "_read", "_stamps", "entries", "is_static", "waiting")
 
     def __init__(self, keep: int, is_static: bool, read: Callable[[Unread], None]) -> None:
-        """Keep transforms for `keep` (ns); `read` is what inserts one that has waited."""
+        """Keep transforms for `keep` (ns); `read` inserts one that was kept unread."""
         self._keep = keep
         self.is_static = is_static
         self._read = read
@@ -33,7 +33,7 @@ class FrameHistory:
         self.entries: list[Entry] = []
 
     def drop_old(self) -> None:
-        """Let go of unread transforms that are too old, where they came in order; nobody has asked for them."""
+        """Drop unread transforms that are too old, if they came in order."""
         waiting = self.waiting
         limit = waiting[-1][0] - self._keep
         old = bisect_left(waiting, limit, key=itemgetter(0))
@@ -41,13 +41,13 @@ class FrameHistory:
             del waiting[:old]
 
     def digest(self) -> None:
-        """Read what waits."""
+        """Read the unread transforms."""
         waiting, self.waiting = self.waiting, []
         for each in waiting:
             self._read(each)
 
     def insert(self, entry: Entry) -> str | None:
-        """Take a transform; returns why not where it is too old, or one of that time is there already."""
+        """Add a transform; return why not if it is too old or repeats a known time."""
         if self.is_static:
             self.entries, self._stamps = [entry], [0]
             return None
@@ -68,7 +68,7 @@ class FrameHistory:
         return None
 
     def _prune(self) -> None:
-        """Forget what is too old, many at once, as taking from the front of a list costs its length."""
+        """Drop many old entries at once, as removing from the front of a list takes time proportional to its length."""
         limit = self._stamps[-1] - self._keep
         if self._stamps[0] >= limit:
             return
@@ -79,11 +79,11 @@ class FrameHistory:
 
     @property
     def first(self) -> int:
-        """Index of the oldest entry that still counts."""
+        """Index of the oldest entry that is still valid."""
         return bisect_left(self._stamps, self._stamps[-1] - self._keep) if self._stamps else 0
 
     def latest(self) -> tuple[int, str] | None:
-        """The newest time (ns; 0 of a static frame) and the parent then; None where nothing is known."""
+        """Return the newest time (ns; 0 for a static frame) and the parent then; None if nothing is known."""
         if self.waiting:
             self.digest()
         if not self.entries:
@@ -91,7 +91,7 @@ class FrameHistory:
         return (0 if self.is_static else self._stamps[-1]), self.entries[-1][1]
 
     def at(self, time: int) -> tuple[str, Rigid]:
-        """Parent and place at a time (ns; 0 is the newest); raises `LookupError` with the words of upstream."""
+        """Return parent and transform at a time (ns; 0 is the newest); raises `LookupError` with upstream's message."""
         if self.waiting:
             self.digest()
         entries, stamps = self.entries, self._stamps
@@ -129,5 +129,5 @@ class FrameHistory:
 
 
 def seconds(time: int) -> str:
-    """A time (ns) as upstream prints it."""
+    """Return a time (ns) as upstream prints it."""
     return f"{time / NANO:.6f}"

@@ -11,11 +11,11 @@ from tf2_py.rigid import IDENTITY, Rigid, compose, inverse
 MAX_DEPTH = 1000
 LOOP = "The tf tree is invalid because it contains a loop."
 Find = Callable[[str], FrameHistory | None]
-"""What is known of a frame; None for one that is nobody's child."""
+"""Returns the history of a frame; None for one that is nobody's child."""
 
 
 def transform(find: Find, target: str, source: str, time: int) -> Rigid:
-    """What takes points of `source` to `target` at a time (ns; 0 is the newest).
+    """Return the transform that takes points of `source` to `target` at a time (ns; 0 is the newest).
 
     Raises `ConnectivityException`, `ExtrapolationException` and, for a loop, `LookupException`.
     """
@@ -56,7 +56,7 @@ def _down(find: Find, above: dict[str, Rigid], target: str, source: str, time: i
 
 
 def latest_common_time(find: Find, target: str, source: str) -> int:
-    """The newest time (ns) at which all frames between two are known, 0 where all are static.
+    """Return the newest time (ns) at which all frames between two are known, 0 if all are static.
 
     Raises `ConnectivityException`, for a loop `LookupException`.
     """
@@ -78,7 +78,7 @@ def latest_common_time(find: Find, target: str, source: str) -> int:
 
 
 def _ancestors(find: Find, frame: str, up_to: str) -> dict[str, int]:
-    """Frames above one, as far as another, with the newest time at which the way to each is known."""
+    """Return the frames above one, up to another, each with the newest time at which the path to it is known."""
     newest = 0
     above = {frame: 0}
     while frame != up_to and (history := find(frame)) is not None and (latest := history.latest()) is not None:
@@ -96,7 +96,7 @@ def _older(one: int, other: int) -> int:
 
 
 def unconnected(target: str, source: str) -> str:
-    """What is said of two frames that are in different trees."""
+    """Return the error message for two frames in different trees."""
     return (
         f"Could not find a connection between '{target}' and '{source}' because they are not part of the same tree."
         "Tf has two or more unconnected trees."

@@ -1,4 +1,4 @@
-"""Rigid transforms as seven plain floats: the fastest arithmetic there is for one transform at a time."""
+"""Rigid transforms as seven plain floats: the fastest arithmetic for single transforms."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ Rigid = tuple[float, float, float, float, float, float, float]
 
 IDENTITY: Rigid = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 SMALL = 1e-5
-"""The square of the sine of an angle (between quaternions) that is so small that its series is exact to 1e-11."""
+"""The square of the sine of an angle (between quaternions) below which its series is exact to 1e-11."""
 
 
 def compose(first: Rigid, second: Rigid) -> Rigid:
-    """`first` after `second`: takes a point through `second`, then through `first`."""
+    """Return `first` after `second`: takes a point through `second`, then through `first`."""
     px, py, pz, ax, ay, az, aw = first
     vx, vy, vz, bx, by, bz, bw = second
-    if not (ax or ay or bx or by):  # both turn about z alone, as most of what moves does: half the time
+    if not (ax or ay or bx or by):  # both rotate about z only, as most moving frames do: half the time
         cx, cy = -2.0 * az * vy, 2.0 * az * vx
         return (
             px + vx + aw * cx - az * cy,
@@ -41,7 +41,7 @@ def compose(first: Rigid, second: Rigid) -> Rigid:
 
 
 def inverse(of: Rigid) -> Rigid:
-    """The transform back."""
+    """Return the inverse transform."""
     px, py, pz, x, y, z, w = of
     cx, cy, cz = 2.0 * (z * py - y * pz), 2.0 * (x * pz - z * px), 2.0 * (y * px - x * py)
     return (
@@ -56,7 +56,7 @@ def inverse(of: Rigid) -> Rigid:
 
 
 def interpolate(first: Rigid, second: Rigid, ratio: float) -> Rigid:
-    """Between two transforms: straight in translation, along the shorter arc in rotation; `ratio` in 0..1."""
+    """Interpolate between two transforms: linear in translation, along the shorter arc in rotation; `ratio` in 0..1."""
     px, py, pz, ax, ay, az, aw = first
     vx, vy, vz, bx, by, bz, bw = second
     rest = 1.0 - ratio

@@ -1,4 +1,4 @@
-"""A transform buffer in this process, with time-outs, futures and coroutines."""
+"""A transform buffer in this process, with timeouts, futures and coroutines."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from tf2_py import BufferCore, LookupException, TransformException
 from tf2_ros.buffer_interface import NOW, BufferInterface
 
 POLL = 0.02
-"""How often (s) a waiting call looks again, as upstream."""
+"""How often (s) a waiting call polls, as upstream."""
 
 
 class Buffer(BufferCore, BufferInterface):
-    """Keeps transforms and answers for them; with a node it also offers the service `tf2_frames`.
+    """Keeps transforms and answers lookups; with a node it also offers the service `tf2_frames`.
 
-    What asks raises `LookupException`, `ConnectivityException`, `ExtrapolationException`, `InvalidArgumentException`.
+    Lookups raise `LookupException`, `ConnectivityException`, `ExtrapolationException`, `InvalidArgumentException`.
     """
 
     def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
@@ -41,17 +41,17 @@ class Buffer(BufferCore, BufferInterface):
         return response
 
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
-        """Take a transform, and tell those who wait for one."""
+        """Add a transform, and notify those who wait for one."""
         super().set_transform(transform, authority)
         self._call_new_data_callbacks()
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
-        """Take a transform that holds at any time, and tell those who wait for one."""
+        """Add a transform that is valid at any time, and notify those who wait for one."""
         super().set_transform_static(transform, authority)
         self._call_new_data_callbacks()
 
     def take_messages(self, transforms: list[TransformStamped]) -> None:
-        """Take transforms that nobody else holds, such as those of a received message."""
+        """Add transforms that nobody else holds, such as those of a received message."""
         self._take_later(transforms)
         self._call_new_data_callbacks()
 
@@ -73,13 +73,15 @@ class Buffer(BufferCore, BufferInterface):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW
     ) -> TransformStamped:
-        """What takes points of `source_frame` to `target_frame` at a time, waited for as long as `timeout`."""
+        """Return the transform that takes points of `source_frame` to `target_frame` at a time; waits up to
+        `timeout`.
+        """
         if timeout is not NOW and timeout.nanoseconds:
             self.can_transform(target_frame, source_frame, time, timeout)
         return self.lookup_transform_core(target_frame, source_frame, time)
 
     async def lookup_transform_async(self, target_frame: str, source_frame: str, time: Time) -> TransformStamped:
-        """The same in a coroutine, waited for however long it takes."""
+        """Return the same in a coroutine, waiting without a limit."""
         await self.wait_for_transform_async(target_frame, source_frame, time)
         return self.lookup_transform_core(target_frame, source_frame, time)
 
@@ -92,7 +94,9 @@ class Buffer(BufferCore, BufferInterface):
         fixed_frame: str,
         timeout: Duration = NOW,
     ) -> TransformStamped:
-        """From `source_frame` at one time to `target_frame` at another, by way of a frame that did not move."""
+        """Return the transform from `source_frame` at one time to `target_frame` at another, via a frame that is
+        fixed.
+        """
         if timeout.nanoseconds:
             self.can_transform_full(target_frame, target_time, source_frame, source_time, fixed_frame, timeout)
         return self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
@@ -100,7 +104,7 @@ class Buffer(BufferCore, BufferInterface):
     async def lookup_transform_full_async(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> TransformStamped:
-        """The same in a coroutine, waited for however long it takes."""
+        """Return the same in a coroutine, waiting without a limit."""
         await self.wait_for_transform_full_async(target_frame, target_time, source_frame, source_time, fixed_frame)
         return self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
 
@@ -112,7 +116,7 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Duration = NOW,
         return_debug_tuple: bool = False,
     ) -> bool | tuple[bool, str]:
-        """Whether `lookup_transform` would answer within the time-out; with why not, where that is asked for."""
+        """Return whether `lookup_transform` would succeed within the timeout; with the reason, if that is requested."""
         answer = _waited(lambda: self.can_transform_core(target_frame, source_frame, time), timeout)
         return answer if return_debug_tuple else answer[0]
 
@@ -126,7 +130,7 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Duration = NOW,
         return_debug_tuple: bool = False,
     ) -> bool | tuple[bool, str]:
-        """Whether `lookup_transform_full` would answer within the time-out."""
+        """Return whether `lookup_transform_full` would succeed within the timeout."""
         answer = _waited(
             lambda: self.can_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame),
             timeout,
@@ -134,13 +138,13 @@ class Buffer(BufferCore, BufferInterface):
         return answer if return_debug_tuple else answer[0]
 
     def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future[bool]:
-        """A future that is done when `lookup_transform` would answer."""
+        """Return a future that is done when `lookup_transform` would succeed."""
         return self._when(lambda: self.can_transform_core(target_frame, source_frame, time)[0])
 
     def wait_for_transform_full_async(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> Future[bool]:
-        """A future that is done when `lookup_transform_full` would answer."""
+        """Return a future that is done when `lookup_transform_full` would succeed."""
         return self._when(
             lambda: self.can_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)[0]
         )
@@ -165,7 +169,7 @@ class Buffer(BufferCore, BufferInterface):
 
 
 def _waited(ask: Callable[[], tuple[bool, str]], timeout: Duration) -> tuple[bool, str]:
-    """The answer, asked for again and again until it is yes or the time is over."""
+    """Poll until the answer is positive or the time is over, and return the answer."""
     answer = ask()
     deadline = wall.monotonic() + timeout.nanoseconds / 1e9
     while not answer[0] and wall.monotonic() < deadline:

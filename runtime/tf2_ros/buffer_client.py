@@ -1,4 +1,4 @@
-"""A transform buffer that asks another process, which runs `tf2_ros buffer_server`."""
+"""A transform buffer that queries another process, which runs `tf2_ros buffer_server`."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from tf2_py import (
 from tf2_ros.buffer_interface import NOW, BufferInterface
 
 PADDING = Duration(seconds=2)
-"""How much longer than a look-up's own time-out the server may take to answer."""
+"""How much longer than a lookup's own timeout the server may take to answer."""
 MESSAGE_TIME = (
     "Passing a builtin_interfaces.msg.Time argument is deprecated, and will be removed in the near future. "
     "Use rclpy.time.Time instead."
@@ -42,9 +42,9 @@ ERRORS: dict[int, type[TransformException]] = {
 
 
 class BufferClient(BufferInterface):
-    """Asks the action `ns` of a server. The node has to be spun in another thread than the one that asks.
+    """Queries the action `ns` of a server. The node has to be spun in another thread than the calling one.
 
-    What asks raises the server's exception, or `TimeoutException` where no server is there or it does not answer.
+    Lookups raise the server's exception, or `TimeoutException` if there is no server or it does not answer.
     """
 
     def __init__(self, node: Node, ns: str, check_frequency: float = 10.0, timeout_padding: Duration = PADDING) -> None:
@@ -57,7 +57,9 @@ class BufferClient(BufferInterface):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW
     ) -> TransformStamped:
-        """What takes points of `source_frame` to `target_frame` at a time; the server waits as long as `timeout`."""
+        """Return the transform that takes points of `source_frame` to `target_frame` at a time; the server waits up to
+        `timeout`.
+        """
         if isinstance(time, TimeMessage):
             warnings.warn(MESSAGE_TIME, stacklevel=2)
         elif not isinstance(time, Time):
@@ -75,14 +77,16 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Duration = NOW,
     ) -> TransformStamped:
-        """From `source_frame` at one time to `target_frame` at another, by way of a frame that did not move."""
+        """Return the transform from `source_frame` at one time to `target_frame` at another, via a frame that is
+        fixed.
+        """
         goal = LookupTransform.Goal(target_frame=target_frame, source_frame=source_frame, advanced=True)
         goal.source_time, goal.timeout = _stamp(source_time), timeout.to_msg()
         goal.target_time, goal.fixed_frame = _stamp(target_time), fixed_frame
         return self._ask(goal)
 
     def can_transform(self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW) -> bool:
-        """Whether `lookup_transform` answers within the time-out."""
+        """Return whether `lookup_transform` succeeds within the timeout."""
         try:
             self.lookup_transform(target_frame, source_frame, time, timeout)
         except TransformException:
@@ -98,7 +102,7 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Duration = NOW,
     ) -> bool:
-        """Whether `lookup_transform_full` answers within the time-out."""
+        """Return whether `lookup_transform_full` succeeds within the timeout."""
         try:
             self.lookup_transform_full(target_frame, target_time, source_frame, source_time, fixed_frame, timeout)
         except TransformException:
@@ -121,7 +125,7 @@ class BufferClient(BufferInterface):
 
 
 def _settled(future: Future[Any], deadline: int) -> Any:
-    """The result of a future; raises `TimeoutException` at a steady time in ns."""
+    """Return the result of a future; raises `TimeoutException` at a steady time in ns."""
     wakeup = current().clock.wakeup()
     future.add_done_callback(lambda _: wakeup.set())
     if not future.done():
@@ -132,5 +136,5 @@ def _settled(future: Future[Any], deadline: int) -> Any:
 
 
 def _stamp(time: Any) -> Any:
-    """A time as messages have it, which it may be already."""
+    """Return a time as a message; it may be one already."""
     return time.to_msg() if isinstance(time, Time) else time

@@ -24,7 +24,7 @@ class Stamped:
 
 
 class TypeException(Exception):
-    """Nobody has registered how this type is transformed or converted."""
+    """No transformation or conversion is registered for this type."""
 
     def __init__(self, errstr: str) -> None:
         self.errstr = errstr
@@ -48,11 +48,11 @@ class TransformRegistration:
         self.__type_map[key] = callback
 
     def print_me(self) -> None:
-        """Show what is registered."""
+        """Print what is registered."""
         print(self.__type_map)
 
     def get(self, key: type) -> Transforms:
-        """The function of a type; raises `TypeException`."""
+        """Return the function of a type; raises `TypeException`."""
         if key not in self.__type_map:
             raise TypeException(f"Type {key} if not loaded or supported")
         return self.__type_map[key]
@@ -66,27 +66,27 @@ class ConvertRegistration:
     __convert_map: ClassVar[dict[tuple[type, type], Callable[[Any], Any]]] = {}
 
     def add_from_msg(self, key: type, callback: Callable[[Any], Any]) -> None:
-        """Make a type of its message."""
+        """Register how a type is created from its message."""
         self.__from_msg_map[key] = callback
 
     def add_to_msg(self, key: type, callback: Callable[[Any], Any]) -> None:
-        """Make the message of a type."""
+        """Register how the message of a type is created."""
         self.__to_msg_map[key] = callback
 
     def add_convert(self, key: tuple[type, type], callback: Callable[[Any], Any]) -> None:
-        """Make one type directly of another one."""
+        """Register a direct conversion from one type to another."""
         self.__convert_map[key] = callback
 
     def get_from_msg(self, key: type) -> Callable[[Any], Any]:
-        """What makes a type of its message; raises `TypeException`."""
+        """Return the function that creates a type from its message; raises `TypeException`."""
         return _registered(self.__from_msg_map, key)
 
     def get_to_msg(self, key: type) -> Callable[[Any], Any]:
-        """What makes the message of a type; raises `TypeException`."""
+        """Return the function that creates the message of a type; raises `TypeException`."""
         return _registered(self.__to_msg_map, key)
 
     def get_convert(self, key: tuple[type, type]) -> Callable[[Any], Any]:
-        """What makes one type of another; raises `TypeException`."""
+        """Return the direct conversion from one type to another; raises `TypeException`."""
         return _registered(self.__convert_map, key)
 
 
@@ -97,7 +97,7 @@ def _registered(known: Any, key: Any) -> Any:
 
 
 def convert(a: Any, b_type: type) -> Any:
-    """Data as another type, directly or by way of its message; raises `TypeException`."""
+    """Convert data to another type, directly or via its message; raises `TypeException`."""
     conversions = ConvertRegistration()
     try:
         return conversions.get_convert((type(a), b_type))(a)
@@ -108,7 +108,7 @@ def convert(a: Any, b_type: type) -> Any:
 
 
 class BufferInterface:
-    """What every buffer of transforms offers: `Buffer`, and `BufferClient`, which asks another process."""
+    """The interface of all transform buffers: `Buffer`, and `BufferClient`, which queries another process."""
 
     def __init__(self) -> None:
         self.registration = TransformRegistration()
@@ -116,7 +116,7 @@ class BufferInterface:
     def transform(
         self, object_stamped: Any, target_frame: str, timeout: Duration = NOW, new_type: type | None = None
     ) -> Any:
-        """Data in another frame at its own time, waiting for the transform as long as `timeout`."""
+        """Return data in another frame at its own time, waiting for the transform up to `timeout`."""
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
         stamp = Time.from_msg(header.stamp)
@@ -132,7 +132,7 @@ class BufferInterface:
         timeout: Duration = NOW,
         new_type: type | None = None,
     ) -> Any:
-        """Data in another frame at another time, by way of a frame that did not move."""
+        """Return data in another frame at another time, via a frame that is fixed."""
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
         transform = self.lookup_transform_full(
@@ -144,7 +144,7 @@ class BufferInterface:
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW
     ) -> TransformStamped:
-        """What takes points of one frame to another."""
+        """Return the transform that takes points of one frame to another."""
         raise NotImplementedException
 
     def lookup_transform_full(
@@ -156,13 +156,13 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Duration = NOW,
     ) -> TransformStamped:
-        """The same between two times."""
+        """Return the same between two times."""
         raise NotImplementedException
 
     def can_transform(
         self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW
     ) -> bool | tuple[bool, str]:
-        """Whether `lookup_transform` would answer."""
+        """Return whether `lookup_transform` would succeed."""
         raise NotImplementedException
 
     def can_transform_full(
@@ -174,5 +174,5 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Duration = NOW,
     ) -> bool | tuple[bool, str]:
-        """Whether `lookup_transform_full` would answer."""
+        """Return whether `lookup_transform_full` would succeed."""
         raise NotImplementedException

@@ -11,7 +11,9 @@ from tf2_msgs.msg import TFMessage
 
 
 class StaticTransformBroadcaster:
-    """Publishes transforms on `/tf_static`, each time all that were given so far, also to those who come later."""
+    """Publishes static transforms on `/tf_static`: each message has all of them so far, and late subscribers get it,
+    too.
+    """
 
     def __init__(self, node: Node, qos: QoSProfile | int | None = None) -> None:
         if qos is None:

@@ -17,7 +17,7 @@ DEFAULT_STATIC_TF_TOPIC = "/tf_static"
 
 
 class StaticTransformListener:
-    """Subscribes to `/tf_static`; the node has to be spun, or is with `spin_thread`."""
+    """Subscribes to `/tf_static`; the node has to be spun, unless `spin_thread` does that."""
 
     def __init__(
         self,
@@ -57,10 +57,10 @@ class StaticTransformListener:
             executor.shutdown(0)
 
     def unregister(self) -> None:
-        """Listen no longer."""
+        """Stop listening."""
         self.node.destroy_subscription(self.tf_static_sub)
 
     def static_callback(self, data: TFMessage) -> None:
-        """Take what stays where it is."""
+        """Add static transforms."""
         for each in data.transforms:
             self.buffer.set_transform_static(each, "default_authority")

@@ -12,7 +12,7 @@ DEFAULT_TF_TOPIC = "/tf"
 
 
 class TransformListener(StaticTransformListener):
-    """Subscribes to `/tf` and `/tf_static`; the node has to be spun, or is with `spin_thread`."""
+    """Subscribes to `/tf` and `/tf_static`; the node has to be spun, unless `spin_thread` does that."""
 
     def __init__(
         self,
@@ -32,10 +32,10 @@ class TransformListener(StaticTransformListener):
             self._spin_in_a_thread()
 
     def unregister(self) -> None:
-        """Listen no longer."""
+        """Stop listening."""
         self.node.destroy_subscription(self.tf_sub)
         super().unregister()
 
     def callback(self, data: TFMessage) -> None:
-        """Take what moves."""
+        """Add current transforms."""
         self.buffer.take_messages(data.transforms)  # type: ignore[arg-type] -- a sequence of messages

@@ -1,4 +1,4 @@
-"""Point clouds from one frame to another. Importing it lets `Buffer.transform` take them."""
+"""Transforms point clouds between frames. Once imported, `Buffer.transform` accepts them."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ XYZ = ["x", "y", "z"]
 
 
 def to_msg_msg(msg: Any) -> Any:
-    """A cloud is a message already."""
+    """Return the cloud unchanged."""
     return msg
 
 
 def from_msg_msg(msg: Any) -> Any:
-    """A cloud stays a message."""
+    """Return the cloud unchanged."""
     return msg
 
 
 def transform_points(point_cloud: np.ndarray, transform: Transform) -> np.ndarray:
-    """Points (N, 3) turned and moved by a transform."""
+    """Rotate and translate points (N, 3)."""
     turn, move = transform.rotation, transform.translation
     x, y, z, w = turn.x, turn.y, turn.z, turn.w
     rotation = np.array(
@@ -39,7 +39,7 @@ def transform_points(point_cloud: np.ndarray, transform: Transform) -> np.ndarra
 
 
 def do_transform_cloud(cloud: PointCloud2, transform: TransformStamped) -> PointCloud2:
-    """The cloud in the frame that the transform leads to; all fields but x, y, z stay as they are."""
+    """Return the cloud in the transform's frame; all fields except x, y, z are unchanged."""
     points = read_points(cloud)
     moved = transform_points(np.stack([points[name] for name in XYZ], axis=-1), transform.transform)
     result = points.copy()

@@ -1,7 +1,7 @@
-"""Homogeneous matrices and quaternions, under the names of upstream's `tf_transformations`, on NumPy alone.
+"""Homogeneous matrices and quaternions, under the names of upstream's `tf_transformations`, using only NumPy.
 
-Quaternions are `[x, y, z, w]`, matrices 4x4 arrays, angles in rad. Euler angles have an order of axes such as `sxyz`:
-`s` for axes that stay, `r` for axes that turn along.
+Quaternions are `[x, y, z, w]`, matrices 4x4 arrays, angles in rad. Euler angles have an axis order such as `sxyz`:
+`s` for static axes, `r` for rotating axes.
 """
 
 from tf_transformations.euler import euler_from_matrix, euler_from_quaternion, euler_matrix, quaternion_from_euler

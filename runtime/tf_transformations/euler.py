@@ -12,9 +12,9 @@ TINY = np.finfo(float).eps * 4.0
 
 
 def axes_of(axes: str) -> tuple[tuple[int, int, int], bool]:
-    """The three axes (0 is x), and whether they turn along; raises `ValueError` for what is no order.
+    """Return the three axes (0 is x), and whether they rotate; raises `ValueError` for an invalid order.
 
-    Upstream also takes its tuples of numbers; they are taken here too.
+    Upstream's tuples of numbers are accepted, too.
     """
     if not isinstance(axes, str):
         axes = _NAMES[tuple(axes)]
@@ -25,7 +25,7 @@ def axes_of(axes: str) -> tuple[tuple[int, int, int], bool]:
 
 
 def _tuple(axes: str) -> tuple[int, int, int, int]:
-    """Inner axis, parity, repetition and frame, by which upstream's functions know an order too."""
+    """Return inner axis, parity, repetition and frame, which identify an order in upstream's functions, too."""
     order, turning = axes_of(axes)
     inner = order[::-1] if turning else order
     return inner[0], int((inner[1] - inner[0]) % 3 != 1), int(order[0] == order[2]), int(turning)
@@ -49,7 +49,7 @@ _NAMES = {_tuple(frame + order): frame + order for frame in "sr" for order in _O
 
 
 def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> np.ndarray:
-    """Three angles (rad) as a quaternion."""
+    """Return three angles (rad) as a quaternion."""
     order, turning = axes_of(axes)
     found = np.array([0.0, 0.0, 0.0, 1.0])
     for angle, axis in zip((ai, aj, ak), order, strict=True):
@@ -59,17 +59,17 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -
 
 
 def euler_matrix(ai: float, aj: float, ak: float, axes: str = "sxyz") -> np.ndarray:
-    """Three angles (rad) as a 4x4 matrix."""
+    """Return three angles (rad) as a 4x4 matrix."""
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
 def euler_from_quaternion(quaternion: Any, axes: str = "sxyz") -> tuple[float, float, float]:
-    """A quaternion as three angles (rad)."""
+    """Return a quaternion as three angles (rad)."""
     return euler_from_matrix(quaternion_matrix(quaternion), axes)
 
 
 def euler_from_matrix(matrix: Any, axes: str = "sxyz") -> tuple[float, float, float]:
-    """A rotation as three angles (rad); where two axes fall together the last angle of fixed axes is 0."""
+    """Return a rotation as three angles (rad); in gimbal lock the last angle of static axes is 0."""
     order, turning = axes_of(axes)
     i, j, k = order[::-1] if turning else order
     odd = (j - i) % 3 != 1
@@ -80,7 +80,7 @@ def euler_from_matrix(matrix: Any, axes: str = "sxyz") -> tuple[float, float, fl
 
 
 def _proper(m: np.ndarray, i: int, j: int) -> tuple[float, float, float]:
-    """Angles about i, j, i."""
+    """Return the angles about i, j, i."""
     k = 3 - i - j
     sine = math.hypot(m[i, j], m[i, k])
     if sine <= TINY:
@@ -89,7 +89,7 @@ def _proper(m: np.ndarray, i: int, j: int) -> tuple[float, float, float]:
 
 
 def _cardan(m: np.ndarray, i: int, j: int, k: int) -> tuple[float, float, float]:
-    """Angles about i, j, k."""
+    """Return the angles about i, j, k."""
     cosine = math.hypot(m[i, i], m[j, i])
     if cosine <= TINY:
         return math.atan2(-m[j, k], m[j, j]), math.atan2(-m[k, i], cosine), 0.0

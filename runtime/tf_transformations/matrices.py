@@ -12,24 +12,24 @@ from tf_transformations.vectors import unit_vector
 
 
 def identity_matrix() -> np.ndarray:
-    """Changes nothing."""
+    """Return the identity."""
     return np.identity(4)
 
 
 def translation_matrix(direction: Any) -> np.ndarray:
-    """Moves by a vector."""
+    """Return the translation by a vector."""
     matrix = np.identity(4)
     matrix[:3, 3] = direction[:3]
     return matrix
 
 
 def translation_from_matrix(matrix: Any) -> np.ndarray:
-    """The vector by which a matrix moves."""
+    """Return the vector by which a matrix translates."""
     return np.array(matrix)[:3, 3].copy()
 
 
 def _about(matrix: np.ndarray, point: Any) -> np.ndarray:
-    """The same with a point that stays where it is."""
+    """Return the same with a fixed point."""
     if point is not None:
         place = np.asarray(point[:3], dtype=np.float64)
         matrix[:3, 3] = place - matrix[:3, :3] @ place
@@ -37,12 +37,12 @@ def _about(matrix: np.ndarray, point: Any) -> np.ndarray:
 
 
 def rotation_matrix(angle: float, direction: Any, point: Any = None) -> np.ndarray:
-    """Turns by an angle (rad) about an axis, through a point where one is given."""
+    """Return the rotation by an angle (rad) about an axis, through a point if one is given."""
     return _about(quaternion_matrix(quaternion_about_axis(angle, direction)), point)
 
 
 def rotation_from_matrix(matrix: Any) -> tuple[float, np.ndarray, np.ndarray]:
-    """Angle (rad), axis, and a point of it (homogeneous); raises `ValueError` for what is no rotation."""
+    """Return angle (rad), axis, and a point on it (homogeneous); raises `ValueError` if it is not a rotation."""
     m = np.asarray(matrix, dtype=np.float64)
     direction = _fixed_vector(m[:3, :3].T)[:3]
     values, vectors = np.linalg.eig(m)
@@ -66,7 +66,7 @@ def _fixed_vector(m: np.ndarray) -> np.ndarray:
 
 
 def reflection_matrix(point: Any, normal: Any) -> np.ndarray:
-    """Mirrors at a plane through a point."""
+    """Return the reflection at a plane through a point."""
     direction = unit_vector(normal[:3])
     matrix = np.identity(4)
     matrix[:3, :3] -= 2.0 * np.outer(direction, direction)
@@ -74,7 +74,9 @@ def reflection_matrix(point: Any, normal: Any) -> np.ndarray:
 
 
 def reflection_from_matrix(matrix: Any) -> tuple[np.ndarray, np.ndarray]:
-    """A point (homogeneous) and the normal of the plane of a mirror; raises `ValueError` for what is none."""
+    """Return a point (homogeneous) and the normal of the mirror plane; raises `ValueError` if it is not a
+    reflection.
+    """
     m = np.asarray(matrix, dtype=np.float64)
     values, vectors = np.linalg.eig(m[:3, :3])
     turned = np.where(abs(np.real(values) + 1.0) < 1e-8)[0]
@@ -86,7 +88,7 @@ def reflection_from_matrix(matrix: Any) -> tuple[np.ndarray, np.ndarray]:
 
 
 def scale_matrix(factor: float, origin: Any = None, direction: Any = None) -> np.ndarray:
-    """Stretches about a point, in all directions or in one."""
+    """Return the scaling about a point, in all directions or in one."""
     matrix = np.identity(4)
     if direction is None:
         matrix[:3, :3] *= factor
@@ -97,7 +99,7 @@ def scale_matrix(factor: float, origin: Any = None, direction: Any = None) -> np
 
 
 def scale_from_matrix(matrix: Any) -> tuple[float, np.ndarray, np.ndarray | None]:
-    """Factor, a point (homogeneous) that stays, and the direction, None for all."""
+    """Return factor, fixed point (homogeneous), and direction, None for all."""
     m = np.asarray(matrix, dtype=np.float64)
     factor = float(np.trace(m[:3, :3])) - 2.0
     values, vectors = np.linalg.eig(m[:3, :3])
@@ -116,7 +118,7 @@ def scale_from_matrix(matrix: Any) -> tuple[float, np.ndarray, np.ndarray | None
 def projection_matrix(
     point: Any, normal: Any, direction: Any = None, perspective: Any = None, pseudo: bool = False
 ) -> np.ndarray:
-    """Projects onto a plane: straight, along a direction, or towards a point of view."""
+    """Return the projection onto a plane: orthogonal, along a direction, or towards a point of view."""
     place, across = np.asarray(point[:3], dtype=np.float64), unit_vector(normal[:3])
     matrix = np.identity(4)
     if perspective is not None:
@@ -136,7 +138,9 @@ def projection_matrix(
 
 
 def shear_matrix(angle: float, direction: Any, point: Any, normal: Any) -> np.ndarray:
-    """Shears by an angle (rad) along a direction in a plane; raises `ValueError` where it is not in the plane."""
+    """Return the shear by an angle (rad) along a direction in a plane; raises `ValueError` if it is not in the
+    plane.
+    """
     across, along = unit_vector(normal[:3]), unit_vector(direction[:3])
     if abs(np.dot(across, along)) > 1e-6:
         raise ValueError("direction and normal vectors are not orthogonal")
@@ -146,7 +150,7 @@ def shear_matrix(angle: float, direction: Any, point: Any, normal: Any) -> np.nd
 
 
 def superimposition_matrix(v0: Any, v1: Any, scaling: bool = False, usesvd: bool = True) -> np.ndarray:
-    """What takes points (a column each) to other points with the least squared error."""
+    """Return the transform that maps points (one per column) to other points with the least squared error."""
     first, second = (np.asarray(each, dtype=np.float64)[:3] for each in (v0, v1))
     if first.shape != second.shape or first.shape[1] < 3:
         raise ValueError("vector sets are of wrong shape or type")
@@ -164,16 +168,16 @@ def superimposition_matrix(v0: Any, v1: Any, scaling: bool = False, usesvd: bool
 
 
 def inverse_matrix(matrix: Any) -> np.ndarray:
-    """The way back."""
+    """Return the inverse."""
     return np.linalg.inv(matrix)
 
 
 def concatenate_matrices(*matrices: Any) -> np.ndarray:
-    """The product of matrices: the last one acts first."""
+    """Return the product of matrices: the last one acts first."""
     return reduce(np.dot, matrices, np.identity(4))
 
 
 def is_same_transform(matrix0: Any, matrix1: Any) -> bool:
-    """Whether two matrices do the same, but for a common factor."""
+    """Return whether two matrices are equal, except for a common factor."""
     first, second = (np.array(each, dtype=np.float64) for each in (matrix0, matrix1))
     return bool(np.allclose(first / first[3, 3], second / second[3, 3]))

@@ -11,7 +11,9 @@ from tf_transformations.euler import euler_from_matrix, euler_matrix
 def compose_matrix(
     scale: Any = None, shear: Any = None, angles: Any = None, translate: Any = None, perspective: Any = None
 ) -> np.ndarray:
-    """A matrix that scales, shears (xy, xz, yz), turns by fixed-axis angles (rad), moves, projects, in that order."""
+    """Return the matrix that scales, shears (xy, xz, yz), rotates by fixed-axis angles (rad), moves, projects, in that
+    order.
+    """
     matrix = np.identity(4)
     if perspective is not None:
         matrix[3, :] = perspective[:4]
@@ -31,7 +33,7 @@ def compose_matrix(
 
 
 def decompose_matrix(matrix: Any) -> tuple[np.ndarray, list[float], list[float], np.ndarray, np.ndarray]:
-    """Scale, shear, angles (rad), move and perspective; raises `ValueError` for a matrix without inverse."""
+    """Return scale, shear, angles (rad), translation and perspective; raises `ValueError` for a singular matrix."""
     m = np.array(matrix, dtype=np.float64)
     if abs(m[3, 3]) < 1e-12:
         raise ValueError("M[3, 3] is zero")

@@ -11,7 +11,7 @@ TINY = np.finfo(float).eps * 4.0
 
 
 def quaternion_about_axis(angle: float, axis: Any) -> np.ndarray:
-    """Turns by an angle (rad) about an axis of any length."""
+    """Return the rotation by an angle (rad) about an axis of any length."""
     direction = np.asarray(axis[:3], dtype=np.float64)
     length = float(np.linalg.norm(direction))
     if length <= TINY:
@@ -20,7 +20,7 @@ def quaternion_about_axis(angle: float, axis: Any) -> np.ndarray:
 
 
 def quaternion_multiply(quaternion1: Any, quaternion0: Any) -> np.ndarray:
-    """The second rotation, followed by the first."""
+    """Return the second rotation followed by the first."""
     x1, y1, z1, w1 = quaternion1
     x0, y0, z0, w0 = quaternion0
     return np.array(
@@ -34,18 +34,18 @@ def quaternion_multiply(quaternion1: Any, quaternion0: Any) -> np.ndarray:
 
 
 def quaternion_conjugate(quaternion: Any) -> np.ndarray:
-    """The same with the axis turned round."""
+    """Return the quaternion with its axis reversed."""
     x, y, z, w = quaternion
     return np.array([-x, -y, -z, w])
 
 
 def quaternion_inverse(quaternion: Any) -> np.ndarray:
-    """What multiplies it to the identity."""
+    """Return the inverse."""
     return quaternion_conjugate(quaternion) / np.dot(quaternion, quaternion)
 
 
 def quaternion_matrix(quaternion: Any) -> np.ndarray:
-    """The rotation as a 4x4 matrix; a quaternion of length 0 is the identity."""
+    """Return the rotation as a 4x4 matrix; a quaternion of length 0 gives the identity."""
     x, y, z, w = (float(each) for each in quaternion)
     square = x * x + y * y + z * z + w * w
     matrix = np.identity(4)
@@ -61,7 +61,9 @@ def quaternion_matrix(quaternion: Any) -> np.ndarray:
 
 
 def quaternion_from_matrix(matrix: Any) -> np.ndarray:
-    """The rotation of a matrix, w not negative; for one that is not quite a rotation the nearest (Bar-Itzhack)."""
+    """Return the rotation of a matrix, w not negative; for a matrix that is not quite a rotation the nearest
+    (Bar-Itzhack).
+    """
     m = np.asarray(matrix, dtype=np.float64)[:3, :3]
     k = np.array(
         [
@@ -71,13 +73,13 @@ def quaternion_from_matrix(matrix: Any) -> np.ndarray:
             [m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1], m[0, 0] + m[1, 1] + m[2, 2]],
         ]
     )
-    values, vectors = np.linalg.eigh(k / 3.0)  # eigh reads the lower triangle alone
+    values, vectors = np.linalg.eigh(k / 3.0)  # eigh reads only the lower triangle
     found = vectors[:, np.argmax(values)]
     return -found if found[3] < 0.0 else found
 
 
 def quaternion_slerp(quat0: Any, quat1: Any, fraction: float, spin: int = 0, shortestpath: bool = True) -> np.ndarray:
-    """Between two rotations, at a fraction of the arc; `spin` adds half turns."""
+    """Interpolate between two rotations at a fraction of the arc; `spin` adds half turns."""
     first, second = (np.asarray(each, dtype=np.float64) / np.linalg.norm(each) for each in (quat0, quat1))
     if fraction == 0.0:
         return first
@@ -95,7 +97,7 @@ def quaternion_slerp(quat0: Any, quat1: Any, fraction: float, spin: int = 0, sho
 
 
 def random_quaternion(rand: Any = None) -> np.ndarray:
-    """A rotation, all equally likely; `rand` may give the three numbers in 0..1 that choose it."""
+    """Return a uniformly distributed random rotation; `rand` may supply its three random numbers in 0..1."""
     one, two, three = np.random.random(3) if rand is None else rand
     low, high = math.sqrt(1.0 - one), math.sqrt(one)
     return np.array(
@@ -109,5 +111,5 @@ def random_quaternion(rand: Any = None) -> np.ndarray:
 
 
 def random_rotation_matrix(rand: Any = None) -> np.ndarray:
-    """The same as a 4x4 matrix."""
+    """Return the same as a 4x4 matrix."""
     return quaternion_matrix(random_quaternion(rand))

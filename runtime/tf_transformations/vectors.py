@@ -8,7 +8,7 @@ import numpy as np
 
 
 def vector_norm(data: Any, axis: int | None = None, out: np.ndarray | None = None) -> Any:
-    """The length, along an axis where one is given; into `out` where that is given."""
+    """Return the length, along an axis if one is given; into `out` if that is given."""
     norm = np.sqrt(np.sum(np.square(np.asarray(data, dtype=np.float64)), axis=axis))
     if out is None:
         return norm
@@ -17,7 +17,7 @@ def vector_norm(data: Any, axis: int | None = None, out: np.ndarray | None = Non
 
 
 def unit_vector(data: Any, axis: int | None = None, out: np.ndarray | None = None) -> Any:
-    """The vector divided by its length, along an axis where one is given; into `out` where that is given."""
+    """Return the vector divided by its length, along an axis if one is given; into `out` if that is given."""
     values = np.array(data, dtype=np.float64)
     length = np.sqrt(np.sum(np.square(values), axis=axis, keepdims=axis is not None))
     values /= length
@@ -28,5 +28,5 @@ def unit_vector(data: Any, axis: int | None = None, out: np.ndarray | None = Non
 
 
 def random_vector(size: int | tuple[int, ...]) -> np.ndarray:
-    """Numbers in 0..1."""
+    """Return random numbers in 0..1."""
     return np.random.random(size)
