@@ -30,7 +30,7 @@ class Entity(BaseEntity):
 
     @property
     def line(self) -> int:
-        """The line on which it begins; 0 where that is not known."""
+        """The line on which it begins; 0 if unknown."""
         return self.__lines.get(self.__element, 0)
 
     @property
@@ -45,7 +45,7 @@ class Entity(BaseEntity):
         return [Entity(each, parent=self, lines=self.__lines) for each in self.__element]
 
     def assert_entity_completely_parsed(self) -> None:
-        """Raise `ValueError` for attributes and elements that nobody has asked for."""
+        """Raise `ValueError` for attributes and elements that were not read."""
         attributes = set(self.__element.attrib) - self.__read_attributes
         if attributes:
             raise ValueError(f"Unexpected attribute(s) found in `{self.type_name}`: {attributes}")

@@ -26,7 +26,7 @@ class Entity(BaseEntity):
 
     @property
     def line(self) -> int:
-        """The line on which it begins; 0 where that is not known."""
+        """The line on which it begins; 0 if unknown."""
         return getattr(self.__element, "line", 0) or getattr(self.__parent, "line", 0)
 
     @property
@@ -36,7 +36,7 @@ class Entity(BaseEntity):
 
     @property
     def children(self) -> list[BaseEntity]:
-        """The elements in it; raises `ValueError` where there can be none."""
+        """The nested elements; raises `ValueError` if it cannot have any."""
         if not (_is_map(self.__element) or _is_list(self.__element)):
             raise TypeError(f"Expected list or dict, got {type(self.__element)} in Entity '{self.type_name}'")
         children = self.__element
@@ -58,7 +58,7 @@ class Entity(BaseEntity):
         return Entity(child[type_name], type_name, parent=self)
 
     def assert_entity_completely_parsed(self) -> None:
-        """Raise `ValueError` for keys that nobody has asked for."""
+        """Raise `ValueError` for keys that were not read."""
         if _is_list(self.__element):
             if not self.__children_read:
                 raise ValueError(f"Unexpected nested entity(ies) found in `{self.type_name}`: {self.__element}")

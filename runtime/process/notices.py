@@ -1,4 +1,4 @@
-"""Notices about what a node process cannot have, or does to its neighbours: one message each, with file and line."""
+"""Notices about what a node process cannot do, or does to others: one message each, with file and line."""
 
 from __future__ import annotations
 

@@ -13,9 +13,11 @@ class CallbackGroup:
     blocked: list[Any] | None = None
     """Entities that are ready and have to wait for the group, or nothing."""
     own_rules = False
-    """Whether it is a program's own class, which does not tell when an entity that had to wait may begin."""
+    """Whether it is a program's own class, which does not report when a waiting entity may begin."""
     _full = 64
-    """So many entities, those that are gone among them, that these are let go before another one is added."""
+    """The number of entities, deleted ones included, from which deleted ones are removed before another one is
+    added.
+    """
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)

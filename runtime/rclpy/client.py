@@ -26,7 +26,7 @@ class Client(Entity):
 
     KIND = CLIENT
     events: Any = None
-    """What publishes the client's events, while introspection is on."""
+    """Publishes the client's events while introspection is on."""
 
     def __init__(self, node: Any, srv_type: Any, srv_name: str, qos_profile: Any, callback_group: Any) -> None:
         super().__init__(callback_group)

@@ -124,12 +124,12 @@ class Clock(AnyClock):
 
     @property
     def clock_type(self) -> ClockType:
-        """What the clock measures."""
+        """The kind of time that the clock measures."""
         return self._clock_type
 
     @property
     def handle(self) -> Clock:
-        """What upstream's clock wraps: here the clock itself."""
+        """The object wrapped by upstream's clock: here the clock itself."""
         return self
 
     def __repr__(self) -> str:

@@ -77,39 +77,39 @@ class QoSLivelinessChangedInfo(NamedTuple):
 
 
 class QoSPublisherMatchedInfo(QoSMatchedInfo):
-    """What a publisher's matched event says."""
+    """The data of a publisher's matched event."""
 
 
 class QoSSubscriptionMatchedInfo(QoSMatchedInfo):
-    """What a subscription's matched event says."""
+    """The data of a subscription's matched event."""
 
 
 class QoSOfferedIncompatibleQoSInfo(QoSIncompatibleInfo):
-    """What a publisher's incompatible event says."""
+    """The data of a publisher's incompatible event."""
 
 
 class QoSRequestedIncompatibleQoSInfo(QoSIncompatibleInfo):
-    """What a subscription's incompatible event says."""
+    """The data of a subscription's incompatible event."""
 
 
 class QoSOfferedDeadlineMissedInfo(QoSCountInfo):
-    """What a publisher's deadline event says."""
+    """The data of a publisher's deadline event."""
 
 
 class QoSRequestedDeadlineMissedInfo(QoSCountInfo):
-    """What a subscription's deadline event says."""
+    """The data of a subscription's deadline event."""
 
 
 class QoSLivelinessLostInfo(QoSCountInfo):
-    """What a publisher's liveliness event says."""
+    """The data of a publisher's liveliness event."""
 
 
 class QoSMessageLostInfo(QoSCountInfo):
-    """What a subscription's message lost event says; within one process no message is lost on its way."""
+    """The data of a subscription's message lost event; within one process no message is lost."""
 
 
 class IncompatibleTypeInfo(QoSCountInfo):
-    """What an event about endpoints of another message type says."""
+    """The data of an event about endpoints of another message type."""
 
 
 class _EventCallbacks:
@@ -209,7 +209,7 @@ class PublisherEventCallbacks(_EventCallbacks):
 
 
 def limit(duration: Any) -> int | None:
-    """A duration of a profile in ns; None where it stands for no limit."""
+    """Return a profile's duration in ns; None if it means no limit."""
     return duration.nanoseconds if 0 < duration.nanoseconds < INFINITE_NS else None
 
 

@@ -78,7 +78,7 @@ class Executor(TaskQueue, ReadyCallbacks):
         self._wakeup = self._clock.wakeup()
         self._waiting = 0
         self._awaited: tuple[Any, ...] | None = None
-        """What the thread that waits for work has asked for."""
+        """What the thread that waits for work has requested."""
         self._is_shutdown = False
         self.is_global = False
         """Whether it is the one of `rclpy.spin`, which ends silently with `rclpy.shutdown`."""

@@ -112,7 +112,7 @@ def _yaml_value(text: str) -> Any:
     """The value of a text in YAML; the text itself if that is null or it cannot be parsed."""
     from bot_console.runtime.rmw.plain_yaml import plain_scalar
 
-    # What is no text is left to the YAML library, which says so.
+    # Values other than strings are left to the YAML library, which raises its own error.
     plain = plain_scalar(text) if isinstance(text, str) else None  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
     if plain is not None:
         return plain

@@ -16,7 +16,7 @@ class Service(Entity):
 
     KIND = SERVICE
     events: Any = None
-    """What publishes the service's events, while introspection is on."""
+    """Publishes the service's events while introspection is on."""
 
     def __init__(
         self,

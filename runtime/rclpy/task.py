@@ -14,7 +14,7 @@ from rclpy.impl.callables import is_coroutine, is_coroutine_function
 T = TypeVar("T")
 
 _running = threading.local()
-"""`task`: the task that the thread is driving on; a future that it awaits tells it so."""
+"""`task`: the task that the thread is running; a future awaited by it registers itself there."""
 
 
 class Future(Generic[T]):

@@ -19,7 +19,7 @@ SEVERITIES = {"UNSET": 0, "DEBUG": 10, "INFO": 20, "WARN": 30, "ERROR": 40, "FAT
 
 
 class ArgumentsError(ValueError):
-    """A command line cannot be parsed; the message has rcl's wording. `mend` adds how to fix it.
+    """A command line cannot be parsed; the message has rcl's wording. `hint` adds how to fix it.
 
     `warning` is what rcl logs before the error, if anything.
     """

@@ -124,9 +124,9 @@ class Bus(Protocol):
         ...
 
     def watch_servers(self, client: ClientEndpoint) -> Callable[[], bool]:
-        """A function that says whether the present servers of a client have ended for certain.
+        """Return a function that says whether the present servers of a client have certainly ended.
 
-        A lost link does not prove that; nothing does where no server is present now.
+        A lost link does not prove that; nothing is known if no server is present now.
         """
         ...
 

@@ -1,11 +1,11 @@
-"""What is said of a parameter file that does not exist: where one of that name is, by those who know packages."""
+"""Hints for a parameter file that does not exist: where a file of that name is, from modules that know packages."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
 Find = Callable[[str], str]
-"""Returns a hint where a file of that path is; empty if it does not know."""
+"""Returns a hint where a file of that path is; empty if unknown."""
 
 _finders: list[Find] = []
 
@@ -17,5 +17,5 @@ def find_with(find: Find) -> None:
 
 
 def hint_for(path: str) -> str:
-    """A hint where a missing parameter file is; empty if nobody knows."""
+    """Return a hint where a missing parameter file is; empty if unknown."""
     return next((hint for find in _finders if (hint := find(path))), "")

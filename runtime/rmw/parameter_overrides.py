@@ -25,7 +25,7 @@ def chosen(slots: Slots) -> Any:
 
 
 class ParameterYamlError(ValueError):
-    """A parameter file or value is refused; the message has rcl's wording. `mend` adds how to fix it."""
+    """A parameter file or value is refused; the message has rcl's wording. `hint` adds how to fix it."""
 
     def __init__(self, text: str, hint: str = "") -> None:
         super().__init__(text)

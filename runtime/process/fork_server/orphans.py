@@ -37,7 +37,7 @@ def _children() -> list[int]:
     try:
         with open(f"/proc/self/task/{threading.get_native_id()}/children", encoding="ascii") as file:
             return [int(each) for each in file.read().split()]
-    except OSError:  # a system that does not tell
+    except OSError:  # a system that does not report it
         return []
 
 

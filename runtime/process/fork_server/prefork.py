@@ -18,9 +18,9 @@ from typing import NoReturn
 from .shown_command import show_command
 
 NAME = "bot-console fork server"
-"""What system tools show."""
+"""The name shown by system tools."""
 DESCRIPTORS = "/dev/fd"
-"""Where Linux and macOS list the open descriptors of a process."""
+"""The folder that lists the open descriptors of a process on Linux and macOS."""
 
 
 def has_one_thread() -> bool:
@@ -38,12 +38,13 @@ class Fork:
     def __init__(self, serve: Callable[[], object], kept: int) -> None:
         """Let the fork call `serve()` and end. Of all descriptors it has its output and `kept`."""
         for stream in (sys.stdout, sys.stderr):
-            if stream is not None:  # as where the descriptor is closed
-                with contextlib.suppress(OSError, ValueError):  # what is left in its buffer would be written twice
+            if stream is not None:  # None if the descriptor is closed
+                # the remaining content of its buffer would be written twice
+                with contextlib.suppress(OSError, ValueError):
                     stream.flush()
         self._lock = threading.Lock()
         self.returncode: int | None = None
-        # Ctrl-C is for the parent, and in the fork nobody would take it before `setsid`.
+        # Ctrl-C is for the parent, and in the fork nothing would handle it before `setsid`.
         before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
         self.pid = os.fork()
         if self.pid == 0:

@@ -1,11 +1,11 @@
-"""What `ps` and `pkill -f` take for the command line of this process. Linux; elsewhere it stays that of the parent."""
+"""The command line of this process as shown by `ps` and `pkill -f`. Linux; elsewhere it stays that of the parent."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 START, END = 47, 48
-"""Fields of `/proc/self/stat` (proc(5), from 0): where the memory with the command line begins and ends."""
+"""Fields of `/proc/self/stat` (proc(5), from 0): start and end of the memory with the command line."""
 
 
 def show_command(words: Sequence[str]) -> None:
@@ -19,7 +19,8 @@ def show_command(words: Sequence[str]) -> None:
             # The second field may contain blanks and parentheses.
             fields = [b"", b"", *stat.read().rpartition(b")")[2].split()]
             start, room = int(fields[START]), int(fields[END]) - int(fields[START])
-            if start == 0 or len(shown.read()) != room:  # the system does not tell, or another program's way differs
+            # the system does not report it, or another program does this differently
+            if start == 0 or len(shown.read()) != room:
                 return
     except (OSError, ValueError, IndexError):
         return

@@ -261,7 +261,7 @@ class NodeProcess:
             self.exit_code = code
         self.state = ProcessState.EXITED
         running.pop(self.pid, None)
-        # Whoever ends the process, `current()` tells the callbacks which one has ended.
+        # Whichever thread ends the process, `current()` in the callbacks is the one that has ended.
         before, local.process = local.process, self
         try:
             for abandon in tuple(self._abandon_callbacks):

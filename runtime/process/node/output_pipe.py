@@ -17,7 +17,7 @@ CHUNK = 65536
 
 
 class OutputPipe:
-    """Passes on as text what is written to `write_end`."""
+    """Passes on text written to `write_end`."""
 
     def __init__(self, take: Callable[[str], None]) -> None:
         self._take = take
@@ -44,7 +44,7 @@ class OutputPipe:
             self._ended = True
 
     def close(self) -> None:
-        """Close our end. What children have written arrives; a child that goes on printing is not waited for."""
+        """Close our end. What children have written arrives; a child that keeps printing is not waited for."""
         os.close(self.write_end)
         self._pump.join(DRAIN_TIMEOUT_S)
 

@@ -92,7 +92,9 @@ class ScheduledTask:
         self.scheduler.wake_thread(self)
 
     def wait(self, wakeup: Awaited | None, deadline: int | None) -> bool:
-        """Hand the baton on until woken or due (ns); return whether woken. Raises what is pending for this thread."""
+        """Yield to other threads until woken or due (ns); return whether woken. Raises what is pending for this
+        thread.
+        """
         state, scheduler = self.state, self.scheduler
         if state is None:
             return scheduler.wait(self, wakeup, deadline)

@@ -27,7 +27,7 @@ def sleep(seconds: float, /) -> None:
     clock = local.waits_on
     number = isinstance(seconds, (float, SupportsIndex))  # pyright: ignore[reportUnnecessaryIsInstance] -- node code
     if clock is None or not number or not 0 <= seconds < threading.TIMEOUT_MAX:
-        real.sleep(seconds)  # raises what the interpreter raises
+        real.sleep(seconds)  # raises the interpreter's errors
         return
     clock.sleep_until(clock.steady_ns() + int(float(seconds) * 1e9))
 

@@ -34,7 +34,7 @@ class GilWatch:
     """Reports, when the GIL is free again, which thread held it and in which line."""
 
     def __init__(self, report: Callable[[int, str], None]) -> None:
-        """`tell(ident, text)` is called in a thread of the runtime."""
+        """`report(ident, text)` is called in a thread of the runtime."""
         self._report = report
         self._file = -1
         self._made: tuple[int, int] = (0, 0)

@@ -14,7 +14,7 @@ PERIOD_S = 0.5
 WANTED_SHARE = 0.9
 """Share of wall time, spent only running or waiting for a processor, from which a thread counts as computing."""
 REPORT_S = 1.0
-"""Processor time (s) of its own after which that is reported: on a busy machine a start may take seconds."""
+"""Processor time (s) used without a wait after which that is reported: on a busy machine a start may take seconds."""
 
 
 class MainWatch:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ..stepping.scheduler import ScheduledTask, Scheduler
 
 START_STALL_FACTOR = 30
-"""How many times as long a node may hang in its start before time goes on without it."""
+"""Factor for how much longer a node may block during its start before time continues without it."""
 Report = Callable[["ScheduledTask", bool], Callable[[], None]]
 
 
@@ -26,7 +26,7 @@ class StallWatch:
     """Takes the baton from a thread that hangs, in a wait that the run does not see or in a computation."""
 
     def __init__(self, scheduler: Scheduler, stall_s: float, report: Report) -> None:
-        """`report(seat, busy)` is called before others go on; what it returns is called once they can.
+        """`report(task, busy)` is called before others continue; the function it returns is called once they can.
 
         `stall_s`: how long (s) a thread must be blocked, and the unit of how long it may compute.
         """

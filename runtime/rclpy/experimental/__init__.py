@@ -1,4 +1,4 @@
-"""What later releases of Jazzy have under this name."""
+"""Names that later releases of Jazzy have here."""
 
 from rclpy.experimental.events_executor import EventsExecutor
 

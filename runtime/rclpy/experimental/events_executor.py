@@ -1,4 +1,4 @@
-"""An executor that is told what is ready instead of looking through all entities."""
+"""An executor that is notified of ready entities instead of searching all of them."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""What a callback is and takes, as `inspect` determines it.
+"""Classifies a callback and counts its arguments as `inspect` does.
 
-Plain functions and methods are asked directly: importing `inspect` takes a tenth of a short program's time.
+Plain functions and methods are examined directly: importing `inspect` takes a tenth of a short program's time.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""What upstream's entities wrap, as far as programs handle it: `with subscription.handle:` and its address.
+"""The part of upstream's wrapped entities that programs use: `with subscription.handle:` and its address.
 
-As upstream, the `with` gives nothing: `with entity.handle as handle` leaves None in `handle`.
+As upstream, the `with` yields nothing: `with entity.handle as handle` leaves None in `handle`.
 """
 
 from __future__ import annotations

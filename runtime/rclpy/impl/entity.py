@@ -21,7 +21,7 @@ class Entity:
 
     KIND = WAITABLE
     marked: Any = None
-    """The executor in whose queue of what is ready it stands."""
+    """The executor whose queue of ready entities contains it."""
     destroyed = False
     sink: Any = None
     """The executor that serves the entity's node."""
@@ -29,7 +29,7 @@ class Entity:
     heap_deadline = 0
     due_at = 0
     arms_itself = False
-    """Whether it has told the executor when it is next due before its callback begins, and need not be asked after."""
+    """Whether it tells the executor its next due time before its callback begins, and need not be asked afterwards."""
 
     def __init__(self, callback_group: Any) -> None:
         self.callback_group = callback_group

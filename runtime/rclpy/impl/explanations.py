@@ -1,4 +1,4 @@
-"""Explains mistakes that end a node with an exception whose message does not tell the cause."""
+"""Explains mistakes that end a node with an exception whose message does not reveal the cause."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def _init_in_with(exception: BaseException) -> bool:
 
 
 def spun_twice() -> ValueError:
-    """The error of two threads that wait for work of one executor; a person is also told how to avoid it."""
+    """Return the error for two threads that wait for work of one executor; a person also learns how to avoid it."""
     if is_read():
         frame = sys._getframe(1)  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
         notify(current(), f"{line_outside(frame)}: {SPUN_TWICE}")
@@ -90,7 +90,7 @@ def spun_twice() -> ValueError:
 
 
 def invalid_result(callback: Callable[..., Any], result: object) -> str:
-    """What a parameter callback should have returned, with its file and line; empty where no person reads it."""
+    """Return what a parameter callback should have returned, with its file and line; empty unless a person reads it."""
     if not is_read():
         return ""
     code = getattr(callback, "__code__", None)

@@ -13,8 +13,9 @@ NAMES = {0: "UNSET", 10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATA
 COLOURS = {10: "\033[32m", 20: "\033[0m", 30: "\033[33m", 40: "\033[31m", 50: "\033[31m"}
 RESET = "\033[0m"
 ENVELOPE_VARIABLE = "BOT_CONSOLE_LOG_ENVELOPE"
-"""A format around each line, where `{line}` stands for the line as the usual format makes it: set by who captures the
-output of a process and wants to tell what a logger wrote from what was merely printed."""
+"""A format around each line, in which `{line}` is replaced by the usual line: set by programs that capture the
+output of a process and distinguish what a logger wrote from what was merely printed.
+"""
 NANO = 1_000_000_000
 _ESCAPES = {"\\a": "\a", "\\b": "\b", "\\n": "\n", "\\r": "\r", "\\t": "\t"}
 _TOKEN = re.compile(r"\{([a-z_]+)\}")

@@ -1,4 +1,4 @@
-"""What the loggers of a process share: levels and destinations."""
+"""State shared by the loggers of a process: levels and destinations."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Names that programs take from a module of rclpy that only imports them, as upstream's modules happen to do.
+"""Names that programs import from a module of rclpy that only imports them itself, as upstream's modules happen to do.
 
 `from rclpy.node import Node, Parameter` works upstream, and much public code relies on such names. Here a module
-imports what it needs itself; the others are looked up when somebody asks for them, which costs nothing at the start.
+imports what it needs itself; the others are looked up on first use, which costs nothing at the start.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ _RENAMED = {
 _C_EXTENSION = "_rclpy"
 
 _WITH_RCLPY = ("callback_groups", "constants", "exceptions", "guard_condition")
-"""What `import rclpy` loads upstream."""
+"""Modules that `import rclpy` loads upstream."""
 _WITH_NODE = [
     "client",
     "clock",
@@ -99,7 +99,7 @@ _WITH_NODE = [
     "validate_topic_name",
     "waitable",
 ]
-"""What `import rclpy.node` loads upstream."""
+"""Modules that `import rclpy.node` loads upstream."""
 
 
 def reexporting(module: str, names: str) -> Callable[[str], Any]:

@@ -25,9 +25,9 @@ class NodeGraph:
     context: Any
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
-        """All topics with their types, by name; raises `RCLError` after a shutdown of the context.
+        """Return all topics with their types, by name; raises `RCLError` after a shutdown of the context.
 
-        With `no_demangle` by the names that DDS has, and with the two topics of each service.
+        With `no_demangle` by their DDS names, and with the two topics of each service.
         """
         self._ros_use_graph("topic")
         tables = self._ros_bus.tables()
@@ -178,13 +178,13 @@ class NodeGraph:
         return wait_until_there(self, lambda: full_name in self.get_fully_qualified_node_names(), timeout)
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
-        """A topic's full name, remapped unless told otherwise; raises `RCLError`."""
+        """Return a topic's full name, remapped unless `only_expand` is set; raises `RCLError`."""
         from rclpy.node_parts.topic_names import resolve
 
         return resolve(self, topic, only_expand=only_expand)
 
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
-        """A service's full name, remapped unless told otherwise; raises `RCLError`."""
+        """Return a service's full name, remapped unless `only_expand` is set; raises `RCLError`."""
         from rclpy.node_parts.topic_names import resolve
 
         return resolve(self, service, only_expand=only_expand, service=True)

@@ -1,4 +1,4 @@
-"""The names that topics and services have on DDS, where a service is a topic for requests and one for replies."""
+"""The names of topics and services on DDS, where a service is a topic for requests and one for replies."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ TOPIC = "rt"
 
 
 def written_by(tables: Iterable[Any], owner: Owner) -> Iterator[Pair]:
-    """What a node publishes: its topics, the replies of its services, the requests of its clients."""
+    """Yield what a node publishes: its topics, the replies of its services, the requests of its clients."""
     for each in tables:
         yield from map(_topic, each.publishers.of(owner))
         yield from map(_reply, each.servers.of(owner))
@@ -21,7 +21,7 @@ def written_by(tables: Iterable[Any], owner: Owner) -> Iterator[Pair]:
 
 
 def read_by(tables: Iterable[Any], owner: Owner) -> Iterator[Pair]:
-    """What a node subscribes to: its topics, the requests of its services, the replies of its clients."""
+    """Yield what a node subscribes to: its topics, the requests of its services, the replies of its clients."""
     for each in tables:
         yield from map(_topic, each.subscriptions.of(owner))
         yield from map(_request, each.servers.of(owner))
@@ -29,7 +29,7 @@ def read_by(tables: Iterable[Any], owner: Owner) -> Iterator[Pair]:
 
 
 def all_ends(tables: Iterable[Any]) -> Iterator[Pair]:
-    """All topics, and both topics of each service."""
+    """Yield all topics, and both topics of each service."""
     for each in tables:
         for topics in (each.publishers, each.subscriptions):
             yield from map(_topic, topics.pairs())

@@ -14,7 +14,7 @@ from rclpy.impl.parameter_values import FIELDS
 from rclpy.parameter import Parameter
 
 CARRIED_AS_THEY_ARE = frozenset((bool, float, str))
-"""Classes whose every value goes over the wire as it is."""
+"""Classes all of whose values are transmitted unchanged."""
 INT64 = 1 << 63
 NANO = 1_000_000_000
 
@@ -33,7 +33,7 @@ def parameter_event(node: str, now: int, new: list[Any], changed: list[Any], del
 
 
 def check_carried(parameter: Parameter) -> None:
-    """Raise `FieldTypeError` where `event_parameter` would, without creating a message for values that need no check.
+    """Raise `FieldTypeError` if `event_parameter` would, without creating a message for values that need no check.
 
     A message is seven objects for the garbage collector: for ten thousand that nobody receives, they would take two
     thirds of the time to set those parameters.

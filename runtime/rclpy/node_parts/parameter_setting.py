@@ -25,7 +25,9 @@ EMPTIED = (
 )
 NOT_SET = Parameter.Type.NOT_SET
 FEW = 100
-"""Of more the collector would look through a growing event again and again, all of which is needed."""
+"""Above this number the garbage collector is paused: it would examine the growing event, all of which is needed,
+repeatedly.
+"""
 
 Setter = Callable[[Any], Any]
 """A callback; it gets the list of parameters, or whatever sequence the caller has given."""

@@ -49,7 +49,7 @@ def _expanded(node: Any, name: str) -> str:
 
 
 def resolve(node: Any, name: str, *, only_expand: bool, service: bool = False) -> str:
-    """The full name, remapped unless told otherwise; raises `RCLError`."""
+    """Return the full name, remapped unless only expansion is requested; raises `RCLError`."""
     problem = names.validate_topic_name(name)
     if problem:
         raise RCLError(f"failed to resolve name: {problem[0]}")

@@ -47,7 +47,7 @@ class GraphCache:
             self._declared = watch_all(session, key, self.saw, known) if known else session.watch_tokens(key, self.saw)
 
     def set_watch(self, poll: TopicWatch) -> None:
-        """Set the look that reports these tokens."""
+        """Set the watch that reports these tokens."""
         self._declared = poll
 
     def saw(self, key: str, came: bool) -> None:

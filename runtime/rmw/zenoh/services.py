@@ -30,7 +30,7 @@ Caller = tuple[bytes, int]
 
 
 class RemoteClient(ClientEndpoint):
-    """A client in another process, as it stands in the server's request queue."""
+    """A client in another process, as it appears in the server's request queue."""
 
     served: Served
 

@@ -15,7 +15,7 @@ def is_in_range() -> bool:
 
 
 def why_range_is_ignored() -> str:
-    """What rcl says of a value that it does not know, such as `off`; empty for one that it knows."""
+    """Return rcl's message for a value that it does not know, such as `off`; empty for a valid one."""
     value = os.environ.get(RANGE_VARIABLE, "")
     known = value in RANGES
     return "" if known else f"Invalid value '{value}' specified for '{RANGE_VARIABLE}', assuming localhost only"

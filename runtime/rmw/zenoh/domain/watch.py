@@ -24,8 +24,8 @@ SOCKET_POLL_S = 1.0
 PROCESSES_POLL_S = 5.0
 """How often the other processes are checked at most, in s.
 
-Many that start together are then looked at and asked once: when each of fifty did so once a second while the others
-were starting, that was a fifth of what all of them cost.
+Many that start together are then checked and asked once: when each of fifty did so once a second while the others
+were starting, that was a fifth of the total cost.
 """
 
 LINK_TIMEOUT_S = 15.0
