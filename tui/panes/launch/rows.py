@@ -24,7 +24,7 @@ STATES = {
 }
 
 STATE_AND_PID = 20
-"""Cells of the columns behind the name that are always seen."""
+"""Cells of the columns after the name that are always visible."""
 
 
 @dataclass(frozen=True)
@@ -39,12 +39,12 @@ class Row:
 
     @property
     def depth(self) -> int:
-        """How far it is indented."""
+        """The indentation level."""
         return len(self.group) - (0 if self.process else 1)
 
 
 def rows(info: LaunchInfo, folded: Collection[tuple[str, ...]] = ()) -> list[Row]:
-    """The tree, groups in the order of their first process; a launch file without processes stands alone."""
+    """The tree, with groups in the order of their first process; a launch file without processes has a row too."""
     found: list[Row] = []
     seen: set[tuple[str, ...]] = set()
     by_group: dict[tuple[str, ...], list[ProcessInfo]] = {}
@@ -65,13 +65,13 @@ def rows(info: LaunchInfo, folded: Collection[tuple[str, ...]] = ()) -> list[Row
 
 
 def matches(process: ProcessInfo, query: Query) -> bool:
-    """Whether a process passes a filter, by its name, state and groups, and by any of its nodes."""
+    """Whether a process passes a filter by its name, state or groups, or by any of its nodes."""
     text = " ".join((process.label, process.state.value, *process.group, *process.nodes))
     return any(query.matches(text, node) for node in process.nodes or ("",))
 
 
 def _together(processes: Sequence[ProcessInfo]) -> list[ProcessInfo]:
-    """Processes sorted so that each group stands together, below the processes beside it; else as they came."""
+    """Sort processes so that each group follows the processes beside it; otherwise keep their order."""
     first: dict[tuple[str, ...], int] = {}
     for at, process in enumerate(processes):
         for depth in range(len(process.group) + 1):
@@ -88,11 +88,11 @@ class ProcessRows(ItemList[Row]):
     """The rows of the tree."""
 
     def key(self, item: Row) -> object:
-        """A row is about a process, or about a group."""
+        """The process or group of a row."""
         return item.process.key if item.process else item.group
 
     def matches(self, index: int, query: Query) -> bool:
-        """Whether a process matches a filter; groups are no matches."""
+        """Whether a process matches a filter; groups never do."""
         process = self.rows[index].process
         return process is not None and matches(process, query)
 
@@ -100,7 +100,7 @@ class ProcessRows(ItemList[Row]):
         return self.part_style(f"row-list--{name}")
 
     def row(self, index: int, width: int) -> list[Segment]:
-        """A group, or state, name, pid, restarts and last exit of a process."""
+        """A group, or a process with state, name, pid, restarts and last exit code."""
         row = self.rows[index]
         indent = "  " * row.depth
         if row.process is None:
@@ -131,7 +131,7 @@ class ProcessRows(ItemList[Row]):
         return [*loud, Segment("".join(columns), plain), Segment(sanitize(nodes), self._style("dim"))]
 
     def _names(self, width: int) -> int:
-        """Cells of the column of names: what the longest needs, where state and process id keep their room."""
+        """Cells of the name column: what the longest name needs, if state and process id still fit."""
         labels = ((each.depth, each.process.label) for each in self.rows if each.process is not None)
         longest = max((2 * depth + 2 + cell_len(sanitize(label)) for depth, label in labels), default=0)
         return max(14, min(longest, width - STATE_AND_PID))

@@ -13,7 +13,7 @@ LEVELS = (Severity.UNSET, Severity.INFO, Severity.WARN, Severity.ERROR, Severity
 
 @dataclass
 class Filtering:
-    """The choices of a person, and the filter that they make."""
+    """The user's choices, and the filter that results from them."""
 
     rules: RuleBook
     words: str = ""
@@ -23,7 +23,7 @@ class Filtering:
     compact: bool = False
     """Whether there is so little room that equal lines in a row are one anyway."""
     off: bool = field(default=False)
-    """Whether everything is shown for now; the choices stay."""
+    """Whether the filter is suspended; the choices are kept."""
 
     def which(self) -> LogFilter:
         """The filter."""
@@ -33,26 +33,26 @@ class Filtering:
         return LogFilter(self.minimum, self.words, self.rules.hidden, only, self.folded or self.compact)
 
     def narrowed_to(self, words: str = "", minimum: Severity = Severity.UNSET) -> LogFilter:
-        """The lines shown that pass these words as well, each for itself."""
+        """The filter narrowed to lines that also match these words, and with repeats not folded."""
         which = self.which()
         both = " ".join(each for each in (which.words, words) if each)
         return replace(which, words=both, minimum=max(minimum, which.minimum), folded=False)
 
     def next_level(self) -> None:
-        """The next least severity, around the end."""
+        """Go to the next minimum severity; after the last one, to the first."""
         at = LEVELS.index(self.minimum) if self.minimum in LEVELS else 0
         self.minimum, self.off = LEVELS[(at + 1) % len(LEVELS)], False
 
     def warnings(self) -> None:
-        """Warnings and worse, or everything."""
+        """Switch between warnings and worse, and everything."""
         self.minimum, self.off = (Severity.UNSET if self.minimum is Severity.WARN else Severity.WARN), False
 
     def everything(self) -> None:
-        """Forget words and severity; rules stay, since they were made to stay."""
+        """Clear words and severity; rules stay, since they are meant to last."""
         self.words, self.minimum, self.only_highlighted, self.off = "", Severity.UNSET, False, False
 
     def texts(self) -> list[str]:
-        """What narrows the log, in words."""
+        """Descriptions of what narrows the log."""
         hidden = len(self.rules.hidden)
         parts = [
             f"/{self.words}" if self.words else "",

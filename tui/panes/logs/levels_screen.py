@@ -1,4 +1,4 @@
-"""The levels of all nodes' loggers, set live: what a node does not log need not be hidden."""
+"""The levels of all nodes' loggers, set live: lines that are not logged need not be hidden."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ LEVELS = (Severity.DEBUG, Severity.INFO, Severity.WARN, Severity.ERROR, Severity
 
 
 class LevelRows(ItemList[LoggerLevel]):
-    """One logger a line, with its level among the others."""
+    """One logger per line, with its level among the others."""
 
     def key(self, item: LoggerLevel) -> object:
-        """A logger stays itself when its level changes."""
+        """The logger's name, whatever its level."""
         return item.node, item.logger
 
     def row(self, index: int, width: int) -> list[Segment]:
-        """The logger, and the levels; the one that is set stands in brackets."""
+        """The logger and the levels, with the current one in brackets."""
         level = self.rows[index]
         marks = "".join(
             f"[{SEVERITY_CHARACTERS[each]}]" if each is level.severity else f" {SEVERITY_CHARACTERS[each]} "
@@ -46,7 +46,7 @@ class LevelRows(ItemList[LoggerLevel]):
 
 
 class LevelsScreen(DimmedScreen):
-    """Asks every node that offers it, and shows what has answered so far."""
+    """Asks every node with logger services, and shows the answers so far."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("levels")]
     DEFAULT_CSS = """
@@ -68,7 +68,7 @@ class LevelsScreen(DimmedScreen):
         return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
 
     def compose(self) -> ComposeResult:
-        """The loggers, and what is said of those that are missing."""
+        """The loggers, and the number of nodes without logger services."""
         with Box() as box:
             box.border_title = Text("Levels of loggers")
             box.border_subtitle = HINT

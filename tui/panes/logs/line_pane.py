@@ -13,12 +13,12 @@ from bot_console.tui.widgets.prompt.question import Choice
 
 
 class LinePane(ListPane):
-    """Shows log lines, of which one is at the cursor."""
+    """A pane of log lines with actions on the one at the cursor."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self._following = True
-        """Whether the newest line is at the cursor, as lines come."""
+        """Whether the cursor follows the newest line."""
 
     @property
     def _list(self) -> LogRows:
@@ -31,7 +31,7 @@ class LinePane(ListPane):
             self.host.push_screen(DetailScreen(record))
 
     def action_instant(self) -> None:
-        """Show the moment of the line in the plot, and in all panes that have time."""
+        """Show the moment of the line in the plot and all other panes with a time axis."""
         record = self._list.record
         if record is not None:
             self._following = False
@@ -39,7 +39,7 @@ class LinePane(ListPane):
             self.post_message(self.PaneWanted("plot", ""))
 
     def action_edit(self) -> None:
-        """Open the place that logged the line in the person's editor."""
+        """Open the source location of the line in the user's editor."""
         record = self._list.record
         if record is None or not record.file:
             self.notify("No source location is known: the line was printed, or read from a file.")
@@ -47,7 +47,7 @@ class LinePane(ListPane):
             self.post_message(self.EditWanted(record.file, record.line))
 
     def action_before(self) -> None:
-        """Show what happened just before the line, to go there."""
+        """List what happened just before the line, to go to one of the events."""
         record = self._list.record
         if record is None:
             return

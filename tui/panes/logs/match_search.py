@@ -1,4 +1,6 @@
-"""Going from match to match in the log, searched in the background: a million lines delay no key."""
+"""Moves from match to match in the log. The search runs in the background, so that even a million lines delay no
+key.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,7 @@ OpenView = Callable[[LogFilter, "LogView | None"], LogView]
 
 
 class MatchSearch:
-    """Goes to the next line that passes a filter, or the one before; around the end."""
+    """Finds the next or previous line that passes a filter, wrapping around at the ends."""
 
     def __init__(self, open_view: OpenView) -> None:
         self._open_view = open_view
@@ -22,18 +24,18 @@ class MatchSearch:
 
     @property
     def under_way(self) -> bool:
-        """Whether a step waits for what the search will find."""
+        """Whether a step waits for the search."""
         return self._wanted is not None
 
     def seek(self, which: LogFilter, at: int, step: int) -> None:
-        """Look for the next (`step` 1) line that passes, seen from the one numbered `at`, or the previous one (-1)."""
+        """Search for the next (`step` 1) or previous (-1) line that passes, starting at record number `at`."""
         if which != self._which or self._view is None:
             self._view = self._open_view(which, self._view)
             self._which = which
         self._wanted = (at, step)
 
     def poll(self) -> int | None:
-        """The number of the line that was looked for; -1 where there is none, None while it is searched."""
+        """The number of the line found; -1 if there is none, None while the search is running."""
         if self._wanted is None or self._view is None:
             return None
         found = self._view.poll()
@@ -44,12 +46,12 @@ class MatchSearch:
         return target
 
     def forget(self) -> None:
-        """The log is another one now."""
+        """Forget the search, since the log has been replaced."""
         self._which = self._view = self._wanted = None
         self._at = -1
 
     def text(self) -> str:
-        """Which match of how many was gone to; empty before the first."""
+        """The position among the matches, such as "match 2 of 7"; empty before the first step."""
         if self._view is None or self._at < 0:
             return ""
         found = self._view.poll()
@@ -64,10 +66,10 @@ def _target(found: LogFindings, at: int, step: int) -> int | None:
         if before >= 0:
             return numbers[before]
         if not found.complete:
-            return None  # older ones are still looked at
+            return None  # older lines are still being searched
         return numbers[len(numbers) - 1] if len(numbers) else -1
     if not found.complete and found.begin > at + 1:
-        return None  # there may be nearer ones than those found
+        return None  # there may be matches nearer than those found
     behind = numbers.place(at + 1)
     if behind < len(numbers):
         return numbers[behind]

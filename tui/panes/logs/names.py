@@ -6,17 +6,17 @@ from bot_console.tui.console.model import GraphInfo
 
 
 class NodeNames:
-    """The names of all nodes that were ever seen: lines outlive those who wrote them."""
+    """The names of all nodes ever seen: log lines outlive the nodes that wrote them."""
 
     def __init__(self) -> None:
         self._names: dict[str, str] = {}
         self.longest = 0
-        """Letters of the longest of them."""
+        """Length of the longest name."""
 
         self._graph: GraphInfo | None = None
 
     def learn(self, graph: GraphInfo) -> bool:
-        """Take in the nodes of the graph; whether there is a new one."""
+        """Add the nodes of the graph; returns whether there is a new one."""
         if graph is self._graph:
             return False
         self._graph, before = graph, len(self._names)
@@ -25,7 +25,9 @@ class NodeNames:
         return len(self._names) > before
 
     def of(self, logger: str) -> str:
-        """The node that a logger belongs to, with what comes behind it: `/arm/zoo.planner`; others as they are."""
+        """The node of a logger, followed by the rest of the logger's name: `/arm/zoo.planner`. Other names stay as they
+        are.
+        """
         head, rest = logger, ""
         while head:
             if head in self._names:

@@ -16,7 +16,7 @@ HISTORY, LAUNCH = "history", "launch"
 
 @dataclass(frozen=True)
 class PrecedingEvent:
-    """Something that happened, and the pane that tells more of it."""
+    """An event, and the pane with its details."""
 
     stamp: int
     text: str
@@ -24,7 +24,7 @@ class PrecedingEvent:
 
 
 def preceding_events(stamp: int, changes: Iterable[Change], events: Iterable[LaunchEvent]) -> list[PrecedingEvent]:
-    """The last things that happened up to a moment (ns since the epoch), the newest first."""
+    """The last events up to a moment (ns since the epoch), newest first."""
     known = [
         *(PrecedingEvent(each.stamp, _change_text(each), HISTORY) for each in changes if each.stamp <= stamp),
         *(PrecedingEvent(each.stamp, f"launch: {each.text}", LAUNCH) for each in events if each.stamp <= stamp),
@@ -33,7 +33,7 @@ def preceding_events(stamp: int, changes: Iterable[Change], events: Iterable[Lau
 
 
 def options_of(found: Sequence[PrecedingEvent], stamp: int, typed: str) -> list[Option]:
-    """Those whose words have what was typed, each with how long before the moment it was."""
+    """The events that contain what was typed, each with its time before the moment."""
     words = typed.lower().split()
     return [
         Option(each.text, f"{_ago(stamp - each.stamp)} before · {each.pane}", str(index))

@@ -1,4 +1,4 @@
-"""The log lines as they are drawn."""
+"""Draws log lines."""
 
 from __future__ import annotations
 
@@ -15,16 +15,18 @@ from rich.segment import Segment
 
 STYLES = {Severity.DEBUG: "dim", Severity.WARN: "warn", Severity.ERROR: "error", Severity.FATAL: "error"}
 NODE, WIDE_NODE, PLACE = 18, 22, 26
-"""Cells of a node's name, where there is room for it, and of the place in the code."""
+"""Cells of a node's name, of a name if there is more room, and of the source location."""
 
 WITH_PLACE, MORE_NODE = 150, 20
-"""Cells of a line from which it has the place in the code; a node's name has up to so many more of those beyond."""
+"""Width in cells from which lines show the source location, and how many of the cells beyond that node names may
+use.
+"""
 MARK = "▌"
-"""Stands before the text of a line that a rule highlights: not every terminal has colours."""
+"""Precedes the text of a highlighted line: not every terminal has colours."""
 
 
 class LogRows(RowList):
-    """The lines that pass the filter; holds their numbers only."""
+    """The lines that pass the filter; stores only their numbers."""
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {f"log-rows--{each}" for each in COLOURS}
 
@@ -36,19 +38,19 @@ class LogRows(RowList):
         self.names = names
 
     def row_count(self) -> int:
-        """How many lines there are."""
+        """The number of lines."""
         return 0 if self.numbers is None else len(self.numbers)
 
     def number(self, index: int) -> int:
-        """The number of the record on a line; -1 where there is none."""
+        """The number of the record on a line; -1 if there is none."""
         return self.numbers[index] if self.numbers is not None and 0 <= index < len(self.numbers) else -1
 
     def place(self, number: int) -> int:
-        """The line of the record with that number, or of the next one that is shown."""
+        """The line of the record with that number, or of the next record shown."""
         return 0 if self.numbers is None else min(self.numbers.place(number), max(0, len(self.numbers) - 1))
 
     def place_at(self, stamp: int) -> int:
-        """The line that was the newest one at a moment (ns since the epoch)."""
+        """The newest line at a moment (ns since the epoch)."""
         low, high = 0, self.row_count()
         while low < high:
             middle = (low + high) // 2
@@ -66,7 +68,7 @@ class LogRows(RowList):
 
     @property
     def named_record(self) -> LogRecord | None:
-        """The record at the cursor, its node spelled as the graph does."""
+        """The record at the cursor, with its node's name as in the graph."""
         record = self.record
         return replace(record, node=self.names.of(record.node)) if record else None
 
@@ -81,17 +83,17 @@ class LogRows(RowList):
         ]
 
     def first_of_row(self) -> int:
-        """The number of the record before which those above the cursor end; equal ones stand in one row."""
+        """The number of the first record after those above the cursor; a row may stand for several equal records."""
         return self.number(self.cursor - 1) + 1 if self.cursor else 0
 
     def show_nothing(self) -> None:
-        """Begin anew: another log is shown."""
+        """Start again with another log."""
         self.numbers = None
         self.set_reactive(RowList.cursor, 0)
         self.rows_changed()
 
     def exchange(self, numbers: LogNumbers) -> None:
-        """Show other lines; what is seen stays where it is, as far as it is among them."""
+        """Replace the lines; the visible ones stay in place if they are among the new ones."""
         top = self.scroll_offset.y
         at, first = self.number(self.cursor), self.number(top)
         self.numbers = numbers
@@ -123,11 +125,11 @@ class LogRows(RowList):
 def line_text(
     record: LogRecord, node: str, width: int, longest: int = 0, count: int = 1, *, marked: bool = False
 ) -> str:
-    """A record on one line: without the time where there is little room, with its place where there is much.
+    """A record on one line: without the time if there is little room, with its source location if there is much.
 
-    The end of a node's name says most. Where there is much room it has what the `longest` of all needs (letters).
+    Of a long node name, the end is kept. With much room, names get the width (cells) of the `longest` one.
 
-    `count` is how many equal records the line stands for, `marked` whether a rule highlights it.
+    `count` is the number of equal records that the line stands for, `marked` whether a rule highlights it.
     """
     time = f"{clock_text(record.stamp)} " if width >= 70 else ""
     room = NODE if width < 110 else WIDE_NODE + max(0, min(MORE_NODE, (width - WITH_PLACE) // 2, longest - WIDE_NODE))

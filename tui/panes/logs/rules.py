@@ -1,4 +1,4 @@
-"""Rules that hide or highlight log lines: one per line, in filter syntax, kept in the user's folder."""
+"""Rules that hide or highlight log lines: one per line in filter syntax, stored in the user's folder."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from bot_console.tui.files.store_file import read_store
 COLOURS = ("violet", "green", "blue", "lime", "orange", "red")
 HIDE, OFF = "hide", "off"
 MAX_FILE_BYTES = 100_000
-"""Bytes of a file of rules; of a larger one nothing is read."""
+"""Maximum size of a rule file in bytes; a larger one is ignored."""
 HEAD = f"""\
 # Rules of the log, one a line: `{HIDE}` or a colour ({", ".join(COLOURS)}), then the words of a filter.
 # `{OFF}` in front of a rule switches it off. `F` in the Logs pane shows and changes them.
@@ -24,11 +24,11 @@ HEAD = f"""\
 
 @dataclass(frozen=True)
 class Rule:
-    """Lines that pass the words are hidden, or shown in a colour."""
+    """Hides matching lines, or shows them in a colour."""
 
     words: str
     colour: str = ""
-    """One of `COLOURS`; empty: hidden."""
+    """One of `COLOURS`; empty to hide the lines."""
     on: bool = True
 
     @property
@@ -38,7 +38,7 @@ class Rule:
 
 
 def rule_of(line: str) -> Rule:
-    """The rule that a line of the file says; raises `ValueError` with what is wrong."""
+    """Parse a line of the file; raises `ValueError` for an invalid rule."""
     off, _, rest = line.strip().partition(" ")
     kind, _, words = (rest.strip() if off == OFF else line.strip()).partition(" ")
     words = words.strip()
@@ -51,18 +51,18 @@ def rule_of(line: str) -> Rule:
 
 
 class RuleBook:
-    """All rules, and the file that keeps them."""
+    """All rules, and the file in which they are stored."""
 
     def __init__(self, path: Path | None = None) -> None:
         self.path = path or config_folder() / "log-rules.txt"
         self.rules: tuple[Rule, ...] = ()
         self.problems: list[str] = []
         self._strange: list[str] = []
-        """Lines that say nothing here: a person may have meant something, so they stay in the file."""
+        """Lines that are no valid rules; they stay in the file, since the user may have meant something."""
         self._marks: tuple[tuple[Query, str], ...] = ()
 
     def read(self) -> None:
-        """Read the file; what cannot be used is named in `problems`. Never raises."""
+        """Read the file. Never raises; `problems` lists what could not be read."""
         try:
             content = read_store(self.path, MAX_FILE_BYTES)
         except FileNotFoundError:
@@ -81,7 +81,7 @@ class RuleBook:
         self._take(found)
 
     def change(self, rules: Sequence[Rule]) -> str:
-        """Have these rules from now on, and keep them; what came in the way of keeping, else empty."""
+        """Replace and store the rules; returns why they could not be stored, else an empty text."""
         self._take(rules)
         lines = [HEAD, *(f"{each.text}\n" for each in rules), *(f"{each}\n" for each in self._strange)]
         try:
@@ -91,7 +91,7 @@ class RuleBook:
         return ""
 
     def add(self, words: str, *, hide: bool) -> tuple[Rule, str]:
-        """One more rule, in a colour that no other has where there is one left; and what `change` says."""
+        """Add a rule, in an unused colour if there is one; also returns the message of `change`."""
         used = [each.colour for each in self.rules]
         colour = "" if hide else min(COLOURS, key=used.count)
         rule = Rule(words, colour)
@@ -104,20 +104,20 @@ class RuleBook:
 
     @property
     def hidden(self) -> tuple[str, ...]:
-        """The words of what is hidden."""
+        """The filters of hidden lines."""
         return tuple(each.words for each in self.rules if each.on and not each.colour)
 
     @property
     def highlighted(self) -> tuple[str, ...]:
-        """The words of what stands out."""
+        """The filters of highlighted lines."""
         return tuple(each.words for each in self.rules if each.on and each.colour)
 
     def colour_of(self, record: LogRecord) -> str:
-        """The colour of a line, by the first rule that it passes; empty where it has none."""
+        """The colour of a line by the first rule that it matches; empty if none does."""
         return next((colour for query, colour in self._marks if query.passes(record)), "")
 
 
 def turned(rule: Rule) -> Rule:
-    """The same rule in the next colour; hiding comes behind the last one."""
+    """The same rule in the next colour; after the last colour, it hides."""
     kinds = (*COLOURS, "")
     return replace(rule, colour=kinds[(kinds.index(rule.colour) + 1) % len(kinds)])

@@ -25,12 +25,12 @@ HINT = "space on/off · enter words · c colour · a add · d delete · esc"
 
 
 class RuleRows(ItemList[Rule]):
-    """One rule a line."""
+    """One rule per line."""
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {f"log-rows--{each}" for each in COLOURS}
 
     def row(self, index: int, width: int) -> list[Segment]:
-        """Whether it is on, what it does, its words."""
+        """Whether the rule is on, its effect and its filter."""
         rule = self.rows[index]
         name = f"log-rows--{rule.colour}" if rule.colour and rule.on else "row-list--dim"
         style = self.part_style(name) if not rule.on or rule.colour else None
@@ -38,7 +38,7 @@ class RuleRows(ItemList[Rule]):
 
 
 class RulesScreen(DimmedScreen):
-    """Every change acts at once and is kept."""
+    """Edits the rules; every change is applied and stored at once."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("rules")]
     DEFAULT_CSS = """
@@ -52,7 +52,7 @@ class RulesScreen(DimmedScreen):
         self._changed = changed
 
     def compose(self) -> ComposeResult:
-        """The rules, what is said of them, a field for words."""
+        """The rules, a status line, and a field for a filter."""
         with Box() as box:
             box.border_title = Text("Rules of the log")
             box.border_subtitle = HINT
@@ -65,12 +65,12 @@ class RulesScreen(DimmedScreen):
         return self.query_one(RuleRows)
 
     def on_mount(self) -> None:
-        """The list takes the keys."""
+        """Focus the list."""
         self._list.focus()
         self._report()
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """No key of the list acts while words are typed."""
+        """Disable the keys of the list while a filter is typed."""
         return not asks(self) and super().check_action(action, parameters)
 
     def _report(self, problem: str = "") -> None:
@@ -79,7 +79,7 @@ class RulesScreen(DimmedScreen):
         self.query_one("#rules-state", StaticText).show_text(problem or empty or count)
 
     def _exchange(self, before: Rule | None, after: Rule | None) -> None:
-        """Put a rule in the place of another; None: there is none."""
+        """Replace a rule; `before` None adds one, `after` None deletes it."""
         rules = [each for each in self._book.rules if each != before or after is not None]
         rules = [after if each == before and after else each for each in rules]
         if before is None and after is not None:
@@ -90,13 +90,13 @@ class RulesScreen(DimmedScreen):
         self._report(problem)
 
     def action_switch(self) -> None:
-        """Switch the rule off, or on again."""
+        """Disable or enable the rule."""
         rule = self._list.current
         if rule is not None:
             self._exchange(rule, replace(rule, on=not rule.on))
 
     def action_colour(self) -> None:
-        """The next colour; behind the last one the lines are hidden."""
+        """Switch to the next colour; after the last one, hide the lines."""
         rule = self._list.current
         if rule is not None:
             self._exchange(rule, turned(rule))
@@ -107,7 +107,7 @@ class RulesScreen(DimmedScreen):
             self._exchange(self._list.current, None)
 
     def action_edit(self) -> None:
-        """Change the words of the rule; ask for a first one where there is none."""
+        """Edit the filter of the rule; ask for a first one if there is none."""
         rule = self._list.current
         if rule is None:
             self.action_add()
@@ -115,7 +115,7 @@ class RulesScreen(DimmedScreen):
             self._ask("words", rule.words, lambda words: self._exchange(rule, replace(rule, words=words)))
 
     def action_add(self) -> None:
-        """Ask for the words of one more rule, which highlights."""
+        """Ask for the filter of a new rule, which highlights."""
 
         def add(words: str) -> None:
             _, problem = self._book.add(words, hide=False)

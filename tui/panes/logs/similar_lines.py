@@ -13,13 +13,15 @@ ANY_NUMBER = r"[-+.\d]+"
 
 
 def options_like(record: LogRecord, node: str, typed: str) -> list[Option]:
-    """The ways to be like a line that have what was typed."""
+    """The criteria for similar lines that contain what was typed."""
     options = [Option(what, words, words) for what, words in similarities(record, node)]
     return [each for each in options if typed.lower() in f"{each.title} {each.about}".lower()]
 
 
 def similarities(record: LogRecord, node: str) -> Iterator[tuple[str, str]]:
-    """What a line has in common with others, in a word or two, and the filter that finds those; `node` is its name."""
+    """Short descriptions of what similar lines share, each with the filter that finds them; `node` is the node's
+    name.
+    """
     level = record.severity.name.lower()
     of_node = f"node:{_quoted(f'={node}')}" if node else ""
     if of_node:
@@ -36,7 +38,7 @@ def similarities(record: LogRecord, node: str) -> Iterator[tuple[str, str]]:
 
 
 def _quoted(text: str) -> str:
-    """A word of the grammar; what stands behind a quotation mark has no place in one."""
+    """A quoted word of the filter grammar; it ends before the first quotation mark."""
     plain = text.partition('"')[0]
     return f'"{plain}"' if re.search(r"\s", plain) else plain
 
@@ -51,7 +53,7 @@ def _pattern(text: str) -> str:
 
 
 def _escaped(text: str) -> str:
-    """A text as a regular expression without quotation marks, which end a word of the grammar."""
+    """A text as a regular expression without quotation marks, which would end a word of the grammar."""
     safe = (
         character if character.isalnum() or character == " " or not character.isascii() else f"\\x{ord(character):02x}"
         for character in text

@@ -8,7 +8,7 @@ from bot_console.tui.console.protocol import Console
 
 
 class LiveLog:
-    """What the nodes of the system log; `tui.console.log_protocol.LogSource`."""
+    """The log of the running system; implements `tui.console.log_protocol.LogSource`."""
 
     name = ""
 
@@ -17,15 +17,15 @@ class LiveLog:
 
     @property
     def state(self) -> LogState:
-        """What is kept."""
+        """The range and counts of the stored records."""
         return self._console.snapshot().logs
 
     def record(self, seq: int) -> LogRecord | None:
-        """The record of that number."""
+        """The record with that number."""
         return self._console.log(seq)
 
     def view(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
-        """Search for what passes a filter."""
+        """Search for the records that pass a filter."""
         return self._console.view_logs(which, instead_of)
 
     def clear(self) -> None:
@@ -33,4 +33,4 @@ class LiveLog:
         self._console.clear_logs()
 
     def close(self) -> None:
-        """The system goes on."""
+        """Do nothing: the system's log stays open."""

@@ -1,4 +1,4 @@
-"""Asks nodes what they think of a profile before it is applied: all that can be asked, without setting anything."""
+"""Checks a profile with the nodes before it is applied, without setting anything."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from bot_console.tui.console.protocol import Console
 from bot_console.tui.panes.pane import answer_of
 
 Asked = tuple[ParameterTree, Mapping[str, Value]]
-"""What a node was asked: how it was then, and the values."""
+"""What a node was asked: its parameters at that time, and the new values."""
 
 
 @dataclass
 class Asking:
-    """Asks the nodes whose values a profile would change, once for each question.
+    """Asks each node whose values a profile would change, once per set of values.
 
-    `later` runs something in the thread of the panes, `heard` is called there when an answer has come.
+    `later` runs a call in the panes' thread; `heard` is called there when an answer has arrived.
     """
 
     console: Console
@@ -30,13 +30,13 @@ class Asking:
     unasked: frozenset[str] = frozenset()
     """The nodes that can't check in advance."""
     answers: dict[str, Answer | None] = field(default_factory=dict[str, "Answer | None"])
-    """What each node said that was asked; None until it has said something."""
+    """The answer of each node asked; None until it has answered."""
     _asked: dict[str, Asked] = field(default_factory=dict[str, "Asked"])
 
     def ask(self, differences: Sequence[ProfileDifference], snapshot: ConsoleSnapshot) -> None:
-        """Ask for these changes; a node that is to change and is as it was when it was asked is not asked again.
+        """Have these changes checked; a node is asked again only if its parameters or the values have changed.
 
-        A console that changes nothing asks nothing: its own refusal is not the node's.
+        A read-only console asks nothing: its own refusal is not the node's.
         """
         wanted: dict[str, dict[str, Value]] = {}
         for each in differences:
@@ -45,7 +45,7 @@ class Asking:
         refused = {each.node for each in differences if each.refusal and not each.unknown}
         open_to_it = can_be_asked(snapshot.graph)
         self.unasked = frozenset(wanted) - open_to_it
-        # What the descriptor refuses needs no further word, and the node's rules were not made for it.
+        # If the descriptor refuses a value, the node need not be asked, and its rules do not expect such values.
         now = {node: wanted[node] for node in wanted if node in open_to_it and node not in refused}
         for node in [each for each in self._asked if each not in now]:
             del self._asked[node], self.answers[node]
@@ -65,12 +65,12 @@ class Asking:
         self.later(self._take, node, asked, answer_of(done))
 
     def _take(self, node: str, asked: Asked, answer: Answer) -> None:
-        if self._asked.get(node) is asked:  # else it was asked something else meanwhile
+        if self._asked.get(node) is asked:  # else a newer question replaced this one
             self.answers[node] = answer
             self.heard()
 
     def refusals(self) -> Mapping[str, str]:
-        """The nodes that would refuse, or did not answer, each with its words."""
+        """The nodes that would refuse or did not answer, each with its reason."""
         return {
             node: answer.text or "no reason was given"
             for node, answer in self.answers.items()
@@ -78,7 +78,7 @@ class Asking:
         }
 
     def words(self, node: str) -> tuple[str, str]:
-        """What is to be said beside a node's name, and in which style; empty where nothing is to be changed."""
+        """The note beside a node's name, and its style; empty if nothing would change."""
         if node in self.unasked:
             return "can't check in advance", "dim"
         if node not in self.answers:

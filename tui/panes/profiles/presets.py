@@ -1,4 +1,4 @@
-"""Presets that nodes keep as a service: who has some, and what can be requested."""
+"""Presets that nodes offer as services: which nodes do, and what can be done with them."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ UNSEEN = (
 
 
 def keepers(graph: GraphInfo) -> tuple[str, ...]:
-    """What the services of presets begin with, such as `/presets`, for each node that offers all of them."""
+    """The common prefix of the preset services, such as `/presets`, of each node that offers all of them."""
     offered = {each.name: each.types for each in graph.services}
     lists = [name.removesuffix("/list") for name, types in offered.items() if name.endswith("/list") and LIST in types]
     verbs = ("apply", "save", "delete")
@@ -33,9 +33,9 @@ def keepers(graph: GraphInfo) -> tuple[str, ...]:
 
 @dataclass
 class PresetMenu:
-    """Asks those that keep presets which they have, and offers what can be done with them.
+    """Lists the presets of all nodes that offer some, and what can be done with them.
 
-    `later` runs something in the thread of the panes, `ask` asks the person, `tell` says what came of it.
+    `later` runs a call in the panes' thread, `ask` asks the user, `report` shows the outcome.
     """
 
     console: Console
@@ -45,7 +45,7 @@ class PresetMenu:
     _lists: dict[str, Answer] = field(default_factory=dict[str, Answer])
 
     def open(self, graph: GraphInfo) -> None:
-        """Ask all of them; the menu opens when the last one has answered."""
+        """Ask all of these nodes; the menu opens when the last one has answered."""
         asked = keepers(graph)
         if not asked:
             self.report(Answer(False, NOBODY))
@@ -70,7 +70,7 @@ class PresetMenu:
             )
 
     def _offers(self) -> dict[str, tuple[Option, Callable[[], object]]]:
-        """What can be chosen, by its value."""
+        """The options with their actions, by value."""
         kept = [
             (keeper, *line.partition(": ")[::2])
             for keeper, answer in self._lists.items()
@@ -113,7 +113,7 @@ def _unnamed(text: str) -> str:
 
 
 def _narrowed(offers: Mapping[str, tuple[Option, object]], typed: str) -> Sequence[Option]:
-    """Those in which each word occurs."""
+    """The options that contain every typed word."""
     words = typed.lower().split()
     options = [option for option, _ in offers.values()]
     return [each for each in options if all(word in f"{each.title} {each.about}".lower() for word in words)]

@@ -14,7 +14,7 @@ from bot_console.tui.console.protocol import Launcher
 
 @dataclass
 class Replacement:
-    """Stops processes and, when all of them have ended, launches a profile; tells what came of it."""
+    """Stops processes, launches a profile when all have ended, and reports the outcome."""
 
     launcher: Launcher
     keys: Sequence[str]

@@ -15,19 +15,19 @@ from rich.segment import Segment
 from rich.style import Style
 
 NAME = 16
-"""Cells of the column of profiles, where their names need no more."""
+"""Cells of the profile column, unless the names need less."""
 NAMES = 26
-"""Cells of the column of parameters, where their names need no more."""
+"""Cells of the parameter column, unless the names need less."""
 VALUES = 12
-"""Cells of a value, where there is no room for more."""
+"""Cells of a value if there is no room for more."""
 NOTE = 12
-"""Cells that are left for what is said about a change."""
+"""Cells reserved for the note about a change."""
 REASON = 4
-"""Cells that a reason is indented by."""
+"""Indentation of a reason in cells."""
 
 
 class ProfileRows(ItemList[Profile]):
-    """The profiles by name; a dot marks the active one, with the number of its values that the robot does not have."""
+    """The profiles by name; a dot marks the active one, with the number of values that have changed since."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -35,13 +35,13 @@ class ProfileRows(ItemList[Profile]):
         self.changes = 0
 
     def key(self, item: Profile) -> object:
-        """A profile is its name."""
+        """The profile's name."""
         return item.name
 
     def show(self, profiles: Sequence[Profile], active: str, changes: int) -> bool:
-        """Take profiles in; whether any came, went or became the active one.
+        """Show profiles; returns whether any was added or removed, or has become the active one.
 
-        The cursor goes along with the active profile, so that Enter never means another one by chance.
+        The cursor follows the active profile, so that Enter never applies another one by accident.
         """
         new = profiles != self.rows or active != self.active
         if new:
@@ -74,9 +74,9 @@ class ProfileRows(ItemList[Profile]):
 
 @dataclass(frozen=True)
 class Entry:
-    """A line of the differences: a node, one value of it, or below either the reason of a refusal.
+    """A line of the differences: a node, one of its values, or the reason of a refusal below either.
 
-    `outcome` is what became of the value when it was applied, `said` what the node says to it, with its style.
+    `outcome` is the result for the value when it was applied; `message` is the note beside a node with its style.
     """
 
     node: str
@@ -95,7 +95,7 @@ class DifferenceRows(ItemList[Entry]):
         return self.part_style(f"row-list--{name}")
 
     def row(self, index: int, width: int) -> list[Segment]:
-        """A node, or `name  now → then` with what is to be said about it."""
+        """A node, or `name  now → then` with a note."""
         entry = self.rows[index]
         change = entry.difference
         if entry.reason:
@@ -130,7 +130,7 @@ def _note(entry: Entry, change: ProfileDifference) -> tuple[str, str]:
 
 
 def outcome_text(name: str, outcomes: Sequence[SetOutcome], unknown: int) -> str:
-    """What became of a profile that was applied; `unknown` counts the values that were left out."""
+    """The outcome of applying a profile; `unknown` counts the values that were left out."""
     taken = sum(each.accepted for each in outcomes)
     if not outcomes:
         return f"{name}: nothing to set" + (f", its {counted(unknown, 'value')} are unknown here" if unknown else "")
@@ -146,9 +146,9 @@ def entries(
     asking: Asking,
     width: int = 80,
 ) -> tuple[Entry, ...]:
-    """The lines, each node once and its values below it; what the nodes say stands there until it is applied.
+    """The lines: each node once, followed by its values. The nodes' checks are shown until the profile is applied.
 
-    A reason is folded to a width (cells): nothing else tells it before the profile is applied.
+    A reason is wrapped to a width (cells), since nothing else shows it before the profile is applied.
     """
     refusals: Mapping[str, str] = {} if outcomes else asking.refusals()
     found: list[Entry] = []

@@ -1,4 +1,4 @@
-"""The user's own profiles: saved, overwritten, renamed and deleted, each after the necessary questions."""
+"""The user's own profiles: saving, overwriting, renaming and deleting them, each after the necessary questions."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from bot_console.tui.widgets.prompt.question import Confirmation, Line, Question
 
 @dataclass
 class OwnProfiles:
-    """`later` runs something in the thread of the panes, `ask` asks the person, `tell` says what came of it."""
+    """`later` runs a call in the panes' thread, `ask` asks the user, `report` shows the outcome."""
 
     console: Console
     later: Callable[..., object]
@@ -26,7 +26,7 @@ class OwnProfiles:
     report: Callable[[Answer], object]
 
     def save(self, snapshot: ConsoleSnapshot) -> None:
-        """Ask for a name, then for what the profile is for; one that is there is saved over after a question."""
+        """Ask for a name and a description, and save; ask before an existing profile is overwritten."""
         text = snapshot.active_profile
         self.ask(Line("save what runs as profile", self._named, text=text, check=lambda name: _problem(name.strip())))
 
@@ -45,7 +45,7 @@ class OwnProfiles:
         self.report(self.console.save_profile(name, description))
 
     def rename(self, profile: Profile) -> None:
-        """Ask for another name."""
+        """Ask for a new name."""
         if not self._refused(profile, "renamed"):
             name = _file_name(profile)
             check = partial(self._name_problem, name)
@@ -60,7 +60,7 @@ class OwnProfiles:
         self.report(self.console.rename_profile(name, to.strip()))
 
     def delete(self, profile: Profile) -> None:
-        """Ask whether its file is to be deleted."""
+        """Ask whether to delete its file."""
         if not self._refused(profile, "deleted"):
             changed = f", changed {reported}" if (reported := _changed(profile.path)) else ""
             reasons = (
@@ -89,7 +89,9 @@ class OwnProfiles:
 
 
 def _file_name(profile: Profile) -> str:
-    """The name it was saved under: one that comes with the robot has the name itself, and it got an addition."""
+    """The name of its file. A profile with the same name as a built-in one is listed with a suffix, which the file
+    lacks.
+    """
     return os.path.splitext(os.path.basename(profile.path))[0]
 
 
