@@ -6,6 +6,8 @@ import math
 import re
 from collections.abc import Mapping
 
+from bot_console.tui.text.expression.parse import NUMBER
+
 _LENGTH = {"mm": 1e-3, "cm": 1e-2, "dm": 1e-1, "m": 1.0, "km": 1e3, "in": 0.0254, "ft": 0.3048}
 _TIME = {"ns": 1e-9, "us": 1e-6, "µs": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
 _ANGLE = {"rad": 1.0, "mrad": 1e-3, "deg": math.pi / 180, "°": math.pi / 180, "turn": 2 * math.pi}
@@ -19,18 +21,30 @@ FAMILIES: tuple[Mapping[str, float], ...] = (
     {"mV": 1e-3, "V": 1.0, "kV": 1e3},
     {"mm/s²": 1e-3, "cm/s²": 1e-2, "m/s²": 1.0, "g0": 9.80665},
 )
-_UNIT = re.compile(r"(?<=[\d.)\s])\s*([A-Za-zµ°][A-Za-zµ°0-9/²]*|1/min|%)\s*$")
+_IN_NUMBERS = "eExXbBoO_"
+"""Letters that go on with a number which they follow without a blank; no unit begins with one of them."""
+_UNIT = re.compile(r"\s*([A-Za-zµ°][A-Za-zµ°0-9/²]*|1/min|%)\s*$")
 
 
 def split_unit(text: str) -> tuple[str, str]:
     """Split a text such as `2*25 cm` into the text without its unit, and the unit; empty if there is none.
 
-    A name that stands alone, or after an operator, is not a unit.
+    A name that stands alone, or after an operator, is not a unit; nor is a part of a number such as `1e400`, `0x1F` or
+    an unfinished `1e`.
     """
-    found = _UNIT.search(text)
-    if found is None or not text[: found.start()].rstrip().endswith((*"0123456789.)",)):
+    ends = [each.end() for each in NUMBER.finditer(text) if not _is_in_unit(text, each.start())]
+    end = max(text.rfind(")") + 1, *ends, 0)
+    found = _UNIT.fullmatch(text, end) if end else None
+    if found is None or (found[1][0] in _IN_NUMBERS and found.start(1) == end):
         return text, ""
-    return text[: found.start()].rstrip(), found[1]
+    return text[:end], found[1]
+
+
+def _is_in_unit(text: str, at: int) -> bool:
+    """Whether a digit belongs to a name or a unit, as in `g0`, `m/s2` or `1/min`."""
+    return (at > 0 and (text[at - 1].isalpha() or text[at - 1] in "_²")) or (
+        text[at:].rstrip() == "1/min" and text[:at].rstrip() != text[:at]
+    )
 
 
 def factor(typed: str, wanted: str) -> float:

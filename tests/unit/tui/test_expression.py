@@ -88,6 +88,16 @@ def of(kind: Kind, unit: str, limits: Range | None = None, value: Value = 1.0) -
         ("1e3", "m", 1000.0),
         (".inf", "m", math.inf),
         ("50 %", "", 0.5),
+        ("30 1/min", "Hz", 0.5),
+        ("2 g0", "m/s²", 19.6133),
+        ("(1+1) cm", "m", 0.02),
+        ("0x1F", "m", 31.0),
+        ("0x1F", "", 31.0),
+        ("0x10 cm", "m", 0.16),
+        ("0b11 cm", "m", 0.03),
+        ("1e5", "", 1e5),
+        ("1e2 cm", "m", 1.0),
+        ("1e2cm", "m", 1.0),
     ],
 )
 def test_a_number_with_a_unit_is_turned_into_that_of_the_parameter(text: str, unit: str, value: float) -> None:
@@ -99,6 +109,15 @@ def test_a_number_with_a_unit_is_turned_into_that_of_the_parameter(text: str, un
 def test_a_unit_that_does_not_fit_is_reported(text: str, unit: str) -> None:
     with pytest.raises(ValueError, match=r"unit|number"):
         typed_value(text, of(Kind.DOUBLE, unit))
+
+
+@pytest.mark.parametrize("unit", ["", "m"])
+@pytest.mark.parametrize("kind", [Kind.DOUBLE, Kind.INTEGER])
+@pytest.mark.parametrize("text", ["1e400", "-1e400", "1E999", "1e", "2.5E", "0x", "0b12", "0xg", "0o8", "1_", "3e5x"])
+def test_a_number_that_is_wrong_is_not_taken_for_one_with_a_unit(text: str, unit: str, kind: Kind) -> None:
+    with pytest.raises(ValueError, match=r"is no number|is too large") as refused:
+        typed_value(text, of(kind, unit))
+    assert "unit" not in str(refused.value)
 
 
 def test_a_decimal_comma_is_reported_with_the_number_that_is_meant() -> None:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 
 from bot_console.tui.console.model import Kind, ParameterInfo, Value
-from bot_console.tui.format import parse_value, range_text
+from bot_console.tui.format import cut, parse_value, range_text
 from bot_console.tui.text.expression.numbers import evaluate
+from bot_console.tui.text.expression.parse import NUMBER
 from bot_console.tui.text.units import factor, split_unit
 
 NUMBERS = (Kind.INTEGER, Kind.DOUBLE)
@@ -36,7 +37,8 @@ def _calculated(text: str, parameter: ParameterInfo) -> Value:
     scale = factor(unit, parameter.unit) if unit else 1
     value = evaluate(expression) * scale
     if not math.isfinite(value):
-        raise ValueError("the result is no finite number")
+        literal = NUMBER.fullmatch(text.strip().lstrip("+-"))
+        raise ValueError(f"'{cut(text, 24)}' is too large" if literal else "the result is no finite number")
     if parameter.kind is Kind.DOUBLE:
         return float(f"{value:.12g}")  # 30 cm is 0.3 m, whatever binary fractions make of it
     nearest = round(value)
