@@ -68,8 +68,10 @@ class Parser:
         try:
             text = _read(path) if isinstance(file, str) else file.read()
         except UnicodeDecodeError as error:
-            report_place(error, path)
-            raise InvalidFrontendLaunchFileError("", likely_errors=[error]) from error
+            line = error.object.count(b"\n", 0, error.start) + 1
+            error.reason += f"; line {line} is not in UTF-8, which launch files are: save it in that encoding"
+            report_place(error, path, line)
+            raise InvalidFrontendLaunchFileError(extension or "unknown", likely_errors=[error]) from error
         for parser in cls._parsers_for(path):
             try:
                 root, found = parser.load(io.StringIO(text))
@@ -156,8 +158,9 @@ def _line_of_parse_error(error: Any) -> int | None:
 
 
 def _read(path: str) -> str:
-    with open(path, encoding="utf-8") as file:
-        return file.read()
+    with open(path, "rb") as file:
+        content = file.read()  # decoded as a whole: an error of a part would not tell the line
+    return io.StringIO(content.decode("utf-8"), newline=None).read()
 
 
 @lru_cache(maxsize=1)

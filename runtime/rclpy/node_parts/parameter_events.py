@@ -33,19 +33,33 @@ def parameter_event(node: str, now: int, new: list[Any], changed: list[Any], del
 
 
 def check_carried(parameter: Parameter) -> None:
-    """Raise `FieldTypeError` if `event_parameter` would, without creating a message for values that need no check.
+    """Raise what `event_parameter` would, without creating a message for values that need no check.
 
     A message is seven objects for the garbage collector: for ten thousand that nobody receives, they would take two
     thirds of the time to set those parameters.
     """
     value = parameter._value
     kind = value.__class__
+    _check_text(parameter)
     if kind not in CARRIED_AS_THEY_ARE and not (kind is int and -INT64 <= value < INT64):
         event_parameter(parameter)
 
 
+def _check_text(parameter: Parameter) -> None:
+    """Raise `UnicodeEncodeError` for a name or value with half a character, as a file name of any bytes may have."""
+    value: Any = parameter._value
+    texts: Any = value if value.__class__ is list or value.__class__ is tuple else (value,)
+    for text in (parameter._name, *texts):
+        if text.__class__ is str and not text.isascii():
+            text.encode()
+
+
 def event_parameter(parameter: Parameter) -> ParameterMsg:
-    """A parameter as a well-formed message for an event; raises `FieldTypeError` if it cannot be serialized."""
+    """A parameter as a well-formed message for an event.
+
+    Raises `FieldTypeError` or, for text that is not Unicode, `UnicodeEncodeError` if it cannot be serialized.
+    """
+    _check_text(parameter)
     code = parameter._type_._value_
     value = ParameterValue(type=code, check_fields=False)
     message = ParameterMsg(name=parameter._name, value=value, check_fields=False)

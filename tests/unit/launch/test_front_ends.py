@@ -6,10 +6,11 @@ import inspect
 import io
 import re
 import sys
+from pathlib import Path
 from typing import Any
 
 import pytest
-from launch.actions import ExecuteProcess, GroupAction, LogInfo, TimerAction
+from launch.actions import ExecuteProcess, GroupAction, IncludeLaunchDescription, LogInfo, TimerAction
 from launch.conditions import IfCondition, UnlessCondition
 from launch.frontend.parse_substitution import parse_substitution
 from launch.frontend.process_attributes import parse_command_line
@@ -479,3 +480,24 @@ def test_deep_call_stack_raises_recursion_error_not_a_parse_error() -> None:
     assert parse_substitution(text)
     with pytest.raises(RecursionError):
         below(sys.getrecursionlimit() - len(inspect.stack(0)) - 30)
+
+
+XML = "<launch>\n<log message='caf\u00e9'/>\n</launch>\n"
+ENCODED = [
+    ("x.launch.xml", XML.encode("latin-1"), 2),
+    ("x.launch.xml", b"<?xml version='1.0' encoding='latin-1'?>\n" + XML.encode("latin-1"), 3),
+    ("x.launch.xml", b"<launch>\n" + b"<!-- long -->\n" * 2000 + b"<!-- \xe9 --></launch>", 2002),
+    ("x.launch.yaml", "launch:\n\n- log: {message: \u00e9}\n".encode("cp1252"), 3),
+    ("x.launch.yaml", "launch: []\n".encode("utf-16"), 1),
+    ("x.launch.yml", "launch:\r\n# \u042f\n".encode("koi8-r"), 2),
+]
+
+
+@pytest.mark.parametrize(("name", "content", "line"), ENCODED)
+def test_file_in_another_encoding_is_refused_with_its_line(
+    run: Launch, tmp_path: Path, name: str, content: bytes, line: int
+) -> None:
+    path = tmp_path / name
+    path.write_bytes(content)
+    text = run([IncludeLaunchDescription(str(path))]).text
+    assert f"line {line} is not in UTF-8, which launch files are: save it in that encoding" in text

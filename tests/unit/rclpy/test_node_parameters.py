@@ -8,9 +8,11 @@ from rcl_interfaces.msg import (
     FloatingPointRange,
     IntegerRange,
     ParameterDescriptor,
+    ParameterEvent,
     ParameterValue,
     SetParametersResult,
 )
+from rcl_interfaces.srv import GetParameters, ListParameters
 from rclpy import exceptions
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -397,3 +399,32 @@ def test_undeclared_parameter_error_has_upstreams_message(ros: Any) -> None:
         node.set_parameters(wanted[1:])
     with pytest.raises(exceptions.ParameterNotDeclaredException, match=r": \['c'\]$"):
         node.set_parameters_atomically(wanted)
+
+
+HALF = "caf\udce9"
+
+
+@pytest.mark.parametrize("watched", [False, True])
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda node: node.declare_parameter("new", HALF),
+        lambda node: node.declare_parameter("new", ["a", HALF]),
+        lambda node: node.declare_parameter(HALF, 1),
+        lambda node: node.declare_parameters("", [("one", 1), ("new", HALF)]),
+        lambda node: node.set_parameters([Parameter("text", value=HALF)]),
+        lambda node: node.set_parameters_atomically([Parameter("number", value=2), Parameter("text", value=HALF)]),
+        lambda node: node.set_parameters([Parameter("texts", value=[HALF, "b"])]),
+    ],
+)
+def test_text_that_is_not_unicode_is_refused_and_the_node_answers(ros: Any, change: Any, watched: bool) -> None:
+    node = ros.node()
+    node.declare_parameters("", [("text", "é"), ("texts", ["a"]), ("number", 1)])
+    if watched:
+        node.create_subscription(ParameterEvent, "/parameter_events", lambda event: None, 10)
+    with pytest.raises(UnicodeEncodeError, match="surrogates not allowed"):
+        change(node)
+    names = ros.ask(node, ListParameters, "/n/list_parameters").result.names
+    values = ros.ask(node, GetParameters, "/n/get_parameters", names=names).values
+    assert len(values) == len(names)
+    assert node.get_parameter("text").value == "é" and node.get_parameter("texts").value == ["a"]
