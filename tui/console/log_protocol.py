@@ -20,11 +20,11 @@ class LogNumbers(Protocol):
         ...
 
     def place(self, number: int) -> int:
-        """The index of the first number that is not below the given one."""
+        """The index of the first number that is not less than the given one."""
         ...
 
     def count(self, index: int, /) -> int:
-        """How many equal records the entry at an index stands for."""
+        """How many equal records the entry at an index represents."""
         ...
 
 
@@ -36,9 +36,9 @@ class LogFindings:
     begin: int = 0
     end: int = 0
     complete: bool = False
-    """Whether everything was looked at that was there when the filter was asked for."""
+    """Whether all records that existed when the search began have been searched."""
     problem: str = ""
-    """Why nothing, or not everything, was looked at; empty when all is well."""
+    """Why nothing, or not everything, was searched; empty when all is well."""
 
 
 class LogView(Protocol):
@@ -71,7 +71,7 @@ class LogSource(Protocol):
         ...
 
     def clear(self) -> None:
-        """Forget all records; numbering continues."""
+        """Discard all records; numbering continues."""
         ...
 
     def close(self) -> None:

@@ -67,7 +67,7 @@ class ConsoleNode:
     ) -> None:
         """`robot` stops the robot, and exists before anything here that may fail.
 
-        In a `foreign` system nothing is asked for before it is offered: its nodes would warn of us.
+        In a `foreign` system nothing is requested before it is offered: its nodes would log warnings about us.
         """
         self.context = robot.context
         self.node = rclpy.create_node(
@@ -83,7 +83,7 @@ class ConsoleNode:
         self._warnings = GraphWarnings(log)
         self._rosout = RosoutWatch(self.node, log, foreign=foreign)
         self.loggers = self._rosout.loggers
-        """Names of the loggers that `/rosout` has brought lines of."""
+        """Names of the loggers whose lines `/rosout` has brought."""
         self.journal = Journal(history=history)
         self.calls = Calls(self.node, self.executor)
         self._levels = LoggerLevels(self.calls, self.loggers)
@@ -118,7 +118,7 @@ class ConsoleNode:
         self.journal.close()
 
     def _graph_changed(self, graph: GraphInfo) -> None:
-        self._drive_node.follow(graph)  # before what may fail: it finds the locks
+        self._drive_node.follow(graph)  # before anything that may fail, since it finds the locks
         self._warnings.follow(graph)
         self._rosout.follow()
         self.parameters.follow(graph)
@@ -145,12 +145,12 @@ class ConsoleNode:
             self._log(time.time_ns(), Severity.WARN, SOURCE, text, ("", "", 0))
 
     def choose_robot(self, robot: str) -> None:
-        """Steer another robot, and watch its surroundings."""
+        """Drive another robot, and watch its surroundings."""
         self.drive.choose(robot)
         self.executor.create_task(self.world.choose, robot)
 
     def learn(self, kind: str, facts: Mapping[str, Any]) -> None:
-        """Take in a fact that a program or a launch reports about itself; from any thread."""
+        """Receive a fact that a program or a launch reports about itself; from any thread."""
         node = self.provenance.learn(kind, facts)
         if node in self.parameters.trees:
             self.calls.run(self.parameters.refresh(node), lambda why: None)
@@ -169,7 +169,7 @@ class ConsoleNode:
             set_message_fields(request, dict(fields))
             response = await self.calls.ask(kind, service, request)
         except (ImportError, AttributeError, TypeError, ValueError, OverflowError) as error:
-            return Answer(False, f"{type_name} cannot be called so: {error}")
+            return Answer(False, f"{type_name} cannot be called like this: {error}")
         except NoAnswer as error:
             return Answer(False, str(error))
         result = getattr(response, "result", None)
@@ -205,7 +205,7 @@ class ConsoleNode:
         return self.calls.run(self.setter.undo(), _not_done)
 
     def redo(self) -> Future[Answer]:
-        """Repeat the change that was undone last."""
+        """Repeat the last undone change."""
         return self.calls.run(self.setter.redo(), _not_done)
 
     def differences(self, profile: Profile) -> Sequence[ProfileDifference]:
@@ -213,14 +213,14 @@ class ConsoleNode:
         return differences(profile, self.parameters.trees)
 
     def profile_changes(self, profile: Profile | None) -> int:
-        """How many values of a profile the running nodes do not have; recounted when a parameter changes."""
+        """How many values of a profile differ from those of the running nodes; recounted when a parameter changes."""
         trees = self.parameters.trees
         if self._compared[0] is not profile or self._compared[1] is not trees:
             self._compared = (profile, trees, _count(profile, trees))
         return self._compared[2]
 
     def apply(self, profile: Profile, reset_world: bool) -> Future[tuple[SetOutcome, ...]]:
-        """Set what a profile changes, all or none, then reset the simulator if asked to."""
+        """Set the values that a profile changes, all or none, then reset the simulator if requested."""
         found = [each for each in self.differences(profile) if not each.unknown]
         wanted = [(each.node, each.name, each.then) for each in found]
         return self.calls.run(self._apply(profile.name, found, reset_world), partial(refused, wanted))

@@ -1,6 +1,6 @@
-"""A subscription with the QoS its publishers offer: one that asks for more receives nothing, and makes them warn.
+"""A subscription with the QoS its publishers offer: one that requests more receives nothing, and makes them warn.
 
-One that asks for less than is offered loses what it could have had, so neither is fixed; the offer changes as nodes
+One that requests less than is offered loses messages it could have had, so neither is fixed; the offer changes as nodes
 come and go.
 """
 
@@ -28,10 +28,11 @@ class OfferedSubscription:
         once_weak: bool = False,
         raw: bool = False,
     ) -> None:
-        """`best` is what is asked for where it is offered.
+        """`best` is the most that is requested, if it is offered.
 
-        An eager one asks before anybody offers. One that has been `once_weak` stays so: asking for more again would
-        bring what latching publishers keep a second time. A `raw` one calls back with the serialized bytes.
+        An `eager` subscription exists before anybody publishes. With `once_weak`, one that had to request less stays
+        that way: requesting more again would deliver a second time what latching publishers keep. A `raw` one calls
+        back with the serialized bytes.
         """
         self._raw = raw
         self._node = node
@@ -69,9 +70,9 @@ class OfferedSubscription:
             self._node.destroy_subscription(before)
 
     def drain(self) -> Iterator[tuple[bytes, int]]:
-        """The serialized messages that wait, with the time at which each was sent (ns since the epoch; 0: unknown).
+        """The waiting serialized messages, with the time at which each was sent (ns since the epoch; 0: unknown).
 
-        For nodes that nobody spins: this costs a third of what an executor's callbacks do.
+        For nodes that are not spun: this costs a third of what an executor's callbacks do.
         """
         if self._subscription is None:
             return
@@ -88,7 +89,7 @@ class OfferedSubscription:
 
 
 def weakest(best: QoSProfile, offers: Iterable[Any]) -> tuple[ReliabilityPolicy, DurabilityPolicy]:
-    """The strongest QoS, up to `best`, that all of these offer; what the graph does not tell counts as the weakest."""
+    """The strongest QoS, up to `best`, that all of these offer; a policy unknown to the graph counts as the weakest."""
     offers = list(offers)
     reliable = all(each.reliability == ReliabilityPolicy.RELIABLE for each in offers)
     latched = all(each.durability == DurabilityPolicy.TRANSIENT_LOCAL for each in offers)

@@ -12,10 +12,10 @@ class Type:
     """A parameter type other than NOT_SET."""
 
     python: type
-    """Of a value, or of each element of an array."""
+    """The Python type of a value, or of each element of an array."""
 
     element: Kind | None = None
-    """How a person writes an element; None for what is no array."""
+    """The kind as which a user writes an element; None if the type is not an array."""
 
 
 TYPES = {
@@ -31,7 +31,7 @@ TYPES = {
 }
 
 ARRAYS = {kind: row.element for kind, row in TYPES.items() if row.element is not None}
-"""The kind of the elements of each kind of array, as they are written."""
+"""The kind of elements for each kind of array, as users write them."""
 
 
 def field_of(kind: Kind) -> str:

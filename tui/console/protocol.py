@@ -41,15 +41,15 @@ class Samples:
     times: Sequence[float]
     values: Sequence[float]
     cursor: int
-    """Give this back to receive only what came after."""
+    """Pass this to the next call to receive only later samples."""
     problem: str = ""
-    """Why no samples come, for instance that an array is empty; empty when all is well."""
+    """Why no samples come, for instance because an array is empty; empty when all is well."""
     headers: Sequence[float] = ()
-    """The times in the headers of the messages, on the same axis, NaN where there is none; empty: nowhere."""
+    """The times in the message headers, on the same axis, NaN where there is none; empty if no message has one."""
 
 
 class ConsoleReading(Protocol):
-    """What is known about a ROS system, read only."""
+    """Read access to what is known about a ROS system."""
 
     def snapshot(self) -> ConsoleSnapshot:
         """The newest snapshot; parts that have not changed are the same objects as before."""
@@ -83,11 +83,11 @@ class ConsoleReading(Protocol):
         ...
 
     def plot_time(self, stamp: int | None = None) -> float:
-        """The position (s) of a moment (ns since the epoch; None for now) on the time axis that all series share."""
+        """The position (s) of a time (ns since the epoch; None for now) on the time axis that all series share."""
         ...
 
     def pose_at(self, stamp: int) -> Pose | None:
-        """The robot's pose at a moment (ns since the epoch); None when it is not known."""
+        """The robot's pose at a time (ns since the epoch); None if it is unknown."""
         ...
 
     def plottable(self) -> Sequence[str]:
@@ -100,7 +100,7 @@ class ConsoleReading(Protocol):
 
 
 class Console(ConsoleReading, Protocol):
-    """A ROS system as the panes see it: what is known about it, and what it can be asked to do."""
+    """A ROS system as the panes see it: what is known about it, and the requests it accepts."""
 
     @property
     def recording(self) -> Recording:
@@ -118,7 +118,7 @@ class Console(ConsoleReading, Protocol):
         ...
 
     def clear_logs(self) -> None:
-        """Forget all records; numbering continues."""
+        """Discard all records; numbering continues."""
         ...
 
     def set_parameters(
@@ -147,11 +147,11 @@ class Console(ConsoleReading, Protocol):
         ...
 
     def redo(self) -> Future[Answer]:
-        """Repeat the change that was undone last."""
+        """Repeat the last undone change."""
         ...
 
     def watch(self, path: str, requester: str = "") -> Answer:
-        """Collect a series for as long as any asker wants it; the answer says why a path cannot be plotted.
+        """Collect a series for as long as any requester needs it; the answer says why a path cannot be plotted.
 
         `/topic/field.sub[2]`, `/topic/array[2:8].mean()` (or min, max, sum, std, len; yaw of a quaternion), or
         `/node:parameter`.
@@ -159,7 +159,7 @@ class Console(ConsoleReading, Protocol):
         ...
 
     def unwatch(self, path: str, requester: str = "") -> None:
-        """Drop one asker's interest in a series; it is forgotten when nobody is left."""
+        """Withdraw one requester's interest in a series; it is discarded when no requester is left."""
         ...
 
     def drive(self, linear: float, angular: float) -> None:
@@ -170,23 +170,24 @@ class Console(ConsoleReading, Protocol):
         ...
 
     def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
-        """Lock the robot's emergency stop, or withdraw this console's stop; either way send zero velocity now.
+        """Lock the robot's emergency stop, or with `hold=False` withdraw this console's stop; either way send zero
+        velocity now.
 
         A robot that others have stopped too stays locked until their stops are released. `DriveInfo.stop_confirmed`
-        tells when the stop has been acknowledged. A robot without an emergency stop is sent zero velocities while it is
-        held. May be called from any thread.
+        says whether the stop has been acknowledged. A robot without an emergency stop is sent zero velocities as long
+        as it is stopped. May be called from any thread.
         """
         ...
 
     def hold_early(self, press: str) -> None:
-        """Hold the robot for a key press whose turn has not come, under an id of its own; send zero velocity now.
+        """Stop the robot for a key press that is not processed yet, under a separate id; send zero velocity now.
 
-        `press` names the press. May be called from any thread.
+        `press` identifies the key press. May be called from any thread.
         """
         ...
 
     def settle_early(self, press: str, *, keep: bool) -> None:
-        """Keep what is held for a press until it is released like any stop, or withdraw it and nothing else.
+        """Keep the stop for a key press until it is released like any other, or withdraw it and no other.
 
         May be called from any thread.
         """
@@ -197,14 +198,14 @@ class Console(ConsoleReading, Protocol):
         ...
 
     def choose_robot(self, robot: str) -> None:
-        """Steer another of `DriveInfo.robots`; an all-stop always applies to all of them."""
+        """Drive another of `DriveInfo.robots`; an all-stop always applies to all of them."""
         ...
 
     def steer(self, hold: bool) -> None:
-        """Take the steering, so that only a person's commands count, or hand it back.
+        """Take control of the robot, so that only a person's commands count, or hand it back.
 
-        While the steering is held, the claim is repeated at least every 0.5 s; if a console that holds it falls silent,
-        the robot is locked.
+        While the console has control, the claim is repeated at least every 0.5 s; if it falls silent, the robot is
+        locked.
         """
         ...
 
@@ -223,8 +224,8 @@ class Console(ConsoleReading, Protocol):
     def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
         """Set a profile's values on the running nodes, all or none; it becomes active unless something was refused.
 
-        A launch profile sets no values: once it has been launched it is the active one. The future raises `ValueError`,
-        with the reason, for a profile that does not exist or cannot be used.
+        A launch profile sets no values: once it has been launched, it is the active one. The future raises
+        `ValueError`, with the reason, for a profile that does not exist or cannot be used.
         """
         ...
 
@@ -251,7 +252,7 @@ class Console(ConsoleReading, Protocol):
     def save_parameters(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
         """Write a ROS parameter file; an existing file keeps its comments.
 
-        With `only_changed` it holds only what differs from the declared values or, where those are unknown, from the
+        With `only_changed`, only the values that differ from the declared ones or, where those are unknown, from the
         start values.
         """
         ...
@@ -259,13 +260,13 @@ class Console(ConsoleReading, Protocol):
     def close(self) -> None:
         """Send zero velocity, then stop and join everything; a second call does nothing.
 
-        What is known stays readable. Pending and later requests are refused, so that every future gets an answer.
+        Data already received stays readable. Pending and later requests are refused, so that every future is completed.
         """
         ...
 
 
 class Launcher(Protocol):
-    """The processes that launch files have started; what it knows is in `ConsoleSnapshot.launch`."""
+    """The processes that launch files have started; their state is in `ConsoleSnapshot.launch`."""
 
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
         """Run another launch file."""
@@ -274,7 +275,7 @@ class Launcher(Protocol):
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
         """The arguments a launch file declares; raises `ValueError` with file and line when it cannot be read.
 
-        A launch file is a program and may take its time, so this method may be called from any thread.
+        A launch file is a program and may take a while, so this method may be called from any thread.
         """
         ...
 
@@ -283,7 +284,7 @@ class Launcher(Protocol):
         ...
 
     def start(self, key: str) -> Future[Answer]:
-        """Start a process again that has ended."""
+        """Start a process that has ended."""
         ...
 
     def stop(self, key: str) -> Future[Answer]:

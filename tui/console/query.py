@@ -1,14 +1,14 @@
-"""The filter grammar that every pane speaks.
+"""The filter grammar that all panes share.
 
-    filter  = words with blanks between; all of them must hold
-    word    = [!] [node: | topic: | sev: | at: | time: | re:] text   `!` turns any word around
+    filter  = words separated by blanks; all of them must match
+    word    = [!] [node: | topic: | sev: | at: | time: | re:] text   `!` negates any word
     text    = without blanks, or "in quotes with blanks"
 
-`node:` looks at the node's name, in either spelling (`arm.left.zoo`, `/arm/left/zoo`), `node:=` at the whole of it,
-`node:arm|base` at either; `topic:scan|odom` looks at a topic's name, where there is none at the text;
-`sev:` at a log line's severity (`warn`, `>=warn`, `<error`, `info,fatal`), `at:` at where it was logged (`file.py`,
-`file.py:12`, a function), `time:` at when (see `spans`); `re:` is a regular expression over the text; a plain word may
-stand in the text or in the node's name. Nothing looks at upper or lower case.
+`node:` matches part of the node's name, in either spelling (`arm.left.zoo`, `/arm/left/zoo`), `node:=` the whole name,
+`node:arm|base` either of two; `topic:scan|odom` matches a topic's name, or the text where there is no topic;
+`sev:` matches a log line's severity (`warn`, `>=warn`, `<error`, `info,fatal`), `at:` where it was logged (`file.py`,
+`file.py:12`, a function), `time:` when (see `spans`); `re:` is a regular expression over the text; a plain word may
+be part of the text or of the node's name. Matching ignores case.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class NodeTerm:
 
 @dataclass(frozen=True, slots=True)
 class PlaceTerm:
-    """Part of a file's or function's name, with a line number where one was given."""
+    """Part of a file's or function's name, with a line number if one was given."""
 
     part: str
     line: int | None
@@ -76,7 +76,7 @@ class SpanTerm:
 
 @dataclass(frozen=True, slots=True)
 class TextTerm:
-    """What to look for in a text; a plain word may match the node's name too, a regular expression may not."""
+    """What to search for in a text; a plain word may match the node's name too, a regular expression may not."""
 
     pattern: Pattern
     name: NodeTerm | None
@@ -95,7 +95,7 @@ class Query:
 
     @property
     def terms(self) -> tuple[NodeTerm | TextTerm, ...]:
-        """All terms that look at texts and names."""
+        """All terms that match texts and names."""
         return (*self.nodes, *self.texts)
 
     def part(self, *, exclude: bool) -> Query:
@@ -122,7 +122,7 @@ class Query:
 
     @staticmethod
     def found(term: TextTerm, text: str, node: str) -> bool:
-        """Whether a term stands in a text or in the name of its node."""
+        """Whether a term matches a text or the name of its node."""
         return term.pattern.search(text) or (term.name is not None and term.name.stands_in(node))
 
 
@@ -132,7 +132,7 @@ def dotted(node: str) -> str:
 
 
 def parse(text: str, *, lists: bool = False) -> Query:
-    """Parse a filter; raises `ValueError` with a readable text for a bad pattern, severity or time.
+    """Parse a filter; raises `ValueError` with a readable message for a bad pattern, severity or time.
 
     With `lists`, a plain word such as `scan|odom` stands for either.
     """
@@ -145,7 +145,7 @@ def parse(text: str, *, lists: bool = False) -> Query:
         word = quoted or bare
         if not word:
             if sign and not field:
-                texts.append(_plain("!", exclude=False))  # a lone exclamation mark is a word like others
+                texts.append(_plain("!", exclude=False))  # a lone exclamation mark is an ordinary word
             continue
         exclude = bool(sign)
         choices = [each for each in word.split("|") if each]
@@ -205,7 +205,7 @@ def _severities(text: str) -> frozenset[Severity]:
         sign = next((sign for sign in (">=", "<=", ">", "<", "=") if each.startswith(sign)), "")
         word = each[len(sign) :].lower()
         if word not in SEVERITY_WORDS:
-            raise ValueError(f"severity '{word}' is none of {', '.join(SEVERITY_WORDS)}")
+            raise ValueError(f"severity '{word}' is unknown; use one of {', '.join(SEVERITY_WORDS)}")
         level = SEVERITY_WORDS[word]
         found |= {
             one

@@ -11,12 +11,12 @@ from bot_console.tui.console.answer import Answer
 
 @dataclass(frozen=True, slots=True)
 class RecordingInfo:
-    """The state of recording: into which folder (empty: none), and how many seconds are kept in memory (0: none)."""
+    """The state of recording: the folder (empty: not recording), and how many seconds are kept in memory (0: none)."""
 
     folder: str = ""
     kept_s: float = 0.0
     problem: str = ""
-    """Why recording has ended by itself; empty when all is well."""
+    """Why recording has ended unrequested; empty when all is well."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,10 +31,10 @@ class Keeper(Protocol):
     """Keeps the last minutes of a system in memory, in whichever process that happens."""
 
     kept_s: float
-    """How many seconds."""
+    """How many seconds are kept."""
 
     def keep(self, folder: str) -> Future[Answer]:
-        """Save them as a new bag, and go on keeping."""
+        """Save them as a new bag, and continue keeping."""
         ...
 
 
@@ -51,9 +51,9 @@ class Recording(Protocol):
         ...
 
     def stop(self) -> Future[Answer]:
-        """Close the bag; the answer tells how much it holds."""
+        """Close the bag; the answer says how much it contains."""
         ...
 
     def keep(self, folder: str) -> Future[Answer]:
-        """Save the last minutes as a bag, and go on keeping."""
+        """Save the last minutes as a bag, and continue keeping."""
         ...

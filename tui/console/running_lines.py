@@ -1,4 +1,4 @@
-"""Command lines that keep running, and what they printed last. Standard library only."""
+"""Command lines that keep running, and their most recent output. Standard library only."""
 
 from __future__ import annotations
 

@@ -24,16 +24,16 @@ class Payload(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """Measurements of a topic; None where there is none yet, or where its messages do not tell."""
+    """Measurements of a topic; None if there are none yet, or if its messages do not allow them."""
 
     rate: float | None = None
-    """Hz over the last seconds; 0 where nothing came in them."""
+    """Hz over the last seconds; 0 if nothing was received."""
     bandwidth: float | None = None
     """Bytes per second, serialized."""
     age: float | None = None
     """Seconds since the newest message."""
     latency: float | None = None
-    """Seconds from the stamp of a header to its arrival, in the mean."""
+    """Mean time from the stamp in the header to reception, in seconds."""
     count: int = 0
     problem: str = ""
     """Why it cannot be measured; empty when it can."""
@@ -48,25 +48,25 @@ class Field:
     depth: int
     type: str
     text: str = ""
-    """The value on one line; of what has lines below it a summary, or nothing."""
+    """The value on one line; for a field with lines below it, a summary or nothing."""
     unit: str = ""
     number: bool = False
     """Whether it can be plotted."""
     holds: int = 0
-    """How many of the lines that follow are part of it."""
+    """How many of the following lines are part of it."""
     closed: bool = False
-    """Whether the lines that follow are of little use to most."""
+    """Whether the following lines are of little use to most users."""
 
 
 @dataclass(frozen=True, slots=True)
 class LiveMessage:
-    """The newest message of the topic that is being watched."""
+    """The newest message of the topic being watched."""
 
     topic: str = ""
     type: str = ""
     fields: tuple[Field, ...] = ()
     count: int = 0
-    """Messages up to this one."""
+    """Number of messages received so far."""
     age: float | None = None
     problem: str = ""
     """Why there is none, or why nothing can come; empty when all is well."""
@@ -74,7 +74,7 @@ class LiveMessage:
 
 @dataclass(frozen=True, slots=True)
 class Slot:
-    """A field of a form: its value, and which values it may hold."""
+    """A field of a form: its value, and which values are valid."""
 
     path: str
     name: str
@@ -84,7 +84,7 @@ class Slot:
     choices: tuple[str, ...] = ()
     unit: str = ""
     editable: bool = True
-    """Whether something can be typed here; else the slots that follow are its parts."""
+    """Whether the field can be typed; if not, the following slots are its parts."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,19 +93,19 @@ class Repeated:
 
     type: str
     rate: float
-    """Hz"""
+    """In Hz."""
     count: int = 0
     problem: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """A service's response as fields, or in words why there is none."""
+    """A service's response as fields, or why there is none."""
 
     ok: bool
     text: str = ""
     seconds: float = 0.0
-    """From the request to the response."""
+    """Time from the request to the response."""
     fields: tuple[Field, ...] = ()
 
 
@@ -115,10 +115,10 @@ class Goal:
 
     action: str
     status: str
-    """In words, such as `executing`, `succeeded` or `rejected`."""
+    """A text such as `executing`, `succeeded` or `rejected`."""
     active: bool = True
     seconds: float = 0.0
-    """From when it was sent to its end, or to now."""
+    """Time from when it was sent to its end, or to now."""
     feedback: tuple[Field, ...] = ()
     feedback_count: int = 0
     result: tuple[Field, ...] = ()
@@ -126,18 +126,18 @@ class Goal:
 
 
 Values = Mapping[str, str]
-"""What was typed into a form, by path; what was not changed is left out."""
+"""What was typed into a form, by path; unchanged fields are left out."""
 
 
 class Traffic(Protocol):
     """Topics, services and actions of a ROS system, as a person uses them."""
 
     def measure(self, topics: Collection[str], requester: str = "") -> None:
-        """Measure exactly these topics for the asker from now on, with the QoS that their publishers offer."""
+        """From now on measure exactly these topics for the requester, with the QoS that their publishers offer."""
         ...
 
     def measured(self) -> Mapping[str, Measure]:
-        """What is known about the topics being measured."""
+        """The measurements of those topics."""
         ...
 
     def listen(self, topic: str) -> None:
@@ -145,7 +145,7 @@ class Traffic(Protocol):
         ...
 
     def heard(self) -> LiveMessage:
-        """The newest message of the topic listened to; the same object until there is another."""
+        """The newest message of that topic; the same object until there is another."""
         ...
 
     def slots(self, payload: Payload, type_name: str, values: Values) -> Sequence[Slot]:

@@ -1,4 +1,4 @@
-"""Which files are a person's own code, and which belong to Python, to ROS or to this program's runtime."""
+"""Which files are the user's own code, and which belong to Python, to ROS or to this program's runtime."""
 
 from __future__ import annotations
 
@@ -9,25 +9,27 @@ from pathlib import Path
 import yaml
 
 ROS = "/opt/ros/"
-"""Where ROS 2 is installed from packages."""
+"""Where the ROS 2 packages are installed."""
 
 
 def is_library_file(file: str) -> bool:
-    """Whether a file is no code of the user's: a library's, the runtime's, or none that was read from a file."""
+    """Whether a file is not the user's code: it belongs to a library or the runtime, or is not a file at all."""
     return file.startswith(("<", ROS, *library_folders()))
 
 
 @cache
 def library_folders() -> tuple[str, ...]:
-    """The folders of Python, installed packages, console and runtime, as they are named and where they really are."""
+    """The folders of Python, installed packages, console and runtime, both as named and with symbolic links
+    resolved.
+    """
     folders = [sysconfig.get_path(name) for name in ("stdlib", "purelib", "platlib")]
-    folders.append(str(Path(yaml.__file__).parents[1]))  # where our dependencies lie, if elsewhere
+    folders.append(str(Path(yaml.__file__).parents[1]))  # where our dependencies are installed, if elsewhere
     folders += [str(Path(__file__).parents[1]), str(Path(__file__).parents[2] / "runtime"), *_folders_of_launch()]
     return tuple(dict.fromkeys(each for folder in folders for each in (folder, str(Path(folder).resolve()))))
 
 
 def _folders_of_launch() -> list[str]:
-    """Where `launch` and `launch_ros` lie, where they can be imported."""
+    """The folders of `launch` and `launch_ros`, if they can be imported."""
     try:
         import launch_ros
 

@@ -1,4 +1,4 @@
-"""Parameter values between ROS messages, the model, and text."""
+"""Converts parameter values between ROS messages, the model, and text."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bot_console.tui.console.parameters.origin import START
 from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterValue
 
 STEP_TOLERANCE = 1e-6
-"""How far a double may lie from a step, relative to it: that of rclpy's `Node.PARAM_REL_TOL`."""
+"""Relative tolerance with which a double counts as a multiple of the step, as rclpy's `Node.PARAM_REL_TOL`."""
 
 
 def from_message(message: ParameterValue) -> Value:
@@ -25,7 +25,7 @@ def from_message(message: ParameterValue) -> Value:
 
 
 def _kind(code: int) -> Kind:
-    """The kind of a code in a message, where anything may stand."""
+    """The kind for a code in a message, which may be any number."""
     return Kind(code) if code in TYPES else Kind.NOT_SET
 
 
@@ -57,7 +57,7 @@ def to_message(name: str, value: Value, declared: Kind = Kind.NOT_SET) -> Parame
 def info(
     node: str, value: ParameterValue, descriptor: ParameterDescriptor, first: ParameterInfo | None
 ) -> ParameterInfo:
-    """What the console shows of a parameter; `first` is what it knew before, for the default."""
+    """The parameter as shown in the console; `first` is its earlier state, for the default."""
     now = from_message(value)
     return ParameterInfo(
         node=node,
@@ -82,7 +82,7 @@ def _range(ranges: Sequence[Any]) -> Range | None:
 
 
 def refusal(parameter: ParameterInfo | None, value: Value) -> tuple[str, str]:
-    """Who would refuse this value and why, as far as the descriptor tells; two empty texts when it would pass."""
+    """Who would refuse this value and why, according to the descriptor; two empty texts if it would be accepted."""
     if parameter is None:
         return "node", "the node has no such parameter"
     if parameter.read_only:

@@ -172,7 +172,7 @@ ENDLESS = {
 def test_one_that_computes_is_named_with_its_figures(system: System, name: str) -> None:
     system.start({name: HEAD + BUSY[name]})
     timeline = lambda: " ".join(each.text for each in system.launcher.info().timeline)  # noqa: E731
-    system.until(lambda: f"{name}.py-1 has computed for 6 s without waiting" in timeline(), "a busy one")
+    system.until(lambda: f"{name}.py-1 has been computing for 6 s without a pause" in timeline(), "a busy one")
     if name == "loops":
         system.until(lambda: system.heard(name, "without waiting, in"), "the line in which it computes")
     assert (system.named(name).cpu or 0.0) > 0.0

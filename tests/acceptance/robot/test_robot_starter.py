@@ -57,9 +57,9 @@ def test_nodes_that_want_a_robot_drive_ours_and_each_run_is_the_same(tmp_path):
     write(tmp_path, "driver", "watcher")
     words = ("--duration", "8", "--seed", "3", "--world", "warehouse", "--launch", "mine.launch.py")
     first, second = (headless(tmp_path, *words) for _ in range(2))
-    assert f"{BESIDE}, since nobody gives /scan to /driver, nobody gives /odom to /watcher" in first["log"]
+    assert f"{BESIDE}, since nobody publishes /scan for /driver, nobody publishes /odom for /watcher" in first["log"]
     assert first["log"].count(BESIDE) == 1
-    assert "nobody obeys /cmd_vel of /driver" in first["log"]
+    assert "nobody subscribes to /cmd_vel of /driver" in first["log"]
     assert (first["world"], first["seed"]) == ("warehouse", 3)
     assert first["distance"] > 0.5
     assert first["deterministic"] and second["deterministic"]

@@ -199,7 +199,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
                 one for _, some in made for one in some
             )
         self.take(bad.node, values[bad.node], source, atomically=True, by=by)
-        reported = f"not set, since {bad.node} refused {bad.name}: {bad.reason}"
+        reported = f"not set because {bad.node} refused {bad.name}: {bad.reason}"
         return tuple(
             replace(each, accepted=False, reason=reported, refused_by="console") if each.accepted else each
             for each in result

@@ -71,7 +71,7 @@ class FakeProfiles:
         self.asked.append(("delete profile", name))
         left = tuple(each for each in self.current.profiles if each.name != name or not each.own)
         if len(left) == len(self.current.profiles):
-            return Answer(False, f"{name} is none of the profiles saved here")
+            return Answer(False, f"{name} is not one of the profiles saved here")
         active = "" if name == self.current.active_profile else self.current.active_profile
         self.change(profiles=left, active_profile=active)
         return Answer(True, f"{name} is deleted")

@@ -112,6 +112,6 @@ class FakeTraffic:
         self.asked.append(("cancel", action))
         goal = self.sent_goals.get(action)
         if goal is None or not goal.active:
-            return Answer(False, f"no goal of {action} runs that was sent from here")
+            return Answer(False, f"no goal of {action} that was sent from here is running")
         self.sent_goals[action] = replace(goal, status="canceled", active=False)
         return Answer(True, f"asked {action} to cancel")

@@ -119,7 +119,7 @@ def test_rules_hide_and_highlight_until_they_are_changed() -> None:
         await session.press("F", "enter")
         session.app.focused.value = "sev:["
         await session.settle()
-        assert "severity '[' is none of" in session.text()
+        assert "severity '[' is unknown" in session.text()
         session.app.focused.value = "sev:info"
         await session.press("enter", "space", "escape")
         assert 0 < len(seqs(session)) < every

@@ -1,4 +1,4 @@
-"""The graph as lines of text: each topic, service and action with who gives and who takes it. Standard library only."""
+"""The graph as lines of text: each topic, service and action with its two sides. Standard library only."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 
 NOBODY = "(none)"
 TOOL_NAMES = ("/rosout", "/parameter_events", "/statistics", "/rosout_agg", "/diagnostics_agg")
-"""Topics of every node, and of tools: with them each drawing is a knot."""
+"""Topics that every node or many tools use; drawing them would clutter the graph."""
 
 KINDS: tuple[tuple[str, Callable[[NodeInfo], Iterable[Endpoint]], Callable[[NodeInfo], Iterable[Endpoint]]], ...] = (
     ("topic", lambda node: node.publishers, lambda node: node.subscriptions),
     ("service", lambda node: node.clients, lambda node: node.services),
     ("action", lambda node: node.action_clients, lambda node: node.action_servers),
 )
-"""Each kind with the ends from which an arrow leads and those to which it leads."""
+"""Each kind with its sources and its targets: the endpoints from which arrows start, and those where they end."""
 
 
 def connections(
@@ -40,12 +40,14 @@ def connections(
 
 
 def is_hidden(name: str, patterns: Iterable[str]) -> bool:
-    """Whether a node or a topic is hidden by one of the patterns, or by ROS (a part begins with an underscore)."""
+    """Whether a node or a topic is hidden by a pattern, or by ROS because part of its name begins with an
+    underscore.
+    """
     return "/_" in name or any(fnmatchcase(name, each) for each in patterns)
 
 
 def is_own_service(service: str, nodes: Iterable[NodeInfo]) -> bool:
-    """Whether a service is one of a node's private ones, such as those for parameters, and nobody calls it."""
+    """Whether a service is private to its node, such as those for parameters, and nobody calls it."""
     nodes = list(nodes)
     return any(service.startswith(f"{node.name}/") for node in nodes) and not any(
         each.name == service for node in nodes for each in node.clients
@@ -53,7 +55,7 @@ def is_own_service(service: str, nodes: Iterable[NodeInfo]) -> bool:
 
 
 def unconnected(nodes: Iterable[NodeInfo], names: Container[tuple[str, str]]) -> list[str]:
-    """The nodes that take part in none of these connections, which are given by kind and name."""
+    """The nodes that take part in none of the given connections (kind and name)."""
     return [
         node.name
         for node in nodes

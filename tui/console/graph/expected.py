@@ -1,8 +1,8 @@
-"""A ROS graph as a file: written down from a running system, and compared with one.
+"""A ROS graph as a file: written from a running system, and compared with one.
 
 The file is YAML: `nodes` (names), `topics` (by name: `type`, `publishers`, `subscribers`, `rate` in Hz with a
-`tolerance`), `services` and `actions` (types by name). What a file does not mention may be there all the same,
-unless `exact` is set.
+`tolerance`), `services` and `actions` (types by name). The graph may contain more than the file mentions unless `exact`
+is set.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.text.yaml_faults import UNREADABLE, fault_of
 
 TOLERANCE = 0.2
-"""Share of an expected rate by which a measured one may differ, where the file names none."""
+"""Relative deviation allowed from an expected rate if the file gives no tolerance."""
 PARTS = ("nodes", "topics", "services", "actions", "exact")
 ABOUT_TOPIC = ("type", "publishers", "subscribers", "rate", "tolerance")
 TOOLS = ("/rosout", "/parameter_events")
@@ -24,7 +24,7 @@ TOOLS = ("/rosout", "/parameter_events")
 
 @dataclass(frozen=True)
 class Topic:
-    """The expectations for a topic; None where the file has none."""
+    """The expectations for a topic; None if the file says nothing."""
 
     type: str | None = None
     publishers: frozenset[str] | None = None
@@ -45,16 +45,16 @@ class Expected:
 
     @property
     def rated(self) -> list[str]:
-        """The topics whose rates are to be measured."""
+        """The topics whose rates have to be measured."""
         return [_full(name) for name, each in self.topics.items() if each.rate is not None]
 
 
 def read(text: str) -> Expected:
-    """Parse such a file; raises `ValueError` with what is wrong with it."""
+    """Parse such a file; raises `ValueError` with what is wrong."""
     try:
         whole: Any = yaml.safe_load(text)
     except UNREADABLE as error:
-        raise ValueError(f"this is no YAML: {fault_of(error)}") from None
+        raise ValueError(f"this is not YAML: {fault_of(error)}") from None
     found = _mapping(whole, "the file", PARTS)
     return Expected(
         _names(found.get("nodes"), "nodes"),
@@ -73,7 +73,7 @@ def _mapping(value: Any, what: str, known: tuple[str, ...] = ()) -> Mapping[str,
     found = {str(key): each for key, each in cast("dict[Any, Any]", value).items()}
     unknown = [key for key in found if known and key not in known]
     if unknown:
-        raise ValueError(f"'{unknown[0]}' in {what} is not known; known are {', '.join(known)}")
+        raise ValueError(f"'{unknown[0]}' in {what} is unknown; expected one of {', '.join(known)}")
     return found
 
 
@@ -99,7 +99,7 @@ def _topic(name: str, value: Any) -> Topic:
     rate, tolerance = found.get("rate"), found.get("tolerance", TOLERANCE)
     for each in (rate, tolerance):
         if each is not None and (not isinstance(each, (int, float)) or each < 0):
-            raise ValueError(f"'{each}' at {name} should be a number that is not negative")
+            raise ValueError(f"'{each}' at {name} should be a number, zero or greater")
     ends = [
         _names(found[each], f"{each} of {name}") if each in found else None for each in ("publishers", "subscribers")
     ]
@@ -108,7 +108,7 @@ def _topic(name: str, value: Any) -> Topic:
 
 
 def differences(expected: Expected, info: GraphInfo, rates: Mapping[str, float | None] | None = None) -> list[str]:
-    """How a graph differs from the expectations, one line each; rates in Hz, as far as they were measured."""
+    """How a graph differs from the expectations, one line each; `rates` are in Hz, as far as they were measured."""
     nodes = {each.name: each for each in info.nodes if not each.hidden}
     found = [f"node {name} is missing" for name in sorted(expected.nodes - nodes.keys())]
     for name, topic in sorted(expected.topics.items()):
@@ -157,7 +157,7 @@ def _about_topic(name: str, topic: Topic, nodes: list[NodeInfo], rate: float | N
         ("subscribes to", topic.subscribers, subscribers),
     ):
         if wanted is not None:
-            found += [f"{each} {verb} {name} no more, or not yet" for each in sorted(wanted - there)]
+            found += [f"{each} no longer {verb} {name}, or not yet" for each in sorted(wanted - there)]
             found += [f"{each} {verb} {name}, which was not expected" for each in sorted(there - wanted)]
     if topic.rate is not None and (rate is None or abs(rate - topic.rate) > topic.tolerance * topic.rate):
         measured = "nothing" if not rate else f"{rate:.3g} Hz"
@@ -166,7 +166,7 @@ def _about_topic(name: str, topic: Topic, nodes: list[NodeInfo], rate: float | N
 
 
 def written(info: GraphInfo, rates: Mapping[str, float | None]) -> str:
-    """A file that matches a graph, including measured rates."""
+    """The text of a file that matches a graph, including measured rates."""
     nodes = [each for each in info.nodes if not each.hidden]
     topics: dict[str, Any] = {}
     types = {**_types_of(nodes, "subscriptions"), **_types_of(nodes, "publishers")}

@@ -1,4 +1,4 @@
-"""What is odd about a ROS graph, in words: what a person would look for in its picture. Standard library only."""
+"""Anomalies of a ROS graph as text: what a person would look for in its picture. Standard library only."""
 
 from __future__ import annotations
 
@@ -8,17 +8,19 @@ from dataclasses import dataclass, replace
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 
 SHARED = ("/rosout", "/parameter_events", "/tf", "/tf_static", "/diagnostics", "/clock", "/statistics")
-"""Topics that many nodes publish, or that nobody has to, without anything being wrong."""
+"""Topics that may have many publishers, or none, without anything being wrong."""
 
 ON_OCCASION = ("/initialpose", "/emergency_stop/request", "/emergency_stop/arbiter")
-"""Ends of topics that are listened to for those who may publish them: a person now and then, a safety monitor."""
+"""Ends of topic names that usually have subscriptions but no publisher: a person or a safety monitor publishes on
+demand.
+"""
 
 SILENT = "has not answered for a second: it was killed, it hangs, or it is busy"
 
 
 @dataclass(frozen=True)
 class GraphFinding:
-    """Something odd: the topic, service, action or node, what is odd, and whether it is certainly wrong."""
+    """An anomaly: the topic, service, action or node, what is unusual, and whether it is certainly wrong."""
 
     subject: str
     text: str
@@ -26,7 +28,7 @@ class GraphFinding:
 
 
 def findings(info: GraphInfo) -> tuple[GraphFinding, ...]:
-    """Everything odd, faults first, by subject; hidden nodes and topics are left out."""
+    """All anomalies, faults first, by subject; hidden nodes and topics are left out."""
     nodes = [each for each in info.nodes if not each.hidden]
     visible = replace(info, nodes=tuple(nodes))
     otherwise = (GraphFinding(each.partition(": ")[0], each, True) for each in info.unheard)
@@ -38,7 +40,7 @@ def findings(info: GraphInfo) -> tuple[GraphFinding, ...]:
 
 def finding_hint(pid: int) -> str:
     """How to resume a stopped process."""
-    return f"process {pid} is stopped; `kill -CONT {pid}` lets it go on"
+    return f"process {pid} is stopped; `kill -CONT {pid}` resumes it"
 
 
 def _topics(info: GraphInfo) -> Iterator[GraphFinding]:
@@ -51,7 +53,7 @@ def _topics(info: GraphInfo) -> Iterator[GraphFinding]:
         types = {each for end in (*gives.values(), *takes.values()) for each in end.types}
         if len(types) > 1:
             yield GraphFinding(
-                topic, f"{topic} has different types, which do not hear each other: {_list(types)}", True
+                topic, f"{topic} has different types, so no messages pass between them: {_list(types)}", True
             )
         for publisher, subscriber, why in info.incompatible.get(topic, ()):
             yield GraphFinding(topic, f"{topic}: nothing arrives from {publisher} at {subscriber}: {why}", True)
@@ -77,7 +79,7 @@ def _alone(nodes: list[NodeInfo]) -> Iterator[GraphFinding]:
         ends = (*node.publishers, *node.subscriptions, *node.clients, *node.action_servers, *node.action_clients)
         services = [each for each in node.services if not each.name.startswith(f"{node.name}/")]
         if not services and all(each.name in SHARED for each in ends):
-            yield GraphFinding(node.name, f"{node.name} publishes, hears and serves nothing")
+            yield GraphFinding(node.name, f"{node.name} publishes, subscribes to and serves nothing")
 
 
 def _same_named(nodes: list[NodeInfo]) -> Iterator[GraphFinding]:
@@ -87,15 +89,15 @@ def _same_named(nodes: list[NodeInfo]) -> Iterator[GraphFinding]:
 
 
 def same_named(node: NodeInfo) -> str:
-    """Says that several nodes share this name, and what that causes."""
+    """A message saying that several nodes share this name, and what follows from it."""
     return (
-        f"{_number(node.copies)} nodes are called {node.name}: what is shown and set may be of any of them; "
-        "does one still run in another terminal?"
+        f"{_number(node.copies)} nodes are called {node.name}: values shown and set may belong to any of them; "
+        "is one still running in another terminal?"
     )
 
 
 def _ends(nodes: list[NodeInfo] | tuple[NodeInfo, ...], kind: str) -> dict[str, dict[str, Endpoint]]:
-    """The nodes at each name."""
+    """Endpoints of one kind, by name and then by node."""
     found: dict[str, dict[str, Endpoint]] = {}
     for node in nodes:
         ends: tuple[Endpoint, ...] = getattr(node, kind)

@@ -1,4 +1,4 @@
-"""The full name of a node, which the graph gives in two parts."""
+"""The fully qualified name of a node, which the graph gives in two parts."""
 
 from __future__ import annotations
 
@@ -14,5 +14,5 @@ def full_node_name(namespace: str, name: str) -> str:
 
 
 def node_name_of(endpoint: TopicEndpointInfo) -> str:
-    """The full name of an endpoint's node."""
+    """The fully qualified name of an endpoint's node."""
     return full_node_name(endpoint.node_namespace, endpoint.node_name)

@@ -1,6 +1,6 @@
-"""Why messages do not pass between two existing endpoints, which ROS itself logs once or not at all.
+"""Why messages do not pass between two existing endpoints, which ROS itself logs once or never.
 
-It uses the public rclpy API only, so that it works on every middleware.
+Only the public rclpy API is used, so it works with every middleware.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class UnheardPairs:
         self._subscriptions: Ask = node.get_subscriptions_info_by_topic
         self._nodes: dict[str, NodeInfo] = {}
         self._ends: dict[str, set[tuple[bool, str]]] = {}
-        """Of each topic, which nodes publish (True) and subscribe."""
+        """The nodes that publish (True) and subscribe (False), by topic."""
         self._known: dict[str, tuple[str, ...]] = {}
         self.found: tuple[str, ...] = ()
         """What the types of endpoints keep from passing, in words; the same object if nothing has changed."""
@@ -137,26 +137,26 @@ def unheard(
 
 def _pair(topic: str, publisher: TopicEndpointInfo, subscription: TopicEndpointInfo) -> str:
     if _hidden(publisher) or _hidden(subscription):
-        return ""  # tools, which choose for themselves
+        return ""  # tools, which adapt their QoS themselves
     one, other = node_name_of(publisher), node_name_of(subscription)
     if publisher.topic_type != subscription.topic_type:
-        return f"{topic}: {one} publishes {publisher.topic_type}, {other} wants {subscription.topic_type}: rename one"
+        return f"{topic}: {one} publishes {publisher.topic_type}, {other} expects {subscription.topic_type}: rename one"
     if text := otherwise_defined(topic, publisher, subscription):
         return text
     why = why_incompatible(publisher.qos_profile, subscription.qos_profile)
-    return f"{topic}: {other} hears nothing of {one}: {why}; change the QoS of one of them" if why else ""
+    return f"{topic}: {other} receives nothing from {one}: {why}; change the QoS of one of them" if why else ""
 
 
 def otherwise_defined(topic: str, publisher: TopicEndpointInfo, subscription: TopicEndpointInfo) -> str:
-    """Types that two endpoints define differently; ROS says nothing about that."""
+    """Types that two endpoints define differently; ROS does not report that."""
     hashes = {hash_of(publisher), hash_of(subscription)} - {""}
     if _hidden(publisher) or _hidden(subscription) or len(hashes) < 2:
         return ""
     if publisher.topic_type != subscription.topic_type:
-        return ""  # two types, which is another fault
+        return ""  # different types: reported separately
     return (
-        f"{topic}: {publisher.topic_type} is defined otherwise in {node_name_of(publisher)} than in "
-        f"{node_name_of(subscription)}, so no message passes: build both from the same definition"
+        f"{topic}: the definition of {publisher.topic_type} in {node_name_of(publisher)} differs from that in "
+        f"{node_name_of(subscription)}, so no messages pass: build both from the same definition"
     )
 
 
@@ -167,7 +167,7 @@ def _words(why: str) -> str:
 
 
 def hash_of(endpoint: TopicEndpointInfo) -> str:
-    """The hash of its type; empty if this ROS, or that of the node, has none."""
+    """The type hash of an endpoint; empty if this ROS distribution, or that of the node, has none."""
     text = str(getattr(endpoint, "topic_type_hash", None) or "")
     digest = text.removeprefix("RIHS01_")
     return text if digest != text and set(digest) != {"0"} else ""

@@ -1,4 +1,4 @@
-"""Types of topics, services and actions that are unknown in this program: requested from the nodes that use them."""
+"""Requests the definitions of topic, service and action types unknown to this program from the nodes that use them."""
 
 from __future__ import annotations
 
@@ -14,8 +14,11 @@ from rclpy.node import Node
 FOLDERS = ("msg", "srv", "action")
 
 Inquiry = Generator[tuple[str, str], Any, str]
-"""Yields a type and its hash for each request to a node's `get_type_description` and takes the response; returns why
-the type cannot be had, as said of the node, and nothing when it can be imported."""
+"""The dialogue with one node about a type.
+
+Yields a type and its hash for each request to the node's `get_type_description` and receives the response. Returns why
+the type is unavailable, as a phrase about the node, or an empty text once it can be imported.
+"""
 
 
 class TypeSource(Protocol):
@@ -27,30 +30,30 @@ class TypeSource(Protocol):
 
 
 class TypeDiscovery:
-    """Asks for each type once, one at a time, and calls `learned` after each new one.
+    """Requests each type once, one at a time, and calls `learned` after each new one.
 
-    All methods but `explain` are called by the executor's thread.
+    All methods except `explain` are called by the executor's thread.
     """
 
     def __init__(self, node: Node, calls: Calls, source: TypeSource | None, learned: Callable[[], None]) -> None:
-        """Without a `source` nothing is asked, as where ROS itself is installed."""
+        """Without a `source` nothing is requested; this is the case where ROS itself is installed."""
         self._node = node
         self._calls = calls
         self._source = source
         self._learned = learned
         self._here: set[str] = set()
-        """Types that this program has; none of them is ever asked for."""
+        """Types that this program has and need not request."""
         self._missing: set[str] = set()
-        """Packages that this program did not have when it first met them, whatever it has learned of them since."""
+        """Packages that were missing when first encountered, even if some of their types have been learned since."""
         self._asked: set[tuple[str, str]] = set()
-        """Types and the nodes that were asked for them, as long as they are there."""
+        """Types already requested, each with the node asked, until it leaves."""
         self._waiting: deque[str] = deque()
-        """Types to be asked for."""
+        """Types still to be requested."""
         self._busy = False
         self._why: dict[str, str] = {}
 
     def follow(self, graph: GraphInfo) -> None:
-        """Take in a changed graph: there may be new unknown types, or nodes that have not been asked yet."""
+        """Process a changed graph: there may be new unknown types, or nodes that have not been asked yet."""
         if self._source is None:
             return
         nodes = {each.name for each in graph.nodes}
@@ -63,7 +66,7 @@ class TypeDiscovery:
             self._calls.run(self._ask_all(), lambda why: None)
 
     def explain(self, type_name: str, otherwise: str) -> str:
-        """Why a type is unknown here, if it was asked for, else another text; from any thread."""
+        """Why a type is unknown here if it was requested, else the other text; from any thread."""
         why = self._why.get(type_name)
         return f"the type {type_name} is not known here: {why}" if why else otherwise
 
@@ -99,7 +102,7 @@ class TypeDiscovery:
             self._why[type_name] = f"{node} {problem}"
 
     async def _ask(self, node: str, inquiry: Inquiry) -> str:
-        """Send a node all requests for it; returns why the answer is unusable, else an empty text."""
+        """Send a node all its requests; returns why the answer is unusable, else an empty text."""
         from type_description_interfaces.srv import GetTypeDescription
 
         service = f"{node}/get_type_description"

@@ -1,7 +1,7 @@
-"""Finds nodes that are in the graph but do not answer: DDS keeps a killed node for some ten seconds.
+"""Finds nodes that are in the graph but do not respond: DDS keeps a killed node for some ten seconds.
 
-rclpy does not tell whether a node is alive, so each is asked for the types of no parameters, the smallest request there
-is.
+rclpy does not report whether a node is alive, so each is asked for the types of an empty list of parameters, the
+smallest possible request.
 """
 
 from __future__ import annotations
@@ -17,25 +17,27 @@ from rclpy.task import Future
 
 SERVICE = "get_parameter_types"
 POLL_S = 0.5
-"""Seconds between two looks."""
+"""Seconds between two polls."""
 OVERDUE_POLLS = 2
-"""Looks after which an answer is missed. Looks count, not time: while this program got no processor nobody is late."""
+"""Polls after which a response is overdue. Polls are counted instead of time, so that no node seems late while this
+program itself got no processor time.
+"""
 RETRY_POLLS = 4
-"""Looks after which a request counts as lost, and is sent anew."""
+"""Polls after which a request counts as lost and is sent again."""
 MAX_REQUESTS_PER_POLL = 25
-"""Requests at each look; of more nodes, each is asked the less often."""
+"""Requests per poll; with more nodes, each is asked less often."""
 
 
 class _Asked:
-    """A node, and the last request it was sent."""
+    """A node, and the last request sent to it."""
 
     def __init__(self, client: Any) -> None:
         self.client = client
         self.answer: Future[Any] | None = None
         self.polls = OVERDUE_POLLS
-        """How often it was looked since the request, or since its answer."""
+        """Polls since the request, or since its response."""
         self.lives = False
-        """Whether it has ever answered."""
+        """Whether it has ever responded."""
 
     @property
     def waiting(self) -> bool:
@@ -44,9 +46,9 @@ class _Asked:
 
 
 class SilentNodes:
-    """Asks the nodes of the graph, at most once a second, and only while somebody looks at them.
+    """Asks the nodes of the graph, at most once a second, and only while somebody is viewing them.
 
-    `changed` receives the names of those that do not answer. All methods are called by the executor's thread.
+    `changed` receives the names of those that do not respond. All methods are called by the executor's thread.
     """
 
     def __init__(self, node: Node, changed: Callable[[tuple[str, ...]], None]) -> None:
@@ -66,7 +68,7 @@ class SilentNodes:
         self.follow(graph)
 
     def follow(self, graph: GraphInfo) -> None:
-        """Take in a changed graph. A node without parameter services cannot be asked, and never counts as silent."""
+        """Process a changed graph. A node without parameter services cannot be asked, and never counts as silent."""
         nodes = graph.nodes if self._timer is not None else ()
         asked = {each.name for each in nodes if any(own.name == f"{each.name}/{SERVICE}" for own in each.services)}
         for name in self._nodes.keys() - asked:
@@ -76,7 +78,7 @@ class SilentNodes:
         self._report(self._silent & asked)
 
     def tick(self) -> None:
-        """Note which nodes have not answered, and ask those whose turn it is."""
+        """Note which nodes have not responded, and ask those whose turn it is."""
         for each in self._nodes.values():
             each.polls += 1
         late = {name for name, each in self._nodes.items() if each.waiting and each.polls >= OVERDUE_POLLS}
@@ -89,11 +91,11 @@ class SilentNodes:
 
     def _ask(self, name: str) -> None:
         asked = self._nodes.pop(name)
-        self._nodes[name] = asked  # the others come first the next time
+        self._nodes[name] = asked  # moves to the end, so that the others are asked first next time
         if not asked.client.service_is_ready():
             if asked.lives:
                 self._report(self._silent | {name})
-            return  # a client that is new has to find its server first
+            return  # a new client has to discover its server first
         if asked.answer is not None and not asked.answer.done():
             asked.client.remove_pending_request(asked.answer)
         asked.polls = 0

@@ -1,4 +1,4 @@
-"""What the log warns of when it appears in the graph: frozen nodes, nodes of one name, two that command one robot."""
+"""Conditions of the graph that are logged as warnings: frozen nodes, duplicate node names, rival command publishers."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ SOURCE = "bot-console"
 
 
 class GraphWarnings:
-    """Logs each warning once, when it begins to hold; again only after it has ceased to."""
+    """Logs each warning when its condition arises, and again only after the condition has ended in the meantime."""
 
     def __init__(self, log: Add) -> None:
         self._log = log
         self._reported: frozenset[Hashable] = frozenset()
 
     def follow(self, graph: GraphInfo) -> None:
-        """Log what holds of this graph and did not of the one before."""
+        """Log the warnings that hold for this graph but did not for the previous one."""
         found = dict(warnings(graph))
         for key, text in found.items():
             if key not in self._reported:
@@ -30,7 +30,7 @@ class GraphWarnings:
 
 
 def warnings(graph: GraphInfo) -> Iterator[tuple[Hashable, str]]:
-    """The warnings that hold of a graph, each with a key that tells it from all others."""
+    """The warnings that hold for a graph, each with a unique key."""
     for node, pid in graph.frozen:
         yield ("frozen", node, pid), f"{node} is frozen: {finding_hint(pid)}"
     for node in graph.nodes:
@@ -41,7 +41,7 @@ def warnings(graph: GraphInfo) -> Iterator[tuple[Hashable, str]]:
 
 
 def rivals(topic: str, nodes: tuple[str, ...]) -> str:
-    """Says that several nodes command whoever listens to a velocity topic, and what that causes."""
+    """A message saying that several nodes publish the same velocity topic, and what follows from it."""
     return (
         f"{topic} is published by {', '.join(nodes[:-1])} and {nodes[-1]}: the newest command wins, and the "
         "limits of one node do not apply to the others; stop one of them, or remap its topic"
@@ -49,9 +49,9 @@ def rivals(topic: str, nodes: tuple[str, ...]) -> str:
 
 
 def _rivals(graph: GraphInfo) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Each velocity topic that somebody listens to and several nodes publish.
+    """Each velocity topic that has a subscription and several publishing nodes.
 
-    Nodes with a lifecycle that all publish one, as the servers of Nav2 do, have a manager that lets them take turns.
+    Lifecycle nodes that all publish one, like the servers of Nav2, are exempt: a manager makes them take turns.
     """
     nodes = [each for each in graph.nodes if not each.hidden]
     heard = {end.name for node in nodes for end in node.subscriptions}

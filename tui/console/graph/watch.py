@@ -1,4 +1,4 @@
-"""Watches the ROS graph: polled twice a second, or after an event; a new object only when it has changed."""
+"""Watches the ROS graph: polled twice a second, or after an event; a new object is made only when it has changed."""
 
 from __future__ import annotations
 
@@ -16,16 +16,18 @@ from rclpy.node import Node
 
 ACTION_SERVER_TOPIC = "/_action/status"
 GRAPH_POLL_S = 0.5
-"""Seconds between two looks, where something may have changed."""
+"""Seconds between two polls while something may have changed."""
 LONG, SHARE = 0.1, 0.2
-"""A look that took longer (s of processor time) is followed by a rest, so that looks take no more than this share:
-while hundreds of nodes come, keys and stops need the interpreter too."""
+"""A poll that took more processor time than `LONG` (s) is followed by a pause that limits polling to this `SHARE`.
+
+While hundreds of nodes appear, keys and stops need the interpreter too.
+"""
 
 Owner = tuple[str, str]
 """Name and namespace of a node."""
 
 Pairs = Sequence[tuple[str, Sequence[str]]]
-"""Topics or services with their types."""
+"""Names of topics or services with their types."""
 
 Answer = tuple[Pairs, Pairs, Pairs, Pairs]
 """What a node publishes, subscribes to, offers and calls."""
@@ -33,18 +35,22 @@ Answer = tuple[Pairs, Pairs, Pairs, Pairs]
 NOTHING: Answer = ([], [], [], [])
 
 GraphEvents = Callable[[int, Callable[[Owner], None]], Callable[[], None]]
-"""Takes a ROS domain and what is to be called, from any thread, after each change of its graph, with the node that has
-changed; gives what ends that. rclpy has none: without one the whole graph is asked for again and again."""
+"""Subscribes to changes of a ROS domain's graph: takes the domain and a callback, and returns a function that
+unsubscribes.
+
+The callback receives the node that has changed, in any thread. rclpy has no such events; without them the whole graph
+is queried again and again.
+"""
 
 FrozenNodes = Callable[[int], Mapping[int, Sequence[str]]]
-"""Tells, for a ROS domain, which processes are stopped, by pid, and their nodes. rclpy does not know."""
+"""Returns the stopped processes of a ROS domain: their nodes by pid. rclpy does not know them."""
 
 
 class GraphWatch:
     """Keeps `info` up to date while the node spins, and calls `changed` with each new graph.
 
-    What has not changed is not described again, and stays the same object. Where events report changes, nodes without
-    any are not even queried.
+    Unchanged nodes are not described again and stay the same objects. If events report changes, nodes without any are
+    not even queried.
     """
 
     def __init__(
@@ -80,7 +86,7 @@ class GraphWatch:
         self._check_for_frozen()
 
     def _check_for_frozen(self) -> None:
-        """Look for stopped processes, which stay in the graph for long with nodes that seem alive."""
+        """Look for stopped processes, whose nodes stay in the graph for long and seem alive."""
         if self._frozen is None:
             return
         stopped = self._frozen(self._node.context.get_domain_id())
@@ -95,7 +101,7 @@ class GraphWatch:
 
     def poll(self) -> None:
         """Query the graph now."""
-        known = self._unchanged()  # before the questions: what changes meanwhile is asked for again
+        known = self._unchanged()  # before the queries: changes made meanwhile are queried again
         self._polled = True
         node = self._node
         profiles = Profiles(node)
@@ -124,7 +130,7 @@ class GraphWatch:
         self._silence.follow(self.info)
 
     def watch_nodes(self, on: bool) -> None:
-        """Start or stop finding out which nodes do not answer; where there are events, they tell that already."""
+        """Start or stop checking which nodes do not respond; not needed if events are available, which report that."""
         if not self._reported:
             self._silence.poll(on, self.info)
 
@@ -133,7 +139,7 @@ class GraphWatch:
         self._changed(self.info)
 
     def _unchanged(self) -> dict[Owner, tuple[Answer, NodeInfo]]:
-        """What need not be queried again."""
+        """The nodes that need not be queried again."""
         if not (self._reported and self._polled):
             self._news.clear()
             return {}
@@ -153,7 +159,7 @@ class GraphWatch:
         return topics, services
 
     def _inspect(self, owner: Owner, profiles: Profiles) -> tuple[Answer, NodeInfo]:
-        """A node's answer and its meaning; the same object as before if the answer is unchanged."""
+        """A node's answer and its description; the same object as before if the answer is unchanged."""
         answer, known = self._ask(*owner), self._nodes.get(owner)
         if known is None:
             return answer, _described(owner, answer, NodeInfo(""), profiles)
@@ -169,13 +175,13 @@ class GraphWatch:
         )
         try:
             publishers, subscriptions, services, clients = (ask(name, space) for ask in asked)
-        except RuntimeError:  # the node left between two questions
+        except RuntimeError:  # the node left between two queries
             return NOTHING
         return publishers, subscriptions, services, clients
 
 
 def _copied(described: tuple[Answer, NodeInfo], copies: int) -> tuple[Answer, NodeInfo]:
-    """The node with the number of nodes of this name; the same object if that is unchanged."""
+    """The description with the number of nodes of this name; the same object if that is unchanged."""
     answer, info = described
     return described if info.copies == copies else (answer, replace(info, copies=copies))
 
@@ -189,18 +195,18 @@ def _same(pairs: Pairs, before: Pairs) -> Pairs:
 
 
 class Profiles:
-    """The QoS profiles seen in one look: each topic is queried once, however many nodes use it."""
+    """The QoS profiles of one poll: each topic is queried once, however many nodes use it."""
 
     def __init__(self, node: Node) -> None:
         self._ask = {True: node.get_publishers_info_by_topic, False: node.get_subscriptions_info_by_topic}
         self._found: dict[tuple[str, bool], dict[Owner, str]] = {}
 
     def of(self, owner: Owner, topic: str, *, publisher: bool) -> str:
-        """The profile with which a node publishes or subscribes to a topic; empty if it has left."""
+        """The profile with which a node publishes or subscribes to a topic; empty if the node has left."""
         key = topic, publisher
         if key not in self._found:
             infos = self._ask[publisher](topic)
-            # The first one counts where a node has several.
+            # If a node has several endpoints, the first one counts.
             self._found[key] = {
                 (each.node_name, each.node_namespace): qos_text(each.qos_profile) for each in infos[::-1]
             }
@@ -208,7 +214,7 @@ class Profiles:
 
 
 def _described(owner: Owner, answer: Answer, before: NodeInfo, profiles: Profiles) -> NodeInfo:
-    """A node as described by an answer; profiles of endpoints it had before are reused."""
+    """A node as described by an answer; profiles of endpoints it already had are reused."""
     publishers, subscriptions, services, clients = answer
     name, space = owner
     return NodeInfo(
@@ -234,7 +240,7 @@ def _with_qos(
 
 
 def qos_text(profile: Any) -> str:
-    """A QoS profile in a few words, such as `reliable volatile 10`."""
+    """A short text for a QoS profile, such as `reliable volatile 10`."""
     words = [profile.reliability.name, profile.durability.name]
     depth = "all" if profile.history.name == "KEEP_ALL" else str(profile.depth or "")
     return " ".join([*(word.lower().replace("_", " ") for word in words), depth]).strip()
@@ -245,7 +251,7 @@ def _name(named: NodeInfo | Endpoint) -> str:
 
 
 def _nothing() -> None:
-    """There are no events to end."""
+    """Stand-in for unsubscribing when there are no events."""
 
 
 def _endpoints(pairs: Pairs, before: Sequence[Endpoint] = ()) -> tuple[Endpoint, ...]:

@@ -17,7 +17,7 @@ def read_arguments(path: str) -> list[LaunchArgument]:
     try:
         context = LaunchContext()
         declared = AnyLaunchDescriptionSource(path).get_launch_description(context).get_launch_arguments()
-    except (Exception, SystemExit) as error:  # a launch file is a program: whatever it raises is its reader's to see
+    except (Exception, SystemExit) as error:  # a launch file is a program: whatever it raises is shown to the user
         raise ValueError(fault_text(error, path, reading=True)) from error
     return [_argument(each, context) for each in declared]
 
@@ -36,7 +36,7 @@ def _default(action: Any, context: Any) -> str | None:
         return None
     try:
         text = perform_substitutions(context, action.default_value)
-    except Exception:  # substitutions are anybody's code, and find packages, files and programs
+    except Exception:  # substitutions may run any code, and look for packages, files and programs
         return " + ".join(each.describe() for each in action.default_value)
     context.launch_configurations.setdefault(action.name, text)  # later defaults may refer to it
     return text

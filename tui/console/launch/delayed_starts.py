@@ -10,8 +10,8 @@ from bot_console.tui.console.launch.tree import below
 def delayed_starts(service: Any) -> int:
     """How many pending timers of a LaunchService will start something.
 
-    Zero where the service does not tell what it waits for, as upstream's. What waits for an event, such as the end of
-    another process, may never happen and does not count.
+    Zero if the service does not report what it is waiting for, as upstream's does not. Actions that wait for an event,
+    such as the end of another process, may never run and do not count.
     """
     from launch.actions import TimerAction
 
@@ -19,7 +19,7 @@ def delayed_starts(service: Any) -> int:
 
 
 def _starts(entity: Any) -> bool:
-    """Whether visiting it may start a process; what only a running launch can tell counts as yes."""
+    """Whether visiting the entity may start a process; if only a running launch can decide, it counts as yes."""
     from launch.actions import ExecuteLocal, IncludeLaunchDescription, OpaqueCoroutine, OpaqueFunction
 
     starting = (ExecuteLocal, IncludeLaunchDescription, OpaqueCoroutine, OpaqueFunction)

@@ -9,11 +9,11 @@ from typing import Any, TypeAlias
 
 from bot_console.tui.console.user_code import library_folders
 
-ENDLESS = "launch files include each other without end"
+ENDLESS = "launch files include each other endlessly"
 
 
 Place: TypeAlias = "tuple[str, int | None]"
-"""A file, and the line in it where that is known."""
+"""A file, and the line in it if known."""
 
 
 def fault_text(
@@ -21,9 +21,9 @@ def fault_text(
 ) -> str:
     """What went wrong and where.
 
-    `path` is the launch file that was asked for, `reading` that nothing else was read yet; `file_of` knows where
-    entities stand. The embedded launch tells on the exception what it was at; of others there are the user's lines in
-    the traceback, and what a parser says.
+    `path` is the requested launch file; `reading` says that no other file had been read yet; `file_of` returns the file
+    that contains an entity. The embedded launch records on the exception what it was doing; for others, the place comes
+    from the user's lines in the traceback and from the parser's message.
     """
     causes = list(_causes(error))
     error = causes[-1]
@@ -43,7 +43,7 @@ def _text(error: BaseException) -> str:
         return _no_package(str(error.args[0]))
     if isinstance(error, OSError) and error.strerror:
         return error.strerror
-    problem = getattr(error, "problem", None)  # of a YAML parser
+    problem = getattr(error, "problem", None)  # set by a YAML parser
     text = str(problem or (error.args[0] if isinstance(error, KeyError) and error.args else error))
     return " ".join(text.split()) or type(error).__name__
 
@@ -55,7 +55,7 @@ def _is_missing_package(error: BaseException) -> bool:
 
 
 def _no_package(message: str) -> str:
-    """A package that was not found, with a remedy."""
+    """The message for a package that was not found, with a remedy."""
     from difflib import get_close_matches
 
     from ament_index_python.packages import get_packages_with_prefixes
@@ -63,7 +63,9 @@ def _no_package(message: str) -> str:
     text = message.partition(", searching:")[0]
     name = re.search("'([^']*)'", text)
     similar = get_close_matches(name[1] if name else "", list(get_packages_with_prefixes()), 3)
-    return f"{text}; " + (f"is it {' or '.join(similar)}?" if similar else "is its workspace given with --workspace?")
+    return f"{text}; " + (
+        f"did you mean {' or '.join(similar)}?" if similar else "is its workspace given with --workspace?"
+    )
 
 
 def _at(place: Place, text: str) -> str:
@@ -72,7 +74,7 @@ def _at(place: Place, text: str) -> str:
 
 
 def _causes(error: BaseException) -> Iterator[BaseException]:
-    """An error, then the error of the parser for the file's ending; the other parsers only tried."""
+    """An error, then that of the parser for the file's extension; the other parsers merely tried to read the file."""
     from launch.invalid_launch_file_error import InvalidLaunchFileError
 
     yield error
@@ -101,7 +103,9 @@ def _parsers_line(error: BaseException) -> int | None:
 
 
 def _reported(causes: Sequence[BaseException], file_of: Callable[[Any], str]) -> Place | None:
-    """What launch has noted on the innermost error; a library's line is replaced by the launch file that caused it."""
+    """The place launch recorded on the innermost error; a line in a library is replaced by the launch file that
+    caused it.
+    """
     for reported in _all_causes(reversed(causes)):
         if reported.file and not (reported.entity is not None and reported.file.startswith(library_folders())):
             return reported.file, reported.line
@@ -112,7 +116,7 @@ def _reported(causes: Sequence[BaseException], file_of: Callable[[Any], str]) ->
 
 
 def _include_line(causes: Sequence[BaseException]) -> Place | None:
-    """The line of the include that was being visited."""
+    """The line of the include that was being executed."""
     return next(((reported.file, reported.line) for reported in _all_causes(causes) if reported.line), None)
 
 

@@ -1,4 +1,4 @@
-"""A launch action whose failure to start is reported to whoever asked for it, and does not end the whole launch."""
+"""A launch action whose failure to start is reported to the requester instead of ending the whole launch."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ class GuardedStart(Action):
     """Makes an action, executes it, and waits for it as launch does.
 
     `begun` is called with the action once it was executed, `failed` with the reason if it was not. A launch that is
-    shutting down executes nothing more.
+    shutting down does not execute it.
     """
 
     def __init__(self, make: Callable[[], Any], begun: Callable[[Any], None], failed: Callable[[str], None]) -> None:
@@ -29,7 +29,7 @@ class GuardedStart(Action):
         try:
             action = self._make()
             entities = action.visit(context)
-        except Exception as error:  # launch would end everything else, and log what nobody looks for there
+        except Exception as error:  # launch would end everything else, and log the reason where nobody looks for it
             self._failed(f"{type(error).__name__}: {error}")
             return None
         self._action = action

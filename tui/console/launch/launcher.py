@@ -1,4 +1,4 @@
-"""Processes as the console sees and steers them, using only the public `launch` API and its event handlers."""
+"""Processes as the console sees and controls them, using only the public `launch` API and its event handlers."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ if TYPE_CHECKING:
 
 CLOSED = "the console is closing"
 KILLED_TIMEOUT_S = 1.0
-"""Seconds that launches get to end after their processes were killed."""
+"""Seconds that launches may take to end after their processes were killed."""
 BUSY_S = 6.0
-"""Seconds after which a process that never waits is named."""
+"""Seconds of uninterrupted computation after which a process is reported."""
 
 
 class Joinable(Protocol):
     """A thread, or anything that can be joined like one."""
 
     def join(self, timeout: float | None = None) -> object:
-        """Wait for the end, at most so many seconds."""
+        """Wait for the end, at most `timeout` seconds."""
         ...
 
 
@@ -56,7 +56,7 @@ class _Held:
 
 
 class RosLauncher(ProcessVerbs):
-    """Runs launch files, each in a LaunchService and a thread of its own. Methods may be called from any thread."""
+    """Runs launch files, each in a LaunchService and a separate thread. Methods may be called from any thread."""
 
     def __init__(
         self,
@@ -68,10 +68,10 @@ class RosLauncher(ProcessVerbs):
         heard: Callable[[str], bool] = lambda name: True,
         every: Add | None = None,
     ) -> None:
-        """`spawn` starts the thread of a launch of a file, and keeps what launch itself prints off the screen.
+        """`spawn` starts the thread that launches a file, and keeps launch's own output off the screen.
 
-        `heard` says whether `/rosout` has brought a line of the logger of that name; `every` is given all lines of
-        loggers, those too that `/rosout` brings.
+        `heard` says whether `/rosout` has brought a line of the logger with that name; `every` receives all lines of
+        loggers, including those that `/rosout` brings.
         """
         self._record = record
         self._printed = printed
@@ -96,7 +96,7 @@ class RosLauncher(ProcessVerbs):
         self._dirty = self._closed = False
 
     def info(self) -> LaunchInfo:
-        """What is known now; the same object until something changes."""
+        """The current state; the same object until something changes."""
         with self._lock:
             self._poll()
             if self._dirty:
@@ -134,7 +134,7 @@ class RosLauncher(ProcessVerbs):
             if usage.stands.startswith(HANGS):
                 self._report(f"{label} {usage.stands}", Severity.WARN)
         if before < BUSY_S <= usage.busy_s:
-            self._report(f"{label} has computed for {BUSY_S:g} s without waiting", Severity.WARN)
+            self._report(f"{label} has been computing for {BUSY_S:g} s without a pause", Severity.WARN)
 
     def _report(self, text: str, severity: Severity = Severity.INFO) -> None:
         self._timeline.report(text, severity)
@@ -173,7 +173,7 @@ class RosLauncher(ProcessVerbs):
     def _serve(self, run: LaunchRun, work: Callable[[], str]) -> None:
         try:
             problem = work()
-        except (Exception, SystemExit) as error:  # the border of the launch thread
+        except (Exception, SystemExit) as error:  # the outermost frame of the launch thread
             problem = run.fault(error)
         with self._lock:
             del self._runs[run]
@@ -191,7 +191,7 @@ class RosLauncher(ProcessVerbs):
             of_file.set_result(Answer(not problem, problem or f"{run.title} has ended"))
 
     def _left_over(self, held: _Held, why: str) -> None:
-        """Take note that a run is over: later starts of its processes get runs of their own.
+        """Note that a run is over: later starts of its processes get separate runs.
 
         `why` says why the run could not begin; empty if it could.
         """
@@ -219,7 +219,7 @@ class RosLauncher(ProcessVerbs):
         if order is Order.START:
             self._start(held)
         elif held.action is None:
-            return  # not executed yet; it is told to end as soon as it was started
+            return  # not executed yet; it is ended as soon as it has started
         elif order is Order.KILL:
             held.run.emit(SignalProcess(signal_number="SIGKILL", process_matcher=matches_action(held.action)))
         elif order is Order.SHUT_DOWN:
@@ -239,7 +239,7 @@ class RosLauncher(ProcessVerbs):
         def failed(why: str) -> None:
             self._ended(held, why)
 
-        if held.run.ending:  # another run of the same file may be there, of what was started again before
+        if held.run.ending:  # another run of the same file may exist, for processes that were restarted earlier
             held.run = next((run for run in self._runs if run.title == held.run.title and not run.ending), held.run)
         if not held.run.ending:
             held.run.start(make, failed)
@@ -264,7 +264,7 @@ class RosLauncher(ProcessVerbs):
             outcome.set_result(Answer(True, f"{run.title} runs"))
 
     def _found(self, run: LaunchRun, event: ProcessStarted, context: LaunchContext) -> _Held:
-        """Add a process that is new."""
+        """Add a new process."""
         key = f"{event.process_name}@{len(self._held)}"
         place = run.tree.place(event.action, context)
         process = LaunchedProcess(key, event.process_name, place)
@@ -312,7 +312,7 @@ class RosLauncher(ProcessVerbs):
                 self._ended(held)
 
     def _ended(self, held: _Held, why: str = "") -> None:
-        """Take note that a process has ended, and launch will not start it (again)."""
+        """Note that a process has ended, and launch will not start it again."""
         with self._lock:
             before = held.process.info
             order = held.process.over(why)
@@ -329,10 +329,10 @@ class RosLauncher(ProcessVerbs):
                     held.process.exit_requested()
 
     def _fault(self, error: Exception) -> None:
-        self._printed(Severity.ERROR, "bot-console", f"the launch pane misses something: {error!r}")
+        self._printed(Severity.ERROR, "bot-console", f"the launch pane could not process an event: {error!r}")
 
     def close(self, timeout_s: float = 10.0) -> None:
-        """Shut all launches down and wait, at most so many seconds in total; then kill what still runs.
+        """Shut down all launches and wait, at most `timeout_s` in total; then kill what still runs.
 
         A second call does nothing.
         """
@@ -353,7 +353,7 @@ class RosLauncher(ProcessVerbs):
 
 
 def _joined(threads: Sequence[Joinable | None], timeout_s: float) -> bool:
-    """Wait for these, at most so many seconds in total; return whether that was enough."""
+    """Wait for these threads, at most `timeout_s` in total; returns whether all have ended."""
     deadline = time.monotonic() + timeout_s
     for each in threads:
         if each is not None:
@@ -368,7 +368,7 @@ def _thread(target: Callable[[], None], file: str) -> threading.Thread:
 
 
 def _node_names(action: Any) -> tuple[str, ...]:
-    """The ROS names of the nodes in a process, if the action tells them."""
+    """The ROS names of the nodes in a process, if the action has them."""
     if not hasattr(action, "expanded_node_name"):
         return _full_node_name(action)
     name, namespace = action.expanded_node_name, getattr(action, "expanded_node_namespace", "")
@@ -378,9 +378,11 @@ def _node_names(action: Any) -> tuple[str, ...]:
 
 
 def _full_node_name(action: Any) -> tuple[str, ...]:
-    """The same for a launch_ros that offers `node_name`; placeholders stand for what the program itself decides."""
+    """The same for a launch_ros that offers `node_name`; placeholders stand for parts that the program itself
+    decides.
+    """
     try:
         name = str(getattr(action, "node_name", ""))
-    except RuntimeError:  # it was not executed
+    except RuntimeError:  # the action was not executed
         return ()
     return (name,) if name and "<" not in name else ()

@@ -1,4 +1,4 @@
-"""The life of one launched process: what was asked of it, and what happened to it. No launch API, no locks."""
+"""The life of one launched process: what was requested of it, and what happened to it. No launch API, no locks."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ProcessInfo, ProcessState
 
 INTERRUPTED = (0, -2, -15, 130)
-"""Exit codes of a process that ended as it was asked to."""
+"""Exit codes of a process that ended on request."""
 KILLED = -9
 
 STARTS = ("start", "restart")
@@ -29,7 +29,7 @@ class Order(Enum):
 
 
 class LaunchedProcess:
-    """The displayed state of a process, and who waits for its next change."""
+    """The displayed state of a process, and the requests waiting for its next change."""
 
     def __init__(self, key: str, label: str, group: tuple[str, ...] = ()) -> None:
         self.info = ProcessInfo(key, label, ProcessState.STARTING, group=group)
@@ -47,7 +47,7 @@ class LaunchedProcess:
         return self._alive
 
     def want(self, verb: str) -> tuple[Order, Future[Answer]]:
-        """Ask for `start`, `stop`, `kill` or `restart`; answered when that is done."""
+        """Request `start`, `stop`, `kill` or `restart`; answered when that is done."""
         outcome: Future[Answer] = Future()
         refusal = self._refusal(verb)
         if refusal:
@@ -59,13 +59,13 @@ class LaunchedProcess:
     def _refusal(self, verb: str) -> str:
         state, label = self.info.state, self.info.label
         if state is ProcessState.MISSING:
-            return f"{label} is not here: {self.info.problem}"
+            return f"{label} is not available here: {self.info.problem}"
         if verb == "start" and state is ProcessState.RUNNING:
-            return f"{label} runs already"
+            return f"{label} is already running"
         if verb in STARTS and state is ProcessState.STARTING:
             return f"{label} is starting already"
         if verb not in STARTS and state in ENDED:
-            return f"{label} does not run"
+            return f"{label} is not running"
         return ""
 
     def _want_running(self, verb: str) -> Order:
@@ -94,13 +94,13 @@ class LaunchedProcess:
         return Order.SHUT_DOWN
 
     def exit_requested(self) -> None:
-        """Take note that a person, or the end of its launch, has told it to end."""
+        """Note that a person, or the end of its launch, has requested its end."""
         if self.info.state not in ENDED:
             self._reported = True
             self.info = replace(self.info, state=ProcessState.STOPPING)
 
     def started(self, label: str, pid: int, nodes: tuple[str, ...] = ()) -> Order:
-        """Take note that it runs, by itself or on request; launch may change its label each time."""
+        """Note that it runs, unrequested or on request; launch may change its label each time."""
         restarts, self._starts, self._alive = self._starts, self._starts + 1, True
         self._ran, self._stands = True, ""
         state = ProcessState.STOPPING if self._reported else ProcessState.RUNNING
@@ -112,18 +112,18 @@ class LaunchedProcess:
         return Order.NOTHING
 
     def missing(self, why: str) -> None:
-        """Take note that its executable is missing, and that the launch goes on without it."""
+        """Note that its executable is missing, and that the launch goes on without it."""
         self.info = replace(self.info, state=ProcessState.MISSING, problem=why)
 
     def exited(self, code: int, respawns: bool, fault: str = "") -> Order:
-        """Take note that it has ended; `respawns`: launch will start it again, `fault`: the exception it left."""
+        """Note that it has ended; `respawns`: launch will start it again, `fault`: the exception it printed."""
         self._fault = fault
         self._alive = False
         self.info = replace(self.info, exit_code=code, pid=None, cpu=None, memory=None)
         if not respawns:
             return self._end()
         if any(verb == "stop" for verb, _ in self._waiting):
-            return Order.NOTHING  # it ended by itself just before; launch is told already not to start it again
+            return Order.NOTHING  # it ended unrequested just before; launch already knows not to start it again
         self._reported = False
         why = f"{self._why(code)}; launch starts it again" if code else ""
         self.info = replace(self.info, state=ProcessState.STARTING, problem=why)
@@ -131,7 +131,7 @@ class LaunchedProcess:
         return Order.NOTHING
 
     def over(self, why: str = "") -> Order:
-        """Take note that launch will not start it again; `why` says what went wrong if it never ran."""
+        """Note that launch will not start it again; `why` says what went wrong if it never ran."""
         if self._alive or self.info.state in ENDED:
             return Order.NOTHING
         if not self._ran and not self._reported:
@@ -155,23 +155,23 @@ class LaunchedProcess:
         return Order.NOTHING
 
     def _why(self, code: int) -> str:
-        """Why it has ended, with the exception if it left one."""
+        """Why it has ended, with the exception it printed, if any."""
         return _reason(code) if code < 0 or not self._fault else self._fault
 
     def abandoned(self, where: str) -> None:
-        """Take note that its code still runs although it was killed."""
-        problem = f"was killed, but code of it does not end: {where}"
+        """Note that its code still runs although it was killed."""
+        problem = f"was killed, but some of its code keeps running: {where}"
         self.info = replace(self.info, state=ProcessState.ABANDONED, problem=problem)
 
     def uses(self, cpu: float | None, memory: int | None) -> bool:
-        """Set its share of a CPU (1.0 is one whole) and its memory (MB); returns whether that is news."""
+        """Set its CPU usage (1.0 is one whole CPU) and its memory (MB); returns whether they have changed."""
         if (cpu, memory) == (self.info.cpu, self.info.memory) or not self._alive:
             return False
         self.info = replace(self.info, cpu=cpu, memory=memory)
         return True
 
     def stands(self, why: str) -> bool:
-        """Set why nothing of it runs, empty if it does; returns whether that is news."""
+        """Set why it makes no progress, empty if it does; returns whether that has changed."""
         if why == self._stands or not self._alive:
             return False
         self._stands = why
@@ -196,5 +196,5 @@ def _reason(code: int) -> str:
 def _signal(number: int) -> str:
     try:
         return signal.Signals(number).name
-    except ValueError:  # one of those for real time
+    except ValueError:  # a real-time signal
         return f"signal {number}"

@@ -1,11 +1,11 @@
-"""What processes print, as log records. A line that a logger wrote is told from a print by its mark, not by its text.
+"""What processes print, as log records. A logger's line is told from printed text by a mark, not by its wording.
 
-`/rosout` is the way that counts: it brings the lines of every node, whoever has started it. A marked line says whether
-it went out there too, so the same line is never taken twice: here only those are taken that did not go out (a node
-without `/rosout`, a logger without a node, a line after `rclpy.shutdown()`), and what is merely printed.
+`/rosout` takes precedence: it brings the lines of every node, whoever has started it. A marked line says whether it
+was published there too, so no line is added twice: only those that were not published are added here (from a node
+without `/rosout`, a logger without a node, a line after `rclpy.shutdown()`), and printed text.
 
-The mark is a log format, set through the public `RCUTILS_CONSOLE_OUTPUT_FORMAT`; a format of the user's stays in it.
-The embedded rclpy also takes it as `BOT_CONSOLE_LOG_ENVELOPE`, which no launch file overrides, and says in it whether
+The mark is a log format, set through the public `RCUTILS_CONSOLE_OUTPUT_FORMAT`; a format set by the user stays in it.
+The embedded rclpy also takes it as `BOT_CONSOLE_LOG_ENVELOPE`, which no launch file overrides, and adds whether
 `/rosout` had the line. A real rclpy does not know that field: see `Undecided`.
 """
 
@@ -29,19 +29,21 @@ COLOUR = r"(?:\x1b\[[0-9;]*m)?"
 _BEGIN = re.compile(COLOUR + BEGIN)
 _END = re.compile(f"{END}{COLOUR}\r?\n")
 MAX_RECORD_CHARACTERS = 1 << 20
-"""Letters that wait for the end of a line or record; a program may print without ever ending one."""
+"""Characters kept while waiting for the end of a line or record; a program may print without ever ending one."""
 MAX_TIME_NS = 2**63 - 1
-"""The latest time, in ns since the epoch, that a column of the log holds."""
+"""The latest time, in ns since the epoch, that a column of the log can hold."""
 ROSOUT_TIMEOUT_S = 2.0
 """How long (s) a line waits for `/rosout` to bring the first line of its logger."""
 
 Add = Callable[[int, int, str, str, tuple[str, str, int]], None]
-"""Takes stamp (ns), severity, logger name, text, and (file, function, line)."""
+"""Receives stamp (ns), severity, logger name, text, and (file, function, line)."""
 Record = tuple[int, int, str, str, tuple[str, str, int]]
 
 
 def marking(environment: Mapping[str, str]) -> dict[str, str]:
-    """The variables that make loggers mark their lines; the format that the environment has is kept in the mark."""
+    """The variables that make loggers mark their lines; an existing format in the environment is kept inside the
+    mark.
+    """
     return {
         ENVELOPE_VARIABLE: ENVELOPE,
         FORMAT_VARIABLE: ENVELOPE.replace("{line}", environment.get(FORMAT_VARIABLE, "")),
@@ -59,7 +61,9 @@ class ProcessOutput:
         heard: Callable[[str], bool] = lambda name: True,
         every: Add | None = None,
     ) -> None:
-        """`heard` says whether `/rosout` has brought a line of the logger of that name; `every` is given all lines."""
+        """`heard` says whether `/rosout` has brought a line of the logger with that name; `every` receives all
+        lines.
+        """
         self._record = record
         self._every = every
         self._undecided = Undecided(record, heard)
@@ -67,11 +71,13 @@ class ProcessOutput:
         self._readers = {stderr: OutputReader(self.logged, each.line) for stderr, each in self._streams.items()}
 
     def feed(self, text: str, *, stderr: bool) -> None:
-        """Take the next piece of output."""
+        """Process the next piece of output."""
         self._readers[stderr].feed(text)
 
     def logged(self, record: Record, on_rosout: bool | None) -> None:
-        """Take a logger's line; None where the writer could not tell whether it went out on `/rosout`."""
+        """Process a logger's line; `on_rosout` is None if the writer could not tell whether it was published on
+        `/rosout`.
+        """
         if self._every is not None:
             self._every(*record)
         if on_rosout is None:
@@ -89,7 +95,7 @@ class ProcessOutput:
         self._undecided.settle()
 
     def close(self) -> None:
-        """Take note that the process has ended."""
+        """Note that the process has ended."""
         for stderr, reader in self._readers.items():
             reader.close()
             self._streams[stderr].close()
@@ -97,10 +103,10 @@ class ProcessOutput:
 
 
 class Undecided:
-    """Lines of a real rclpy or rclcpp, which do not say whether `/rosout` had them: it had, if it has that logger's.
+    """Lines of a real rclpy or rclcpp, which do not say whether they were published on `/rosout`.
 
-    A logger's first line can arrive here before it does over `/rosout`, so each line waits `PATIENCE_S` before it
-    counts.
+    They were if `/rosout` has brought any line of their logger. A logger's first line can arrive here before it does
+    over `/rosout`, so each line waits for `ROSOUT_TIMEOUT_S` before it is added.
     """
 
     def __init__(self, record: Add, heard: Callable[[str], bool], now: Callable[[], float] = time.monotonic) -> None:
@@ -110,13 +116,13 @@ class Undecided:
         self._waiting: deque[tuple[float, Record]] = deque()
 
     def wait(self, record: Record) -> None:
-        """Take a line, unless `/rosout` has that logger's lines anyway."""
+        """Keep a line for now, unless `/rosout` has that logger's lines anyway."""
         if not self._heard(record[2]):
             self._waiting.append((self._now() + ROSOUT_TIMEOUT_S, record))
         self.settle()
 
     def settle(self, *, ended: bool = False) -> None:
-        """Pass on lines that have waited in vain; all of them when the process has ended."""
+        """Pass on lines whose wait is over; all of them once the process has ended."""
         now = self._now()
         while self._waiting and (ended or self._waiting[0][0] <= now):
             _, record = self._waiting.popleft()
@@ -133,7 +139,7 @@ class OutputReader:
         self._rest = ""
 
     def feed(self, text: str) -> None:
-        """Take the next piece; an unfinished line or record waits for its end, unless it is very long."""
+        """Process the next piece; an unfinished line or record waits for its end, unless it is very long."""
         self._take(self._rest + text)
         if len(self._rest) > MAX_RECORD_CHARACTERS:
             rest, self._rest = self._rest, ""
@@ -153,7 +159,7 @@ class OutputReader:
         self._rest = self._lines(text[at:])
 
     def close(self) -> None:
-        """Take note that the process has ended: the rest is a line without an end."""
+        """Note that the process has ended: the rest is a line without a newline."""
         rest, self._rest = self._rest, ""
         begin = _BEGIN.match(rest)
         if begin and END in rest:
@@ -181,5 +187,5 @@ class OutputReader:
 
 
 def _is_number(text: str) -> bool:
-    """Whether it is an integer that fits a column of the log; a node may print anything as a mark."""
+    """Whether it is an integer that fits a column of the log; a node may print anything in place of a mark."""
     return text.isascii() and text.isdecimal() and len(text) <= len(str(MAX_TIME_NS)) and int(text) <= MAX_TIME_NS

@@ -1,4 +1,4 @@
-"""The methods by which every launcher steers a single process."""
+"""The methods by which every launcher controls a single process."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from bot_console.tui.console.answer import Answer
 
 
 class ProcessVerbs(ABC):
-    """The four methods of `Launcher` that steer one process, implemented by a single one."""
+    """The four methods of `Launcher` that control one process, all implemented by `_want`."""
 
     def start(self, key: str) -> Future[Answer]:
-        """Start a process again that has ended; answered when it runs."""
+        """Start a process that has ended; answered when it runs."""
         return self._want("start", key)
 
     def stop(self, key: str) -> Future[Answer]:
@@ -29,4 +29,4 @@ class ProcessVerbs(ABC):
 
     @abstractmethod
     def _want(self, verb: str, key: str, /) -> Future[Answer]:
-        """Apply the verb to the process of that key."""
+        """Apply the verb to the process with that key."""

@@ -1,8 +1,8 @@
-"""Starting a process again that launch has started once, by a new action of the public launch API.
+"""Restarts a process that launch has started before, by a new action of the public launch API.
 
-An action can be executed only once, so a second start needs another one, made from what the first one's event tells.
-Event handlers of the launch file that wait for the original action do not know the new one; `on_exit` is kept if it
-contains no process of its own.
+An action can be executed only once, so a second start needs another one, made from the event of the first start. Event
+handlers of the launch file that wait for the original action do not recognise the new one; `on_exit` is kept if it
+contains no process.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Recipe:
-    """What is needed to start a process again; `package` is None if the path of the program suffices."""
+    """What is needed to restart a process; `package` is None if the path of the program suffices."""
 
     command: list[str]
     label: str
@@ -38,7 +38,7 @@ class Recipe:
         if not self.is_node:
             return ExecuteProcess(cmd=self.command, name=self.label, **self.options)
         program, *arguments = self.command[len(shlex.split(self.prefix)) :]
-        arguments = arguments[:-1] if arguments[-1:] == ["--ros-args"] else arguments  # which a node adds itself
+        arguments = arguments[:-1] if arguments[-1:] == ["--ros-args"] else arguments  # which a Node action adds itself
         where = {"executable": program}
         if self.package is not None:
             where = {"package": self.package, "executable": os.path.basename(program)}
@@ -76,7 +76,7 @@ def _text(context: LaunchContext, substitutions: Any, otherwise: str | None) -> 
         return None
     try:
         return perform_substitutions(context, normalize_to_list_of_substitutions(substitutions))
-    except SubstitutionFailure:  # it needs a configuration that only its own scope has
+    except SubstitutionFailure:  # it needs a launch configuration that only its own scope has
         return otherwise
 
 
@@ -89,6 +89,6 @@ def _on_exit(action: Any) -> Any:
 
 
 def _respawn(action: Any) -> dict[str, Any]:
-    """Whether launch respawns it, if the action tells."""
+    """Whether launch respawns it, if the action says so."""
     wanted = getattr(action, "respawn", None)
     return {"respawn": wanted, "respawn_delay": getattr(action, "respawn_delay", None)} if wanted else {}

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from launch import LaunchContext
 
 MISSING = "launch_ros.events.NodeMissing"
-"""The name of the event of a node that is left out; ROS 2 has none, so it is not imported."""
+"""The name of the event for a node that is left out; ROS 2 has no such event, so it is not imported."""
 CAUGHT = "Caught exception in launch (see debug for traceback): "
 
 
@@ -34,13 +34,13 @@ class Listener:
     exited: Callable[[ProcessExited], None]
     """With `ProcessExited`."""
     missing: Callable[[LaunchRun, Any, LaunchContext], None]
-    """With `NodeMissing`, where the launch has such events, and the launch context."""
+    """With `NodeMissing`, if this launch has such events, and the launch context."""
     over: Callable[[Any], None]
     """With an action that has ended and that launch will not start again."""
     ending: Callable[[LaunchRun, str], None]
     """With the reason why the whole launch ends; empty when it has failed."""
     fault: Callable[[Exception], None]
-    """With what one of these has raised."""
+    """With an exception raised by one of the others."""
 
 
 class LaunchRun:
@@ -55,7 +55,7 @@ class LaunchRun:
         self._lock = threading.Lock()
         self._service: Any = None
         self._early: list[Any] | None = []
-        """Events from before the launch runs, which it handles first; None as soon as it runs."""
+        """Events emitted before the launch runs, which it handles first; None as soon as it runs."""
         self._unwanted = False
         self._reason = ""
         self.logged = False
@@ -71,8 +71,8 @@ class LaunchRun:
         self.path = path
         source = AnyLaunchDescriptionSource(path)
         try:
-            source.get_launch_description(LaunchContext())  # once more below, but from memory
-        except (Exception, SystemExit) as error:  # a launch file is a program: whatever it raises is its reader's
+            source.get_launch_description(LaunchContext())  # called again below, but then served from memory
+        except (Exception, SystemExit) as error:  # a launch file is a program: whatever it raises is shown to the user
             self.ending = True
             return fault_text(error, path, reading=True)
         return self._run([IncludeLaunchDescription(source, launch_arguments=arguments.items())])
@@ -104,7 +104,7 @@ class LaunchRun:
         return f"{self.path}: {self._reason.removeprefix(CAUGHT)}" if code else ""
 
     def _begun(self, context: LaunchContext) -> None:
-        """Take what came before; from now on events go to the loop that calls this."""
+        """Emit earlier events; from now on events go to the loop that calls this."""
         with self._lock:
             early, self._early = self._early or [], None
         for event in early:
@@ -126,7 +126,7 @@ class LaunchRun:
             def handle(event: Any, context: Any = None) -> None:
                 try:
                     hear(event, context)
-                except Exception as error:  # a fault of the console must not end the launch of a robot
+                except Exception as error:  # an error of the console must not end the launch of a robot
                     heard.fault(error)
 
             return handle
@@ -174,12 +174,12 @@ class LaunchRun:
             return
         self.ending = True
         self._reason = event.reason
-        failed = event.reason.startswith(CAUGHT)  # which is told with file and line when it is over
+        failed = event.reason.startswith(CAUGHT)  # reported with file and line when the run is over
         self._listener.ending(self, "" if failed else event.reason)
 
     @property
     def has_begun(self) -> bool:
-        """Whether launch has run at all; when it has not, it is no use to try the same again."""
+        """Whether launch has run at all; if it has not, trying the same again is pointless."""
         return self._early is None
 
     @property
@@ -188,7 +188,9 @@ class LaunchRun:
         return 0 if self._service is None else delayed_starts(self._service)
 
     def start(self, make: Callable[[], Any], failed: Callable[[str], None]) -> None:
-        """Run the action that `make` returns, outside the launch file's scopes; `failed` receives the reason."""
+        """Run the action that `make` returns, outside the launch file's scopes; `failed` receives the reason if it
+        cannot.
+        """
         from launch.events import IncludeLaunchDescription
 
         from launch import LaunchDescription
@@ -206,8 +208,8 @@ class LaunchRun:
     def emit(self, event: Any) -> None:
         """Queue an event without waiting for the launch, as `LaunchService.emit_event` would.
 
-        The caller may hold a lock that the launch is waiting for. A launch that does not run yet handles it as soon as
-        it does; one that is over does not: see `ending`.
+        The caller may hold a lock that the launch is waiting for. A launch that does not run yet handles the event as
+        soon as it does; one that is over does not: see `ending`.
         """
         with self._lock:
             if self._early is not None:
@@ -215,7 +217,7 @@ class LaunchRun:
                 return
         loop = self._service.event_loop
         if loop is not None:
-            with contextlib.suppress(RuntimeError):  # it is over
+            with contextlib.suppress(RuntimeError):  # the loop has ended
                 loop.call_soon_threadsafe(self._service.context.emit_event_sync, event)
 
     def shut_down(self) -> None:
@@ -225,7 +227,7 @@ class LaunchRun:
         with self._lock:
             self._unwanted = True
             service = self._service
-            if self._early is not None:  # ROS 2 forgets a shutdown() that comes before its loop runs
+            if self._early is not None:  # ROS 2 ignores a shutdown() that comes before its loop runs
                 self._early.append(Shutdown(reason="LaunchService.shutdown() called"))
         if service is not None:
             service.shutdown()

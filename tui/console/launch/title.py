@@ -7,17 +7,17 @@ from itertools import count
 from pathlib import Path
 
 PROGRAM = "program.launch.py"
-"""The launch file that runs one program, which `ros2 run` does; a person has named that program, not this file."""
+"""The launch file behind `ros2 run`, which runs one program; users name that program, not this file."""
 
 
 def title_of(path: str, arguments: Mapping[str, str]) -> str:
-    """The name of a launch file, or of the program that it exists for."""
+    """The name of a launch file, or of the single program that it runs."""
     name = Path(path).name
     return Path(arguments.get("program", name)).name if name == PROGRAM else name
 
 
 def argument_line(path: str, arguments: Mapping[str, str]) -> str:
-    """The request as a person would repeat it: a launch file with its arguments, or a program."""
+    """The request as a user would type it: a launch file with its arguments, or a program."""
     if Path(path).name == PROGRAM and "program" in arguments:
         words = (arguments.get(each, "") for each in ("package", "program", "words"))
         return " ".join(["run", *(each for each in words if each)])
@@ -25,5 +25,5 @@ def argument_line(path: str, arguments: Mapping[str, str]) -> str:
 
 
 def unused(title: str, used: Collection[str]) -> str:
-    """A title, with a number appended if another launch in the list has it."""
+    """A title, with a number appended if another launch in the list has it already."""
     return next(each for number in count(1) if (each := title if number == 1 else f"{title} ({number})") not in used)

@@ -18,7 +18,7 @@ class LaunchTree:
         self._parents: dict[int, tuple[Any, Any]] = {}
 
     def included(self, include: Any) -> None:
-        """Take note that an include was executed: its description is now known without reading anything."""
+        """Note that an include was executed: its description is now known without reading a file."""
         description = include.launch_description_source.try_get_launch_description_without_context()
         if description is not None:
             self._add(description.entities, include)
@@ -34,7 +34,7 @@ class LaunchTree:
                 self._add(below(entity), entity)
 
     def _chain(self, entity: Any) -> Iterator[Any]:
-        """What contains an entity, innermost first."""
+        """The entities that contain an entity, innermost first."""
         _, parent = self._parents.get(id(entity), (None, None))
         while parent is not None:
             yield parent
@@ -57,7 +57,7 @@ class LaunchTree:
                 names.append(Path(each.launch_description_source.location).name)
             elif isinstance(each, GroupAction):
                 names += _namespaces(each, context)
-        names = names[:-1] if names else []  # the outermost file goes by the title
+        names = names[:-1] if names else []  # the outermost file is represented by the title
         return (self._title, *reversed(names))
 
 
@@ -79,6 +79,6 @@ def _namespaces(group: Any, context: LaunchContext) -> list[str]:
         if isinstance(each, PushRosNamespace):
             try:
                 return [perform_substitutions(context, each.namespace)]
-            except SubstitutionFailure:  # it needs a configuration that only its own scope has
+            except SubstitutionFailure:  # it needs a launch configuration that only its own scope has
                 return []
     return []

@@ -1,4 +1,4 @@
-"""What launch's events do not tell about a running process: CPU time, and code that survives a SIGKILL."""
+"""What launch's events do not report about a running process: CPU time, and code that survives a SIGKILL."""
 
 from __future__ import annotations
 
@@ -6,26 +6,26 @@ from collections.abc import Callable
 from typing import Protocol, TypeAlias
 
 CPU_POLL_S = 1.0
-"""Seconds over which a processor share is measured."""
+"""Seconds over which CPU usage is measured."""
 
 
 STATE_POLL_S = 0.5
-"""Seconds between two looks at whether it is frozen, or hangs."""
+"""Seconds between two checks whether it is frozen or hangs."""
 
 
 class Vitals(Protocol):
     """One running process, observed from outside."""
 
     def cpu_seconds(self) -> float | None:
-        """The CPU time it has used (s); None if the system does not tell."""
+        """The CPU time it has used (s); None if the system does not report it."""
         ...
 
     def wanted_seconds(self) -> float | None:
-        """How long (s) it has run or waited for a CPU, and for nothing else; None if unknown."""
+        """How long (s) it has been running or ready to run, that is, waiting only for a CPU; None if unknown."""
         ...
 
     def memory_bytes(self) -> int | None:
-        """Its main memory; None if the system does not tell, or if it has none of its own."""
+        """Its resident memory; None if the system does not report it, or if it has none of its own."""
         ...
 
     def is_stopped(self) -> bool:
@@ -33,7 +33,7 @@ class Vitals(Protocol):
         ...
 
     def holds_lock_in(self) -> str:
-        """The line in which C code has held its interpreter lock for 1 s; empty if none does."""
+        """The line in which C code has held the interpreter lock for 1 s; empty if none has."""
         ...
 
     def hangs_in(self) -> str:
@@ -41,17 +41,17 @@ class Vitals(Protocol):
         ...
 
 
-FROZEN = "is frozen by a signal or a debugger, and hears nothing until SIGCONT"
+FROZEN = "is frozen by a signal or a debugger, and does nothing until it receives SIGCONT"
 HANGS = "hangs in"
 BUSY_SHARE = 0.9
-"""The share of wall time from which a process counts as one that never waits, on a processor or for one."""
+"""The share of time spent running or ready to run from which a process counts as one that never waits."""
 
 FindVitals: TypeAlias = Callable[[int], "Vitals | None"]
-"""Finds the vitals of a process by its pid, right after it was started; None where there are none."""
+"""Finds the vitals of a process by its pid, right after it was started; None if there are none."""
 
 
 class Usage:
-    """What a process uses, measured every second: its share of one CPU, and its memory."""
+    """What a process uses, measured every second: CPU and memory."""
 
     def __init__(self, vitals: Vitals, now: float) -> None:
         self._vitals = vitals
@@ -59,17 +59,17 @@ class Usage:
         self._used = vitals.cpu_seconds()
         self._wanted = vitals.wanted_seconds()
         self.share: float | None = None
-        """1.0 is one whole processor, in whole percent; None as long as it is not known."""
+        """1.0 is one whole CPU, rounded to whole percent; None until it is known."""
         self.memory: int | None = None
-        """MB (10^6 bytes), with two digits from 100 on so that it stands still while nothing happens."""
+        """MB (10^6 bytes), rounded to two digits from 100 on so that the figure is steady while nothing happens."""
         self.stands = ""
-        """Why nothing of it runs; empty where it does."""
+        """Why it makes no progress; empty if it does."""
         self._asked = now
         self.busy_s = 0.0
-        """How long (s) it has not waited for anything but a processor."""
+        """How long (s) it has waited for nothing but a CPU."""
 
     def poll(self, now: float) -> None:
-        """Measure if it is due; the argument is a steady time (s)."""
+        """Measure if due; `now` is a monotonic time (s)."""
         if now - self._asked >= STATE_POLL_S:
             self._asked, self.stands = now, self._why_it_stands()
         passed = now - self._at
@@ -87,7 +87,11 @@ class Usage:
         if self._vitals.is_stopped():
             return FROZEN
         held = self._vitals.holds_lock_in()
-        return f"{HANGS} {held}, which holds the interpreter's lock: nothing else of it runs" if held else ""
+        return (
+            f"{HANGS} {held}, which holds the interpreter lock: no other Python code of this process runs"
+            if held
+            else ""
+        )
 
 
 def _share(before: float | None, after: float | None, passed: float) -> float | None:

@@ -1,4 +1,4 @@
-"""The socket through which further consoles reach a launch host: `<pid>.host` in a folder of the user alone."""
+"""The socket through which further consoles reach a launch host: `<pid>.host` in a folder private to the user."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ class HostListener:
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self._enter = enter
         early = f"{self.path}.new"
-        with contextlib.suppress(FileNotFoundError):  # of a process that had the same id
+        with contextlib.suppress(FileNotFoundError):  # left by an earlier process with the same pid
             os.unlink(early)
         self._socket.bind(early)
         self._socket.listen(BACKLOG)
-        os.rename(early, self.path)  # whoever sees the name can connect
+        os.rename(early, self.path)  # from now on anyone who sees the name can connect
         threading.Thread(target=self._serve, name="door", daemon=True).start()
 
     def _serve(self) -> None:
         while True:
             try:
                 connection, _ = self._socket.accept()
-            except OSError:  # closed
+            except OSError:  # the socket was closed
                 return
             self._enter(connection)
 
@@ -44,22 +44,22 @@ class HostListener:
         with contextlib.suppress(FileNotFoundError):
             os.unlink(self.path)
         with contextlib.suppress(OSError):
-            self._socket.shutdown(socket.SHUT_RDWR)  # wakes the thread
+            self._socket.shutdown(socket.SHUT_RDWR)  # wakes up the thread
         self._socket.close()
 
 
 def door_of(folder: str, pid: int) -> str:
-    """The path of the door of a process."""
+    """The path of the socket of a process."""
     return os.path.join(folder, f"{pid}{ADDRESS_SUFFIX}")
 
 
 def host_addresses(folder: str) -> list[str]:
-    """The paths of all doors in a folder, including those of dead hosts."""
+    """The paths of all launch host sockets in a folder, including those of dead hosts."""
     return sorted(str(each) for each in Path(folder).iterdir() if _NAME.fullmatch(each.name))
 
 
 def remove_addresses_of_dead_hosts(folder: str, lives: Callable[[int], bool]) -> None:
-    """Remove the doors that killed processes have left in a folder; `lives` says whether a process does."""
+    """Remove the sockets that killed hosts have left in a folder; `lives` says whether a process is alive."""
     for left in host_addresses(folder):
         if not lives(pid_of_address(left)):
             with contextlib.suppress(FileNotFoundError):
@@ -67,12 +67,12 @@ def remove_addresses_of_dead_hosts(folder: str, lives: Callable[[int], bool]) ->
 
 
 def pid_of_address(path: str) -> int:
-    """The pid of a door's process."""
+    """The pid of the process that a socket belongs to."""
     return int(os.path.basename(path).removesuffix(ADDRESS_SUFFIX))
 
 
 def connect_to_host(path: str) -> socket.socket | None:
-    """A connection to the host behind a door; the door of a dead host is removed."""
+    """A connection to a launch host; the socket of a dead host is removed, and the result is None."""
     connection = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     try:
         connection.connect(path)

@@ -12,9 +12,9 @@ from typing import Any
 Message = Mapping[str, Any]
 
 SPARE_BYTES = 4 << 20
-"""What may wait for a reader before messages that can be spared are dropped, and counted."""
+"""Queued bytes beyond which expendable messages are dropped, and counted."""
 MAX_MESSAGE_BYTES = 64 << 20
-"""What may wait at all: a reader that lets more come together is given up."""
+"""Queued bytes beyond which the connection to a slow reader is closed."""
 
 
 class Channel:
@@ -61,7 +61,7 @@ class Channel:
             self._news.notify()
 
     def close(self, timeout_s: float = 1.0) -> None:
-        """Write what is queued, for at most so many seconds, then disconnect; a second call does nothing."""
+        """Write what is queued, for at most `timeout_s`, then disconnect; a second call does nothing."""
         with self._news:
             self._news.wait_for(lambda: self._closed or not self._bytes, timeout_s)
             self._shut()
@@ -71,7 +71,7 @@ class Channel:
         self._news.notify_all()
         try:
             self._socket.shutdown(socket.SHUT_RDWR)
-        except OSError:  # the other side was faster
+        except OSError:  # the other side disconnected first
             return
 
     def _read(self) -> None:
@@ -79,7 +79,7 @@ class Channel:
             with self._socket.makefile("rb") as lines:
                 for line in lines:
                     self._received(json.loads(line))
-        except (OSError, ValueError):  # gone, or no launch host at all
+        except (OSError, ValueError):  # disconnected, or not a launch host at all
             pass
         finally:
             with self._news:
@@ -96,7 +96,7 @@ class Channel:
                 line = self._waiting.popleft()
             try:
                 self._socket.sendall(line)
-            except OSError:  # the reading thread sees it, too
+            except OSError:  # the reading thread notices it, too
                 with self._news:
                     self._shut()
                 return

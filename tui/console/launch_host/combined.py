@@ -1,4 +1,4 @@
-"""Several launch hosts as one launcher: those this console has started, and those of other programs."""
+"""Several launch hosts as one launcher: those that this console has started, and those of other programs."""
 
 from __future__ import annotations
 
@@ -18,18 +18,19 @@ from bot_console.tui.console.model import LaunchArgument, LaunchInfo
 HOSTS_POLL_S = 1.0
 """Seconds between two searches for hosts of other programs."""
 CLOSE_TIMEOUT_S = 15.0
-"""Seconds for all that was launched to end."""
+"""Seconds that launched processes may take to end."""
 
 Start = Callable[[], "tuple[str, HostedLauncher]"]
-"""Starts a host of this console; its name, which is its door if it has one, and the connection to it."""
+"""Starts a host of this console; returns its name, which is its socket's path if it has one, and the connection to
+it.
+"""
 
 
 @dataclass(frozen=True)
 class OtherHosts:
-    """How hosts of other programs are found: `doors` lists the doors of all hosts, `enter` connects to one.
+    """How hosts of other programs are found: `doors` lists the sockets of all hosts, `enter` connects to one.
 
-    `enter` returns None where nobody is behind the door. The search begins as soon as `ready`, which may wait, has
-    returned.
+    `enter` returns None if the host is gone. The search begins as soon as `ready`, which may block, has returned.
     """
 
     addresses: Callable[[], Sequence[str]]
@@ -43,13 +44,17 @@ class CombinedLauncher(ProcessVerbs):
     def __init__(
         self, start: Start, files: Callable[[], Sequence[str]], others: OtherHosts | None = None, *, reuse: bool = True
     ) -> None:
-        """Without `reuse` each launch file gets a host of its own; else all share one, started when it is needed."""
+        """Without `reuse` each launch file gets a separate host; otherwise all share one, started when it is first
+        needed.
+        """
         self._start = start
         self._files = files
         self._reuse = reuse
         self._lock = threading.RLock()
         self._starting = threading.Lock()
-        """Held while a host is started, which takes seconds: never by whoever holds `_lock`, or draws."""
+        """Held while a host is started, which takes seconds: never acquire it while holding `_lock` or from the drawing
+        thread.
+        """
         self._own: dict[str, HostedLauncher] = {}
         self._used: set[str] = set()
         self._others: dict[str, HostedLauncher] = {}
@@ -77,19 +82,19 @@ class CombinedLauncher(ProcessVerbs):
         launcher.close()
 
     def info(self) -> LaunchInfo:
-        """The state of all of them; the same object until something changes."""
+        """The merged state of all hosts; the same object until something changes."""
         with self._lock:
             gone = [address for address, each in self._others.items() if each.is_gone]
             for address in gone:
                 number = address.rpartition("/")[2].partition(".")[0]
                 self._merged.forget(
-                    address, f"the launch host {number} has gone: what it had started has ended with it"
+                    address, f"the launch host {number} has gone: everything it had started has ended with it"
                 )
                 del self._others[address]
             return self._merged.of({name: each.info() for name, each in (*self._others.items(), *self._own.items())})
 
     def _free(self, *, use: bool) -> HostedLauncher | None:
-        """A host of this console that can take one more launch, taken for it if that is its `use`."""
+        """A host of this console that can take one more launch; with `use`, it is reserved for that launch."""
         with self._lock:
             for name, each in self._own.items():
                 if not each.is_gone and (self._reuse or name not in self._used):
@@ -98,7 +103,9 @@ class CombinedLauncher(ProcessVerbs):
         return None
 
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
-        """Run another launch file, which ends with this console; a host that is missing starts in the background."""
+        """Run another launch file, which ends with this console; if a host has to be started, that happens in the
+        background.
+        """
         if self._over.is_set():
             return done(Answer(False, CLOSED))
         if (free := self._free(use=True)) is not None:
@@ -108,7 +115,7 @@ class CombinedLauncher(ProcessVerbs):
         def start() -> None:
             try:
                 outcome.set_result(self._host(use=True).launch(path, arguments).result())
-            except Exception as error:  # the border of the thread
+            except Exception as error:  # the thread's outermost frame
                 outcome.set_result(Answer(False, str(error)))
 
         threading.Thread(target=start, name="launch host", daemon=True).start()
@@ -127,12 +134,12 @@ class CombinedLauncher(ProcessVerbs):
         with self._lock:
             launcher = self._own.get(name) or self._others.get(name)
         if launcher is None:
-            return done(Answer(False, f"there is no process {its_key}: what has started it is gone"))
+            return done(Answer(False, f"there is no process {its_key}: the launch host that started it is gone"))
         outcome: Future[Answer] = getattr(launcher, verb)(its_key)
         return outcome
 
     def _host(self, *, use: bool) -> HostedLauncher:
-        """The same, started if there is none.
+        """Like `_free`, but starts a host if there is none.
 
         Raises `ValueError` if none can be started, or once the console is closing.
         """
@@ -149,7 +156,8 @@ class CombinedLauncher(ProcessVerbs):
         with self._lock:
             self._own[name] = launcher
             self._used |= {name} if use else set()
-            twice = self._others.pop(name, None)  # its door was found before this console knew that it is its own
+            # its socket was found before this console knew that the host is its own
+            twice = self._others.pop(name, None)
             over = self._over.is_set()
         if twice is not None:
             twice.close()

@@ -1,4 +1,4 @@
-"""Serves a launcher to consoles: takes their requests, and sends them its state and what processes print."""
+"""Serves a launcher to consoles: accepts their requests, and sends them its state and what processes print."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from bot_console.tui.console.model import LaunchArgument, LaunchInfo
 from bot_console.tui.console.recording import Keeper
 
 LAUNCHER_POLL_S = 0.1
-"""Seconds between two looks at what has changed."""
+"""Seconds between two checks for changes."""
 MAX_LINES = 1000
-"""Lines of output that a console which comes later is given."""
+"""Past lines of output that are sent to a console which connects later."""
 MAX_FACTS = 10_000
-"""Facts, of a declared parameter each, that such a console is given."""
+"""Past facts, one per declared parameter, that are sent to such a console."""
 
 Printed = Callable[[int, str, str], None]
 
@@ -31,7 +31,7 @@ class HostedService(Protocol):
     """What a host serves: a launcher that reports its state and can be closed."""
 
     def info(self) -> LaunchInfo:
-        """What is known now; the same object until something changes."""
+        """The current state; the same object until something changes."""
         ...
 
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
@@ -62,7 +62,7 @@ class _Console:
 
 
 class LaunchHost:
-    """A launcher and the consoles that steer it. Methods may be called from any thread."""
+    """A launcher and the consoles that control it. Methods may be called from any thread."""
 
     def __init__(
         self,
@@ -70,9 +70,9 @@ class LaunchHost:
         also: Printed | None = None,
         buffer: Keeper | None = None,
     ) -> None:
-        """`make` is given what takes log records and what takes printed lines; `also` takes printed lines, too.
+        """`make` receives the functions for log records and for printed lines; `also` receives printed lines, too.
 
-        `buffer` keeps the last minutes of this process; None: nobody does.
+        `buffer` keeps the last minutes of this process; None: they are not kept.
         """
         self._also = also
         self._buffer = buffer
@@ -81,7 +81,7 @@ class LaunchHost:
         self._lines: deque[Message] = deque(maxlen=MAX_LINES)
         self._facts: deque[Message] = deque(maxlen=MAX_FACTS)
         self.over = threading.Event()
-        """Set when everything was ended: because a console asked for it, or the one that owns this host has gone."""
+        """Set when everything has ended: because a console requested it, or the one that owns this host has gone."""
         self._replies: deque[tuple[_Console, Message]] = deque()
         self._wake = threading.Event()
         self._ended = False
@@ -112,7 +112,7 @@ class LaunchHost:
         self._pass_on({"fact": [kind, dict(facts)]}, self._facts, spare=False)
 
     def noticed(self, severity: int, name: str, text: str) -> None:
-        """Send a notice about a process, which a flood of its lines cannot displace."""
+        """Send a notice about a process, which a flood of its output cannot displace."""
         self._also_notified(severity, name, text)
         self._pass_on({"printed": [severity, name, text]}, self._facts, spare=False)
 
@@ -130,13 +130,14 @@ class LaunchHost:
                 each.channel.send(message, spare=spare)
 
     def _poll(self) -> None:
-        """Send what is new; serialized by a lock, or an older state might follow a newer one."""
+        """Send what is new; a lock serializes this, or an older state might follow a newer one."""
         while not self.over.is_set():
             self._wake.wait(LAUNCHER_POLL_S)
             self._wake.clear()
             ended = self._ended
             replies = [self._replies.popleft() for _ in range(len(self._replies))]
-            info = self._service.info()  # newer than the replies: who has an answer knows what it speaks of
+            # newer than the replies, so that a console which has an answer also has the state it refers to
+            info = self._service.info()
             with self._lock:
                 for each in self._consoles:
                     self._report(each, info)

@@ -9,11 +9,11 @@ from bot_console.tui.console.launch.timeline import MAX_EVENTS
 from bot_console.tui.console.model import LaunchEvent, LaunchInfo, ProcessInfo
 
 SEPARATOR = "|"
-"""Between the name of a host and the key that this host has for a process."""
+"""Separates the name of a host from the key of a process on it."""
 
 
 class MergedInfo:
-    """Keys are prefixed by the host's name, events renumbered in order of arrival."""
+    """Keys are prefixed with the host's name, events renumbered in order of arrival."""
 
     def __init__(self) -> None:
         self._infos: dict[str, LaunchInfo] = {}
@@ -22,13 +22,15 @@ class MergedInfo:
 
     def forget(self, name: str, text: str) -> None:
         """Remove a host; the text becomes an event."""
-        self._infos = {}  # what comes next differs from it, or is empty, too
+        self._infos = {}  # forces the next merge, which differs even if it is empty
         self._seen.pop(name, None)
         stamp = self._info.timeline[-1].stamp if self._info.timeline else 0
         self._add([LaunchEvent(0, stamp, text)])
 
     def of(self, infos: Mapping[str, LaunchInfo]) -> LaunchInfo:
-        """The merged state; the same object if nothing is new. Of several problems the last host's is shown."""
+        """The merged state; the same object if nothing is new. If several hosts have a problem, the last one's is
+        shown.
+        """
         same = infos.keys() == self._infos.keys() and all(infos[name] is self._infos[name] for name in infos)
         if same and (infos or not self._info.processes):
             return self._info

@@ -23,13 +23,13 @@ from bot_console.tui.console.launch_host.plain_data import to_arguments, to_info
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessInfo, ProcessState, Severity
 from bot_console.tui.console.parameters.provenance import Learn
 
-GONE = "the launch host has ended, and with it all that it had started"
+GONE = "the launch host has ended, and everything it had started has ended with it"
 CONNECTION_POLL_S = 0.5
-"""Seconds between two looks at whether the host hangs."""
+"""Seconds between two checks whether the host hangs."""
 FILES_TIMEOUT_S = 2.0
-"""Seconds after which a list of files that does not come is empty."""
+"""Seconds to wait for the list of files; after that it is empty."""
 ARGUMENTS_TIMEOUT_S = 30.0
-"""Seconds that a launch file may take to say its arguments: it is a program."""
+"""Seconds that a launch file, which is a program, may take to report its arguments."""
 
 
 class HostedLauncher(ProcessVerbs):
@@ -46,11 +46,12 @@ class HostedLauncher(ProcessVerbs):
         hangs: Callable[[], str] = lambda: "",
         thaw: Callable[[], None] = lambda: None,
     ) -> None:
-        """`learn` is given what programs and launches tell of parameters; `hangs` says why the host hears nothing.
+        """`learn` receives what programs and launches report about parameters; `hangs` returns why the host does not
+        respond.
 
-        `thaw` lets an owner's host that is frozen go on, so that it can end.
+        `thaw` resumes a frozen host that this console owns, so that it can end.
 
-        An owner's `close` ends what runs, that of any other console only the connection.
+        `close` ends all processes if this console owns the host, otherwise only the connection.
         """
         self._learn = learn
         self._why_it_hangs = hangs
@@ -78,7 +79,7 @@ class HostedLauncher(ProcessVerbs):
         return self._gone.is_set()
 
     def info(self) -> LaunchInfo:
-        """What is known now; the same object until something changes."""
+        """The current state; the same object until something changes."""
         if (now := time.monotonic()) - self._polled >= CONNECTION_POLL_S:
             self._polled = now
             before, self._hangs = self._hangs, "" if self._gone.is_set() else self._why_it_hangs()
@@ -94,7 +95,7 @@ class HostedLauncher(ProcessVerbs):
         return self._want("launch", path, dict(arguments))
 
     def keep(self, folder: str) -> Future[Answer]:
-        """Save the host's memory of the last minutes as a bag."""
+        """Save the last minutes that the host keeps in memory as a bag."""
         return self._want("keep", folder)
 
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
@@ -102,7 +103,7 @@ class HostedLauncher(ProcessVerbs):
         try:
             message = self._ask("arguments", path).result(ARGUMENTS_TIMEOUT_S)
         except TooLate:
-            raise ValueError(f"{path} has not said its arguments for {ARGUMENTS_TIMEOUT_S:g} s") from None
+            raise ValueError(f"{path} has not reported its arguments within {ARGUMENTS_TIMEOUT_S:g} s") from None
         if "error" in message:
             raise ValueError(message["error"])
         return to_arguments(message["value"])
@@ -115,14 +116,15 @@ class HostedLauncher(ProcessVerbs):
             return ()
 
     def close(self, timeout_s: float = 12.0) -> None:
-        """Disconnect, within so many seconds; if this is the owner's, everything that runs ends."""
+        """Disconnect, within `timeout_s`; if this console owns the host, everything that runs ends."""
         with self._lock:
             if self._closed:
                 return
             self._ends = True
             hangs = bool(self._hangs)
         if self._owner:
-            self._thaw()  # also one that seems to hang: it may have been frozen with the interpreter's lock
+            # always, since a host that seems to hang may have been frozen while it held the interpreter lock
+            self._thaw()
         if self._owner and not hangs:
             ended = self._ask("close")
             try:
@@ -153,7 +155,7 @@ class HostedLauncher(ProcessVerbs):
             if not refusal:
                 self._asked[number] = asked
         if refusal:
-            if refusal == GONE and self._owner:  # at a start nobody reads yet when the host ends
+            if refusal == GONE and self._owner:  # during start-up nobody reads the answer yet when the host ends
                 self._printed(Severity.ERROR, "launch", GONE)
             asked.set_result({"error": refusal})
         else:
@@ -172,7 +174,9 @@ class HostedLauncher(ProcessVerbs):
         elif "fact" in message:
             self._learn(*message["fact"])
         elif "dropped" in message:
-            self._printed(Severity.WARN, "launch", f"{message['dropped']} lines were dropped: they came too fast")
+            self._printed(
+                Severity.WARN, "launch", f"{message['dropped']} lines were dropped because they came too fast"
+            )
         else:
             with self._lock:
                 asked = self._asked.pop(message.get("id", 0), None)
@@ -185,7 +189,8 @@ class HostedLauncher(ProcessVerbs):
             left = list(self._asked.values())
             self._asked.clear()
             why = CLOSED if self._closed else GONE
-        # One's own host ends by oneself alone; one that ends before it has started anything has left no other trace.
+        # A console's own host ends only on its request; a host that ended before it started anything has left no other
+        # trace.
         own = self._owner and not self._ends
         if why == GONE and (own or any(each.state not in ENDED for each in self._info.processes)):
             processes = tuple(map(_with_its_host, self._info.processes))

@@ -16,16 +16,16 @@ from bot_console.tui.console.model import LogFilter, LogRecord, LogState
 from bot_console.tui.files.save_file import NotSaved, typed_path
 
 FILE_POLL_S = 0.25
-"""Seconds between two looks whether the file has grown."""
+"""Seconds between two checks whether the file has grown."""
 AT_ONCE = 1 << 18
-"""Bytes that are read at once: others get the processor in between."""
+"""Bytes read in one go; other threads get the processor in between."""
 
 
 class LogFile:
     """The records of a file; implements `tui.console.log_protocol.LogSource`."""
 
     def __init__(self, path: Path) -> None:
-        """Raises `OSError` where the file cannot be read."""
+        """Raises `OSError` if the file cannot be read."""
         self.name = str(path)
         self._store = LogStore()
         self._views = LogViews(self._store)
@@ -57,7 +57,7 @@ class LogFile:
         return self._store.state
 
     def record(self, seq: int) -> LogRecord | None:
-        """The record of that number."""
+        """The record with that number."""
         return self._store.record(seq)
 
     def view(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
@@ -65,7 +65,7 @@ class LogFile:
         return self._views.open(which, instead_of)
 
     def clear(self) -> None:
-        """Forget all records; the file stays as it is."""
+        """Discard all records; the file stays as it is."""
         self._store.clear()
 
     def close(self) -> None:
@@ -83,10 +83,10 @@ class Tail:
         self._rest = b""
 
     def more(self) -> Iterator[str]:
-        """Whole lines, in pieces, as far as they are available."""
+        """The whole lines available, in pieces."""
         yield from self._whole_lines()
         if self._file is None or self._was_replaced(self._file):
-            yield from self._whole_lines()  # what came between the last look and the rotation
+            yield from self._whole_lines()  # what was appended between the last read and the rotation
             if self._rest:
                 rest, self._rest = self._rest, b""
                 yield rest.decode("utf-8", "replace") + "\n"
@@ -104,7 +104,7 @@ class Tail:
         try:
             there = os.stat(self._path)
         except OSError:
-            return False  # between the two halves of a rotation
+            return False  # in the middle of a rotation
         here = os.fstat(file.fileno())
         if (there.st_dev, there.st_ino) != (here.st_dev, here.st_ino):
             return True
@@ -129,7 +129,7 @@ class Tail:
 
 
 def open_log(text: str) -> LogFile:
-    """Read the log file that a person names; raises `ValueError` with the reason."""
+    """Open the log file that a user names; raises `ValueError` with the reason if that fails."""
     try:
         path = typed_path(text)
     except NotSaved as error:
@@ -138,7 +138,7 @@ def open_log(text: str) -> LogFile:
         if path.is_dir():
             raise ValueError(f"{path} is a folder; name a file in it")
         if path.exists() and not path.is_file():
-            raise ValueError(f"{path} is no regular file")
+            raise ValueError(f"{path} is not a regular file")
         return LogFile(path)
     except OSError as error:
         raise ValueError(f"{path}: {(error.strerror or str(error)).lower()}") from None

@@ -1,4 +1,4 @@
-"""Finds which of many texts, concatenated in a blob, match a pattern: all at once, never text by text."""
+"""Finds which of many texts, concatenated in a blob, match a pattern: all at once instead of text by text."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from bot_console.tui.console.logs.re2_engine import Match, Re2Engine
 Mask = npt.NDArray[np.bool_]
 Rows = npt.NDArray[np.int64]
 SPARSE = 64
-"""Hits in one blob after which runs of lines are looked for instead of single places."""
+"""Matches in one blob after which the search continues with runs of matching lines instead of single matches."""
 
 
 def hits(pattern: Pattern, blob: bytes, ends: Rows) -> Mask:
-    """The texts in which it is found; `ends` says where each text ends in the blob, its newline included.
+    """Marks the texts that match; `ends` says where each text ends in the blob, including its newline.
 
-    Raises `ValueError` where that takes too long.
+    Raises `ValueError` if the search takes too long.
     """
     engine = pattern.engine
     if isinstance(engine, Re2Engine):
@@ -74,7 +74,7 @@ def _mark_texts_of_many_lines(engine: Re2Engine, blob: bytes, ends: Rows, after:
 
 
 def _rows(engine: Re2Engine, blob: bytes, ends: Rows) -> Iterator[int]:
-    """The texts with a match, one search for each; a match that continues into the next text is checked again."""
+    """The texts with a match, one search for each; a match that extends into the next text is checked again."""
     at, length = 0, len(blob)
     while at < length:
         first, last = engine.match(engine.anywhere, blob, at, length)[0]

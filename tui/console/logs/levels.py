@@ -22,7 +22,7 @@ class LoggerLevels:
     """Queries nodes, in the console's executor."""
 
     def __init__(self, calls: Calls, heard: Names) -> None:
-        """`heard` are the loggers that have logged: a node cannot be asked which ones it has."""
+        """`heard` are the loggers that have logged: ROS cannot list a node's loggers."""
         self._calls = calls
         self._heard = heard
 

@@ -1,4 +1,4 @@
-"""Numbers of log records that match a filter, ascending: one by one, or runs of equal records as one."""
+"""Ascending numbers of log records that match a filter: one by one, or with each run of equal records as one entry."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ class Numbers:
         return int(self._parts[place][index - (self._ends[place - 1] if place else 0)])
 
     def place(self, number: int) -> int:
-        """The index of the first number that is not below the given one."""
+        """The index of the first number that is not less than the given one."""
         return sum(int(np.searchsorted(each, number)) for each in self._parts)
 
     def count(self, index: int) -> int:
-        """One: each entry stands for itself."""
+        """One: each entry represents itself."""
         return 1
 
     def array(self) -> Block:
@@ -41,7 +41,7 @@ class Numbers:
         return np.concatenate(self._parts) if self._parts else np.zeros(0, np.int64)
 
     def joined(self, older: Block | None = None, newer: Block | None = None, keys: Block | None = None) -> Numbers:
-        """These, with older ones prepended or newer ones appended; their `keys` make no difference."""
+        """These numbers, with older ones prepended or newer ones appended; `keys` are ignored."""
         parts = [each for each in (older, *self._parts, newer) if each is not None]
         while len(parts) > 1 and len(parts[-2]) <= 2 * len(parts[-1]):
             parts[-2:] = [np.concatenate(parts[-2:])]
@@ -87,7 +87,7 @@ class Folded:
         return self._behind(index) - self._every.place(self._begins[index])
 
     def joined(self, older: Block | None = None, newer: Block | None = None, keys: Block | None = None) -> Folded:
-        """These, with older ones prepended or newer ones appended; equal records have equal `keys`."""
+        """These numbers, with older ones prepended or newer ones appended; equal records have equal `keys`."""
         block = older if older is not None else newer
         if block is None or keys is None or not len(block):
             return self
@@ -103,7 +103,7 @@ class Folded:
         return Folded(self._every.joined(newer=block), self._begins.joined(newer=begins), (self._ends[0], last))
 
     def since(self, first: int) -> Folded:
-        """The entries from a number on; a run that spans it is cut."""
+        """The entries from a number on; a run that contains it is cut."""
         every = self._every.since(first)
         begins = self._begins.since(first)
         if every is self._every or not len(every):

@@ -1,7 +1,7 @@
-"""Regular expressions that a person types. They never take longer than the text is long, and never the console's time.
+"""Regular expressions typed by users. Matching takes time linear in the text and never blocks the console.
 
-The engine is google-re2, which does not backtrack and lets other threads run meanwhile. Where it has no wheel, Python's
-own takes its place in a process of its own, which is killed when it takes too long (`regex_process`).
+The engine is google-re2, which does not backtrack and releases the interpreter lock. On platforms without its wheel,
+Python's `re` runs in a separate process, which is killed when it takes too long (`regex_process`).
 """
 
 from __future__ import annotations
@@ -32,13 +32,13 @@ class Pattern:
     def __init__(self, text: str, *, literal: bool = False) -> None:
         body = _escaped(text) if literal else text
         if not literal and re.search(r"\\[AzZ]", text):
-            raise ValueError(f"regular expression '{text}': use ^ and $ for the begin and end of a line")
+            raise ValueError(f"regular expression '{text}': use ^ and $ for the start and end of a line")
         self.engine = _engine(text, body, literal)
         self.plain = text.lower() if literal else None
-        """A plain word in lower case, for those who have texts in lower case."""
+        """A plain word in lower case, for callers whose texts are in lower case."""
 
     def search(self, text: str) -> bool:
-        """Whether it matches in a text."""
+        """Whether it matches anywhere in a text."""
         return self.engine.search(text.encode("utf-8", "replace"))
 
 

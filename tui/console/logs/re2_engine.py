@@ -7,12 +7,12 @@ from collections.abc import Callable
 from typing import Any
 
 Match = Callable[[Any, bytes, int, int], "list[tuple[int, int]]"]
-"""Looks for the first match in bytes between two places; its begin and end, negative where there is none."""
+"""Finds the first match in bytes between two positions; returns its start and end, negative if there is none."""
 FLAGS = "(?im)"
 PART = re.compile(r"\\.|\[\^?\]?(?:\\.|[^\]\\])*\]|\(\?[a-zA-Z-]*|.", re.DOTALL)
-"""The parts of a pattern: something escaped, a class, the flags of a group, a letter."""
+"""The parts of a pattern: an escape, a character class, the flags of a group, or a character."""
 WITHIN = {r"\s": r"[\t\f\r ]", r"\D": r"[^\d\n]", r"\W": r"[^\w\n]"}
-"""Classes, as they are without the end of a line."""
+"""Character classes, each with an equivalent that does not match a newline."""
 
 
 class Re2Engine:
@@ -24,21 +24,22 @@ class Re2Engine:
         self.match = _compiled(re2, written, FLAGS + body)
         within = within_lines(body)
         self.over = within != body
-        """Whether a match may reach over the end of a line, within a text of several lines."""
+        """Whether a match may extend over the end of a line, in a text of several lines."""
         self.run: Match | None = None
-        """Finds a run of whole lines that all have a match: cheaper where many have one."""
+        """Finds a run of whole lines that all match: cheaper if many do."""
         if within is not None:
             self.run = _compiled(re2, written, f"{FLAGS}(?:^[^\\n]*(?:{within})[^\\n]*\\n)+")
 
     def search(self, text: bytes) -> bool:
-        """Whether it matches in a text."""
+        """Whether it matches anywhere in a text."""
         return self.match(self.anywhere, text, 0, len(text))[0][0] >= 0
 
 
 def within_lines(body: str) -> str | None:
-    """A pattern that finds the same as long as a match does not reach over the end of a line; None where we cannot say.
+    """A pattern that finds the same matches, provided that none extends over the end of a line; None if that is
+    unclear.
 
-    That of a pattern in which none does is the pattern itself.
+    If no match of the pattern can, it is returned unchanged.
     """
     parts: list[str] = []
     for part in PART.findall(body):

@@ -1,6 +1,6 @@
-"""Python's own regular expressions, in a process of their own with a time limit.
+"""Python's own regular expressions, in a separate process with a time limit.
 
-They backtrack, some patterns without end, and hold the interpreter lock meanwhile: in this process they would freeze
+They backtrack, some patterns endlessly, and hold the interpreter lock meanwhile: in this process they would freeze
 everything. The process is started with the first pattern, serves all of them, and is killed when one takes too long.
 """
 
@@ -21,11 +21,11 @@ from pathlib import Path
 from bot_console.tui.console.logs import regex_server
 
 LIMIT = 0.5
-"""Seconds that one pattern may take for one request: a text, or the 16,384 texts of a part of the log."""
+"""Seconds that one pattern may take for one request: a text, or the 16,384 texts of one segment of the log."""
 STARTING = 20.0
 """Seconds that the process may take to start, on a busy machine."""
 KNOWN = 20_000
-"""Single texts whose answers are kept, since lists ask for the same ones again and again."""
+"""Single texts whose results are cached, since lists ask for the same ones again and again."""
 
 
 class TooCostlyError(ValueError):
@@ -33,14 +33,16 @@ class TooCostlyError(ValueError):
 
 
 class RegexProcess:
-    """The process; usable from any thread."""
+    """The process; methods may be called from any thread."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._process: subprocess.Popen[bytes] | None = None
 
     def ask(self, pattern: bytes, blob: bytes, ends: Sequence[int]) -> bytes:
-        """One byte per text, 1 where the pattern matches; raises `ValueError` with the words of `re`, or other."""
+        """One byte per text, 1 if the pattern matches; raises `ValueError` with the message of `re`, or another
+        reason.
+        """
         with self._lock:
             process = self._running()
             try:
@@ -58,7 +60,7 @@ class RegexProcess:
 
     def _running(self) -> subprocess.Popen[bytes]:
         if self._process is None or self._process.poll() is not None:
-            # Its own session: no signal of the terminal reaches it, and it ends with the pipe.
+            # A separate session, so that no signal of the terminal reaches it; it ends when the pipe is closed.
             self._process = subprocess.Popen(
                 [sys.executable, "-I", "-S", str(Path(regex_server.__file__))], start_new_session=True,
                 stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
@@ -107,7 +109,7 @@ class RegexProcess:
 
 PROCESS = RegexProcess()
 _costly: dict[str, str] = {}
-"""Patterns that took too long, and what is said of them: nobody waits for them a second time."""
+"""Patterns that took too long, with the error message: they are refused at once the second time."""
 
 
 class ProcessEngine:
@@ -132,7 +134,7 @@ class ProcessEngine:
             raise ValueError(f"regular expression '{self._written}': {error}") from None
 
     def search(self, text: bytes) -> bool:
-        """Whether it matches in a text; once a pattern has taken too long, it never matches again."""
+        """Whether it matches anywhere in a text; once a pattern has taken too long, it never matches again."""
         if text not in self._known and self._written not in _costly:
             with contextlib.suppress(ValueError):
                 if len(self._known) >= KNOWN:
@@ -141,7 +143,7 @@ class ProcessEngine:
         return self._known.get(text, False)
 
     def found(self, blob: bytes, ends: Sequence[int]) -> bytes:
-        """One byte per text, 1 where it matches; raises `ValueError` if that takes too long."""
+        """One byte per text, 1 if it matches; raises `ValueError` if that takes too long."""
         if self._written in _costly:
             raise ValueError(_costly[self._written])
         return self._ask(blob, ends)

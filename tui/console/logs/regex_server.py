@@ -1,6 +1,6 @@
 """The program that searches with Python's own `re`, for `regex_process`. Standard library only; ends with its input.
 
-A request is three blocks, an answer one; a block is its length (4 bytes) and as many bytes.
+A request consists of three blocks, a response of one; a block is its length (4 bytes) and that many bytes.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def request(pattern: bytes, blob: bytes, ends: Sequence[int]) -> bytes:
 
 
 def answer(pattern: bytes, blob: bytes, ends: Sequence[int]) -> bytes:
-    """One byte per text, 1 where the pattern matches; or the error message of `re`."""
+    """One byte per text, 1 if the pattern matches; or the error message of `re`."""
     try:
         search = re.compile(pattern.decode()).search
     except (re.error, OverflowError, RecursionError) as error:

@@ -15,13 +15,13 @@ OURS = QoSProfile(
     reliability=ReliabilityPolicy.RELIABLE,
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
-"""All is kept until the log has it: a node that logs faster than the console reads loses no line."""
+"""Keeps all messages until the log has them: no line of a node that logs faster than the console reads is lost."""
 OTHERS = QoSProfile(
     depth=10_000,
     reliability=ReliabilityPolicy.RELIABLE,
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
-"""In a system that is not ours what waits is bounded, to some 10 MB: its nodes may log faster than any link carries."""
+"""In a foreign system the queue is limited to some 10 MB: its nodes may log faster than any link can carry."""
 
 
 class RosoutWatch:
@@ -30,14 +30,14 @@ class RosoutWatch:
     def __init__(self, node: Node, log: Add, *, foreign: bool) -> None:
         self._log = log
         self.loggers: set[str] = set()
-        """Names of the loggers of which lines came."""
+        """Names of the loggers whose lines have been received."""
         profile = OTHERS if foreign else OURS
         self._subscription = OfferedSubscription(
             node, Log, "/rosout", self._take, profile, eager=not foreign, once_weak=True
         )
 
     def follow(self) -> None:
-        """Take in a changed graph: the topic may be offered with another QoS."""
+        """Process a changed graph: the topic may be offered with another QoS."""
         self._subscription.follow()
 
     def _take(self, message: Log) -> None:

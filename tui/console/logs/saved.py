@@ -1,9 +1,9 @@
-"""Lines of a log file as records: what this console saves, what ROS 2 writes to `~/.ros/log` and to a terminal.
+"""Lines of a log file as records: files saved by this console, and what ROS 2 writes to `~/.ros/log` and to a terminal.
 
     [WARN] [1700000000.123456789] [robot_navigator]: text          nodes, and the console's own files
     1700000000.1234567 [INFO] [launch]: text                       launch.log
 
-A line without such a beginning belongs to the record above it.
+A line that begins otherwise belongs to the record above it.
 """
 
 from __future__ import annotations
@@ -22,26 +22,26 @@ _HEADS = (
     re.compile(rf"(?P<time>\d{{1,10}}\.\d{{1,9}}) \[(?P<level>{_LEVEL}|WARNING)\] \[(?P<node>[^\]]*)\]:? ?"),
 )
 MAX_LINE_CHARACTERS = 1 << 16
-"""Letters of one record; more of it begins another."""
+"""Characters of one record; the rest becomes another record."""
 LATEST = 2**63 - 1
-"""The last moment that a column of the log holds, in ns since the epoch."""
+"""The latest time that a column of the log can hold, in ns since the epoch."""
 
 Add = Callable[[int, int, str, str], None]
-"""Takes stamp (ns), severity, node, text."""
+"""Receives stamp (ns), severity, node, text."""
 
 
 class SavedLines:
     """Parses text, in pieces of whole lines, into records."""
 
     def __init__(self, add: Add, name: str) -> None:
-        """`name` is the node of lines that name none."""
+        """`name` is the node of lines that do not name one."""
         self._add = add
         self._head: tuple[int, int, str] = (0, Severity.INFO, name)
         self._texts: list[str] = []
         self._length = 0
 
     def feed(self, text: str) -> None:
-        """Take more lines; the last record stays open for its continuation."""
+        """Process more lines; the last record stays open for its continuation."""
         for given in (_COLOUR.sub("", text) if "\x1b" in text else text).removesuffix("\n").split("\n"):
             line = given.removesuffix("\r")
             found = next((match for each in _HEADS if (match := each.match(line))), None)

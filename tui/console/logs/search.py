@@ -16,7 +16,7 @@ from bot_console.tui.console.query import parse
 Mask = npt.NDArray[np.bool_]
 Rows = npt.NDArray[np.int64]
 OFFSET_LASTS = 900 * SECOND
-"""Local time jumps against UTC at full quarters of an hour only."""
+"""The offset of local time from UTC only changes at full quarters of an hour."""
 
 T = TypeVar("T")
 
@@ -53,7 +53,7 @@ class _Words:
         self._levels = np.zeros(256, np.bool_)
         self._levels[levels] = True
         self._least = levels[0] if levels and levels == [each for each in Severity if each >= levels[0]] else None
-        """The severity from which on all pass, where it is as simple as that: a comparison is cheaper than a table."""
+        """The severity from which on all pass, if the filter is that simple: a comparison is cheaper than a table."""
         self._nodes = [(_TestResults(store.names, each.stands_in), each.exclude) for each in query.nodes]
         self._places = [
             (_TestResults(store.sites, lambda site, term=each: term.stands_in(*site)), each.exclude)
@@ -109,7 +109,7 @@ def _within(span: Span, stamps: Rows) -> Mask:
 
 
 def _offsets(stamps: Rows) -> Rows | int:
-    """The offset of local time from UTC at each moment, in ns."""
+    """The offset of local time from UTC at each time, in ns."""
     quarters = stamps // OFFSET_LASTS
     if not len(quarters) or quarters.min() == quarters.max():
         return utc_offset(int(stamps[0])) if len(stamps) else 0

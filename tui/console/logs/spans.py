@@ -1,6 +1,6 @@
 """Time spans in filters: `14:03..14:05`, `>=14:03:20.5`, `2026-11-22T14:03`, `-5m`, `@12.5`.
 
-A time without a date applies to any day, in local time: a log may be read on another day than it was written.
+A time without a date applies to any day, in local time: a log may be read on a later day than it was written.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Span:
     daily: bool = False
 
     def holds(self, stamp: int) -> bool:
-        """Whether it contains a moment (ns since the epoch); a daily span may cross midnight."""
+        """Whether it contains a time (ns since the epoch); a daily span may cross midnight."""
         at = (stamp + utc_offset(stamp)) % DAY if self.daily else stamp
         if self.begin > self.end:
             return at >= self.begin or at < self.end
@@ -41,7 +41,7 @@ class Span:
 
 @dataclass(frozen=True, slots=True)
 class _Point:
-    """A moment, as precise as it was written: `14:03` is a whole minute."""
+    """A time, as precise as it was written: `14:03` is a whole minute."""
 
     begin: int
     end: int
@@ -50,7 +50,7 @@ class _Point:
 
 
 def utc_offset(stamp: int) -> int:
-    """The offset of local time from UTC at a moment (ns since the epoch), in ns."""
+    """The offset of local time from UTC at a time (ns since the epoch), in ns."""
     return time.localtime(stamp // SECOND).tm_gmtoff * SECOND
 
 
@@ -61,7 +61,7 @@ def parse_span(text: str, now: int) -> Span:
         begin, end = (_point(each, now) if each else None for each in (first, last))
         known = [each for each in (begin, end) if each is not None]
         if not known or len({each.daily for each in known}) > 1:
-            raise ValueError(f"time '{text}': both ends with a date, or both without; for instance {EXAMPLES}")
+            raise ValueError(f"time '{text}': give both ends a date, or neither; for instance {EXAMPLES}")
         return _between(begin.begin if begin else None, end.end if end else None, known[0].daily)
     sign = next((each for each in (">=", "<=", ">", "<", "=") if text.startswith(each)), "")
     point = _point(text[len(sign) :], now)
@@ -86,15 +86,15 @@ def _point(text: str, now: int) -> _Point:
         return _sized(int(epoch[1]) * SECOND, epoch[2] or "")
     found = _CLOCK.fullmatch(text)
     if not found or not (found["date"] or found["clock"]):
-        raise ValueError(f"time '{text}' is none; for instance {EXAMPLES}")
+        raise ValueError(f"time '{text}' is not valid; for instance {EXAMPLES}")
     try:
         return _on_a_clock(found["date"], found["clock"], found["part"] or "")
     except (ValueError, OverflowError):
-        raise ValueError(f"time '{text}' is on no clock and in no calendar; for instance {EXAMPLES}") from None
+        raise ValueError(f"time '{text}' does not exist; for instance {EXAMPLES}") from None
 
 
 def _sized(begin: int, part: str, whole: int = SECOND) -> _Point:
-    """A moment with so many digits after the second."""
+    """A time with this fractional part of a second."""
     return _Point(
         begin + int(part.ljust(9, "0")), begin + int(part.ljust(9, "0")) + (10 ** (9 - len(part)) if part else whole)
     )
@@ -114,4 +114,5 @@ def _on_a_clock(date: str | None, clock: str | None, part: str) -> _Point:
     if clock:
         return _sized(begin, part, unit)
     year, month, number = day[:3]
-    return _Point(begin, int(time.mktime((year, month, number + 1, 0, 0, 0, 0, 0, -1))) * SECOND)  # 23 to 25 hours
+    # a day has 23 to 25 hours
+    return _Point(begin, int(time.mktime((year, month, number + 1, 0, 0, 0, 0, 0, -1))) * SECOND)

@@ -1,7 +1,7 @@
 """Log records in columns: numpy for what is filtered by number, blobs of UTF-8 for the texts.
 
-About 75 bytes a record, and hardly anything for the garbage collector to walk (a list of a million record objects
-stops every thread for 0.2 s at each full collection). Readers take no lock: a segment is only ever added to, and its
+A record takes about 75 bytes and hardly any work of the garbage collector (with a list of a million record objects,
+each full collection stops every thread for 0.2 s). Readers take no lock: a segment is only ever appended to, and its
 `count` is written last.
 """
 
@@ -19,11 +19,11 @@ Site: TypeAlias = "tuple[str, str, int]"
 """File, function, line."""
 SEGMENT = 16_384
 CAPACITY = 63 * SEGMENT
-"""A million, and one segment that is being filled."""
+"""Records that are kept: a million, in addition to the segment being filled."""
 
 
 class LogSegment:
-    """Some records in fixed-size columns, and their texts in a row, each with a newline after it."""
+    """Some records in fixed-size columns, and their texts concatenated, each followed by a newline."""
 
     def __init__(self, first: int, size: int) -> None:
         self.first = first
@@ -34,7 +34,7 @@ class LogSegment:
         self.node = np.zeros(size, np.uint32)
         self.site = np.zeros(size, np.uint32)
         self.key = np.zeros(size, np.int64)
-        """Equal for records of one node that say the same with one severity, and for hardly any others."""
+        """Equal for records with the same node, text and severity, and for hardly any others."""
         self.start = np.zeros(size + 1, np.int64)
         self._blob: bytes | bytearray = bytearray()
 
@@ -54,7 +54,7 @@ class LogSegment:
             self._blob = bytes(self._blob)
 
     def texts(self, begin: int, end: int) -> bytes:
-        """The texts of some records, each with its newline."""
+        """The texts of some records, each followed by a newline."""
         blob = self._blob
         left, right = int(self.start[begin]), int(self.start[end])
         return blob if left == 0 and right == len(blob) and isinstance(blob, bytes) else bytes(blob[left:right])
@@ -125,7 +125,7 @@ class LogStore:
         return new
 
     def record(self, seq: int) -> LogRecord | None:
-        """The record of that number, or None when it is not kept."""
+        """The record with that number, or None if it is not kept."""
         segments = self.segments
         place = (seq - segments[0].first) // self._size
         if seq < segments[0].first or place >= len(segments):
@@ -140,7 +140,7 @@ class LogStore:
         return LogRecord(seq, int(segment.stamp[index]), severity, node, segment.text(index), file, function, line)
 
     def clear(self) -> None:
-        """Forget all records; numbering continues."""
+        """Discard all records; numbering continues."""
         with self._lock:
             last = self.segments[-1]
             self.segments = (LogSegment(last.first + last.count, self._size),)
@@ -149,5 +149,5 @@ class LogStore:
 
 
 def _nearest(severity: int) -> Severity:
-    """The named severity at or below a number; other numbers are allowed in `rcl_interfaces/msg/Log`."""
+    """The named severity at or below a number; `rcl_interfaces/msg/Log` allows other numbers."""
     return max((level for level in Severity if level <= severity), default=Severity.UNSET)

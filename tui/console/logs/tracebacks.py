@@ -1,4 +1,6 @@
-"""Parses printed lines into log records: a traceback is one ERROR that starts with the exception, then user frames."""
+"""Turns printed lines into log records: a traceback is one ERROR that starts with the exception, then the user's
+frames.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,7 @@ class TracebackFrame:
 
     @property
     def place(self) -> str:
-        """File and line, the file by its name alone."""
+        """File name (without folders) and line."""
         return f"{_name(self.file)}:{self.line}"
 
 
@@ -92,10 +94,10 @@ class Printed:
         self.last: Traceback | None = None
         """The newest traceback."""
         self.fault = ""
-        """The exception and where it was raised, when nothing was printed after its traceback."""
+        """The exception and where it was raised; empty once something was printed after its traceback."""
 
     def line(self, text: str) -> None:
-        """Take one line."""
+        """Process one line."""
         self.fault = ""
         if self._open:
             self._open.append(text)
@@ -115,7 +117,7 @@ class Printed:
         self._add(ERROR, self._label, self.last.text())
 
     def close(self) -> None:
-        """Take note that the process has ended: a truncated traceback is shown as it is."""
+        """Note that the process has ended: a truncated traceback is shown as it is."""
         if self._open:
             self._add(ERROR, self._label, "\n".join(["a traceback that was cut off", *self._open[1:]]))
             self._open = []

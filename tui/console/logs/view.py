@@ -1,7 +1,7 @@
-"""A live search over the log, independent of the threads that draw and that log.
+"""A live search over the log, independent of the threads that draw and of those that log.
 
-A thread of its own searches in slices, the newest records first, then whatever has arrived since. The panes poll for
-what was found so far.
+A separate thread searches in slices, the newest records first, then whatever has arrived since. The panes poll for what
+was found so far.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from bot_console.tui.console.logs.store import LogSegment, LogStore
 from bot_console.tui.console.model import LogFilter
 
 FIRST_SLICE = 2048
-"""Records looked at before anything is shown: some screenfuls."""
+"""Records searched before anything is shown: a few screenfuls."""
 BUDGET_S = 5.0
-"""Processor time (s) that one filter may take for what was there when it was asked for."""
+"""Processor time (s) that one filter may take for the records that existed when it was requested."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,7 @@ class SearchResult(LogFindings):
 
 
 class SearchedView:
-    """One filter over a store. `look` may be called from any thread; `work` from one at a time."""
+    """One filter over a store. `poll` may be called from any thread; `work` from one at a time."""
 
     def __init__(self, store: LogStore, which: LogFilter, wake: Callable[[], None] = lambda: None) -> None:
         self._store = store
@@ -62,7 +62,7 @@ class SearchedView:
         started = time.thread_time()
         try:
             new = self._newer(self._search, found) or (None if found.complete else self._older(self._search, found))
-        except ValueError as error:  # a pattern that took too long
+        except ValueError as error:  # the pattern took too long
             self._search, self._found = None, replace(found, problem=str(error), complete=True)
             return True
         if new is None:
@@ -95,7 +95,7 @@ class SearchedView:
         return replace(found, complete=True)
 
     def _keys(self, segment: LogSegment, numbers: Block) -> Block | None:
-        """What distinguishes the records of a segment, if that is asked for."""
+        """What distinguishes the records of a segment, if runs of equal records are to be folded."""
         return segment.key[numbers - segment.first] if self._folds else None
 
 
@@ -120,7 +120,7 @@ class LogViews:
         return view
 
     def wake(self) -> None:
-        """Wake the thread: there may be something to do."""
+        """Wake up the thread because there may be something to do."""
         self._wanted.set()
 
     def close(self) -> None:

@@ -1,4 +1,4 @@
-"""Parameter changes: who asked for them, how they ended, and the journal of all of them."""
+"""Parameter changes: who requested them, how they ended, and the journal of all of them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from bot_console.tui.console.model.parameters import Value
 
 
 class ChangeSource(str, Enum):
-    """Who asked for a parameter change."""
+    """Who requested a parameter change."""
 
     EDIT = "edit"
     UNDO = "undo"
@@ -22,7 +22,7 @@ class ChangeSource(str, Enum):
 
 
 RESTARTED = "the node came back with it"
-"""`Change.by` of a value that nobody has set: its node has begun again with another one than it had."""
+"""`Change.by` of a value that nobody has set: its node has restarted with another value than before."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,14 +55,14 @@ class Change:
     accepted: bool = True
     reason: str = ""
     by: str = ""
-    """What it was a part of: the name of a profile, of a file."""
+    """The operation it was part of: the name of a profile or a file."""
     run: int = 0
-    """The run that saw it, by its start (ns since the epoch); 0 is this one."""
+    """The run in which it was recorded, by its start (ns since the epoch); 0 is the current run."""
 
 
 @dataclass(frozen=True, slots=True)
 class JournalState:
-    """The change journal as a whole, numbered as the log is, and whether there is anything to undo or redo.
+    """The change journal as a whole, numbered like the log, and whether there is anything to undo or redo.
 
     Changes of earlier runs have negative numbers.
     """
@@ -75,4 +75,4 @@ class JournalState:
     unsaved: tuple[tuple[str, str], ...] = ()
     """Node and name of each value that was set from this console and is in no file, so that it would be lost."""
     problem: str = ""
-    """Why changes are not kept for later runs; empty when they are, or when that was not asked for."""
+    """Why changes are not kept for later runs; empty if they are, or if that was not requested."""

@@ -29,7 +29,7 @@ class NodeInfo:
     action_servers: tuple[Endpoint, ...] = ()
     action_clients: tuple[Endpoint, ...] = ()
     copies: int = 1
-    """How many nodes of the graph have this name; what stands here is then of all of them."""
+    """How many nodes of the graph have this name; the endpoints here are those of all of them."""
 
     @property
     def hidden(self) -> bool:

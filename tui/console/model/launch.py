@@ -17,7 +17,7 @@ class ProcessState(str, Enum):
     EXITED = "exited"
     CRASHED = "crashed"
     MISSING = "missing"
-    """Its executable is not here, and the launch goes on without it."""
+    """Its executable was not found, and the launch goes on without it."""
     ABANDONED = "abandoned"
 
 
@@ -35,9 +35,9 @@ class ProcessInfo:
     exit_code: int | None = None
     problem: str = ""
     cpu: float | None = None
-    """Its share of a processor; 1.0 is one whole."""
+    """Its CPU usage; 1.0 is one whole CPU."""
     memory: int | None = None
-    """What it holds in main memory, in MB (10^6 bytes); None where it has none of its own, as a thread has."""
+    """Its resident memory in MB (10^6 bytes); None if it has none of its own, like a thread."""
 
 
 @dataclass(frozen=True, slots=True)

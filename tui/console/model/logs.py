@@ -35,20 +35,20 @@ class LogRecord:
 
 @dataclass(frozen=True, slots=True)
 class LogFilter:
-    """Which records to show: those of a least severity that pass the words, and how.
+    """Which records to show: those of the severities selected that match the words, and how.
 
-    `words`, as every text of `hidden` and `only`, follows one grammar in every pane: blanks mean AND, `!word` excludes,
-    `re:regex`, `node:name`, `sev:>=warn`, `at:file.py:12`, `time:14:03..14:05`.
+    `words`, like every text of `hidden` and `only`, follows one grammar in every pane: blanks mean AND, `!word`
+    excludes, `re:regex`, `node:name`, `sev:>=warn`, `at:file.py:12`, `time:14:03..14:05`.
     """
 
     minimum: Severity = Severity.UNSET
     words: str = ""
     hidden: tuple[str, ...] = ()
-    """What passes one of these is not shown."""
+    """Records that pass one of these filters are hidden."""
     only: tuple[str, ...] = ()
-    """What passes none of these is not shown; empty: all is."""
+    """Records that pass none of these filters are hidden; empty: all are shown."""
     folded: bool = False
-    """Whether a row of equal records is shown as one, its newest."""
+    """Whether a run of equal records is shown as one, its newest."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -66,10 +66,10 @@ class ParameterInfo:
     constraints: str = ""
     default: Value = None
     origin: str = ""
-    """Where the value came from, in words; empty when unknown."""
+    """Where the value came from, as text for users; empty when unknown."""
 
     declared_at: str = ""
-    """`file:line` of the declaration, whose value `default` then is; empty when unknown."""
+    """`file:line` of the declaration, whose value is then in `default`; empty when unknown."""
 
     @property
     def unit(self) -> str:
@@ -91,5 +91,5 @@ class ParameterTree:
     problem: str = ""
 
     def get(self, name: str) -> ParameterInfo | None:
-        """The parameter of that name; None if the node has none."""
+        """The parameter with that name; None if the node has none."""
         return next((each for each in self.parameters if each.name == name), None)

@@ -20,11 +20,11 @@ class Profile:
     world: str = ""
     problem: str = ""
     launch: str = ""
-    """The launch file that takes the place of the running system; empty for a parameter file."""
+    """The launch file that replaces the running system; empty for a parameter file."""
     arguments: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     """The arguments of that launch file."""
     own: bool = False
-    """Whether it stands in the person's own folder, so that it may be renamed and deleted."""
+    """Whether it is in the user's own folder, so that it may be renamed and deleted."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""The snapshot of a whole system, the link to it, and what it supports."""
+"""The snapshot of a whole system, the network link to it, and what it supports."""
 
 from __future__ import annotations
 
@@ -18,33 +18,33 @@ from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 
 @dataclass(frozen=True, slots=True)
 class LinkInfo:
-    """The link to a robot on a network: the address of its other end (empty when there is no link), and its state."""
+    """The network link to a robot: the address of the other end (empty when there is no link), and its state."""
 
     to: str = ""
     delay_ms: int | None = None
-    """How long an answer takes."""
+    """Round-trip time, in ms."""
     silent_s: int = 0
-    """Whole seconds for which nothing was answered; what is shown is that old."""
+    """Whole seconds since the last response; everything shown is that old."""
     lost: int = 0
-    """Messages that did not arrive, as far as their numbers tell."""
+    """Messages that did not arrive, according to their sequence numbers."""
 
 
 @dataclass(frozen=True, slots=True)
 class Capabilities:
-    """What this system supports: each text is empty when it does, and otherwise says why it does not."""
+    """What this system supports: each text is empty if it does, and otherwise says why it does not."""
 
     launch: str = ""
     launched_elsewhere: str = ""
     world: str = ""
     live: str = ""
-    """To show what happens now, which a recording does not."""
+    """Showing what happens now, which a recording cannot do."""
     change: str = ""
-    """To set, send, start and end things from here."""
+    """Setting, sending, starting and ending things from here."""
 
 
 @dataclass(frozen=True, slots=True)
 class ConsoleSnapshot:
-    """Everything the panes show, at one moment. `seq` grows whenever any part changes."""
+    """Everything the panes show, at one time. `seq` grows whenever any part changes."""
 
     seq: int = 0
     stamp: int = 0
@@ -59,9 +59,9 @@ class ConsoleSnapshot:
     recording: RecordingInfo = field(default_factory=RecordingInfo)
     profiles: tuple[Profile, ...] = ()
     active_profile: str = ""
-    """The profile that was applied last and not undone; empty where there was none."""
+    """The profile that was applied last and not undone; empty if there is none."""
     profile_changes: int = 0
-    """How many values of the active profile the running nodes do not have."""
+    """How many values of the active profile differ from those of the running nodes."""
     capabilities: Capabilities = field(default_factory=Capabilities)
     problem: str = ""
-    """Why the console itself cannot go on, for instance that its thread has died; empty when all is well."""
+    """Why the console itself cannot go on, for instance because its thread has died; empty when all is well."""

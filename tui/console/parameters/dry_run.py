@@ -1,8 +1,8 @@
-"""Asks nodes how they would answer values, without setting them: which nodes can be asked, and the request.
+"""Asks nodes whether they would accept values, without setting them: which nodes can be asked, and the request.
 
-ROS 2 has no service for that, and setting values and putting them back is no dry run: the robot would have acted on
-them. A node that offers `~/check_parameters`, of the type of `set_parameters_atomically`, answers as that would and
-sets nothing. Nodes of `bot_console_robot` with rules of their own do. Pure.
+ROS 2 has no service for that, and setting values and restoring them is not a dry run: the robot would have acted on
+them. A node that offers `~/check_parameters`, of the type of `set_parameters_atomically`, responds as that service
+would and sets nothing. Nodes of `bot_console_robot` with their own validation rules do. Pure functions.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def can_be_asked(graph: GraphInfo) -> frozenset[str]:
 
 
 def question(values: Mapping[str, tuple[Kind, Value]]) -> dict[str, object]:
-    """The request that checks some values, each with its kind."""
+    """The request that checks values, each given with its kind."""
     return {"parameters": [_parameter(name, kind, value) for name, (kind, value) in values.items()]}
 
 

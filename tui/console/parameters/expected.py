@@ -1,4 +1,4 @@
-"""The parameter events expected after sets made here, so that each change is attributed to its source."""
+"""The parameter events expected after values were set here, so that each change is attributed to its source."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from bot_console.tui.console.model import ChangeSource, Value
 
 EACH = 20
-"""How many announcements of one parameter may be outstanding; a node that never announces leaves so many behind."""
+"""How many outstanding events are kept per parameter; a node that never publishes events leaves that many behind."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +23,7 @@ class ParameterRequest:
 
 
 class Expected:
-    """The requests that have not been announced yet."""
+    """The requests whose events have not arrived yet."""
 
     def __init__(self) -> None:
         self._requests: dict[tuple[str, str], deque[ParameterRequest]] = {}
@@ -33,7 +33,7 @@ class Expected:
         self._requests.setdefault((request.node, request.name), deque(maxlen=EACH)).append(request)
 
     def announced(self, node: str, name: str, value: Value) -> ParameterRequest | None:
-        """The request that an event answers; None if nobody here made one."""
+        """The request that caused an event; None if it was not made here."""
         found = next((each for each in self._requests.get((node, name), ()) if each.value == value), None)
         if found:
             self.forget(found)

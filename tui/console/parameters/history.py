@@ -15,13 +15,13 @@ from bot_console.tui.files.folder_lock import folder_lock
 from bot_console.tui.text.encodable import encodable
 
 ROWS = 20_000
-"""Rows that are kept; the oldest go."""
+"""Rows that are kept; the oldest are deleted."""
 TRIMMED_EVERY = 500
-"""Rows after which the table is cut to its bound."""
+"""Inserted rows after which the table is trimmed."""
 TIMEOUT_S = 0.5
-"""Seconds for which a console waits for another one that writes to the same file."""
+"""Seconds for which a console waits for another one that is writing to the same file."""
 SAME = 2_000_000_000
-"""Nanoseconds within which the consoles of one system see the same change."""
+"""Nanoseconds within which equal changes recorded by two consoles count as one."""
 BROKEN = ".broken"
 UNSTORABLE = (
     ValueError,
@@ -31,7 +31,7 @@ UNSTORABLE = (
     sqlite3.ProgrammingError,
     sqlite3.IntegrityError,
 )
-"""What SQLite raises for a row that it can never store."""
+"""Exceptions that SQLite raises for a row that it can never store."""
 
 _TABLE = """
 CREATE TABLE IF NOT EXISTS changes (
@@ -55,7 +55,7 @@ ORDER BY number DESC LIMIT ?
 
 
 class History:
-    """The changes of all runs. A change that `add` has accepted survives the program being killed."""
+    """The changes of all runs. A change accepted by `add` survives if the program is killed."""
 
     def __init__(self, file: Path, run: int, rows: int = ROWS) -> None:
         """`run` is a number unique to this run, such as the time of its start (ns)."""
@@ -67,14 +67,14 @@ class History:
         self._lock = threading.Lock()
         self._link: sqlite3.Connection | None = None
         self.problem = ""
-        """Why changes are not kept, or what was found broken; empty while all is well."""
+        """Why changes are not kept, or what was found damaged; empty while all is well."""
         self._open()
 
     def _open(self) -> None:
         try:
             self._file.parent.mkdir(parents=True, exist_ok=True)
             if self._file.exists() and not self._file.is_file():
-                self.problem = f"changes are not kept: {self._file} is no regular file"
+                self.problem = f"changes are not kept: {self._file} is not a regular file"
                 return
             self._link = _opened(self._file)
         except sqlite3.DatabaseError as error:
@@ -86,18 +86,20 @@ class History:
             self.problem = f"changes are not kept: {self._file}: {error.strerror}"
 
     def _restart(self) -> None:
-        """Set aside a file that is not a database, so that nothing of it is lost, and start a new one.
+        """Move aside a file that is not a database, so that nothing in it is lost, and start a new one.
 
-        Of several consoles that find the same file, one does so; the others use the new one.
+        If several consoles find the same file, one of them does so; the others use the new one.
         """
         try:
             with folder_lock(self._file.parent, TIMEOUT_S) as locked:
-                self.problem = self._replaced() if locked else "changes are not kept: another console repairs the file"
+                self.problem = (
+                    self._replaced() if locked else "changes are not kept: another console is repairing the file"
+                )
         except (OSError, sqlite3.Error) as error:
             self.problem = f"changes are not kept: {self._file}: {error}"
 
     def _replaced(self) -> str:
-        """Replace the file by a new database unless somebody has done so; returns what to say of it."""
+        """Replace the file with a new database unless another console has done so; returns a message for the user."""
         try:
             self._link = _opened(self._file)
         except sqlite3.OperationalError:
@@ -108,7 +110,7 @@ class History:
             for suffix in ("-wal", "-shm"):
                 self._file.with_name(self._file.name + suffix).unlink(missing_ok=True)
             self._link = _opened(self._file)
-            return f"the history could not be read and begins anew; it lies in {aside}"
+            return f"the history could not be read and starts afresh; the old file is {aside}"
         return ""
 
     def add(self, change: Change) -> None:
@@ -138,9 +140,9 @@ class History:
         link.execute("DELETE FROM changes WHERE number <= (SELECT MAX(number) FROM changes) - ?", (self._rows,))
 
     def earlier(self, maximum: int) -> Sequence[Change]:
-        """The newest changes of other runs, oldest first, numbered up to -1; rows that cannot be read are left out.
+        """The newest changes of other runs, oldest first, with numbers up to -1; rows that cannot be read are left out.
 
-        If two consoles saw the same change, the row of the one that made it stands for both.
+        If two consoles recorded the same change, only the row of the one that made it is returned.
         """
         found: list[Change] = []
         unreadable, ended = 0, ""
@@ -154,7 +156,7 @@ class History:
                         unreadable += 1
                     else:
                         found.append(change)
-            except sqlite3.Error as error:  # where the file is damaged; what was read before is good
+            except sqlite3.Error as error:  # the file is damaged at this place; what was read before is valid
                 ended = str(error)
         if ended:
             self.problem = f"the history cannot be read: {self._file}: {ended}"
@@ -173,13 +175,13 @@ class History:
 
 
 def _opened(file: Path) -> sqlite3.Connection:
-    """A connection whose commits survive the program being killed."""
+    """A connection whose commits survive if the program is killed."""
     link = sqlite3.connect(file, timeout=TIMEOUT_S, check_same_thread=False)
     try:
-        # A write-ahead log is whole after a crash, and other consoles can read while one writes.
+        # A write-ahead log stays consistent after a crash, and other consoles can read while one is writing.
         link.execute("PRAGMA journal_mode = WAL")
         link.execute("PRAGMA synchronous = NORMAL")
-        link.text_factory = _text  # a byte that is not UTF-8 makes one row unreadable, not all
+        link.text_factory = _text  # so that a byte that is not UTF-8 makes one row unreadable, not all of them
         with link:
             link.execute(_TABLE)
             link.execute("CREATE INDEX IF NOT EXISTS of_parameter ON changes (node, name, stamp)")
@@ -203,7 +205,7 @@ def _inserted(link: sqlite3.Connection, row: tuple[Any, ...]) -> bool:
 
 
 def _change(seq: int, row: tuple[Any, ...]) -> Change | None:
-    """The change in a row; None if the row is none that was written here, whatever has written it."""
+    """The change in a row; None if the row is not in the format that `add` writes."""
     stamp, node, name, old, new, source, accepted, reason, by, run = row
     if not all(isinstance(each, str) for each in (node, name, old, new, source, reason, by)):
         return None
@@ -223,7 +225,7 @@ def _source(word: str) -> ChangeSource:
 
 
 def written(value: Value) -> str:
-    """A value as text, from which `read` makes exactly that value again."""
+    """A value as text, from which `read` restores exactly that value."""
     if isinstance(value, tuple):
         return json.dumps([{"byte": each[0]} if isinstance(each, bytes) else each for each in value])
     return json.dumps(value)
@@ -235,7 +237,7 @@ def read(text: str) -> Value:
     if isinstance(value, list):
         return tuple(_element(each) for each in cast("list[Any]", value))
     if value is not None and not isinstance(value, (bool, int, float, str)):
-        raise ValueError(f"{text[:40]} is no value of a parameter")
+        raise ValueError(f"{text[:40]} is not the value of a parameter")
     return encodable(value) if isinstance(value, str) else value
 
 
@@ -243,5 +245,5 @@ def _element(value: Any) -> bool | int | float | str | bytes:
     if isinstance(value, dict):
         return bytes([cast("dict[str, Any]", value)["byte"]])
     if not isinstance(value, (bool, int, float, str)):
-        raise ValueError(f"{value!r} is no element of a parameter")
+        raise ValueError(f"{value!r} is not a valid element of a parameter")
     return encodable(value) if isinstance(value, str) else value

@@ -1,4 +1,4 @@
-"""The change journal: every parameter change and refusal with its source, and undo and redo over it."""
+"""The change journal: every parameter change and refusal with its source, and undo and redo based on it."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Step:
 
     moves: tuple[Move, ...]
     profiles: tuple[str, str] | None = None
-    """The active profile before and after, where it became another one."""
+    """The active profile before and after the step, if it changed."""
 
 
 EARLIER = 5_000
@@ -39,7 +39,7 @@ EARLIER = 5_000
 class Journal:
     """A bounded list of changes numbered from 0, with the steps that can be undone and redone.
 
-    With a history every change is kept for later runs, and those of earlier runs stand before the first one.
+    With a history every change is kept for later runs, and those of earlier runs come before number 0.
     """
 
     def __init__(self, capacity: int = 10_000, history: History | None = None) -> None:
@@ -62,7 +62,7 @@ class Journal:
             return ()
 
     def _give_up_history(self, error: Exception) -> None:
-        """Go on without the history: whatever is wrong with it ends nothing else, a stop least of all."""
+        """Go on without the history: an error in it must not end anything else, least of all a stop."""
         self._history = None
         self._history_problem = f"changes are not kept: {type(error).__name__}: {error}"
 
@@ -85,15 +85,15 @@ class Journal:
         refusal: str = "",
         by: str = "",
     ) -> None:
-        """Add one entry; `values` are the old and the new one, `refusal` the reason when it was refused.
+        """Add one entry; `values` are the old and the new one, `refusal` the reason if it was refused.
 
-        It is on its way to the disk before it is seen. Called by one thread at a time.
+        The entry is queued for the disk before it becomes visible. Called by one thread at a time.
         """
         old, new = values
         change = Change(self._end, stamp, node, name, old, new, source, not refusal, refusal, by)
         if self._history:
             try:
-                self._history.add(change)  # outside of the lock, so that nobody who reads waits for the disk
+                self._history.add(change)  # outside the lock, so that readers do not wait for the disk
             except Exception as error:
                 self._give_up_history(error)
         with self._lock:
@@ -136,13 +136,13 @@ class Journal:
             self._renew()
 
     def saved(self, nodes: Collection[str]) -> None:
-        """Take note that the values of some nodes, or of all when none is named, are in a file now."""
+        """Note that the values of some nodes, or of all if none is named, are now in a file."""
         with self._lock:
             self._unsaved.saved(nodes)
             self._renew()
 
     def restarted(self, node: str, name: str) -> None:
-        """Take note that a node restarted with another value: earlier sets can be neither undone nor lost any more."""
+        """Note that a node restarted with another value: earlier sets can no longer be undone, nor lost."""
         with self._lock:
             for steps in (self._undo, self._redo):
                 left = [each for each in (_without(step, node, name) for step in steps) if each.moves]
@@ -170,7 +170,7 @@ class Journal:
 
 
 def _without(step: Step, node: str, name: str) -> Step:
-    """A step that moves all but one parameter."""
+    """The step without one parameter."""
     if not any(each.node == node and name in each.after for each in step.moves):
         return step
     moves = [

@@ -35,4 +35,4 @@ HINTS = {
     "refused": "a node that is given this file does not start",
     "dead parameter": "declare it in the node or take the line out: it sets nothing",
 }
-"""How each fault is mended."""
+"""How to fix each fault."""

@@ -29,27 +29,29 @@ from rclpy.node import Node
 from rclpy.qos import qos_profile_parameter_events
 
 RELIST = 5.0
-"""Seconds between looks for parameters that were undeclared, which no event tells."""
+"""Seconds between checks for undeclared parameters, which no event reports."""
 
 Reading = Callable[[str], Coroutine[Any, Any, None]]
-"""Asks a node for something."""
+"""Queries a node."""
 
 WINDOW = 16
-"""Nodes that are read at the same time. Asked all at once, the nodes of a busy machine would all answer too late."""
+"""Nodes that are queried at the same time. Queried all at once, the nodes of a busy machine would all respond too
+late.
+"""
 
 Changed = Callable[[str, str, Value, Value], ChangeSource]
 OnRestart = Callable[[str, str, Value, Value], object]
 
 LEFT = 500
-"""Nodes that have left whose values are kept, so that it is seen which are others when they come back."""
+"""Nodes that have left whose values are kept, so that differences are noticed when they come back."""
 
 
 class ParameterMirror:
     """The parameters of each node that offers the parameter services.
 
-    `changed(node, name, old, new)` is called for each value that an event tells, equal ones too, but never for a
-    first sight; it gives back who has made the change. `anew(node, name, old, new)` is called instead where a node has
-    begun again, with another value than it had: nobody has set that one.
+    `changed(node, name, old, new)` is called for each value that an event reports, equal ones too, but never for a
+    value read for the first time; it returns the source of the change. `on_restart(node, name, old, new)` is called
+    instead if a node has restarted with another value than before: nobody has set that one.
     """
 
     def __init__(
@@ -80,9 +82,10 @@ class ParameterMirror:
         return tree.get(name) if tree else None
 
     def follow(self, graph: GraphInfo) -> None:
-        """Take in nodes that have appeared, and forget nodes that have left.
+        """Query nodes that have appeared, and forget nodes that have left.
 
-        Among nodes of one name it is unknown whose values are shown: when one leaves, the others are read as if new.
+        If several nodes have the same name, it is unknown whose values are shown: when one leaves, the others are read
+        as if they were new.
         """
         self._offering = offering = {node.name for node in graph.nodes if _offers(node, f"{node.name}/list_parameters")}
         before, self._copies = self._copies, {node.name: node.copies for node in graph.nodes}
@@ -104,7 +107,7 @@ class ParameterMirror:
         self._queue(self._read, node)
 
     def _queue(self, reading: Reading, node: str) -> None:
-        """Query a node as soon as there is room in the window, unless that is under way."""
+        """Query a node as soon as there is room in the window, unless it is being queried already."""
         if node not in self._loading:
             self._loading.add(node)
             self._waiting.append((reading, node))
@@ -117,7 +120,7 @@ class ParameterMirror:
 
     async def _in_window(self, reading: Reading, node: str) -> None:
         try:
-            if node in self._offering:  # else it has left while it waited
+            if node in self._offering:  # else it left while it waited
                 await reading(node)
         finally:
             self._loading.discard(node)
@@ -133,13 +136,13 @@ class ParameterMirror:
         except NoAnswer as error:
             old = self.trees.get(node)
             tree = ParameterTree(node, old.parameters if old else (), str(error))
-        if node in self._offering:  # else it has left meanwhile
+        if node in self._offering:  # else it has left in the meantime
             self._publish({**self.trees, node: tree})
             if not tree.problem:
                 self._compare(tree, self._left.pop(node, None))
 
     def _compare(self, tree: ParameterTree, before: ParameterTree | None) -> None:
-        """Report each value that differs from when the node left."""
+        """Report each value that differs from its value when the node left."""
         for each in tree.parameters:
             old = before.get(each.name) if before else None
             if old is not None and not same(old.value, each.value):
@@ -157,7 +160,9 @@ class ParameterMirror:
         ]
 
     async def _values(self, node: str, names: Sequence[str]) -> list[ParameterValue]:
-        """Values of parameters; an uninitialised one empties the whole response, so those are read one by one."""
+        """Values of parameters; an uninitialised one empties the whole response, so in that case they are read one
+        by one.
+        """
         service = f"{node}/get_parameters"
         answer = await self._calls.ask(GetParameters, service, GetParameters.Request(names=list(names)))
         if len(answer.values) == len(names):
@@ -169,7 +174,7 @@ class ParameterMirror:
         return values
 
     async def refresh(self, node: str) -> None:
-        """Take in new facts about the origin of a node's values; in the thread that serves the node."""
+        """Apply new facts about the origin of a node's values; in the thread that serves the node."""
         tree = self.trees.get(node)
         if tree is not None:
             reported = tuple(self._provenance.applied(each) for each in tree.parameters)
@@ -178,7 +183,7 @@ class ParameterMirror:
 
     def _poll_again(self) -> None:
         if self._waiting:
-            return  # who has not been read yet comes first
+            return  # nodes that have not been read yet come first
         for node in self.trees:
             self._queue(self._relist, node)
 
@@ -208,10 +213,11 @@ class ParameterMirror:
         unknown = False
         for message in event.new_parameters:
             before = known.get(message.name)
-            if before is not None and before.value is None:  # the first value of one that was declared without any
+            # the first value of a parameter that was declared without one
+            if before is not None and before.value is None:
                 known[message.name] = self._moved(before, message)
                 continue
-            unknown = True  # its description may be another one, too: the program may have been changed and restarted
+            unknown = True  # its description may differ as well: the program may have been changed and restarted
             if before is not None:
                 known[message.name] = self._restarted(before, message)
         for message in event.changed_parameters:
@@ -229,14 +235,14 @@ class ParameterMirror:
     def _moved(self, before: ParameterInfo, message: Parameter) -> ParameterInfo:
         value = from_message(message.value)
         kind = Kind(message.value.type) if message.value.type else before.kind
-        # An equal value is announced too, and whoever asked for it waits for word of it.
+        # An equal value is reported too: the request for it is waiting for its event.
         source = self._changed(before.node, before.name, before.value, value)
         if same(value, before.value) and kind is before.kind:
             return before
         return replace(before, value=value, kind=kind, origin=origin_text(source, time.time_ns()))
 
     def _restarted(self, before: ParameterInfo, message: Parameter) -> ParameterInfo:
-        """Take in a parameter that is declared again: its node restarted before its absence was noticed."""
+        """Process a parameter that is declared again: its node restarted before its absence was noticed."""
         value = from_message(message.value)
         if not same(value, before.value):
             self._on_restart(before.node, before.name, before.value, value)

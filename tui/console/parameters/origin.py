@@ -1,4 +1,4 @@
-"""The origin of a parameter's value, in words."""
+"""The origin of a parameter's value, as text for users."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import time
 from bot_console.tui.console.model import ChangeSource
 
 START = "start value"
-"""What a parameter had when the console first saw it; ROS does not tell what was declared."""
+"""The value a parameter had when the console first saw it; ROS does not report the declared one."""
 
 SET_BY = {
     ChangeSource.EDIT: "set here",
@@ -16,7 +16,7 @@ SET_BY = {
     ChangeSource.PROFILE: "set here by a profile",
     ChangeSource.FILE: "set here from a file",
     ChangeSource.HISTORY: "set here from the history",
-    ChangeSource.ROLLBACK: "put back here, since another node refused",
+    ChangeSource.ROLLBACK: "restored here because another node refused",
     ChangeSource.OTHER: "set by another program or the node",
 }
 

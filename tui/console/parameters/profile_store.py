@@ -36,15 +36,15 @@ class ProfileStore:
         self._fetch = fetch
         self._opened: dict[str, Path] = {}
         self._addresses: dict[Path, str] = {}
-        """Where the opened files that were fetched come from."""
+        """The addresses from which opened files were fetched."""
         self._seen: frozenset[tuple[str, int, int]] = frozenset()
-        """The files as they were when they were read: path, time of the last change (ns), size (bytes)."""
+        """The files as they were when read: path, time of the last change (ns), size (bytes)."""
         self.profiles: tuple[Profile, ...] = ()
-        """The same object until something has come, gone or changed."""
+        """The same object until a profile is added, removed or changed."""
         self.poll_again()
 
     def reload_if_changed(self) -> None:
-        """Read all of them again if a file was added, removed or changed, by anyone."""
+        """Read all profiles again if a file was added, removed or changed, by anyone."""
         if self._stamps() != self._seen:
             self.poll_again()
 
@@ -60,9 +60,9 @@ class ProfileStore:
         return frozenset(found)
 
     def poll_again(self) -> None:
-        """Read all of them again."""
-        self._seen = self._stamps()  # before they are read: what changes meanwhile is read again at the next look
-        # The names of those that come with the robot stay theirs: launch files and command lines know them.
+        """Read all profiles again."""
+        self._seen = self._stamps()  # before they are read, so that later changes are noticed at the next poll
+        # Profiles that come with the robot keep their names: launch files and command lines refer to them.
         own = [self._own] if self._own is not None else []
         found = [*find([*self._folders, *own], mixed=self._mixed)]
         known = {os.path.realpath(each.path) for each in found}
@@ -76,7 +76,7 @@ class ProfileStore:
         return self._own is not None and Path(profile.path).parent == self._own
 
     def _load(self, path: Path) -> Profile:
-        """An opened file; a fetched one is named after the end of its address."""
+        """An opened file; a fetched one is named after the last part of its address."""
         profile = load(path)
         address = self._addresses.get(path)
         if address is None:
@@ -89,7 +89,7 @@ class ProfileStore:
         answer: Future[Answer] = Future()
         fetch = self._fetch
         if fetch is None:
-            answer.set_result(Answer(False, "this console fetches nothing; give the path of a file"))
+            answer.set_result(Answer(False, "this console cannot download profiles; give the path of a file"))
             return answer
 
         def work() -> None:
@@ -118,7 +118,7 @@ class ProfileStore:
         return Answer(not found.problem, found.name if not found.problem else f"{place}: {found.problem}")
 
     def save(self, name: str, description: str, trees: Mapping[str, ParameterTree]) -> Answer:
-        """Save what runs as one of the user's profiles; an existing one is updated, and its comments stay."""
+        """Save the current values as one of the user's profiles; an existing one is updated, and its comments stay."""
         if self._own is None:
             return Answer(False, "this console has no folder for profiles")
         if problem := profile_name_problem(name):
@@ -139,8 +139,8 @@ class ProfileStore:
             return Answer(False, problem)
         place = path.with_name(f"{to}{path.suffix}")
         if any(path.with_name(to + ending).exists() for ending in (".yaml", ".yml")):
-            return Answer(False, f"not renamed: there is a profile {to} already")
-        return self._change(path, lambda: path.rename(place), "renamed", f"{name} is {to} now: {place}")
+            return Answer(False, f"not renamed: there is already a profile {to}")
+        return self._change(path, lambda: path.rename(place), "renamed", f"{name} is now {to}: {place}")
 
     def delete(self, name: str) -> Answer:
         """Delete the file of one of the user's profiles; the answer says how that went."""
@@ -155,7 +155,7 @@ class ProfileStore:
         if found is None:
             return None, f"there is no profile {name}"
         if not found.own:
-            return None, f"{name} is none of the profiles saved here: {found.path}"
+            return None, f"{name} is not one of the profiles saved here: {found.path}"
         return Path(found.path), ""
 
     def _change(self, path: Path, change: Callable[[], object], what: str, done: str) -> Answer:

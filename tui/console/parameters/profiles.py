@@ -19,16 +19,16 @@ from bot_console.tui.files.store_file import read_store
 from bot_console.tui.text.yaml_faults import UNREADABLE, fault_of
 
 AT_RESET = "at reset"
-"""A parameter whose description says so needs a reset of the world to take effect."""
+"""A parameter with these words in its description takes effect when the world is reset."""
 MAX_FILE_BYTES = 4_000_000
-"""Bytes of a file that is looked into."""
+"""Size limit of a profile, in bytes."""
 
 
 def find(folders: Iterable[Path], *, mixed: Iterable[Path] = ()) -> tuple[Profile, ...]:
     """The profiles of some folders, by name; a file that cannot be read is a profile with a problem.
 
-    `mixed` are folders that hold other YAML files as well, of which nothing is said. Of files with one name that of the
-    first folder has it; the others are called by their package or folder, too.
+    `mixed` are folders that contain other YAML files as well, which are ignored. If several files have the same name,
+    that of the first folder keeps it; the package or folder is added to the names of the others.
     """
     found: dict[str, Profile] = {}
     for folder, sure in (*((each, True) for each in folders), *((each, False) for each in mixed)):
@@ -68,7 +68,7 @@ def load(path: Path) -> Profile:
             for name, place in section.places.items()
         }
     except UnicodeDecodeError:
-        return Profile(path.stem, str(path), problem="it is no text")
+        return Profile(path.stem, str(path), problem="it is not a text file")
     except OSError as error:
         return Profile(path.stem, str(path), problem=f"cannot be read: {error.strerror}")
     except ValueError as error:
@@ -101,15 +101,15 @@ def _launch_profile(path: Path, title: str, text: str) -> Profile | None:
 def _argument(value: Any) -> str:
     try:
         return str(value).lower() if isinstance(value, bool) else str(value)
-    except ValueError:  # Python writes no whole number of more than 4,300 digits
-        raise ValueError("an argument is a whole number of thousands of digits") from None
+    except ValueError:  # Python does not format integers of more than 4,300 digits
+        raise ValueError("an argument is an integer with thousands of digits") from None
 
 
 def differences(profile: Profile, trees: Mapping[str, ParameterTree]) -> Sequence[ProfileDifference]:
-    """What a profile would change in the running system, with the refusals that the descriptors foretell.
+    """What a profile would change in the running system, with the refusals that the descriptors predict.
 
-    Keys that mean no running node are left out, see `unmatched`; a parameter that a node lacks is unknown, but where
-    the key is a wildcard the value is simply not for that node.
+    Keys that match no running node are left out, see `unmatched`. A parameter that a node lacks is unknown; below a
+    wildcard key it is simply not meant for that node.
     """
     found: list[ProfileDifference] = []
     entries = _by_key(profile)
@@ -132,11 +132,11 @@ def differences(profile: Profile, trees: Mapping[str, ParameterTree]) -> Sequenc
 
 
 _Entry = tuple[int, str, str, Value]
-"""Place in the profile, parameter, key, value."""
+"""Position in the profile, parameter, key, value."""
 
 
 def _by_key(profile: Profile) -> dict[str, list[_Entry]]:
-    """The parameters below each key, so that a key is compared with a node once and not for each of its values."""
+    """The parameters below each key, so that a key is compared with a node once instead of for each of its values."""
     found: dict[str, list[_Entry]] = {}
     for place, ((key, name), value) in enumerate(profile.values.items()):
         found.setdefault(key, []).append((place, name, key, value))
@@ -144,16 +144,16 @@ def _by_key(profile: Profile) -> dict[str, list[_Entry]]:
 
 
 def _given(entries: Mapping[str, list[_Entry]], node: str) -> dict[str, tuple[str, Value]]:
-    """What a profile gives a node, with the key that says so; as in ROS, the later of two keys wins."""
+    """What a profile gives a node, with the key of each value; as in ROS, the later of two keys wins."""
     meant = chain.from_iterable(below for key, below in entries.items() if means(key, node))
     return {name: (key, value) for _, name, key, value in sorted(meant, key=itemgetter(0))}
 
 
 def cannot_apply(profile: Profile, trees: Mapping[str, ParameterTree]) -> str:
-    """Why a profile applies to nobody; empty when it applies.
+    """Why a profile applies to no node; empty if it applies.
 
-    Without this check its name would stand for values that nobody has. A launch profile has no values: launching it is
-    applying it.
+    Without this check it would become active although no node has its values. A launch profile has no values: it is
+    applied by launching it.
     """
     if profile.launch:
         return ""

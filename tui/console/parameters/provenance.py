@@ -1,7 +1,7 @@
 """The origin of parameter values, as reported by the programs themselves and by launch.
 
-There are two kinds of facts. `declared`: a node names what it has declared, in which line, and which override it took.
-`given`: a launch names what its file gives a node, by a launch argument or in a line of its own.
+There are two kinds of facts. `declared`: a node reports what it has declared, in which line, and which override
+applied. `given`: a launch reports the values its file gives a node, by a launch argument or in the file itself.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from bot_console.tui.console.model import ParameterInfo, Value, same
 from bot_console.tui.console.parameters.origin import START
 
 COMMAND_LINE = "-p"
-"""What a node calls a value of its command line; everything else is the path of a file, or words."""
+"""A node's name for the source of a value from its command line; other sources are file paths or text."""
 WRITTEN_BY_LAUNCH = "launch_params_"
-"""How the files begin that launch writes for the values of a launch file."""
+"""How the names of files begin that launch writes for the values in a launch file."""
 Learn = Callable[[str, Mapping[str, Any]], object]
-"""Takes a fact: its kind, and what it says."""
+"""Receives a fact: its kind, and its content."""
 Key = tuple[str, str]
 """A node and the name of one of its parameters."""
 
@@ -32,20 +32,20 @@ class Declaration:
     place: str
     override: str
     start: Value = None
-    """The value that came of it, with which its node has begun."""
+    """The resulting value, with which its node has started."""
 
 
 class Provenance:
     """All facts so far. `learn` may be called from any thread."""
 
     def __init__(self, profile_of: Callable[[str], str] = lambda path: "") -> None:
-        """`profile_of` returns the name of the profile that a file is; empty if it is none."""
+        """`profile_of` returns the name of the profile with a path; empty if there is none."""
         self._profile_of = profile_of
         self._declared: dict[Key, Declaration] = {}
         self._given: dict[Key, str] = {}
 
     def learn(self, kind: str, facts: Mapping[str, Any]) -> str:
-        """Take in a fact; returns the node that it is about, empty if it is irrelevant here."""
+        """Record a fact; returns the node that it is about, empty if it is irrelevant here."""
         node = str(facts.get("node", ""))
         if kind == "declared":
             for name, default, place, override, *start in facts["parameters"]:
@@ -61,7 +61,7 @@ class Provenance:
         return {key: each.start for key, each in tuple(self._declared.items()) if each.start is not None}
 
     def applied(self, parameter: ParameterInfo) -> ParameterInfo:
-        """A parameter with what is known: its declared default, and the origin of its first value."""
+        """A parameter with its declared default and the origin of its first value, if known."""
         key = parameter.node, parameter.name
         declared = self._declared.get(key)
         if declared is None or declared.default is None:

@@ -1,6 +1,6 @@
-"""Which parameter changes make the robot less safe: the one place where that is decided.
+"""Which parameter changes make the robot less safe: the only place where that is decided.
 
-ROS has no mark for such parameters, so names and descriptions decide: distances at which a robot stops or slows down,
+ROS does not mark such parameters, so names and descriptions decide: distances at which a robot stops or slows down,
 limits of its speed, filters and protections that can be switched. The rules are the same whoever sets a value.
 """
 
@@ -27,7 +27,7 @@ class Worse(Enum):
 
 @dataclass(frozen=True)
 class Rule:
-    """Parameters with such a name or description, and which direction of change is the worse one."""
+    """Parameters with such a name or description, and which direction of change is the less safe one."""
 
     worse: Worse
     name: re.Pattern[str]
@@ -68,7 +68,7 @@ SWITCHES = (
 
 
 def takes_safety(parameter: ParameterInfo, before: Value, after: Value) -> str:
-    """How a change makes the robot less safe, as the end of a sentence; empty when it does not."""
+    """How a change makes the robot less safe, as the end of a sentence; empty if it does not."""
     name = parameter.name.rpartition(".")[2]
     for rule in SWITCHES if isinstance(after, bool) else NUMBERS:
         if rule.fits(name, parameter.description):
@@ -77,7 +77,7 @@ def takes_safety(parameter: ParameterInfo, before: Value, after: Value) -> str:
 
 
 def risky_change(parameter: ParameterInfo) -> str:
-    """Which change of a parameter would make the robot less safe, and how; empty when none would."""
+    """Which change of a parameter would make the robot less safe, and how; empty if none would."""
     name = parameter.name.rpartition(".")[2]
     for rule in SWITCHES if isinstance(parameter.value, bool) else NUMBERS:
         if rule.fits(name, parameter.description):

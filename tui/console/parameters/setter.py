@@ -29,7 +29,7 @@ class ParameterSetter:
         self._expected = Expected()
 
     def announced(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
-        """Take in a parameter event, ours if it was expected, else a change made elsewhere; returns who made it."""
+        """Process a parameter event: ours if it was expected, else a change made elsewhere; returns its source."""
         request = self._expected.announced(node, name, new)
         source = request.source if request else ChangeSource.OTHER
         if old != new or request:
@@ -37,7 +37,7 @@ class ParameterSetter:
         return source
 
     def restarted(self, node: str, name: str, old: Value, new: Value) -> None:
-        """Take note that a node came back with another value: nobody has set that one."""
+        """Note that a node came back with another value, which nobody has set."""
         self._journal.record(time.time_ns(), node, name, (old, new), ChangeSource.OTHER, by=RESTARTED)
         self._journal.restarted(node, name)
 
@@ -76,14 +76,15 @@ class ParameterSetter:
         """The outcomes, and what can be undone: everything, or what could not be reverted at once."""
         outcomes: list[SetOutcome] = []
         moves: list[Move] = []
-        # ROS has no transaction over nodes. Who is going to refuse is asked first: nobody else has moved then.
+        # ROS has no transactions over several nodes. Nodes expected to refuse are asked first, before any other has
+        # changed.
         for node in sorted(wanted, key=lambda each: not self._will_refuse(each, wanted[each])):
             found, move = await self._moved(_requests(node, wanted[node], source, by), atomically=True)
             outcomes += found
             moves += [move] if move.after else []
             bad = next((each for each in found if not each.accepted), None)
             if bad:
-                reported = f"not set, since {bad.node} refused {bad.name}: {bad.reason}"
+                reported = f"not set because {bad.node} refused {bad.name}: {bad.reason}"
                 stuck = await self._taken_back(moves, reported)
                 return _none_of(wanted, outcomes, stuck, reported), tuple(each for each in moves if each.node in stuck)
         return tuple(outcomes), tuple(moves)
@@ -92,7 +93,7 @@ class ParameterSetter:
         return any(refusal(self._mirror.get(node, name), value)[1] for name, value in values.items())
 
     async def _taken_back(self, moves: Sequence[Move], why: str) -> Mapping[str, str]:
-        """Restore the old values; returns what the nodes said that refused."""
+        """Restore the old values; returns the reasons of the nodes that refused."""
         stuck: dict[str, str] = {}
         for move in reversed(moves):
             outcomes = await self._set(_requests(move.node, move.before, ChangeSource.ROLLBACK, why), atomically=True)
@@ -102,7 +103,7 @@ class ParameterSetter:
     async def _moved(
         self, requests: Sequence[ParameterRequest], *, atomically: bool
     ) -> tuple[tuple[SetOutcome, ...], Move]:
-        """The outcome of each value, and what of it can be undone."""
+        """The outcome of each value, and what can be undone."""
         before = {each.name: self._value(each.node, each.name) for each in requests}
         outcomes = await self._set(requests, atomically=atomically)
         taken = {each.name: each.value for each in outcomes if each.accepted}
@@ -110,7 +111,7 @@ class ParameterSetter:
         return outcomes, Move(node, {name: before[name] for name in taken}, taken)
 
     async def _set(self, requests: Sequence[ParameterRequest], *, atomically: bool) -> tuple[SetOutcome, ...]:
-        """Send one node all requests for it."""
+        """Send one node all its requests."""
         before = {each.name: self._value(each.node, each.name) for each in requests}
         try:
             messages = [self._message(each) for each in requests]
@@ -172,12 +173,12 @@ class ParameterSetter:
         return Answer(False, "nothing to undo") if step is None else await self._move(step, ChangeSource.UNDO)
 
     async def redo(self) -> Answer:
-        """Repeat the change that was undone last."""
+        """Repeat the last undone change."""
         step = self._journal.take_redo()
         return Answer(False, "nothing to redo") if step is None else await self._move(step, ChangeSource.REDO)
 
     async def _move(self, step: Step, source: ChangeSource) -> Answer:
-        """Undo a step, or redo it; what a node refuses stays on the list."""
+        """Undo or redo a step; what a node refuses stays on the list."""
         done: list[Move] = []
         left: list[Move] = []
         refused: list[SetOutcome] = []
@@ -208,7 +209,7 @@ def _requests(
 def _none_of(
     wanted: Mapping[str, Mapping[str, Value]], asked: Sequence[SetOutcome], stuck: Mapping[str, str], reported: str
 ) -> tuple[SetOutcome, ...]:
-    """The outcomes when not everything was accepted: only refusals, and accepted values that could not be reverted."""
+    """The outcomes if not everything was accepted: refusals, and accepted values that could not be reverted."""
     known = {(each.node, each.name): each for each in asked}
     outcomes: list[SetOutcome] = []
     for node, values in wanted.items():
@@ -227,7 +228,7 @@ def _values(move: Move, source: ChangeSource) -> Mapping[str, Value]:
 
 
 def _text(step: Step, source: ChangeSource) -> str:
-    """A step in words: its values, or how many there are if it spans several nodes."""
+    """A step as text: its values, or how many there are if it spans several nodes."""
     if len(step.moves) == 1:
         (move,) = step.moves
         return f"{move.node} " + ", ".join(f"{name} = {value}" for name, value in _values(move, source).items())

@@ -10,7 +10,7 @@ _DIMENSIONLESS = re.compile(r"\b(factor|fraction|probability|ratio|share)\b", re
 
 @lru_cache(maxsize=20_000)
 def unit_in_description(description: str) -> str:
-    """The unit that ends a description in brackets, `(m/s)` or `[m/s]`; else empty."""
+    """The unit in brackets at the end of a description, `(m/s)` or `[m/s]`; else empty."""
     text = description.rstrip()
     start = text.rfind({")": "(", "]": "["}.get(text[-1:], "\0"))
     inside = text[start + 1 : -1].split()[-1:] if start >= 0 else []

@@ -13,7 +13,7 @@ UNDONE = ChangeSource.UNDO
 class Unsaved:
     """Knows, for each parameter set here, which values can be restored without typing them again.
 
-    These are the start value, the values of profiles and files, and those that were saved.
+    These are the start value, the values of profiles and files, and values that were saved.
     """
 
     def __init__(self) -> None:
@@ -21,7 +21,7 @@ class Unsaved:
         self._now: dict[tuple[str, str], Value] = {}
 
     def moved(self, node: str, before: Mapping[str, Value], after: Mapping[str, Value], source: ChangeSource) -> None:
-        """Take note that values of a node changed from `before` to `after`, or back when undone."""
+        """Note that values of a node changed from `before` to `after`, or back when undone."""
         for name, value in (before if source is UNDONE else after).items():
             key = (node, name)
             safe = self._safe.setdefault(key, [before[name]])
@@ -30,13 +30,13 @@ class Unsaved:
                 safe.append(value)
 
     def saved(self, nodes: Collection[str]) -> None:
-        """Take note that the values of some nodes, or of all when none is named, are in a file now."""
+        """Note that the values of some nodes, or of all if none is named, are now in a file."""
         for key, value in self._now.items():
             if not nodes or key[0] in nodes:
                 self._safe[key].append(value)
 
     def restarted(self, node: str, name: str) -> None:
-        """Take note that a parameter has its start value again."""
+        """Note that a parameter has its start value again."""
         self._now.pop((node, name), None)
         self._safe.pop((node, name), None)
 

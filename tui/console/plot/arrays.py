@@ -1,4 +1,4 @@
-"""Reduces a whole array, or a quaternion, to one number: what `min(/scan/ranges)` makes of each message."""
+"""Reduces a whole array, or a quaternion, to one number: the value of `min(/scan/ranges)` for each message."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 
 class NotPlottable(Exception):
-    """A path that cannot be plotted; the text says why."""
+    """A path that cannot be plotted; the message says why."""
 
 
 _MADE: Mapping[str, Callable[[npt.NDArray[np.float64]], float]] = {
@@ -28,21 +28,21 @@ def make(value: Any, made: str, name: str) -> float:
     if made == "yaw":
         return _yaw(value, name)
     if isinstance(value, (str, bool, int, float, np.number)) or not hasattr(value, "__len__"):
-        raise NotPlottable(f"{name} is no array, of which there would be a {made}")
+        raise NotPlottable(f"{name} is not an array, so there is no {made} of it")
     if made == "len":
         return float(len(value))
     try:
         values = np.asarray(value, np.float64)
     except (TypeError, ValueError):
-        raise NotPlottable(f"{name} is an array of other things than numbers") from None
+        raise NotPlottable(f"{name} is an array whose elements are not numbers") from None
     fine = values[np.isfinite(values)]
     return _MADE[made](fine) if len(fine) else math.nan
 
 
 def _yaw(value: Any, name: str) -> float:
-    """The turn about the vertical axis, rad."""
+    """The rotation about the vertical axis, in rad."""
     try:
         w, x, y, z = (float(getattr(value, each)) for each in "wxyz")
     except (AttributeError, TypeError):
-        raise NotPlottable(f"{name} is no quaternion, of which there would be a yaw") from None
+        raise NotPlottable(f"{name} is not a quaternion, so there is no yaw of it") from None
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))

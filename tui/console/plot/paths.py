@@ -10,10 +10,10 @@ from typing import Any
 from bot_console.tui.console.plot.arrays import NotPlottable
 
 MAX_DEPTH = 4
-"""Messages within each other that are looked into."""
+"""Depth to which nested messages are searched."""
 ARRAY = re.compile(r"sequence<([^,>]+).*>|(.+?)\[\d+\]")
 WHOLE = ("min", "max", "mean")
-"""What is suggested of an array beside its first element."""
+"""Functions suggested for an array in addition to its first element."""
 
 
 def message_class(type_name: str) -> Any:
@@ -21,7 +21,7 @@ def message_class(type_name: str) -> Any:
     package, _, rest = type_name.partition("/")
     try:
         return getattr(importlib.import_module(f"{package}.msg"), rest.rsplit("/", 1)[-1])
-    except (ImportError, AttributeError, TypeError, ValueError):  # the latter two of what is no name
+    except (ImportError, AttributeError, TypeError, ValueError):  # the latter two if it is not a valid type name
         raise NotPlottable(f"the message type {type_name} is not known here") from None
 
 

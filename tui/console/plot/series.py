@@ -17,7 +17,7 @@ Step: TypeAlias = "str | int | slice[int | None]"
 
 
 class Series:
-    """A ring of samples; times in s, one cursor step per sample."""
+    """A ring of samples; times are in s, and the cursor advances by one per sample."""
 
     def __init__(self, capacity: int = 20_000) -> None:
         self._samples = np.zeros((3, capacity))
@@ -38,7 +38,7 @@ class Series:
 
 
 def parse_path(text: str) -> tuple[tuple[Step, ...], str]:
-    """The steps of a field path and what is made of the array there, if anything; raises `NotPlottable`.
+    """The steps of a field path and the function applied to the array there, if any; raises `NotPlottable`.
 
     `linear.x`, `pose/position.x`, `ranges[3]`, `ranges[10:20].min()`.
     """
@@ -46,7 +46,7 @@ def parse_path(text: str) -> tuple[tuple[Step, ...], str]:
     if not (dot and made.endswith("()")):
         return parse_steps(text), ""
     if made[:-2] not in OF_ARRAYS:
-        raise NotPlottable(f"of an array there are {', '.join(OF_ARRAYS)}, not {made[:-2] or 'nothing'}")
+        raise NotPlottable(f"the functions of an array are {', '.join(OF_ARRAYS)}, not {made[:-2] or 'nothing'}")
     return parse_steps(path), made[:-2]
 
 

@@ -20,7 +20,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 PLOT_QOS = QoSProfile(depth=50, reliability=ReliabilityPolicy.BEST_EFFORT)
 OTHER_CLOCK = 3600.0
-"""A header's time that is so far (s) from when its message came is a simulator's."""
+"""Difference (s) between a header's time and the time of reception from which the header's clock is a simulator's."""
 NUMBERS = (Kind.BOOL, Kind.INTEGER, Kind.DOUBLE)
 
 
@@ -43,21 +43,21 @@ class PlotWatch:
         self._started_at = time.time_ns()
         self._watched: dict[str, _Watched] = {}
         self._other_clock: float | None = None
-        """What is added to the times of a simulator's clock, so that its messages are seen beside others."""
+        """Offset added to the times of a simulator's clock, so that its messages are shown beside others."""
 
     def now(self) -> float:
         """Seconds since the console's start, the time axis of all series."""
         return time.monotonic() - self._start
 
     def axis_time(self, stamp: int | None) -> float:
-        """The position of a moment (ns since the epoch; None is now) on that axis."""
+        """The position of a time (ns since the epoch; None is now) on that axis."""
         return self.now() if stamp is None else (stamp - self._started_at) / 1e9
 
     def watch(self, path: str, graph: GraphInfo, trees: Mapping[str, ParameterTree], requester: str = "") -> Answer:
-        """Start collecting a path, or say why it cannot be plotted."""
+        """Start collecting a path; the answer says why if it cannot be plotted."""
         if path in self._watched:
             self._watched[path].requesters.add(requester)
-            return Answer(True, f"{path} is plotted already")
+            return Answer(True, f"{path} is already plotted")
         try:
             if is_parameter(path):
                 self._watch_parameter(path, trees)
@@ -114,13 +114,13 @@ class PlotWatch:
         return time + self._other_clock
 
     def parameter_is(self, node: str, name: str, value: Value) -> None:
-        """Take in a parameter's new value."""
+        """Record a parameter's new value."""
         watched = self._watched.get(f"{node}:{name}")
         if watched and isinstance(value, (bool, int, float)):
             watched.series.add(self.now(), float(value))
 
     def unwatch(self, path: str, requester: str = "") -> None:
-        """Stop collecting and forget, unless somebody else still wants the series."""
+        """Stop collecting a series and discard it, unless somebody else still needs it."""
         watched = self._watched.get(path)
         if watched is None:
             return

@@ -1,4 +1,4 @@
-"""Where the beams of a scan end, computed when somebody looks: of ten scans per second most are never drawn."""
+"""The end points of a scan's beams, computed on demand: of ten scans per second most are never drawn."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from bot_console.tui.console.robot.robot_model import Pose
 from sensor_msgs.msg import LaserScan
 
 MAX_RANGE_M = 1e7
-"""The greatest range, in m, that is taken for real."""
+"""The greatest plausible range, in m."""
 
 
 class BeamEnds(Sequence[tuple[float, float]]):
-    """The ends of beams in the pose's frame (x, y in m); none if pose or angles are not finite."""
+    """The end points of beams in the pose's frame (x, y in m); empty if pose or angles are not finite."""
 
     def __init__(self, scan: LaserScan, pose: Pose | None) -> None:
         """Beams without a return are infinite or outside the scan's limits (REP 117)."""
@@ -33,7 +33,7 @@ class BeamEnds(Sequence[tuple[float, float]]):
 
     @cached_property
     def points(self) -> npt.NDArray[np.float64]:
-        """One row per end."""
+        """One row per end point."""
         pose = self._pose
         if pose is None:
             return np.empty((0, 2))

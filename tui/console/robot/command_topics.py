@@ -1,4 +1,6 @@
-"""Where robots take velocity commands: found by type and last name token, in any namespace, stamped or not."""
+"""Topics on which robots take velocity commands: found by type and last name token, in any namespace, stamped or
+not.
+"""
 
 from __future__ import annotations
 
@@ -19,10 +21,10 @@ class CommandTopics:
     robot: str
     topics: Mapping[str, str]
     standard: bool = True
-    """Whether they have the names that every robot's have, so that it is one for sure."""
+    """Whether the topics have the usual names, so that it is certainly a robot."""
 
     def get(self, token: str) -> str:
-        """The topic of a token; empty if there is none."""
+        """The topic with a token; empty if there is none."""
         return self.topics.get(token, "")
 
 
@@ -36,7 +38,7 @@ def command_types_of(graph: GraphInfo) -> dict[str, str]:
 
 
 def robots_of(graph: GraphInfo) -> tuple[CommandTopics, ...]:
-    """All robots that listen: those with the usual names first, shorter namespaces before longer ones."""
+    """All robots that subscribe: those with the usual names first, shorter namespaces before longer ones."""
     listened = {
         each.name
         for node in graph.nodes

@@ -1,4 +1,4 @@
-"""Velocity commands from the console, and what happens to them on their way to the robot."""
+"""Velocity commands from the console, and what becomes of them on their way to the robot."""
 
 from __future__ import annotations
 
@@ -34,20 +34,20 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 HOLD_PERIOD_S = 0.1
-"""Seconds between two zeros, or requests, while a stop is not acknowledged; a command is dead after 0.5 s."""
+"""Seconds between two zeros, or requests, while a stop is not acknowledged; a command expires after 0.5 s."""
 
 BY_PERSON = "ALL STOP"
-"""The reason of a stop that a person has requested by key."""
+"""The reason given for a stop that a person has requested by key."""
 
 VERDICT = "diagnostics"
 DIAGNOSTICS = "diagnostic_msgs/msg/DiagnosticArray"
 VERDICT_LIFETIME_S = 2.0
-"""Without news for so long a verdict is no longer shown: diagnostics are published at least once a second."""
+"""Seconds after which a verdict is no longer shown: diagnostics are published at least once a second."""
 SILENCE = 0.5
-"""Seconds after which a velocity command is dead, and the robot stops by itself."""
+"""Seconds after which a velocity command expires, and the robot stops by itself."""
 CLOCK = "/clock"
 FORCED = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
-"""Hears every publisher, whatever it offers."""
+"""Compatible with every publisher, whatever it offers."""
 NO_COMMAND = "no command on cmd_vel for 0.5 s"
 NO_ARBITER = "the node that takes cmd_vel_teleop has ended; start it again to drive"
 
@@ -60,7 +60,7 @@ class Surroundings:
     locks: Published
     """Topics on which locks report their states."""
     verdicts: Published
-    """Topics of the type in which arbiters tell of their decisions."""
+    """Topics on which arbiters may report their decisions, by type."""
     simulated: bool
 
     @classmethod
@@ -84,9 +84,9 @@ class DriveLink:
     def __init__(
         self, node: Node, now: Callable[[], float] = time.monotonic, means: Sequence[ConfiguredMeans] = ()
     ) -> None:
-        """`now` returns seconds, to measure the age of what has been heard.
+        """`now` returns seconds, to measure the age of messages.
 
-        `means` hold robots that have no lock.
+        `means` stop robots that have no lock.
         """
         self._node = node
         self._now = now
@@ -106,17 +106,17 @@ class DriveLink:
         self._robot = NOBODY
         self._chosen = ""
         self._replaced = False
-        """Whether the steered robot has left and another one taken its place while somebody was steering."""
+        """Whether the driven robot left and another one took its place while somebody was driving."""
         self._acted = False
         self._arbitrated = False
         node.create_timer(HOLD_PERIOD_S, self._repeat)
 
     def follow(self, graph: GraphInfo) -> None:
-        """Find the robots' command topics, and listen to those of the steered one."""
+        """Find the robots' command topics, and subscribe to those of the driven one."""
         self.take(Surroundings.of(graph))
 
     def take(self, found: Surroundings) -> None:
-        """Take in what was found in a graph; in the thread that serves the node."""
+        """Apply what was found in a graph; in the thread that serves the node."""
         self._found = found
         before = self._robot.robot
         self._follow_robot()
@@ -132,7 +132,7 @@ class DriveLink:
         if before.robot not in ("", robot.robot):
             self._arbitrated = False
         if before.get(TELEOP) and not robot.get(TELEOP):
-            self.zero()  # it need not wait until its last command is dead
+            self.zero()  # so that it need not wait until its last command has expired
         self._arbitrated = bool(robot.get(TELEOP)) or (self._arbitrated and bool(robot.get(FINAL)))
         named = {each for each in found.fleet.types if self._scope.owns(each)}
         for token in (FINAL, ASKED):
@@ -140,10 +140,10 @@ class DriveLink:
         self._watch(VERDICT, _topic(self._scope.own(found.verdicts), VERDICT))
         for each in (TELEOP, FINAL):
             if robot.get(each):
-                self._publisher(robot.get(each))  # now, since a first message may be too early for whoever listens
+                self._publisher(robot.get(each))  # now, since a first message may come too early for its subscriptions
 
     def choose(self, robot: str) -> None:
-        """Steer another one of `DriveInfo.robots`; the previous one is sent a zero if it was driven from here."""
+        """Drive another one of `DriveInfo.robots`; the previous one is sent a zero if it was driven from here."""
         if robot != self._robot.robot:
             if self._acted:
                 self.zero()
@@ -170,7 +170,7 @@ class DriveLink:
             )
 
     def _reported(self, message: DiagnosticArray) -> None:
-        """What a velocity arbiter says about its last decision."""
+        """Process what a velocity arbiter reports about its last decision."""
         for status in message.status:
             values = {each.key: each.value for each in status.values}
             if "limited_by" in values:
@@ -186,7 +186,7 @@ class DriveLink:
         self._seen[token] = velocity
         self._heard[token] = self._now()
         if token == FINAL and self._holds_by_zeros and velocity != (0.0, 0.0):
-            # Somebody else drives on; without an arbiter the last word counts, so ours follows at once.
+            # Somebody else keeps driving; without an arbiter the last command counts, so ours follows at once.
             self._send(FINAL, 0.0, 0.0)
 
     @property
@@ -198,12 +198,12 @@ class DriveLink:
     def _token(self) -> str:
         """The last token of that topic.
 
-        A robot whose arbiter has left is not driven directly: its protection is gone.
+        A robot whose arbiter has left is not driven directly, because its protection is gone.
         """
         return TELEOP if self._arbitrated else FINAL
 
     def drive(self, linear: float, angular: float) -> None:
-        """Publish one command (m/s, rad/s), unless the robot is held; raises `ValueError` for NaN and infinity."""
+        """Publish one command (m/s, rad/s), unless the robot is stopped; raises `ValueError` for NaN and infinity."""
         if not (math.isfinite(linear) and math.isfinite(angular)):
             raise ValueError("a velocity must be a finite number")
         if not (self._stop.info.stopped or self._zeros or self._replaced):
@@ -211,10 +211,10 @@ class DriveLink:
             self._send(self._token, linear, angular)
 
     def stop(self, hold: bool, reason: str, others: Sequence[str] = ()) -> None:
-        """Lock the robot, or withdraw that along with the stops of these `others`, and send zero velocity now.
+        """Lock the robot, or withdraw that along with the stops of `others`, and send zero velocity now.
 
-        Only a stop that a person has requested outlives the robot's nodes, not one for the console's own reasons. A
-        robot without a lock is sent zeros again and again, and its configured means are tried in their order.
+        Only a stop that a person has requested outlives the robot's nodes, not one made for the console's own reasons.
+        A robot without a lock is sent zeros repeatedly, and its configured means of stopping are tried in order.
         """
         if hold:
             self._stop.stop(reason, kept=reason == BY_PERSON)
@@ -224,7 +224,9 @@ class DriveLink:
         self._send_zeros(repeated=hold or bool(self._early))
 
     def _send_zeros(self, *, repeated: bool) -> None:
-        """Send zero velocity now, and `repeated` while a stop holds; robots without a lock get their means as well."""
+        """Send zero velocity now, and with `repeated` as long as a stop holds, for robots without a lock; try their
+        means, too.
+        """
         self._zeros = repeated
         self._zero_all()
         if not repeated:
@@ -233,7 +235,7 @@ class DriveLink:
             self._means.hold()
 
     def hold_early(self, press: str) -> None:
-        """Hold the robot for a key press whose turn has not come, with a stop of its own."""
+        """Stop the robot for a key press that is not processed yet, with a separate stop."""
         self._early.hold(press)
         self._send_zeros(repeated=True)
 
@@ -243,7 +245,7 @@ class DriveLink:
             self._send_zeros(repeated=False)
 
     def steer(self, hold: bool) -> None:
-        """Claim or hand back the steering; a claim is to be repeated ten times a second."""
+        """Claim control of the robot or hand it back; a claim is to be repeated ten times a second."""
         if hold:
             self._stop.steer()
         else:
@@ -251,23 +253,23 @@ class DriveLink:
             self._replaced = False
 
     def close(self, timeout_s: float = 0.0) -> None:
-        """Send zero velocity, and lock the robot if this console leaves while it holds the steering.
+        """Send zero velocity, and lock the robot if this console leaves while it has control.
 
-        A robot that was only watched is left alone, and not waited for; any other is waited for as in `await_standing`.
+        A robot that was only watched is left alone, without waiting; for any other it waits as `await_standing` does.
         """
         steering, acted = self._stop.steering, self._acted
         if steering:
-            self._stop.stop("the console that held the steering was closed")
+            self._stop.stop("the console that had control was closed")
         if acted:
             self.zero()
         if steering or acted:
             self.await_standing(timeout_s)
 
     def await_standing(self, timeout_s: float) -> None:
-        """Wait until all locks hold the robot, at most so many seconds.
+        """Wait until all locks hold the robot, at most this long.
 
-        Without a lock that is the whole time, since nobody acknowledges a zero; if nobody listens, nothing is waited
-        for.
+        Without a lock that is the whole time, since nothing acknowledges a zero; if there are no subscriptions, it does
+        not wait.
         """
         if self._stop.info.stopped and self._stop.info.locks:
             self._stop.await_held(timeout_s)
@@ -275,18 +277,18 @@ class DriveLink:
             threading.Event().wait(timeout_s)
 
     def _is_heard(self) -> bool:
-        """Whether anybody else listens where this console drives."""
+        """Whether anybody else subscribes to this console's commands."""
         own = [each.topic_name for each in list(self._watching.values())]
         published = list(self._publishers.values())
         return any(each.get_subscription_count() > own.count(each.topic_name) for each in published)
 
     def zero(self) -> None:
-        """Send a zero to every topic on which the steered robot, or its arbiter, listens."""
+        """Send a zero to every topic to which the driven robot, or its arbiter, subscribes."""
         for token in (TELEOP, FINAL):
             self._send(token, 0.0, 0.0)
 
     def _each_robot(self) -> Iterable[CommandTopics]:
-        """All robots with the usual topic names, and the steered one."""
+        """All robots with the usual topic names, and the driven one."""
         every = {each.robot: each for each in (*self._found.fleet.robots, self._robot)}
         return [each for each in every.values() if each.standard or each is self._robot]
 
@@ -298,11 +300,11 @@ class DriveLink:
     def _repeat(self) -> None:
         self._stop.repeat()
         if self._stop.info.locks and not (self._stop.stopping or (self._unlocked and self._stop.info.stopped)):
-            # A lock needs no zeros, and they would keep a robot whose stop somebody else has released.
+            # A locked robot needs no zeros, and they would still hold it after somebody else has released the stop.
             self._zeros = False
             self._means.release()
         if self._stop.info.locks and self._stop.stopping:
-            self._zero_all()  # until it says that it has locked: it may hang, or be gone without having left
+            self._zero_all()  # until it reports that it has locked: it may hang, or be gone without having left
         elif self._zeros:
             for robot in self._unlocked if self._stop.info.locks else self._each_robot():
                 self._publish(robot.get(TELEOP) or robot.get(FINAL), 0.0, 0.0)
@@ -311,12 +313,12 @@ class DriveLink:
 
     @property
     def _needs_means(self) -> bool:
-        """Whether a robot has no lock, as far as is known; one that nobody has seen yet counts as well."""
+        """Whether a robot has no lock, as far as is known; one that has not been discovered yet counts as well."""
         return bool(self._unlocked) or not self._stop.info.locks
 
     @property
     def _holds_by_zeros(self) -> bool:
-        """Whether zeros hold the steered robot: it has no lock, or none has acknowledged our stop."""
+        """Whether zeros hold the driven robot: it has no lock, or none has acknowledged our stop."""
         locked = self._stop.info.locks and self._robot not in self._unlocked
         return self._stop.stopping or (self._zeros and not locked)
 
@@ -336,17 +338,19 @@ class DriveLink:
         twist = getattr(message, "twist", message)
         twist.linear.x, twist.angular.z = float(linear), float(angular)
         if twist is not message and not self._found.simulated:
-            # In simulated time a stamp of ours would be from another time; zero means now.
+            # With simulated time our own clock would give a wrong stamp; zero means now.
             message.header.stamp = self._node.get_clock().now().to_msg()
         self._publisher(topic).publish(message)
 
     def _recent(self, token: str, lifetime_s: float) -> bool:
-        """Whether something was heard of a kind, and is not older than so many seconds."""
+        """Whether a message of this kind was received within the last `lifetime_s` seconds."""
         heard = self._heard.get(token)
         return heard is not None and self._now() - heard <= lifetime_s
 
     def info(self, world: WorldInfo) -> DriveInfo:
-        """The command chain as known now, the robot's own report included; the same object while nothing changes."""
+        """The current state of the command chain, including the robot's own report; the same object while nothing
+        changes.
+        """
         here = world.robot in ("", self._robot.robot)
         final, asked = (self._recent(token, SILENCE) for token in (FINAL, ASKED))
         silent = FINAL in self._seen and not final
@@ -385,6 +389,6 @@ class DriveLink:
 
 
 def _topic(names: Set[str], token: str) -> str:
-    """The shortest topic that ends in a token; empty when there is none."""
+    """The shortest topic that ends in a token; empty if there is none."""
     fitting = [name for name in names if name.rsplit("/", 1)[-1] == token]
     return min(fitting, key=lambda name: (len(name), name), default="")

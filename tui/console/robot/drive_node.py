@@ -1,4 +1,6 @@
-"""The link to the robot, in a node and a thread of its own, so that a stop waits for nothing else the console does."""
+"""The connection to the robot, in a separate node and thread, so that a stop waits for nothing else the console
+does.
+"""
 
 from __future__ import annotations
 
@@ -26,9 +28,9 @@ class DriveNode:
     def __init__(
         self, context: Context, fault: Callable[[Exception], None], means: Sequence[ConfiguredMeans] = ()
     ) -> None:
-        """`fault` is told of an exception in what it serves, which ends nothing else.
+        """`fault` receives an exception in anything this node serves; the rest goes on.
 
-        `means` hold robots that have no lock.
+        `means` stop robots that have no lock.
         """
         self.context = context
         self._fault = fault
@@ -50,11 +52,13 @@ class DriveNode:
             try:
                 with contextlib.suppress(ExternalShutdownException):
                     self._executor.spin()
-            except Exception as error:  # whatever it is: the robot can still be stopped
+            except Exception as error:  # whatever it is, the robot can still be stopped
                 self._fault(error)
 
     def follow(self, graph: GraphInfo) -> None:
-        """Find the robots of a graph; searched here and now, taken over in the thread that serves the link."""
+        """Find the robots of a graph: searches in the calling thread, applies the result in the thread that serves the
+        link.
+        """
         self._executor.create_task(self.link.take, Surroundings.of(graph))
 
     def follow_alone(self) -> None:

@@ -1,4 +1,4 @@
-"""Stops for key presses whose turn has not come."""
+"""Stops for key presses that are not processed yet."""
 
 from __future__ import annotations
 
@@ -8,22 +8,24 @@ REASON = "ALL STOP"
 
 
 class EarlyStops:
-    """Holds the robot for each press with a stop of its own. May be used from any thread."""
+    """Stops the robot for each key press separately. May be used from any thread."""
 
     def __init__(self, link: StopLink) -> None:
         self._link = link
         self._ids: dict[str, str] = {}
 
     def __bool__(self) -> bool:
-        """Whether any press holds the robot."""
+        """Whether the robot is stopped for any key press."""
         return bool(self._ids)
 
     def hold(self, press: str) -> None:
-        """Hold the robot."""
+        """Stop the robot."""
         self._ids[press] = self._link.add_stop(REASON)
 
     def settle(self, press: str, *, keep: bool) -> bool:
-        """Make the stop one of the console's, or withdraw it and no other; whether that was the console's last."""
+        """Make the stop one of the console's, or withdraw it alone; returns whether that was the console's last
+        stop.
+        """
         id = self._ids.pop(press, "")
         if not id or keep:
             self._link.join(id)

@@ -1,7 +1,7 @@
-"""The robots on a graph: which topics, nodes and parameters belong to which of them.
+"""The robots on a graph: which topics, nodes and parameters belong to each of them.
 
-A robot is known by the topics on which it takes velocities. What lies in its namespace is its own, and so is what is
-published by the nodes that obey these topics, directly or through further velocity topics (a multiplexer, a stamper).
+A robot is identified by the topics on which it takes velocities. It owns everything in its namespace, and everything
+published by nodes that obey these topics, directly or through further velocity topics (a multiplexer, a stamper).
 """
 
 from __future__ import annotations
@@ -28,34 +28,35 @@ class Scope:
     """What belongs to one robot, and what to others."""
 
     namespace: str
-    """Ends in a slash."""
+    """Its namespace, which ends in a slash."""
     others: frozenset[str] = frozenset()
-    """Namespaces of robots that this one neither drives nor is driven by; each ends in a slash."""
+    """Namespaces of robots that neither drive this one nor are driven by it; each ends in a slash."""
     nodes: frozenset[str] = frozenset()
     """Nodes that obey its commands, directly or through others."""
     foreign_nodes: frozenset[str] = frozenset()
     """Nodes that obey only the commands of others."""
 
     def owns(self, name: str) -> bool:
-        """Whether a topic or node lies in the namespace of this robot, and not in a longer one of another."""
+        """Whether a topic or node is in the namespace of this robot, and not in a longer one of another."""
         return self._space(name) == self.namespace
 
     def is_foreign(self, name: str) -> bool:
-        """Whether a topic or node lies in the namespace of another robot."""
+        """Whether a topic or node is in the namespace of another robot."""
         space = self._space(name)
         return space != self.namespace and space in self.others
 
     def _space(self, name: str) -> str:
-        """The longest known namespace that holds a name; a name equal to a namespace lies in it."""
+        """The longest known namespace that contains a name; a name equal to a namespace is in it."""
         space = f"{name}/"
         while space and space != self.namespace and space not in self.others:
             space = space[: space.rstrip("/").rfind("/") + 1]
         return space
 
     def own(self, published: Published, *, shared: bool = False) -> set[str]:
-        """Which topics are this robot's; the surest kind only.
+        """The topics that belong to this robot; only those that belong to it most certainly.
 
-        With `shared`, what no other robot's nodes publish may serve several robots, such as the map of a map server.
+        With `shared`, topics that no other robot's nodes publish may serve several robots, like the map of a map
+        server.
         """
         mine = {topic for topic, nodes in published.items() if not self.nodes.isdisjoint(nodes)}
         free = {topic for topic, nodes in published.items() if not nodes or not self.foreign_nodes.issuperset(nodes)}

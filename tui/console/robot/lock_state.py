@@ -1,4 +1,4 @@
-"""What a lock of a robot reports, of this version or an older one. The interface is that of `docs/safety.md`."""
+"""What a robot's lock reports, in this version or an older one. The interface is that of `docs/safety.md`."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from typing import Any, cast
 NODE = "node"
 """The key of stops that a node of the robot made."""
 CROWD = "others"
-"""The key of the stop that stands for all that a lock can no longer tell apart."""
+"""The key of the stop that stands for all stops that a lock can no longer distinguish."""
 
 
 @dataclass(frozen=True, slots=True)
 class ReportedStop:
-    """A stop as a lock reports it. Older locks have no ids: there the requester's key names it.
+    """A stop as a lock reports it. Older locks have no ids: there the requester's key identifies it.
 
-    Both are empty where a lock reports no more than that it is locked.
+    Both are empty if a lock reports nothing but that it is locked.
     """
 
     id: str
@@ -28,7 +28,7 @@ class ReportedStop:
 
 @dataclass(frozen=True, slots=True)
 class LockState:
-    """The last report of one lock; by default, nothing has been heard from it."""
+    """The last report of one lock; by default, nothing has been received from it."""
 
     heard: bool = False
     """Whether it has reported whether it is locked."""
@@ -37,7 +37,7 @@ class LockState:
     released: Mapping[str, str] | None = None
     """Who has released which stop, by its id; None in the report of an older lock."""
     challenge: str = ""
-    """What a release has to quote."""
+    """The text that a release has to quote."""
     steered_by: str = ""
     instance: str = ""
     """Differs after each start of its node."""
@@ -61,9 +61,10 @@ class LockState:
         )
 
     def holds(self, id: str, key: str) -> bool:
-        """Whether it holds the stop with this id of the requester with this key.
+        """Whether it holds the stop with this id by the requester with this key.
 
-        What it can no longer tell apart may be this one, and an older lock tells the stops of one key not apart.
+        Stops that it can no longer distinguish may include this one, and an older lock does not distinguish the stops
+        of one key.
         """
         if self.released is None:
             return any(each.key in (key, CROWD, "") for each in self.stops)

@@ -31,7 +31,7 @@ class GridMap:
 
 @dataclass(frozen=True, slots=True)
 class Turtle:
-    """A turtle of `turtlesim`: its pose (m, rad), velocity (m/s, rad/s), and a trail where its drawing is unknown."""
+    """A turtle of `turtlesim`: its pose (m, rad), velocity (m/s, rad/s), and a trail if its drawing is unknown."""
 
     name: str
     pose: Pose
@@ -42,9 +42,9 @@ class Turtle:
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """What turtles have drawn: rows, from the top, of red, green, blue and 255 where something is drawn, else 0.
+    """What turtles have drawn, as RGBA rows from the top; alpha is 255 where something is drawn, else 0.
 
-    Where nothing is drawn, the colour is the background's.
+    Where nothing is drawn, the background's colour is shown.
     """
 
     width: int
@@ -63,7 +63,7 @@ class TurtleField:
 
 @dataclass(frozen=True, slots=True)
 class WorldInfo:
-    """What is known about the surroundings: map, robot, trail, and the ends of the LIDAR beams (x, y in m)."""
+    """What is known about the surroundings: map, robot, trail, and the end points of the LIDAR beams (x, y in m)."""
 
     map: GridMap | None = None
     pose: Pose | None = None
@@ -76,11 +76,11 @@ class WorldInfo:
     fields: tuple[TurtleField, ...] = ()
     """Fields with turtles, beside or instead of a robot."""
     silent_s: int = 0
-    """For how many seconds the robot has told no pose and speed; 0 while it does. What is known is then that old."""
+    """Seconds since the robot's last pose and speed; 0 while they keep coming. Everything shown is that old."""
     robot: str = ""
-    """Which robot this is about, as `DriveInfo.robot`; empty where none listens for velocities."""
+    """The robot this is about, as `DriveInfo.robot`; empty if none subscribes to velocities."""
     robots: tuple[str, ...] = ()
-    """The robots that have odometry of their own, each of which can be shown."""
+    """The robots with odometry, each of which can be shown."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,57 +100,59 @@ class RobotStop:
 
     @property
     def who(self) -> str:
-        """Its holder; where that process has ended, the text says so instead of giving its number."""
+        """Its holder; if that process has ended, the text says so instead of giving its pid."""
         return f"{self.holder.rpartition(' (pid ')[0]} (gone)" if self.gone else self.holder
 
 
 @dataclass(frozen=True, slots=True)
 class DriveInfo:
-    """The command chain, each as (m/s, rad/s) or None when unknown: asked, limited, final, actual.
+    """The command chain, each velocity as (m/s, rad/s) or None if unknown: asked, limited, final, actual.
 
-    `limited_by` names, in words, the parameter or rule that changed the command; it is empty when nothing did.
+    `limited_by` names the parameter or rule that changed the command; it is empty if nothing did.
     """
 
     topic: str = ""
     robot: str = ""
-    """Which robot is steered, by its namespace."""
+    """The robot being driven, by its namespace."""
     robots: tuple[str, ...] = ()
-    """All that listen for velocities."""
+    """All robots that subscribe to velocities."""
     others: frozenset[str] = frozenset()
-    """Namespaces, each with a slash at its end, of robots that are not part of the steered one."""
+    """Namespaces, each with a slash at its end, of robots that are not part of the driven one."""
     armed: bool = False
     asked: tuple[float, float] | None = None
     limited: tuple[float, float] | None = None
     final: tuple[float, float] | None = None
     actual: tuple[float, float] | None = None
     silent_s: int = 0
-    """For how many seconds the robot has not told its actual velocity; 0 while it does."""
+    """Seconds since the robot last reported its actual velocity; 0 while it keeps reporting."""
     limited_by: str = ""
     stopped: bool = False
-    """Whether a stop was asked for, or a lock holds the robot."""
+    """Whether a stop was requested, or a lock holds the robot."""
     stop_confirmed: bool = False
-    """Whether every lock of the robot has acknowledged that it holds; without a lock, whether a means has."""
+    """Whether every lock of the robot has acknowledged the stop; without a lock, whether one of its means of
+    stopping has.
+    """
     unsent: str = ""
-    """Why a stop that was asked for here has been sent to nobody; empty where it was sent."""
+    """Why a stop requested here could not be sent to anybody; empty if it was sent."""
     stop_holder: str = ""
-    """Who has held it longest, as the robot says; `this console` for ourselves."""
+    """Who has held it longest, according to the robot; `this console` for ourselves."""
     stop_reason: str = ""
     stopped_here: bool = False
     """Whether one of the stops is this console's."""
     stops: tuple[RobotStop, ...] = ()
     """Everybody's stops that the robot has acknowledged, the oldest first."""
     lockable: bool = False
-    """Whether the robot has an emergency stop that acknowledges."""
+    """Whether the robot has an emergency stop that acknowledges requests."""
     unlocked: tuple[str, ...] = ()
-    """The robots that have no emergency stop that acknowledges."""
+    """The robots that have no such emergency stop."""
     held_by_means: str = ""
-    """Which configured means holds them, by its own word; empty if none does."""
+    """The configured means of stopping that reports that it holds them; empty if none does."""
     means_news: str = ""
-    """What came of the means that was tried last; after a release, which means could not be undone and why."""
+    """The result of the means of stopping tried last; after a release, which one could not be undone and why."""
     steered_by: str = ""
-    """Who holds the steering, as the robot says."""
+    """Who has control, according to the robot."""
     refused: str = ""
-    """Why nothing is steered or released from this console; empty where it may."""
+    """Why the robot can be neither driven nor released from this console; empty if it can."""
 
     @property
     def nothing_to_stop(self) -> bool:

@@ -1,4 +1,4 @@
-"""What the nodes of a ROS system need from a robot that is missing: scans, odometry, somebody who obeys velocities."""
+"""What a ROS system needs from a robot that is missing: scans, odometry, a subscription to velocities."""
 
 from __future__ import annotations
 
@@ -12,28 +12,28 @@ if TYPE_CHECKING:
     from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 SOURCES = {"/scan": "sensor_msgs/msg/LaserScan", "/odom": "nav_msgs/msg/Odometry"}
-"""What a robot publishes, by resolved names; under another name or type our simulator cannot give it."""
+"""What a robot publishes, by resolved names; our simulator cannot provide it under other names or types."""
 VELOCITY = "/cmd_vel"
 TWIST, STAMPED = KINDS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
 """The types of velocities; a robot takes one of them."""
 
 
 def robot_wanted(node: Node) -> str:
-    """Why a robot is wanted in the system that `node` sees, for people; empty where one is there or nobody wants it.
+    """Why the system that `node` sees needs a robot, as text for users; empty if there is one or nothing needs it.
 
-    Who publishes one of a robot's topics is a robot, a bag or a stand-in: a second one would contradict it.
+    Whatever publishes one of a robot's topics is a robot, a bag or a substitute: a second one would contradict it.
     """
     if any(node.get_publishers_info_by_topic(topic) for topic in SOURCES):
         return ""
     reasons = [
-        f"nobody gives {topic} to {_listed(wanting)}"
+        f"nobody publishes {topic} for {_listed(wanting)}"
         for topic, kind in SOURCES.items()
         if (wanting := _visible(node.get_subscriptions_info_by_topic(topic), kind))
     ]
     for kind in KINDS:
         drivers = _visible(node.get_publishers_info_by_topic(VELOCITY), kind)
         if drivers and not _visible(node.get_subscriptions_info_by_topic(VELOCITY), kind):
-            reasons.append(f"nobody obeys {VELOCITY} of {_listed(drivers)}")
+            reasons.append(f"nobody subscribes to {VELOCITY} of {_listed(drivers)}")
     return ", ".join(reasons)
 
 

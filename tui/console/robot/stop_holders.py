@@ -12,13 +12,13 @@ from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.text.encodable import encodable
 
 _PROCESS = re.compile(r"@(?P<machine>[^@]*) \(pid (?P<pid>[0-9]{1,9})\)")
-"""At the end of a holder's name, as `stop_link.StopLink` writes it."""
+"""The end of a holder's name, as `stop_link.StopLink` writes it."""
 
 
 def with_gone(stops: Sequence[RobotStop]) -> tuple[RobotStop, ...]:
-    """The stops, marking those whose holder was a process of this machine that has ended.
+    """The stops; those whose holder was a process of this machine that has ended are marked.
 
-    Nothing is known about processes of other machines and about holders without a process: they are not marked.
+    Nothing is known about processes of other machines and holders that are not processes: they are not marked.
     """
     return tuple(replace(each, gone=True) if not each.here and _is_gone(each.holder) else each for each in stops)
 
@@ -31,12 +31,12 @@ def _is_gone(holder: str) -> bool:
 
 
 def _lives(pid: int) -> bool:
-    if os.name == "nt":  # a process cannot be asked there without ending it
+    if os.name == "nt":  # a process cannot be probed there without affecting it
         return True
     try:
         os.kill(pid, 0)
     except ProcessLookupError:
         return False
-    except (OSError, OverflowError):  # another user's, or no number that a process can have
+    except (OSError, OverflowError):  # another user's process, or not a valid pid
         return True
     return True

@@ -1,6 +1,6 @@
 """The robot's emergency stop as the console requests and sees it: requests, and what every lock has acknowledged.
 
-The interface is that of `docs/safety.md`; a robot without it is stopped by zero velocities, which nobody acknowledges.
+The interface is that of `docs/safety.md`; a robot without it is stopped by zero velocities, which nothing acknowledges.
 """
 
 from __future__ import annotations
@@ -29,20 +29,22 @@ FOLDER, REQUEST = "/emergency_stop/", "request"
 STOP, RELEASE, STEER, HAND_BACK = "stop", "release", "steer", "hand_back"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 HEARTBEAT_S = 0.2
-"""Between two requests of a console that holds the steering; after 1 s of silence the robot locks itself."""
+"""Seconds between two claims of a console that has control; after 1 s of silence the robot locks itself."""
 RELEASE_TIMEOUT_S = 2.0
-"""How long a release is repeated for a lock that has not acknowledged it."""
+"""Seconds for which a release is repeated for a lock that has not acknowledged it."""
 REMINDER_S = 1.0
-"""Between two copies of a stop that every lock has acknowledged: one may have lost it without a word."""
+"""Seconds between two copies of a stop that every lock has acknowledged: one may have lost it unnoticed."""
 REPORT_TIMEOUT_S = 3.0
-"""Without a report for so long a lock no longer confirms a stop: each reports once a second. Older ones do not."""
+"""Seconds without a report after which a lock no longer confirms a stop: each reports once a second, except older
+ones.
+"""
 MIN_REPEAT_S = 0.05
-"""Between two copies of a stop for a lock that reports again and again that it lacks it."""
+"""Seconds between two copies of a stop for a lock that keeps reporting that it does not have it."""
 
 
 @dataclass(frozen=True, slots=True)
 class StopInfo:
-    """What is known about the stop: requested or seen, acknowledged by every lock, by whom and why."""
+    """What is known about the stop: requested or reported, acknowledged by every lock, by whom and why."""
 
     stopped: bool = False
     confirmed: bool = False
@@ -63,14 +65,14 @@ class RequestedStop:
     reason: str
     kept: bool
     alone: bool = False
-    """Whether it stands beside the requester's other stops, and only `withdraw` takes it back."""
+    """Whether it is separate from the requester's other stops, so that only `withdraw` ends it."""
 
 
 class StopLink:
     """Sends requests to all locks of the robots on the graph, repeatedly until they acknowledge.
 
-    A stop is requested until it is released: here, or by somebody else, which a lock reports. Until then every lock
-    that appears without it, or has lost it, gets it again.
+    A stop is requested until it is released: here, or by somebody else, which a lock reports. Until then it is sent
+    again to every lock that appears without it or has lost it.
 
     `stop`, `release`, `withdraw`, `steer` and `hand_back` may be called from any thread and send at once.
     """
@@ -86,14 +88,14 @@ class StopLink:
         self._requests: dict[str, Any] = {}
         self._requested: dict[str, RequestedStop] = {}
         self._acknowledged: dict[tuple[str, str], str] = {}
-        """By topic of an older lock and id of a stop: the start of the lock in which it held that stop."""
+        """By topic of an older lock and id of a stop: the instance of the lock that held the stop."""
         self._sent_at = 0.0
         self._releasing: frozenset[str] = frozenset()
         """The ids of stops to release; for older locks the keys of their requesters."""
         self._release_until = 0.0
         self._steered_at = 0.0
         self.steering = False
-        """Whether this console holds the steering."""
+        """Whether this console has control of the robot."""
         self._changed = threading.Condition()
         self.info = StopInfo()
 
@@ -121,20 +123,24 @@ class StopLink:
             self._send_stops()
 
     def _update(self) -> None:
-        with self._changed:  # else what was known before could replace what is known since
+        with self._changed:  # otherwise an older state could replace a newer one
             self._drop_released()
             self._refresh()
             self._changed.notify_all()
 
     def await_held(self, timeout_s: float) -> bool:
-        """Wait, at most so many seconds, until every lock has acknowledged the request and holds; whether so."""
+        """Wait, at most `timeout_s`, until every lock has acknowledged the request and holds; returns whether that
+        is so.
+        """
         with self._changed:
             return self._changed.wait_for(lambda: self.info.confirmed, timeout_s)
 
     def _drop_released(self) -> None:
-        """Forget the stops that somebody has released; a lock that merely lacks one has not heard of it, or restarted.
+        """Forget the stops that somebody has released; a lock that merely lacks one has not received it, or has
+        restarted.
 
-        An older lock reports no releases: there a stop was released that the same start of the lock had and lacks now.
+        An older lock reports no releases: there a stop counts as released if the same instance of the lock had it
+        and no longer does.
         """
         for id in list(self._requested):
             if any(self._was_released(id, topic, state) for topic, state in list(self._states.items())):
@@ -174,7 +180,7 @@ class StopLink:
         )
 
     def _silent_locks(self) -> list[str]:
-        """The topics of locks that are to report once a second and do not: they may be frozen, or gone."""
+        """The topics of locks that should report once a second but do not: they may be frozen, or gone."""
         due, states = time.monotonic() - REPORT_TIMEOUT_S, list(self._states.items())
         return [each for each, state in states if state.released is not None and self._reported_at.get(each, 0) < due]
 
@@ -182,11 +188,13 @@ class StopLink:
         return key == self._key or id in self._requested
 
     def _holds_released(self, state: LockState) -> bool:
-        """Whether a lock still holds a stop that is being released; an older one does not tell stops of a key apart."""
+        """Whether a lock still holds a stop that is being released; an older one does not distinguish stops of one
+        key.
+        """
         return any(each.id in self._releasing or not each.id for each in state.stops)
 
     def stop(self, reason: str, *, kept: bool = True) -> str:
-        """Lock, until it is released; returns the id of the stop, which is the same while one of its kind holds.
+        """Lock until released; returns the id of the stop, which is the same while a stop of its kind holds.
 
         A stop that is not `kept` ends with the robot's nodes, unless this requester is still there.
         """
@@ -195,11 +203,11 @@ class StopLink:
             return self._request(id or uuid.uuid4().hex, RequestedStop(reason, kept))
 
     def add_stop(self, reason: str, *, kept: bool = True) -> str:
-        """Lock with a stop beside any other of this requester, which `withdraw` takes back alone; returns its id."""
+        """Lock with a stop separate from this requester's others, which `withdraw` ends alone; returns its id."""
         return self._request(uuid.uuid4().hex, RequestedStop(reason, kept, alone=True))
 
     def join(self, id: str) -> None:
-        """Make a stop that was added one of this requester's ordinary stops."""
+        """Turn a stop made by `add_stop` into one of this requester's ordinary stops."""
         with self._changed:
             if id in self._requested:
                 self._requested[id] = replace(self._requested[id], alone=False)
@@ -213,7 +221,7 @@ class StopLink:
         return id
 
     def release(self, others: Iterable[str] = ()) -> None:
-        """Withdraw our own stops except those that stand alone, and the stops of others by their ids."""
+        """Withdraw our own stops except separate ones, and the stops of others by their ids."""
         with self._changed:
             own = {each.id for state in self._states.values() for each in state.stops if each.key == self._key}
             left = {id: each for id, each in self._requested.items() if each.alone}
@@ -228,14 +236,14 @@ class StopLink:
         self._release({id})
 
     def _release(self, ids: Collection[str]) -> None:
-        # For an older lock our key stands for all our stops: it is released with the last of them.
+        # For an older lock our key stands for all our stops, so it is released with the last of them.
         self._releasing = frozenset(ids if self._requested else {*ids, self._key})
         self._release_until = time.monotonic() + RELEASE_TIMEOUT_S
         self._send_release()
         self._update()
 
     def steer(self) -> None:
-        """Claim the steering; to be repeated by whoever sees that a person is there."""
+        """Claim control of the robot; to be repeated as long as a person is known to be there."""
         now = time.monotonic()
         if not self.steering or now - self._steered_at >= HEARTBEAT_S:
             self.steering, self._steered_at = True, now
@@ -262,13 +270,13 @@ class StopLink:
         return all(each in self._states for each in list(self._watching))
 
     def hand_back(self) -> None:
-        """Hand the steering back."""
+        """Hand back control of the robot."""
         if self.steering:
             self.steering = False
             self._send(HAND_BACK, "", {})
 
     def repeat(self) -> None:
-        """Repeat what has not been acknowledged; to be called ten times a second."""
+        """Repeat requests that have not been acknowledged; to be called ten times a second."""
         now = time.monotonic()
         if now > self._release_until:
             self._releasing = frozenset()
@@ -285,7 +293,7 @@ class StopLink:
             self._send(STOP, stop.reason, {"id": id} if stop.kept else {"id": id, "kept": "false"})
 
     def _send_release(self) -> None:
-        names = sorted(self._releasing)  # of which older locks read the keys
+        names = sorted(self._releasing)  # from these, older locks read the keys
         challenges = [each.challenge for each in list(self._states.values()) if each.challenge]
         lists = {"of": names, "ids": [each for each in names if each != self._key], "challenges": challenges}
         self._send(RELEASE, "", {key: json.dumps(each) for key, each in lists.items()})
@@ -294,7 +302,7 @@ class StopLink:
         for publisher in list(self._requests.values()):
             try:
                 publisher.publish(self._message(verb, self.holder, reason, values))
-            except (TypeError, ValueError):  # a text that cannot be sent: the request counts, not by whom and why
+            except (TypeError, ValueError):  # the text cannot be sent: the request matters, not its holder and reason
                 publisher.publish(self._message(verb, "", "", values))
 
     def _message(self, verb: str, holder: str, reason: str, values: Mapping[str, str]) -> DiagnosticStatus:
@@ -308,12 +316,12 @@ class StopLink:
 
 
 def is_lock(topic: str) -> bool:
-    """Whether a topic of type `DiagnosticStatus` is that on which a lock reports its state."""
+    """Whether a topic of type `DiagnosticStatus` is one on which a lock reports its state."""
     return FOLDER in topic and not topic.endswith(FOLDER + REQUEST)
 
 
 def user() -> str:
-    """The person at this machine, as others read it; encodable, whatever the environment contains."""
+    """The user of this machine, as others see it; encodable, whatever the environment contains."""
     try:
         name = getpass.getuser()
     except (KeyError, OSError):  # a user id without a name, as in containers

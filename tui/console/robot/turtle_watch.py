@@ -1,6 +1,6 @@
 """What the console knows about turtles: where they are, and what they have drawn.
 
-Any `turtlesim` is recognised, by the type of its poses; one without the hidden topic of its drawing shows short trails.
+Any `turtlesim` is recognised by the type of its poses; without the hidden topic of its drawing, short trails are shown.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 POSE, IMAGE = "turtlesim/msg/Pose", "sensor_msgs/msg/Image"
 CANVAS = "_canvas"
-"""The last token of the hidden topic on which our own turtlesim tells what has been drawn."""
+"""The last token of the hidden topic on which our own turtlesim publishes what has been drawn."""
 TRAIL, TRAIL_STEP = 400, 0.1
-"""Points of a trail, and metres between two of them."""
+"""Points of a trail, and the distance between two of them in m."""
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -38,7 +38,7 @@ class TurtleWatch:
         self._trails: dict[str, deque[tuple[float, float]]] = {}
         self._drawings: dict[str, Drawing] = {}
         self.fresh = False
-        """Whether there is something new since `fields` was asked for."""
+        """Whether there is something new since `fields` was last called."""
 
     def follow(self, graph: GraphInfo) -> None:
         """Subscribe to what the graph offers, and forget what has left."""
@@ -60,7 +60,7 @@ class TurtleWatch:
     def _subscribe_pose(self, topic: str) -> None:
         try:
             kind = interface(Payload.MESSAGE, POSE)
-        except ValueError:  # the turtles are another machine's; ours has no turtlesim
+        except ValueError:  # the turtles run on another machine; turtlesim is not installed here
             return
         self._trails[topic] = deque(maxlen=TRAIL)
         self._subscriptions[topic] = self._node.create_subscription(kind, topic, partial(self._on_pose, topic), NEWEST)
@@ -88,7 +88,7 @@ class TurtleWatch:
             self.fresh = True
 
     def fields(self) -> tuple[TurtleField, ...]:
-        """All fields with their turtles, by the names of the nodes."""
+        """All fields with their turtles, ordered by node name."""
         self.fresh = False
         return tuple(self._field(node) for node in sorted(self._names))
 
@@ -109,7 +109,7 @@ def _topics(node: NodeInfo, kind: str) -> list[str]:
 
 
 def _turtles(node: NodeInfo) -> dict[str, str]:
-    """The turtle names of a node by their pose topics; topics in its namespace are shown without it."""
+    """The turtle names of a node by their pose topics; its namespace is left out of the names."""
     space = node.name.rpartition("/")[0] + "/"
     return {topic: topic.removeprefix(space).strip("/").removesuffix("/pose") for topic in _topics(node, POSE)}
 

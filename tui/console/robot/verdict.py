@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 Velocity = tuple[float, float]
-"""m/s and rad/s."""
+"""Linear in m/s and angular in rad/s."""
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What an arbiter made of the command it chose: the rule or parameter that limited it, and the result."""
+    """What an arbiter did with the command it selected: the rule or parameter that limited it, and the result."""
 
     limited_by: str = ""
     asked: Velocity | None = None
@@ -24,7 +24,7 @@ class Verdict:
 
 
 def _velocity(values: Mapping[str, str], prefix: str) -> Velocity | None:
-    """A velocity given as `<prefix>.linear` and `<prefix>.angular`; None if they are missing."""
+    """A velocity given as `<prefix>.linear` and `<prefix>.angular`; None if either is missing."""
     try:
         return float(values[f"{prefix}.linear"]), float(values[f"{prefix}.angular"])
     except (KeyError, ValueError):

@@ -1,4 +1,4 @@
-"""What the console knows about the surroundings: the map, the robot's pose and speed, and where its LIDAR beams end.
+"""What the console knows about the surroundings: the map, the robot's pose and speed, and its LIDAR beams' end points.
 
 The topics are found by type, so that a robot in a namespace, or of another make, is shown as well.
 """
@@ -28,11 +28,13 @@ from sensor_msgs.msg import LaserScan
 
 TRAIL = 400
 TRAIL_STEP = 0.1
-"""Metres between two points of the trail."""
+"""Distance between two points of the trail, in m."""
 MIN_CELL_M = 1e-6
-"""The smallest cell, in m, that is taken for real; the greatest place is that of a beam's end."""
+"""The smallest plausible cell, in m; the largest coordinates are limited as those of beams are."""
 SILENT_AFTER_S = 1.0
-"""Without a pose for so long the robot is silent: slower robots tell theirs more often than once a second."""
+"""Seconds without a pose after which the robot counts as silent: even slow robots publish it more than once a
+second.
+"""
 
 SENSOR = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -64,7 +66,7 @@ class WorldWatch:
         self._chosen = ""
         self._robot = NOBODY
         self._shown = ""
-        """The robot that what is known is about; it stays when that robot leaves, as its last news does."""
+        """The robot that the current data is about; it is kept when that robot leaves, as its last data is."""
         self._robots: tuple[str, ...] = ()
         self._fleet = Fleet(GraphInfo())
 
@@ -77,7 +79,7 @@ class WorldWatch:
         self._follow_robot()
 
     def choose(self, robot: str) -> None:
-        """Watch another robot, by the name that `DriveInfo.robots` has for it; in the thread that serves the node."""
+        """Watch another robot, by its name in `DriveInfo.robots`; in the thread that serves the node."""
         self._chosen = robot
         self._follow_robot()
 
@@ -96,7 +98,7 @@ class WorldWatch:
             self._robots, self._fresh = robots, True
 
     def _with_odometry(self) -> tuple[str, ...]:
-        """The robots that have odometry; of several names for one robot the chosen one, else the first."""
+        """The robots with odometry; if one has several names, the chosen one, else the first."""
         published = self._fleet.published(ODOMETRY)
         found: dict[str, str] = {}
         for each in self._fleet.robots:
@@ -106,7 +108,7 @@ class WorldWatch:
         return tuple(found.values())
 
     def _forget(self) -> None:
-        """Nothing that is known of one robot is shown as another's."""
+        """Discard everything, so that one robot's data is not shown as another's."""
         for each in self._subscriptions.values():
             each.destroy()
         self._subscriptions.clear()
@@ -150,7 +152,7 @@ class WorldWatch:
 
     @property
     def info(self) -> WorldInfo:
-        """What is known now; the same object until something new has arrived."""
+        """The current state; the same object until something new has arrived."""
         if self._fresh or self._turtles.fresh:
             self._fresh = False
             self._info = self._build()
@@ -185,12 +187,12 @@ class WorldWatch:
 def pose_of(message: Any) -> Pose | None:
     """A `geometry_msgs/Pose` in the plane; None if it cannot be drawn."""
     place = message.position
-    inside = abs(place.x) <= MAX_RANGE_M and abs(place.y) <= MAX_RANGE_M  # False for what is no number
+    inside = abs(place.x) <= MAX_RANGE_M and abs(place.y) <= MAX_RANGE_M  # False for NaN
     return Pose(place.x, place.y, heading(message.orientation)) if inside else None
 
 
 def grid_of(message: OccupancyGrid) -> GridMap | None:
-    """A map as the console shows it; None if its size, position or number of cells is impossible."""
+    """A map as the console shows it; None if its size, position or number of cells is invalid."""
     meta = message.info
     origin = pose_of(meta.origin)
     count = meta.width * meta.height
@@ -198,7 +200,7 @@ def grid_of(message: OccupancyGrid) -> GridMap | None:
         return None
     if not (meta.resolution >= MIN_CELL_M and max(meta.width, meta.height) * meta.resolution <= MAX_RANGE_M):
         return None
-    cells = np.asarray(message.data, np.int8).tobytes()  # -1, unknown, is the byte 255
+    cells = np.asarray(message.data, np.int8).tobytes()  # -1, unknown, becomes the byte 255
     return GridMap(meta.width, meta.height, meta.resolution, origin, cells)
 
 

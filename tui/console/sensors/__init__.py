@@ -1,1 +1,1 @@
-"""What a robot shows of itself: its diagnostics and its cameras."""
+"""The robot's diagnostics, cameras and frames."""

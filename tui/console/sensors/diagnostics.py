@@ -1,4 +1,4 @@
-"""The diagnostics of the whole system, by name, with what each has been."""
+"""The diagnostics of the whole system, by name, with the history of each."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from rclpy.node import Node
 
 TYPE = "diagnostic_msgs/msg/DiagnosticArray"
 AGGREGATED = "_agg"
-"""Ends the topic of an aggregator, which repeats what the others say under names of its own."""
+"""Suffix of an aggregator's topic, which repeats the statuses of the others under different names."""
 MAX_NAMES = 1000
 """Names that are kept."""
 REMEMBERED = 100
-"""Changes that are kept of one name."""
+"""Changes that are kept per name."""
 
 
 class DiagnosticsWatch:
-    """Listens to every topic of diagnostics, or to the aggregator's alone where there is one."""
+    """Subscribes to every diagnostics topic, or only to the aggregator's if there is one."""
 
     def __init__(self, node: Node, clock: Callable[[], float] = time.monotonic) -> None:
         self._node = node
@@ -33,7 +33,7 @@ class DiagnosticsWatch:
         self._info = Diagnostics()
 
     def follow(self, graph: GraphInfo) -> None:
-        """The graph is another; called by the executor."""
+        """Process a changed graph; called by the executor."""
         reported = {each.name for node in graph.nodes for each in node.publishers if TYPE in each.types}
         reported = {each for each in reported if each.endswith(AGGREGATED)} or reported
         wanted = {
@@ -53,7 +53,7 @@ class DiagnosticsWatch:
             self._report()
 
     def take(self, message: DiagnosticArray) -> None:
-        """Take in what was said."""
+        """Process a message."""
         stamp, heard = time.time_ns(), self._clock()
         found = dict(self._statuses)
         for each in message.status:
@@ -70,7 +70,7 @@ class DiagnosticsWatch:
         self._info = Diagnostics(statuses, tuple(sorted(self._subscriptions)), self._dropped)
 
     def diagnostics(self) -> Diagnostics:
-        """What was said last; from any thread."""
+        """The latest statuses; from any thread."""
         return self._info
 
 
@@ -84,6 +84,6 @@ def _status(new: DiagnosticStatus, before: Status | None, stamp: int, heard: flo
 
 
 def _level(code: Any) -> Level:
-    """A level that is a byte, as in Jazzy, or a number; an unknown one is taken for an error."""
+    """A level that is a byte, as in Jazzy, or a number; an unknown one counts as an error."""
     number = code[0] if isinstance(code, bytes) and code else code
     return Level(number) if number in tuple(Level) else Level.ERROR

@@ -1,4 +1,4 @@
-"""The frames of tf2 as a person sees them, and what is wrong with them. Standard library only."""
+"""The frames of tf2 as the panes show them, and what is wrong with them. Standard library only."""
 
 from __future__ import annotations
 
@@ -6,37 +6,37 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 QUIET = 1.0
-"""Seconds after which a frame that moves counts as silent, or three of its own periods where those are longer."""
+"""Seconds after which a moving frame counts as silent, or three times its period if that is longer."""
 
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """Where a frame was last told to be in its parent: place in m; roll, pitch and yaw in rad."""
+    """The latest transform of a frame relative to its parent: position in m; roll, pitch and yaw in rad."""
 
     name: str
     parent: str
     fixed: bool = False
-    """Whether it was told on `/tf_static`, and so holds until it is told otherwise."""
+    """Whether it was published on `/tf_static`, so that it stays valid until it is published again."""
     place: tuple[float, float, float] = (0.0, 0.0, 0.0)
     turn: tuple[float, float, float] = (0.0, 0.0, 0.0)
     rate: float | None = None
-    """How often it is told (Hz); None while that is not known."""
+    """How often it is published (Hz); None until that is known."""
     heard: float = 0.0
-    """When it was told last, in s of a steady clock."""
+    """When it was last received, in s of a monotonic clock."""
     late: float | None = None
-    """How old (s) the transform was when it came, by its own stamp; None where the clocks are not the same."""
+    """The age (s) of the transform when it was received, by its own stamp; None if the clocks differ."""
     others: tuple[str, ...] = ()
-    """Other parents that it was told to have, of late or for good."""
+    """Other parents with which it was published recently, or on `/tf_static`."""
 
     def silent(self, clock: float) -> bool:
-        """Whether it moves, and has not been told for too long."""
+        """Whether it is a moving frame that has not been published for too long."""
         timeout_s = max(QUIET, 3.0 / self.rate if self.rate else 0.0)
         return not self.fixed and clock - self.heard > timeout_s
 
 
 @dataclass(frozen=True, slots=True)
 class Frames:
-    """What is known of all frames; `problem` says why nothing is, empty when nothing is wrong."""
+    """What is known about all frames; `problem` says why nothing is, and is empty when all is well."""
 
     frames: tuple[Frame, ...] = ()
     moving_by: tuple[str, ...] = ()
@@ -44,21 +44,21 @@ class Frames:
     fixed_by: tuple[str, ...] = ()
     """The nodes that publish `/tf_static`."""
     dropped: int = 0
-    """Transforms of frames beyond those that are kept."""
+    """Transforms of frames beyond the maximum number."""
     problem: str = ""
 
     def publishers(self, frame: Frame) -> tuple[str, ...]:
-        """Who tells of a frame: which of several nodes it is, messages do not say."""
+        """The nodes that may publish a frame; messages do not say which of several nodes it is."""
         return self.fixed_by if frame.fixed else self.moving_by
 
 
 def roots(parents: Mapping[str, str]) -> list[str]:
-    """The frames that stand in no other one."""
+    """The frames without a parent."""
     return sorted(set(parents.values()) - set(parents))
 
 
 def loop_of(name: str, parents: Mapping[str, str]) -> tuple[str, ...]:
-    """The frames that lead from one back to itself; empty where they do not."""
+    """The frames on the way from a frame back to itself; empty if there is no loop."""
     way = [name]
     while (above := parents.get(way[-1])) is not None and above not in way:
         way.append(above)
@@ -66,20 +66,20 @@ def loop_of(name: str, parents: Mapping[str, str]) -> tuple[str, ...]:
 
 
 def findings(info: Frames, clock: float) -> Iterator[tuple[str, str]]:
-    """What is wrong, each with the frame that it is about."""
+    """What is wrong, each with the frame concerned."""
     parents = {each.name: each.parent for each in info.frames}
     reported: set[str] = set()
     for each in info.frames:
         if each.others:
             several = " and ".join(sorted((each.parent, *each.others)))
-            what = "the one that is heard last counts" if each.fixed else "it jumps from one to the other"
+            what = "the last one received counts" if each.fixed else "it jumps from one to the other"
             yield each.name, f"{each.name} has more than one parent: {several}; {what}"
         loop = loop_of(each.name, parents)
         if loop and each.name not in reported:
             reported.update(loop)
-            yield each.name, f"{' in '.join((*loop, loop[0]))}: a loop, nothing can be looked up in it"
+            yield each.name, f"{' in '.join((*loop, loop[0]))}: a loop, so nothing can be looked up in it"
         if each.silent(clock):
-            yield each.name, f"{each.name} was last told {clock - each.heard:.0f} s ago"
+            yield each.name, f"{each.name} was last published {clock - each.heard:.0f} s ago"
     trees = roots(parents)
     if len(trees) > 1:
-        yield trees[1], f"{len(trees)} trees that nothing joins: {', '.join(trees)}"
+        yield trees[1], f"{len(trees)} separate trees: {', '.join(trees)}"

@@ -1,4 +1,4 @@
-"""The frames that are told on `/tf` and `/tf_static`, while somebody looks at them."""
+"""The frames published on `/tf` and `/tf_static`, while somebody is viewing them."""
 
 from __future__ import annotations
 
@@ -16,27 +16,27 @@ from bot_console.tui.console.traffic import Payload
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
-if TYPE_CHECKING:  # a small ROS 2 has no tf2_msgs
+if TYPE_CHECKING:  # a minimal ROS 2 installation has no tf2_msgs
     from geometry_msgs.msg import TransformStamped
     from tf2_msgs.msg import TFMessage
 
 MOVING, FIXED = "/tf", "/tf_static"
 TYPE = "tf2_msgs/msg/TFMessage"
 DEPTH = {MOVING: 100, FIXED: 1000}
-"""Static transforms come at once, and each only once."""
+"""Queue depths; static transforms come all at once, and each only once."""
 MAX_FRAMES = 2000
 """Frames that are kept."""
 REMEMBERED = 5.0
-"""Seconds for which another parent counts that was told on `/tf`; one on `/tf_static` is told once, and holds."""
+"""Seconds for which another parent seen on `/tf` is remembered; one on `/tf_static` is published once, and stays."""
 WINDOW = 2.0
 """Seconds over which a rate is measured."""
 SAME_CLOCK = 60.0
-"""Seconds beyond which a stamp is of another clock than ours."""
+"""Difference (s) beyond which a stamp is considered to be from another clock."""
 
 
 @dataclass
 class _FrameState:
-    """A frame, as it was told: the newest transform, and how many came since a moment."""
+    """A frame as received: the newest transform, and the number of transforms since a given time."""
 
     transform: TransformStamped
     fixed: bool
@@ -49,7 +49,7 @@ class _FrameState:
 
 
 class FramesWatch:
-    """Subscribes while it is looked at, and keeps what was heard; `/tf` may be the busiest topic of a robot."""
+    """Subscribes while it is being viewed, and keeps what was received; `/tf` may be the busiest topic of a robot."""
 
     def __init__(self, node: Node, clock: Callable[[], float] = time.monotonic) -> None:
         self._node = node
@@ -62,14 +62,14 @@ class FramesWatch:
         self._problem = ""
 
     def poll(self, on: bool, graph: GraphInfo) -> None:
-        """Somebody looks, or nobody any more; called by the executor."""
+        """Start or stop listening; called by the executor."""
         self._last_poll = on
         if not on:
             self._seen.clear()
         self.follow(graph)
 
     def follow(self, graph: GraphInfo) -> None:
-        """The graph is another; called by the executor."""
+        """Process a changed graph; called by the executor."""
         for topic in self._publishers:
             nodes = [node.name for node in graph.nodes if any(each.name == topic for each in node.publishers)]
             self._publishers[topic] = tuple(nodes)
@@ -89,16 +89,16 @@ class FramesWatch:
             return
         profile.depth = DEPTH[topic]
         if topic == MOVING:
-            profile.reliability = ReliabilityPolicy.BEST_EFFORT  # a console must not hold a robot up
+            profile.reliability = ReliabilityPolicy.BEST_EFFORT  # a console must not slow down a robot
         take = self.take_fixed if topic == FIXED else self.take_moving
         self._subscriptions[topic] = offer, self._node.create_subscription(kind, topic, take, profile)
 
     def take_moving(self, message: TFMessage) -> None:
-        """Take in what was told on `/tf`."""
+        """Process a message of `/tf`."""
         self._take(message, fixed=False)
 
     def take_fixed(self, message: TFMessage) -> None:
-        """Take in what was told on `/tf_static`."""
+        """Process a message of `/tf_static`."""
         self._take(message, fixed=True)
 
     def _take(self, message: TFMessage, fixed: bool) -> None:
@@ -118,7 +118,7 @@ class FramesWatch:
             seen.parents[each.header.frame_id.lstrip("/")] = math.inf if fixed else now
 
     def frames(self) -> Frames:
-        """What was told last; from any thread."""
+        """The latest transforms; from any thread."""
         now = self._clock()
         frames = tuple(_frame(name, each, now) for name, each in sorted(tuple(self._seen.items())))
         return Frames(frames, self._publishers[MOVING], self._publishers[FIXED], self._dropped, self._problem)

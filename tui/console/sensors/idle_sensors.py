@@ -1,4 +1,4 @@
-"""`Sights` while there is no ROS system to look at: nothing is seen, and it says why."""
+"""`Sensors` while there is no ROS system: there is no data, and the reason why."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from bot_console.tui.console.sensors.model import Diagnostics, Picture
 
 
 class IdleSensors:
-    """Says why nothing is seen."""
+    """Says why there is no data."""
 
     def __init__(self, why: str) -> None:
         self._diagnostics = Diagnostics(problem=why)
@@ -15,22 +15,22 @@ class IdleSensors:
         self._frames = Frames(problem=why)
 
     def diagnostics(self) -> Diagnostics:
-        """None, and why."""
+        """None, with the reason."""
         return self._diagnostics
 
     def watch_image(self, topic: str, columns: int, rows: int) -> None:
-        """Nothing comes."""
+        """Do nothing."""
 
     def picture(self) -> Picture:
-        """None, and why."""
+        """None, with the reason."""
         return self._picture
 
     def watch_frames(self, on: bool) -> None:
-        """There are none."""
+        """Do nothing."""
 
     def watch_nodes(self, on: bool) -> None:
-        """There are none."""
+        """Do nothing."""
 
     def frames(self) -> Frames:
-        """None, and why."""
+        """None, with the reason."""
         return self._frames

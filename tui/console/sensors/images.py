@@ -1,4 +1,4 @@
-"""The newest image of one topic, scaled for a text screen when somebody looks."""
+"""The newest image of one topic, scaled on demand for a text screen."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
 MAX_IMAGE_BYTES = 50_000_000
-"""Bytes of a compressed image, and pixels that it may have; what is larger is not unpacked."""
+"""Limit of a compressed image in bytes, and also in pixels; a larger one is not decoded."""
 NO_PIL = "compressed images need Pillow: pip install 'bot-console[images]'"
 
 
 class ImageWatch(FollowedTopic):
-    """Keeps what came last; it becomes pixels only when somebody looks."""
+    """Keeps the latest message; it is converted to pixels only on demand."""
 
     def __init__(self, node: Node) -> None:
         super().__init__(node)
@@ -40,7 +40,7 @@ class ImageWatch(FollowedTopic):
 
     def _class(self, kind: str) -> type:
         if kind not in (IMAGE, COMPRESSED):
-            raise ValueError(f"{self._topic} is of type {kind}, which is no image")
+            raise ValueError(f"{self._topic} is of type {kind}, which is not an image")
         return getattr(importlib.import_module("sensor_msgs.msg"), kind.rpartition("/")[2])
 
     def _profile(self, offer: Offer) -> QoSProfile:
@@ -51,7 +51,9 @@ class ImageWatch(FollowedTopic):
         self._newest = (self._newest[0] + 1, message)
 
     def picture(self) -> Picture:
-        """What came last; from any thread, and the same object until there is another or it is wanted otherwise."""
+        """The latest image; from any thread, and the same object until there is another or another size is
+        requested.
+        """
         count, message = self._newest
         key = (self._topic, count, self._size, self._problem)
         if self._made[0] != key:
@@ -82,7 +84,7 @@ class ImageWatch(FollowedTopic):
 
 
 def _shown(message: Any, columns: int, rows: int) -> tuple[int, int, str, pixels.Pixels, str]:
-    """Width, height, encoding, the scaled pixels, and a word on them; raises `ValueError`."""
+    """Width, height, encoding, the scaled pixels, and a note about them; raises `ValueError`."""
     if hasattr(message, "encoding"):
         shown, output = pixels.scaled(message, columns, rows)
         return int(message.width), int(message.height), str(message.encoding), shown, output
@@ -105,4 +107,4 @@ def _unpacked(data: bytes) -> Any:
                 raise ValueError(f"{image.width} x {image.height} pixels are too many to be shown")
             return np.asarray(image.convert("RGB"))
     except (OSError, SyntaxError, EOFError, KeyError, library.DecompressionBombError) as error:
-        raise ValueError(f"this image cannot be unpacked: {error}") from None
+        raise ValueError(f"this image cannot be decoded: {error}") from None

@@ -1,6 +1,6 @@
-"""Diagnostics, images and frames as a person looks at them, and the protocol that provides them. Standard library only.
+"""Diagnostics, images and frames as the panes show them, and the protocol that provides them. Standard library only.
 
-`Sights` is part of `Console` and is polled in the same way: nothing here blocks.
+`Sensors` is part of `Console` and is polled in the same way: nothing here blocks.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Protocol
 from bot_console.tui.console.sensors.frame_model import Frames
 
 STALE_AFTER_S = 5.0
-"""Seconds after which a status that was not told again counts as stale, as in rqt_robot_monitor."""
+"""Seconds without an update after which a status counts as stale, as in rqt_robot_monitor."""
 
 
 class Level(IntEnum):
@@ -31,7 +31,7 @@ class Level(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class ReportedStatus:
-    """The moment (ns since the epoch) at which a status changed its level, or its message at the same level."""
+    """The time (ns since the epoch) at which a status changed its level, or its message at the same level."""
 
     stamp: int
     level: Level
@@ -48,9 +48,9 @@ class Status:
     hardware: str = ""
     values: tuple[tuple[str, str], ...] = ()
     heard: float = 0.0
-    """When it was said last, in s of a steady clock."""
+    """When it was last received, in s of a monotonic clock."""
     history: tuple[ReportedStatus, ...] = ()
-    """How it came to be so, the newest last."""
+    """Its past changes, the newest last."""
 
     def now(self, clock: float) -> Level:
         """Its level, or stale when it has been silent for too long."""
@@ -59,18 +59,18 @@ class Status:
 
 @dataclass(frozen=True, slots=True)
 class Diagnostics:
-    """The latest status of each name; `problem` says why there is none, and is empty when nothing is wrong."""
+    """The latest status of each name; `problem` says why there is none, and is empty when all is well."""
 
     statuses: tuple[Status, ...] = ()
     topics: tuple[str, ...] = ()
-    """Where they come from."""
+    """The topics they come from."""
     dropped: int = 0
-    """Names beyond those that are kept."""
+    """Names beyond the maximum number."""
     problem: str = ""
 
 
 IMAGE, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
-"""The types that can be looked at."""
+"""The types that can be viewed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,19 +79,19 @@ class Picture:
 
     topic: str = ""
     count: int = 0
-    """Images up to this one."""
+    """Number of images received so far."""
     width: int = 0
     height: int = 0
-    """Pixels of the image as it was sent."""
+    """Height of the original image, in pixels."""
     encoding: str = ""
     columns: int = 0
     rows: int = 0
     pixels: bytes = b""
-    """Red, green and blue of each pixel that is shown, row by row."""
+    """Red, green and blue of each pixel shown, row by row."""
     message: str = ""
-    """What black and white mean, where they are not colours."""
+    """What black and white stand for, if they are not colours."""
     seconds: float = 0.0
-    """How long it took to scale it."""
+    """How long scaling took."""
     problem: str = ""
     """Why there is none; empty when all is well."""
 
@@ -112,13 +112,15 @@ class Sensors(Protocol):
         ...
 
     def watch_frames(self, on: bool) -> None:
-        """Listen to `/tf` and `/tf_static` from now on, or stop listening."""
+        """Start or stop listening to `/tf` and `/tf_static`."""
         ...
 
     def watch_nodes(self, on: bool) -> None:
-        """Start, or stop, finding out which nodes do not answer (`GraphInfo.silent`) where nothing else tells."""
+        """Start or stop checking which nodes do not respond (`GraphInfo.silent`), unless that is known from another
+        source.
+        """
         ...
 
     def frames(self) -> Frames:
-        """What was heard about frames while they were listened to."""
+        """The frames received while listening."""
         ...

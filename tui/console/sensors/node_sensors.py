@@ -1,4 +1,4 @@
-"""`Sights` over the console's node."""
+"""`Sensors` over the console's node."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rclpy.node import Node
 
 
 class NodeSensors:
-    """What the robot shows of itself; its methods may be called from any thread, the work is the executor's."""
+    """The robot's sensor data; its methods may be called from any thread, the executor does the work."""
 
     def __init__(self, node: Node, calls: Calls, graph: Callable[[], GraphWatch]) -> None:
         self._calls = calls
@@ -26,13 +26,13 @@ class NodeSensors:
         self._frames = FramesWatch(node)
 
     def follow(self, graph: GraphInfo) -> None:
-        """The graph is another; called by the executor."""
+        """Process a changed graph; called by the executor."""
         self._diagnostics.follow(graph)
         self._images.follow(graph)
         self._frames.follow(graph)
 
     def diagnostics(self) -> Diagnostics:
-        """What the parts of the robot say of themselves."""
+        """The latest diagnostics."""
         return self._diagnostics.diagnostics()
 
     def watch_image(self, topic: str, columns: int, rows: int) -> None:
@@ -48,7 +48,7 @@ class NodeSensors:
         return self._images.picture()
 
     def watch_frames(self, on: bool) -> None:
-        """Listen to `/tf` and `/tf_static` from now on, or stop listening."""
+        """Start or stop listening to `/tf` and `/tf_static`."""
 
         async def poll() -> None:
             self._frames.poll(on, self._graph().info)
@@ -56,7 +56,7 @@ class NodeSensors:
         self._calls.run(poll(), lambda _: None)
 
     def watch_nodes(self, on: bool) -> None:
-        """Ask the nodes of the graph whether they live from now on, or no more."""
+        """Start or stop checking which nodes of the graph respond."""
 
         async def poll() -> None:
             self._graph().watch_nodes(on)
@@ -64,5 +64,5 @@ class NodeSensors:
         self._calls.run(poll(), lambda _: None)
 
     def frames(self) -> Frames:
-        """What was heard about frames while they were listened to."""
+        """The frames received while listening."""
         return self._frames.frames()

@@ -1,4 +1,4 @@
-"""Images of ROS as rows of RGB pixels, scaled to few: what a text screen can show. Pure, in NumPy."""
+"""ROS images as rows of RGB pixels, scaled down to what a text screen can show. Pure functions using NumPy."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ COLOURS = {
     "8UC3": (2, 1, 0),
     "8UC4": (2, 1, 0),
 }
-"""Where red, green and blue stand in a pixel."""
+"""Positions of red, green and blue in a pixel."""
 CHANNELS = {"rgba8": 4, "bgra8": 4, "8UC4": 4}
 GREYS = {
     **dict.fromkeys(("mono8", "8UC1"), "u1"),
@@ -29,27 +29,27 @@ GREYS = {
     **dict.fromkeys((f"bayer_{each}8" for each in ("rggb", "bggr", "gbrg", "grbg")), "u1"),
     **dict.fromkeys((f"bayer_{each}16" for each in ("rggb", "bggr", "gbrg", "grbg")), "u2"),
 }
-"""Encodings of one number a pixel, and its type; raw patterns of colour filters are shown as grey."""
+"""Encodings with one number per pixel, and its type; raw Bayer patterns are shown as grey."""
 KNOWN = (*COLOURS, *GREYS)
 
 
 def scaled(message: Any, columns: int, rows: int) -> tuple[Pixels, str]:
-    """The pixels of a `sensor_msgs/msg/Image`, at most so many, and a word on how numbers became greys.
+    """The pixels of a `sensor_msgs/msg/Image`, at most `columns` x `rows`, and a note on how numbers became greys.
 
-    Raises `ValueError` where it cannot be shown, in words.
+    Raises `ValueError` with a readable message if it cannot be shown.
     """
     width, height, encoding = int(message.width), int(message.height), str(message.encoding)
     if not width or not height:
         raise ValueError("an image without pixels")
     if encoding not in KNOWN:
-        raise ValueError(f"the encoding '{encoding[:24]}' cannot be shown; those that can: {', '.join(KNOWN)}")
+        raise ValueError(f"the encoding '{encoding[:24]}' is not supported; supported are {', '.join(KNOWN)}")
     channels = CHANNELS.get(encoding, 3 if encoding in COLOURS else 1)
     kind: np.dtype[Any] = np.dtype((">" if message.is_bigendian else "<") + GREYS.get(encoding, "u1"))
     line, step = width * channels * kind.itemsize, int(message.step)
     data = np.frombuffer(bytes(message.data), np.uint8)
     if step < line or len(data) < step * (height - 1) + line:
         raise ValueError(
-            f"{width} x {height} {encoding} needs {line} bytes a line, {line * height} in all; "
+            f"{width} x {height} {encoding} needs {line} bytes per row, {line * height} in total; "
             f"there are {step} and {len(data)}"
         )
     lines = [data[at * step : at * step + line] for at in _picked(height, rows)]
@@ -64,7 +64,7 @@ def scaled(message: Any, columns: int, rows: int) -> tuple[Pixels, str]:
 
 
 def of_colours(image: Grey, columns: int, rows: int) -> Pixels:
-    """The pixels of an array (height, width, 3) of RGB, at most so many."""
+    """The pixels of an array (height, width, 3) of RGB, at most `columns` x `rows`."""
     height, width = image.shape[:2]
     across, down = fitting(width, height, columns, rows)
     return _shrunk(image[_picked(height, rows)][:, _picked(width, columns)].astype(np.float32), across, down).astype(
@@ -73,19 +73,19 @@ def of_colours(image: Grey, columns: int, rows: int) -> Pixels:
 
 
 def fitting(width: int, height: int, columns: int, rows: int) -> tuple[int, int]:
-    """The size, of at most so many columns and rows, in which an image keeps its shape; never larger than it is."""
+    """The size, within `columns` and `rows`, at which an image keeps its aspect ratio; never larger than the image."""
     scale = min(columns / width, rows / height, 1.0)
     return max(1, round(width * scale)), max(1, round(height * scale))
 
 
 def _picked(size: int, wanted: int) -> npt.NDArray[np.intp]:
-    """Which lines of many are looked at: four for each that is shown, so that large images cost what small ones do."""
+    """The rows or columns to sample: four for each one shown, so that large images cost no more than small ones."""
     count = min(size, max(1, wanted) * 4)
     return ((np.arange(count) + 0.5) * size / count).astype(np.intp)
 
 
 def _shrunk(image: npt.NDArray[np.floating[Any]], across: int, down: int) -> npt.NDArray[np.floating[Any]]:
-    """The mean of the pixels that fall onto each."""
+    """Each resulting pixel is the mean of the pixels it covers."""
     height, width = image.shape[:2]
     rows, columns = np.arange(down) * height // down, np.arange(across) * width // across
     sums = np.add.reduceat(np.add.reduceat(image, rows, axis=0), columns, axis=1)
@@ -94,12 +94,14 @@ def _shrunk(image: npt.NDArray[np.floating[Any]], across: int, down: int) -> npt
 
 
 def _as_grey(image: npt.NDArray[np.float64], *, wide: bool) -> tuple[npt.NDArray[np.float64], str]:
-    """Bytes as they are; wider numbers, such as depths, from the least (black) to the greatest; NaN is black."""
+    """Bytes unchanged; wider numbers, such as depths, scaled from the least (black) to the greatest (white); NaN is
+    black.
+    """
     if not wide:
         return image, ""
     finite = np.isfinite(image)
     if not finite.any():
-        return np.zeros_like(image), "no number in it"
+        return np.zeros_like(image), "contains no numbers"
     low, high = float(image[finite].min()), float(image[finite].max())
     spread = (high - low) or 1.0
     return np.where(finite, (np.where(finite, image, low) - low) / spread * 255.0, 0.0), f"{low:.4g} to {high:.4g}"

@@ -1,4 +1,4 @@
-"""Headings: quaternions from and to a yaw."""
+"""Headings: conversion between quaternions and yaw."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ DEGREES = ("°", "deg", "degrees")
 
 
 def quaternion(yaw: float) -> tuple[float, float, float, float]:
-    """x, y, z and w of a turn about the vertical axis (rad)."""
+    """x, y, z and w of a rotation about the vertical axis (rad)."""
     return 0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)
 
 
@@ -21,19 +21,19 @@ def parse_yaw(text: str) -> float:
     try:
         value = float(words)
     except ValueError:
-        raise ValueError(f"'{text}' is no yaw; write 90° or 1.57") from None
+        raise ValueError(f"'{text}' is not a yaw; write 90° or 1.57") from None
     if not math.isfinite(value):
         raise ValueError("a yaw must be a finite number")
     return math.radians(value) if unit else value
 
 
 def angles_text(q: Any) -> str:
-    """A quaternion in degrees: its yaw, and roll and pitch where there are any."""
+    """A quaternion in degrees: its yaw, and roll and pitch if they are not zero."""
     norm = math.hypot(q.x, q.y, q.z, q.w)
     if not math.isfinite(norm):
         return "not finite"
     if norm < 1e-6:
-        return "no rotation: its length is 0"
+        return "not a rotation: its length is 0"
     x, y, z, w = (each / norm for each in (q.x, q.y, q.z, q.w))
     yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
     roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))

@@ -1,4 +1,4 @@
-"""One topic that is heard for as long as somebody looks, however its offer changes."""
+"""A subscription to one topic, kept while somebody needs it and adapted to the QoS offered."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ from rclpy.qos import QoSProfile
 
 
 class FollowedTopic:
-    """A subscription that comes with the topic, is made anew for another offer, and goes with the last look."""
+    """A subscription that is made when the topic appears, remade when its offer changes, and ends when it is not
+    needed.
+    """
 
     def __init__(self, node: Node) -> None:
         self._node = node
@@ -22,11 +24,11 @@ class FollowedTopic:
         self._problem = ""
 
     def follow(self, graph: GraphInfo) -> None:
-        """The graph is another: the topic may have come only now, or be offered with another QoS."""
+        """Process a changed graph: the topic may have appeared, or be offered with another QoS."""
         topic = self._topic
         types = offered_types_of(graph, topic) if topic else ()
         if not topic or not types:
-            self._problem = f"there is no topic {topic} now" if topic and self._subscription is None else ""
+            self._problem = f"there is currently no topic {topic}" if topic and self._subscription is None else ""
             return
         offer = offered_qos(graph, topic)
         if self._subscription is not None and (types[0], offer.key) == (self._type, self._offer):
@@ -41,15 +43,15 @@ class FollowedTopic:
         self._subscription = self._node.create_subscription(kind, topic, self._take, self._profile(offer))
 
     def _class(self, kind: str) -> type:
-        """The class of a type's messages; raises `ValueError` with what is said where it cannot be heard."""
+        """The message class of a type; raises `ValueError` with the message to show if it cannot be used."""
         raise NotImplementedError
 
     def _profile(self, offer: Offer) -> QoSProfile:
-        """With which QoS to listen."""
+        """The QoS profile of the subscription."""
         return offer.profile()
 
     def _take(self, message: Any) -> None:
-        """A message came; called by the executor."""
+        """Process a message; called by the executor."""
         raise NotImplementedError
 
     def _detach(self) -> None:

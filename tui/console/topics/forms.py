@@ -1,4 +1,4 @@
-"""Forms for messages, requests and goals: what their fields hold, and the message that was filled in."""
+"""Forms for messages, requests and goals: their fields with values, and the message filled in from them."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from bot_console.tui.console.traffic import Payload, Slot, Values
 from rosidl_runtime_py import message_to_ordereddict
 
 SHORT = 60
-"""Letters of an array's default that are worth writing out."""
+"""Maximum length, in characters, of an array's default that is written out."""
 
 
 def slots(payload: Payload, type_name: str, values: Values) -> list[Slot]:
@@ -68,7 +68,7 @@ def _default(value: Any, kind: str, owner: str, names: Any) -> str:
 
 
 def field_at(message: Any, path: str) -> tuple[Any, str, str]:
-    """The message that holds the field of a path, the field's name and its type; raises `ValueError`."""
+    """The message that contains the field at a path, the field's name and its type; raises `ValueError`."""
     *outer, name = path.split(".")
     for step in outer:
         if step not in fields_of(message):
@@ -80,7 +80,7 @@ def field_at(message: Any, path: str) -> tuple[Any, str, str]:
 
 
 def wrong(payload: Payload, type_name: str, path: str, text: str) -> str:
-    """Why a text cannot stand in a field; empty when it can."""
+    """Why a text is not valid for a field; empty if it is."""
     try:
         _put(filled_class(payload, type_name)(), path, text)
     except ValueError as error:
@@ -89,7 +89,7 @@ def wrong(payload: Payload, type_name: str, path: str, text: str) -> str:
 
 
 def _put(message: Any, path: str, text: str) -> bool:
-    """Set a field; whether it is a time that is to be `now` at each sending."""
+    """Set a field; returns whether it is a time to be set to the current time whenever the message is sent."""
     holder, name, kind = field_at(message, path)
     value = parse(kind, text, constants(holder).get(name, {}))
     if value is None:
@@ -102,7 +102,7 @@ def _put(message: Any, path: str, text: str) -> bool:
 
 
 def filled(payload: Payload, type_name: str, values: Values) -> tuple[Any, Sequence[str]]:
-    """The message with what was typed in it, and the paths of the times that are `now`; raises `ValueError`."""
+    """The message with what was typed, and the paths of the times that are `now`; raises `ValueError`."""
     message = filled_class(payload, type_name)()
     now = [each.path for each in slots(payload, type_name, values) if each.type in TIMES and each.text == NOW]
     for path, text in values.items():
@@ -111,14 +111,14 @@ def filled(payload: Payload, type_name: str, values: Values) -> tuple[Any, Seque
 
 
 def stamp(message: Any, paths: Sequence[str], clock: Callable[[], Any]) -> None:
-    """Put the time of now into these fields."""
+    """Set these fields to the current time."""
     for path in paths:
         holder, name, _ = field_at(message, path)
         setattr(holder, name, clock())
 
 
 def typed_fields(payload: Payload, type_name: str, values: Values) -> dict[str, Any]:
-    """What was typed as nested fields, for a command line; times that are `now` as that word."""
+    """What was typed, as nested fields for a command line; times that are `now` stay that word."""
     message, now = filled(payload, type_name, values)
     whole = message_to_ordereddict(message)
     found: dict[str, Any] = {}

@@ -1,4 +1,4 @@
-"""Goals that a person sends to actions: their feedback, result and cancellation."""
+"""Goals that a user sends to actions: their feedback, result and cancellation."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ STATUS = {4: "succeeded", 5: "canceled", 6: "aborted"}
 
 @dataclass
 class _Sent:
-    """A goal on its way."""
+    """A goal that was sent."""
 
     type: str
     began: float
     goal: Goal
     handle: Any = None
     feedback: Any = None
-    """The newest message of feedback; made into lines when somebody looks."""
+    """The newest feedback message; converted to lines on demand."""
     shown: int = 0
     lines: tuple[Field, ...] = ()
 
 
 class Goals:
-    """The last goal of each action; `send` and `cancel` are for the executor's thread."""
+    """The last goal of each action; `send` and `cancel` must be called in the executor's thread."""
 
     def __init__(self, node: Node) -> None:
         self._node = node
@@ -53,7 +53,7 @@ class Goals:
         self._when_ready(client, goal, sent)
 
     def _when_ready(self, client: Any, goal: Any, sent: _Sent, polls: int = 40) -> None:
-        """A client that was made only now has to meet its server first."""
+        """Send the goal as soon as a new client has discovered its server."""
         if client.server_is_ready():
             answer = client.send_goal_async(goal, feedback_callback=partial(self._feedback, sent))
             answer.add_done_callback(partial(self._accepted, sent))
@@ -67,7 +67,9 @@ class Goals:
                 if client.server_is_ready():
                     self._when_ready(client, goal, sent, 0)
                 else:
-                    self._end(sent, "not sent", problem=f"no server of {sent.goal.action} answers; has its node ended?")
+                    self._end(
+                        sent, "not sent", problem=f"no server of {sent.goal.action} responds; has its node ended?"
+                    )
 
         timer = self._node.create_timer(0.05, poll)
 
@@ -97,17 +99,17 @@ class Goals:
         sent.goal = replace(sent.goal, status=status, active=False, seconds=time.monotonic() - sent.began, **more)
 
     def why_not_cancel(self, action: str) -> str:
-        """Why the last goal cannot be cancelled; empty when it can."""
+        """Why the last goal cannot be cancelled; empty if it can."""
         sent = self._sent.get(action)
         if sent is None or not sent.goal.active:
-            return f"no goal of {action} runs that was sent from here"
+            return f"no goal of {action} that was sent from here is running"
         return "" if sent.handle is not None else f"{action} has not accepted the goal yet"
 
     def cancel(self, action: str) -> None:
-        """Ask for the last goal to be cancelled."""
+        """Request cancellation of the last goal."""
         sent = self._sent[action]
         if not sent.goal.active:
-            return  # it has ended since
+            return  # it has ended in the meantime
         sent.goal = replace(sent.goal, status="cancelling")
         sent.handle.cancel_goal_async().add_done_callback(partial(self._cancelled, sent))
 
@@ -132,7 +134,7 @@ class Goals:
         }
 
     def close(self) -> None:
-        """Let go of all clients."""
+        """Destroy all clients."""
         for client in self._clients.values():
             client.destroy()
         self._clients.clear()

@@ -1,4 +1,4 @@
-"""`Traffic` while there is no ROS system to talk to: nothing is known, everything is refused with the reason."""
+"""`Traffic` while there is no ROS system: nothing is known, and everything is refused with the reason."""
 
 from __future__ import annotations
 
@@ -10,39 +10,39 @@ from bot_console.tui.console.traffic import Goal, LiveMessage, Measure, Payload,
 
 
 class IdleTraffic:
-    """Says why nothing can be done."""
+    """Refuses everything with the reason."""
 
     def __init__(self, why: str) -> None:
         self._why = why
 
     def measure(self, topics: Collection[str], requester: str = "") -> None:
-        """Nothing comes."""
+        """Do nothing."""
 
     def measured(self) -> Mapping[str, Measure]:
-        """Nothing is known."""
+        """No measurements."""
         return {}
 
     def listen(self, topic: str) -> None:
-        """Nothing comes."""
+        """Do nothing."""
 
     def heard(self) -> LiveMessage:
-        """No message, and why."""
+        """No message, with the reason."""
         return LiveMessage(problem=self._why)
 
     def slots(self, payload: Payload, type_name: str, values: Values) -> Sequence[Slot]:
-        """No form."""
+        """No fields."""
         raise ValueError(self._why)
 
     def wrong(self, payload: Payload, type_name: str, path: str, text: str) -> str:
-        """Everything is."""
+        """The reason: no text is valid."""
         return self._why
 
     def line(self, payload: Payload, name: str, type_name: str, values: Values, rate: float = 0.0) -> str:
-        """No line."""
+        """An empty line."""
         raise ValueError(self._why)
 
     def earlier(self, name: str) -> Sequence[Values]:
-        """Nothing was sent."""
+        """Empty: nothing was sent."""
         return ()
 
     def publish(self, topic: str, type_name: str, values: Values, rate: float = 0.0) -> Answer:
@@ -50,11 +50,11 @@ class IdleTraffic:
         return Answer(False, self._why)
 
     def repeated(self) -> Mapping[str, Repeated]:
-        """Nothing is published."""
+        """Empty: nothing is published."""
         return {}
 
     def stop(self, topic: str = "") -> None:
-        """Nothing is published."""
+        """Do nothing: nothing is published."""
 
     def call(self, service: str, type_name: str, values: Values) -> Future[Reply]:
         """Refused."""
@@ -67,7 +67,7 @@ class IdleTraffic:
         return Answer(False, self._why)
 
     def goals(self) -> Mapping[str, Goal]:
-        """None was sent."""
+        """Empty: no goal was sent."""
         return {}
 
     def cancel(self, action: str) -> Answer:

@@ -1,4 +1,4 @@
-"""Classes and field types of messages, services and actions, by the public names of rosidl."""
+"""Classes and field types of messages, services and actions, using the public names of rosidl."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ def interface(payload: Payload, type_name: str) -> Any:
     try:
         return getattr(importlib.import_module(f"{package}.{FOLDERS[payload]}"), rest.rsplit("/", 1)[-1])
     except (ImportError, AttributeError):
-        raise ValueError(f"the type {type_name} is not known here; source the workspace it is built in") from None
+        raise ValueError(f"the type {type_name} is not available here; source the workspace that provides it") from None
 
 
 def filled_class(payload: Payload, type_name: str) -> Any:
-    """The class of what is filled in: the message itself, a request, a goal."""
+    """The class of what is filled in: the message itself, a service request, or an action goal."""
     found = interface(payload, type_name)
     return {
         Payload.MESSAGE: found,
@@ -44,12 +44,12 @@ def fields_of(message: Any) -> Mapping[str, str]:
 
 
 def is_message(type_name: str) -> bool:
-    """Whether a field type names a message, and is no array of them."""
+    """Whether a field type is a message, and not an array of messages."""
     return "/" in type_name and not ARRAY.fullmatch(type_name)
 
 
 def element_type(type_name: str) -> str:
-    """What an array holds; empty for what is no array."""
+    """The element type of an array; empty if the type is not an array."""
     found = ARRAY.fullmatch(type_name)
     return (found["of"] or found["fixed"]).strip() if found else ""
 
@@ -67,7 +67,7 @@ def short_name(type_name: str) -> str:
 
 
 def constants(message: Any) -> Mapping[str, Mapping[int, str]]:
-    """For each integer field of a message whose constants name its values: the name of each value."""
+    """For each integer field of a message whose values are named by constants: the name of each value."""
     return constants_of(message.__class__)
 
 
@@ -75,8 +75,8 @@ def constants(message: Any) -> Mapping[str, Mapping[int, str]]:
 def constants_of(message_class: Any) -> Mapping[str, Mapping[int, str]]:
     """The same for a class.
 
-    A constant belongs to the field whose name it begins with; those that begin with none belong to the only field of
-    a byte's size, where there is just one.
+    A constant belongs to the field whose name it begins with; if there is no such field, it belongs to the only
+    one-byte field, provided there is exactly one.
     """
     fields = {name: kind for name, kind in fields_of(message_class).items() if kind in INTEGERS or kind == "octet"}
     found: dict[str, dict[int, str]] = {}
@@ -90,7 +90,7 @@ def constants_of(message_class: Any) -> Mapping[str, Mapping[int, str]]:
         if owner:
             found.setdefault(owner, {})[number] = name.removeprefix(f"{owner.upper()}_")
         elif number in rest:
-            rest[number] = ""  # two names for one value: they belong to different fields
+            rest[number] = ""  # two names for one value, so they belong to different fields
         else:
             rest[number] = name
     small = [name for name, kind in fields.items() if name not in found and kind in ("uint8", "int8", "octet")]

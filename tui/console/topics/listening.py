@@ -14,21 +14,21 @@ from bot_console.tui.console.traffic import LiveMessage, Payload
 from rclpy.node import Node
 
 MAX_AGES = 10
-"""Parts of a second in which an age is told, so that it is not another thing at every look."""
+"""Steps per second in which an age is shown, so that the object does not change at every poll."""
 
 
 class Listening(FollowedTopic):
-    """Keeps what came last; it becomes lines only when somebody looks."""
+    """Keeps the latest message; it is converted to lines only on demand."""
 
     def __init__(self, node: Node, explain: Callable[[str, str], str]) -> None:
-        """`explain` says why a type is not known, or gives the text that stands beside it."""
+        """`explain` returns why a type is unknown, or else the given text."""
         super().__init__(node)
         self._explain = explain
         self._newest: tuple[int, Any, float] = (0, None, 0.0)
         self._live = LiveMessage()
 
     def listen(self, topic: str, graph: GraphInfo) -> None:
-        """Listen to this topic and to no other; called by the executor."""
+        """Subscribe to this topic and no other; called by the executor."""
         if topic == self._topic and (self._subscription is None) == (not topic):
             return
         self._detach()
@@ -46,7 +46,7 @@ class Listening(FollowedTopic):
         self._newest = (self._newest[0] + 1, message, time.monotonic())
 
     def heard(self) -> LiveMessage:
-        """What came last; from any thread, and the same object until there is more to tell."""
+        """The latest message; from any thread, and the same object until something changes."""
         count, message, moment = self._newest
         age = round((time.monotonic() - moment) * MAX_AGES) / MAX_AGES if count else None
         old = self._live

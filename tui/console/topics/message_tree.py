@@ -1,4 +1,4 @@
-"""A message as lines: nested fields, arrays in a summary where they are long, enumerations by name. Pure."""
+"""A message as lines: nested fields, long arrays as a summary, enumerations by name. Pure functions."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from bot_console.tui.console.topics.units import field_unit
 from bot_console.tui.console.traffic import Field
 
 ELEMENTS = 8
-"""Elements of an array that stand on lines of their own, or on one line."""
+"""Maximum number of array elements shown on separate lines, or together on one line."""
 MAX_FIELDS = 2000
-"""Lines of a message; what comes after them is told in one."""
+"""Maximum number of lines of a message; a single line stands for the rest."""
 MAX_TEXT_CHARACTERS = 400
-"""Letters of a text that are shown."""
+"""Characters of a string that are shown."""
 
 
 def tree(message: Any, type_name: str) -> tuple[Field, ...]:
@@ -82,7 +82,7 @@ def _array(
 
 
 def _summary(owner: Any, name: str, value: Any, element: str) -> str:
-    """An array of scalars on one line: whole where it is short, else what it is like."""
+    """An array of scalars on one line: complete if it is short, else its statistics."""
     count = len(value)
     if name == "data" and hasattr(owner, "encoding") and hasattr(owner, "width"):
         return f"image of {owner.width} x {owner.height}, {owner.encoding}, {count} bytes"
@@ -96,13 +96,13 @@ def _summary(owner: Any, name: str, value: Any, element: str) -> str:
     finite = numbers[np.isfinite(numbers)]
     if not finite.size:
         return f"{count} values, none of them finite"
-    with np.errstate(over="ignore", invalid="ignore"):  # the mean of numbers at the end of what floats can hold
+    with np.errstate(over="ignore", invalid="ignore"):  # the mean of values near the limits of a float may overflow
         text = f"{count} values, {finite.min():.4g} .. {finite.max():.4g}, mean {finite.mean():.4g}"
     return text + (f", {count - finite.size} not finite" if finite.size < count else "")
 
 
 def scalar_text(value: Any, names: Any) -> str:
-    """A number, text or truth on one line; of an enumeration its name, too."""
+    """A number, string or boolean on one line; for an enumeration its name, too."""
     if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
     if isinstance(value, bytes):
@@ -111,7 +111,9 @@ def scalar_text(value: Any, names: Any) -> str:
         return f"{value:.6g}"
     if isinstance(value, str):
         return (
-            value if len(value) <= MAX_TEXT_CHARACTERS else f"{value[:MAX_TEXT_CHARACTERS]}... ({len(value)} letters)"
+            value
+            if len(value) <= MAX_TEXT_CHARACTERS
+            else f"{value[:MAX_TEXT_CHARACTERS]}... ({len(value)} characters)"
         )
     known = names.get(int(value)) if names and not isinstance(value, str) else None
     return f"{value} {known}" if known else str(value)

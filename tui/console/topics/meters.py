@@ -1,4 +1,4 @@
-"""Rate, bandwidth, age and latency of topics, taken from serialized messages, so that none is ever built."""
+"""Rate, bandwidth, age and latency of topics, measured on serialized messages, so that none is ever deserialized."""
 
 from __future__ import annotations
 
@@ -15,29 +15,29 @@ from bot_console.tui.console.traffic import Measure, Payload
 from rclpy.node import Node
 
 WINDOW = 5.0
-"""Seconds over which a rate is taken."""
+"""Seconds over which a rate is measured."""
 TURN = 3.0
-"""Seconds for which it is settled who is measured."""
+"""Seconds for which the choice of measured topics stays the same."""
 BUDGET = 1000.0
-"""Messages per second that are measured at most."""
+"""Maximum number of messages measured per second."""
 METER_POLL_S = 0.25
-"""Least seconds between two looks that are kept."""
+"""Minimum number of seconds between two polls that are kept."""
 OTHER_CLOCK = 3600.0
-"""Seconds by which a stamp may be off before it counts as one of another clock."""
+"""Difference (s) from which a stamp is considered to be from another clock."""
 LITTLE, BIG = struct.Struct("<iI"), struct.Struct(">iI")
 STAMP_AT = 4
-"""Where a message begins behind the four bytes that tell how it is serialized."""
+"""Offset of the message after the four bytes that identify its serialization."""
 
 
 class Meter:
-    """Counts the messages of one topic; `take` is called by the executor, `look` by whoever draws."""
+    """Counts the messages of one topic; `take` is called by the executor, `poll` by the drawing thread."""
 
     def __init__(self, stamped: bool, clock: Callable[[], int]) -> None:
         self._stamped = stamped
         self._clock = clock
         self._count = self._size = self._stamps = 0
         self._late = 0
-        """Sum of all latencies, ns."""
+        """Sum of all latencies, in ns."""
         self._first = self._last = 0.0
         self._polls: deque[tuple[float, float, int, int, int, int]] = deque([(time.monotonic(), 0.0, 0, 0, 0, 0)])
 
@@ -53,7 +53,7 @@ class Meter:
             self._stamps += 1
 
     def poll(self) -> Measure:
-        """What is known now, over the last seconds."""
+        """The measurements of the last seconds."""
         now = time.monotonic()
         here = (now, self._last, self._count, self._size, self._late, self._stamps)
         polls = self._polls
@@ -69,7 +69,7 @@ class Meter:
         span, spaces = (self._last - first, new) if count else (self._last - self._first, new - 1)
         rate = spaces / span if span > 0 else None
         if rate and now - self._last > 2 / rate:
-            rate = new / (now - begun)  # it has become slower, or has ended
+            rate = new / (now - begun)  # the topic has become slower, or has ended
         stamped = self._stamps - stamps
         latency = (self._late - late) / stamped / 1e9 if stamped else None
         if latency is not None and abs(latency) > OTHER_CLOCK:
@@ -82,24 +82,24 @@ class Meter:
 
 
 class Meters:
-    """The topics that are measured: those in view.
+    """The topics being measured: those in view.
 
-    Each message that is taken costs some 40 us. Where more come than `BUDGET`, the fastest topics take turns: what was
-    measured of one stands until its next turn.
+    Each measured message costs some 40 us. If more than `BUDGET` arrive, the fastest topics take turns; the last
+    measurement of a topic is shown until its next turn.
     """
 
     def __init__(self, node: Node) -> None:
         self._node = node
         self._meters: dict[str, tuple[Any, Meter, tuple[bool, bool]]] = {}
         self._resting: dict[str, Measure] = {}
-        """What was measured of topics before they were let go for a turn, the longest rest first."""
+        """The last measurements of topics that are waiting for their next turn, the longest wait first."""
         self._wanted: frozenset[str] = frozenset()
         self._problems: dict[str, str] = {}
         self._timer: Any = None
         self._graph = GraphInfo()
 
     def measure(self, topics: Collection[str], graph: GraphInfo) -> None:
-        """Measure these and no others, each with the QoS it is offered with now; called by the executor."""
+        """Measure these topics and no others, each with the QoS now offered; called by the executor."""
         self._wanted = frozenset(topics)
         for topic in list(self._meters):
             if topic not in self._wanted or self._meters[topic][2] != offered_qos(graph, topic).key:
@@ -137,7 +137,7 @@ class Meters:
         self._problems.pop(topic, None)
 
     def turn(self, graph: GraphInfo) -> None:
-        """Choose who is measured until the next turn."""
+        """Choose the topics that are measured until the next turn."""
         rates = {topic: each.rate or 0.0 for topic, each in self.measured().items()}
         chosen = in_turn(rates, list(self._resting), BUDGET)
         for topic in [each for each in self._meters if each not in chosen]:
@@ -150,24 +150,25 @@ class Meters:
                 del self._resting[topic]
 
     def _shown(self, topic: str, now: Measure) -> Measure:
-        """What is known of a topic: of one whose turn has only begun, what was known before."""
+        """The measurement of a topic; the previous one if its turn has only just begun."""
         return now if now.rate is not None else self._resting.get(topic, now)
 
     def follow(self, graph: GraphInfo) -> None:
-        """The graph is another: what is measured may be offered otherwise, or have come only now."""
+        """Process a changed graph: measured topics may have appeared, or be offered with another QoS."""
         if self._wanted:
             self.measure(self._wanted, graph)
 
     def measured(self) -> Mapping[str, Measure]:
-        """What is known; from any thread."""
+        """All measurements; from any thread."""
         found = dict(self._resting)
         found.update({topic: self._shown(topic, meter.poll()) for topic, (_, meter, _) in list(self._meters.items())})
         return {**found, **{topic: Measure(problem=why) for topic, why in list(self._problems.items())}}
 
 
 def in_turn(rates: Mapping[str, float], resting: Sequence[str], budget: float) -> set[str]:
-    """Which topics (rates in Hz) are measured next: all where their sum is in the budget, else all the slow ones, and
-    of the others those that have rested longest.
+    """The topics (rates in Hz) to measure next: all if their sum is within the budget.
+
+    Otherwise all slow ones, and those of the others that have waited longest.
     """
     if sum(rates.values()) <= budget:
         return set(rates)
@@ -183,5 +184,5 @@ def in_turn(rates: Mapping[str, float], resting: Sequence[str], budget: float) -
 
 
 def _stamped(kind: Any) -> bool:
-    """Whether a message begins with a header, and so with a stamp."""
+    """Whether messages of a type begin with a header, and thus with a stamp."""
     return next(iter(fields_of(kind).values()), "") == HEADER

@@ -25,18 +25,18 @@ from bot_console.tui.console.traffic import Goal, LiveMessage, Measure, Payload,
 from rclpy.node import Node
 
 ANSWER_TIMEOUT_S = 30.0
-"""Seconds to wait for the response of a service that a person has called."""
+"""Seconds to wait for the response of a service called by a user."""
 REMEMBERED = 50
-"""Messages, requests and goals of one name that can be had back."""
+"""Messages, requests and goals kept per name, so that they can be sent again."""
 
 
 class NodeTraffic:
-    """Topics, services and actions; its methods may be called from any thread, the work is the executor's."""
+    """Topics, services and actions; its methods may be called from any thread, the executor does the work."""
 
     def __init__(
         self, node: Node, calls: Calls, graph: Callable[[], GraphInfo], types: TypeSource | None = None
     ) -> None:
-        """`types` makes those that this program does not have; without it they stay unknown."""
+        """`types` builds types that this program does not have; without it they stay unknown."""
         self._calls = calls
         self._graph = graph
         self._reported = TypeDiscovery(node, calls, types, self._follow_known)
@@ -46,28 +46,28 @@ class NodeTraffic:
         self._publishing = Publishing(node)
         self._goals = Goals(node)
         self._asked: dict[str, frozenset[str]] = {}
-        """What is to be measured, by who wants it."""
+        """The topics to measure, by requester."""
         self._earlier: dict[str, list[Values]] = {}
 
     def follow(self, graph: GraphInfo) -> None:
-        """The graph is another; called by the executor."""
+        """Process a changed graph; called by the executor."""
         self._reported.follow(graph)
         self._meters.follow(graph)
         self._listening.follow(graph)
 
     def _follow_known(self) -> None:
-        """There is one type more."""
+        """Retry with a type that has become available."""
         graph = self._graph()
         self._meters.follow(graph)
         self._listening.follow(graph)
 
     def close(self) -> None:
-        """Publish no more, and let go of everything."""
+        """Stop publishing, and destroy all subscriptions and clients."""
         self._publishing.stop()
         self._goals.close()
 
     def _later(self, work: Callable[[], Any]) -> Future[Any]:
-        """Do something in the executor."""
+        """Run something in the executor."""
 
         async def run() -> Any:
             return work()
@@ -75,13 +75,13 @@ class NodeTraffic:
         return self._calls.run(run(), partial(Answer, False))
 
     def measure(self, topics: Collection[str], requester: str = "") -> None:
-        """Measure these topics, and those that other askers want."""
+        """Measure these topics, and those that other requesters need."""
         self._asked[requester] = frozenset(topics)
         wanted = {topic for each in self._asked.values() for topic in each}
         self._later(lambda: self._meters.measure(wanted, self._graph()))
 
     def measured(self) -> Mapping[str, Measure]:
-        """What is known of them."""
+        """Their measurements."""
         return self._meters.measured()
 
     def listen(self, topic: str) -> None:
@@ -100,7 +100,7 @@ class NodeTraffic:
             raise ValueError(self._reported.explain(type_name, str(error))) from None
 
     def wrong(self, payload: Payload, type_name: str, path: str, text: str) -> str:
-        """Why a text cannot stand in a slot."""
+        """Why a text is not valid in a slot."""
         return forms.wrong(payload, type_name, path, text)
 
     def line(self, payload: Payload, name: str, type_name: str, values: Values, rate: float = 0.0) -> str:
@@ -127,7 +127,7 @@ class NodeTraffic:
     def publish(self, topic: str, type_name: str, values: Values, rate: float = 0.0) -> Answer:
         """Publish once, or at a rate."""
         wrong = self._all_wrong(Payload.MESSAGE, type_name, values)
-        wrong = wrong or ("" if 0 <= rate <= MAX_RATE_HZ else f"a rate is between 0 and {MAX_RATE_HZ:g} Hz")
+        wrong = wrong or ("" if 0 <= rate <= MAX_RATE_HZ else f"the rate must be between 0 and {MAX_RATE_HZ:g} Hz")
         if wrong:
             return Answer(False, wrong)
         self._remember(topic, values)
@@ -144,11 +144,11 @@ class NodeTraffic:
         return ""
 
     def repeated(self) -> Mapping[str, Repeated]:
-        """What is published at a rate."""
+        """The messages being published at a rate."""
         return self._publishing.repeated()
 
     def stop(self, topic: str = "") -> None:
-        """Publish no more at a rate."""
+        """Stop publishing at a rate."""
         self._later(lambda: self._publishing.stop(topic))
 
     def call(self, service: str, type_name: str, values: Values) -> Future[Reply]:
@@ -191,7 +191,7 @@ class NodeTraffic:
 
 
 def _plain(value: Any) -> Any:
-    """Nested fields of plain dictionaries, lists and numbers, as YAML writes them."""
+    """Nested fields as plain dictionaries, lists and numbers, suitable for YAML."""
     if isinstance(value, Mapping):
         fields = cast("Mapping[str, Any]", value)
         return {key: _plain(each) for key, each in fields.items()}

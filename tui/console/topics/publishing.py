@@ -1,4 +1,4 @@
-"""Messages that a person publishes: once, or again and again."""
+"""Messages that a user publishes: once, or repeatedly."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 MAX_RATE_HZ = 1000.0
-"""Hz"""
+"""Highest rate at which a message can be published, in Hz."""
 MATCH_POLL_S = 0.05
-"""Seconds between two looks whether a new publisher has met those who listen."""
+"""Seconds between two checks whether a new publisher has discovered its subscriptions."""
 MAX_MATCH_POLLS = 20
 
 
@@ -30,7 +30,7 @@ class _Running:
 
 
 class Publishing:
-    """Publishers made when they are needed; only the executor's thread may call this."""
+    """Publishers made on demand; only the executor's thread may call this."""
 
     def __init__(self, node: Node) -> None:
         self._node = node
@@ -39,7 +39,7 @@ class Publishing:
         self._repeated: Mapping[str, Repeated] = {}
 
     def publish(self, topic: str, type_name: str, values: Values, rate: float, graph: GraphInfo) -> None:
-        """Publish once (rate 0), or at a rate (Hz) in place of what is published there at a rate now.
+        """Publish once (rate 0), or at a rate (Hz), which replaces what is being published there at a rate.
 
         Raises `ValueError` for a message that cannot be filled in.
         """
@@ -75,7 +75,7 @@ class Publishing:
         return self._publishers[key]
 
     def _when_matched(self, publisher: Any, send: Any, polls: int) -> None:
-        """Send when the publisher has met a subscription; after a while in any case."""
+        """Send as soon as the publisher has a subscription, or after a while in any case."""
         if not polls or publisher.get_subscription_count():
             send()
             return
@@ -90,14 +90,14 @@ class Publishing:
         timer = self._node.create_timer(MATCH_POLL_S, poll)
 
     def stop(self, topic: str = "") -> None:
-        """End what is published at a rate, on one topic or on all."""
+        """Stop publishing at a rate, on one topic or on all."""
         for name in [topic] if topic else list(self._running):
             running = self._running.pop(name, None)
             if running is not None:
                 self._node.destroy_timer(running.timer)
 
     def repeated(self) -> Mapping[str, Repeated]:
-        """What is published at a rate; from any thread."""
+        """The messages being published at a rate; from any thread."""
         found = {topic: Repeated(each.type, each.rate, each.count) for topic, each in list(self._running.items())}
         if found != self._repeated:
             self._repeated = found

@@ -1,4 +1,4 @@
-"""`Traffic` of a console that only looks on: everything is seen, nothing is sent."""
+"""`Traffic` of a read-only console: everything is shown, nothing is sent."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from bot_console.tui.console.traffic import LiveMessage, Measure, Payload, Slot,
 
 
 class ReadingTraffic(IdleTraffic):
-    """Measures and listens; publishes, calls and sends nothing, and says why."""
+    """Measures and listens; refuses to publish, call or send anything, with the reason."""
 
     def __init__(self, why: str, traffic: Traffic) -> None:
         super().__init__(why)
@@ -20,7 +20,7 @@ class ReadingTraffic(IdleTraffic):
         self._traffic.measure(topics, requester)
 
     def measured(self) -> Mapping[str, Measure]:
-        """What is known of them."""
+        """Their measurements."""
         return self._traffic.measured()
 
     def listen(self, topic: str) -> None:
@@ -36,7 +36,7 @@ class ReadingTraffic(IdleTraffic):
         return self._traffic.slots(payload, type_name, values)
 
     def wrong(self, payload: Payload, type_name: str, path: str, text: str) -> str:
-        """Why a text cannot stand in a slot."""
+        """Why a text is not valid in a slot."""
         return self._traffic.wrong(payload, type_name, path, text)
 
     def line(self, payload: Payload, name: str, type_name: str, values: Values, rate: float = 0.0) -> str:

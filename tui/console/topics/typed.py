@@ -1,4 +1,4 @@
-"""What a person types into a field of a message, as the value the field takes."""
+"""Converts what a user types into a field of a message to the field's value."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ TRUE, FALSE = ("true", "yes", "on", "1"), ("false", "no", "off", "0")
 
 
 def parse(kind: str, text: str, names: Mapping[int, str] | None = None) -> Any:
-    """The value of a field type that a text means; raises `ValueError` with what may stand there.
+    """The value of a field type that a text stands for; raises `ValueError` with what would be valid.
 
     A quaternion takes a yaw (`90°`, `1.57`), a time `now` (None) or seconds, an array YAML's `[1.0, 2.0]`.
     """
@@ -85,7 +85,7 @@ def _time(kind: str, words: str) -> Any:
         return None
     seconds = _real(words.removesuffix("s").strip())
     if not math.isfinite(seconds) or not -(2**31) <= seconds < 2**31 or (kind == TIMES[0] and seconds < 0):
-        raise ValueError(f"'{words}' is no time; write now, or seconds")
+        raise ValueError(f"'{words}' is not a time; write now, or seconds")
     whole = math.floor(seconds)
     return _message(kind, {"sec": whole, "nanosec": min(999_999_999, round((seconds - whole) * 1e9))})
 
@@ -98,7 +98,7 @@ def _array(kind: str, element: str, words: str) -> Any:
         value = [_message(element, each) for each in value]
     length = kind.rpartition("[")[2].removesuffix("]") if kind.endswith("]") else ""
     if length and len(value) != int(length):
-        raise ValueError(f"{len(value)} elements, but it has {length}")
+        raise ValueError(f"{len(value)} elements, but the array has {length}")
     return value
 
 

@@ -58,9 +58,9 @@ OF_FIELD: Mapping[tuple[str, str], str] = {
     ("sensor_msgs/Image", "step"): "bytes",
 }
 INHERITED = ("geometry_msgs/Vector3", "geometry_msgs/Point", "geometry_msgs/Point32")
-"""Types whose fields have the unit that stands at the field that holds them."""
+"""Types whose fields take the unit of the field that contains them."""
 
 
 def field_unit(type_name: str, field: str, outer: str) -> str:
-    """The unit of a field of a type (`package/Name`); `outer` is that of the field which holds the message."""
+    """The unit of a field of a type (`package/Name`); `outer` is the unit of the field that contains the message."""
     return outer if type_name in INHERITED else OF_FIELD.get((type_name, field), "")

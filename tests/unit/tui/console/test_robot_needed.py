@@ -57,13 +57,14 @@ STAMPED = (TwistStamped, "cmd_vel")
 def test_each_lack_is_reported_with_who_has_it(node, watcher):
     assert robot_wanted(watcher) == ""
     node("one", wants=[SCAN])
-    assert robot_wanted(watcher) == "nobody gives /scan to /one"
+    assert robot_wanted(watcher) == "nobody publishes /scan for /one"
     node("two", wants=[SCAN, ODOM], gives=[CMD])
     assert robot_wanted(watcher) == (
-        "nobody gives /scan to /one and /two, nobody gives /odom to /two, nobody obeys /cmd_vel of /two"
+        "nobody publishes /scan for /one and /two, nobody publishes /odom for /two, "
+        "nobody subscribes to /cmd_vel of /two"
     )
     node("three", wants=[SCAN])
-    assert "nobody gives /scan to /one and 2 others" in robot_wanted(watcher)
+    assert "nobody publishes /scan for /one and 2 others" in robot_wanted(watcher)
 
 
 @pytest.mark.parametrize("gives", [SCAN, ODOM])
@@ -75,7 +76,7 @@ def test_a_robot_that_is_there_is_enough(gives, node, watcher):
 
 def test_a_base_that_obeys_is_a_robot_for_who_only_drives(node, watcher):
     node("driver", gives=[CMD])
-    assert robot_wanted(watcher) == "nobody obeys /cmd_vel of /driver"
+    assert robot_wanted(watcher) == "nobody subscribes to /cmd_vel of /driver"
     node("base", wants=[CMD])
     assert robot_wanted(watcher) == ""
 
@@ -83,7 +84,7 @@ def test_a_base_that_obeys_is_a_robot_for_who_only_drives(node, watcher):
 def test_who_drives_with_a_time_stamp_wants_a_robot_that_takes_it(node, watcher):
     assert not drives_stamped(watcher)
     node("driver", gives=[STAMPED])
-    assert robot_wanted(watcher) == "nobody obeys /cmd_vel of /driver"
+    assert robot_wanted(watcher) == "nobody subscribes to /cmd_vel of /driver"
     assert drives_stamped(watcher)
     base = node("base", wants=[STAMPED])
     assert robot_wanted(watcher) == ""

@@ -332,7 +332,7 @@ def test_a_type_that_is_not_known_is_one_clear_message(bench: Bench, monkeypatch
     bench.link_with({"switch": "/controller_manager", "controllers": ["diff"]})
     bench.link.stop(True, "ALL STOP")
     bench.pass_time(0.1)
-    assert "controller_manager_msgs is not known here" in bench.status
+    assert "controller_manager_msgs is not available here" in bench.status
 
 
 def robots_with(*spaces: str, locked: str) -> GraphInfo:
@@ -366,10 +366,10 @@ def test_beside_a_robot_with_a_lock_the_one_without_is_held_by_zeros_and_named(b
         (["/e_stop"], "exactly one of lock, set_bool"),
         ([{}], "exactly one of"),
         ([{"lock": "/a", "trigger": "/b"}], "exactly one of"),
-        ([{"lock": ""}], "no name of ROS"),
-        ([{"trigger": "/a b"}], "no name of ROS"),
-        ([{"trigger": ["/a"]}], "no name of ROS"),
-        ([{"trigger": "/a", "release": 3}], "release: '3' is no name"),
+        ([{"lock": ""}], "not a valid ROS name"),
+        ([{"trigger": "/a b"}], "not a valid ROS name"),
+        ([{"trigger": ["/a"]}], "not a valid ROS name"),
+        ([{"trigger": "/a", "release": 3}], "release: '3' is not a valid"),
         ([{"set_bool": "/a", "hold": "yes"}], "hold is true or false"),
         ([{"set_bool": "/a", "release": "/b"}], "takes only hold, not 'release'"),
         ([{"deactivate": "/a", "hold": True}], "takes nothing else, not 'hold'"),

@@ -1,4 +1,4 @@
-"""Puts values into the text of a parameter file; everything else in it, comments above all, stays as it is."""
+"""Puts values into the text of a parameter file; everything else in it, above all comments, stays as it is."""
 
 from __future__ import annotations
 
@@ -23,14 +23,15 @@ def new_text(values: Values) -> str:
 
 
 def patched(text: str, values: Values) -> str:
-    """The text of a parameter file with these values: those that stand there replaced in place, the others added.
+    """The text of a parameter file with these values: existing ones are replaced in place, the others added.
 
-    Raises `ValueError` for a text that is no parameter file, and where the result would not be what is meant.
+    Raises `ValueError` if the text is not a parameter file, or if the result would have another meaning than intended.
     """
     before = sections(text)
     newline = "\r\n" if "\r\n" in text else "\n"
     edits = [*_replacements(text, before, values), *_additions(text, before, values)]
-    # From the end, so that places stay true; of two at one place the later one first, for it stands behind.
+    # From the end, so that positions stay valid; of two at one position the later one first, since it comes after the
+    # other.
     for edit in sorted(reversed(edits), key=lambda each: each.start, reverse=True):
         text = text[: edit.start] + edit.text.replace("\n", newline) + text[edit.end :]
     if not before:
@@ -64,7 +65,7 @@ def _replacements(text: str, found: list[Section], values: Values) -> Iterator[_
 
 
 def _replaced(text: str, place: Scalar | Sequence, value: Value) -> Iterator[_Edit]:
-    """Replace element by element where a list has one per line: comments may follow them."""
+    """Replace a value; element by element if a list has one per line, since comments may follow them."""
     if isinstance(place, Sequence) and not place.flow and place.elements and isinstance(value, tuple) and value:
         for element, new in zip(place.elements, value, strict=False):
             assert isinstance(element, Scalar)
@@ -72,7 +73,7 @@ def _replaced(text: str, place: Scalar | Sequence, value: Value) -> Iterator[_Ed
                 yield _Edit(element.start, _end(text, element), inline_text(new))
         yield from _length(text, place, value)
     else:
-        # The dashes of a list may stand right below the key; a value has to stand further in.
+        # The dashes of a list may be directly below the key; a value has to be indented further.
         block = isinstance(place, Sequence) and not place.flow
         yield _Edit(place.start, _end(text, place), "  " * block + inline_text(value))
 
@@ -88,7 +89,7 @@ def _length(text: str, place: Sequence, value: tuple[Any, ...]) -> Iterator[_Edi
 
 
 def _additions(text: str, found: list[Section], values: Values) -> Iterator[_Edit]:
-    """The parameters that the file's nodes lack, and the nodes that the file lacks."""
+    """The parameters missing from the file's nodes, and the nodes missing from the file."""
     root = read_tree(text)
     missing: dict[str, Any] = {}
     for node, wanted in values.items():
@@ -114,7 +115,7 @@ def _added(text: str, mapping: yaml_tree.Mapping, new: Mapping[str, Any]) -> _Ed
 
 
 def _end(text: str, tree: YamlTree) -> int:
-    """Where something ends; YAML lets a block end where the next item begins."""
+    """Where something ends; in YAML a block ends where the next item begins."""
     if isinstance(tree, yaml_tree.Mapping) and not tree.flow and tree.entries:
         key, value = tree.entries[-1]
         return max(key.end, _end(text, value))
@@ -153,7 +154,7 @@ def compare(before: list[Section], after: list[Section], values: Values) -> None
                 raise ValueError(f"{node} would not get {name}")
             key, place = given[name]
             if not same(value_at(name, place), value):
-                raise ValueError(f"{node} would get the {name} that stands below '{key}'")
+                raise ValueError(f"{node} would get the {name} that is below '{key}'")
     others = {(each.key, name): place for each in before for name, place in each.places.items()}
     for section in after:
         for name, place in section.places.items():

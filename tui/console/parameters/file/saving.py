@@ -1,4 +1,4 @@
-"""Saving parameters as a true ROS parameter file; an existing file is patched, so that its comments stay."""
+"""Saves parameters as standard ROS parameter files; an existing file is patched, so that its comments stay."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bot_console.tui.files.save_file import NotSaved, save_file
 
 BUILT_IN = ("use_sim_time", "start_type_description_service")
 _MARKS = ((codecs.BOM_UTF8, "utf-8"), (codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be"))
-"""Byte order marks that parsers of YAML know, and the encodings that they begin."""
+"""Byte order marks that YAML parsers recognise, and the encodings they stand for."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Saved:
     left_out: tuple[str, ...] = ()
 
     def text(self, path: Path) -> str:
-        """A summary in words."""
+        """A summary for the user."""
         reported = f"{self.count} parameter{'' if self.count == 1 else 's'} saved to {path}"
         return reported + "".join(f"; left out: {each}" for each in self.left_out)
 
@@ -38,12 +38,12 @@ def save(
     only_changed: bool = False,
     title: str = "",
 ) -> Saved:
-    """Write the parameters of some nodes (default: all); raises `NotSaved`, and what was there has stayed.
+    """Write the parameters of some nodes (default: all); raises `NotSaved`, in which case the file is unchanged.
 
-    With `only_changed` only those that differ from their declared value, else start value. `title` is a comment line
-    that a new file begins with.
+    With `only_changed`, only those that differ from their declared value or, if that is unknown, from their start
+    value. `title` is a comment line at the beginning of a new file.
 
-    In an existing file the values that stand there are replaced in place and the others are added.
+    In an existing file, values are replaced in place and new ones are added.
     """
     values: dict[str, dict[str, Value]] = {}
     left_out: list[str] = []
@@ -56,7 +56,7 @@ def save(
             else:
                 values.setdefault(tree.node, {})[each.name] = each.value
     if not values:
-        raise NotSaved("there is no parameter to save" + "".join(f"; {each}" for each in left_out))
+        raise NotSaved("there are no parameters to save" + "".join(f"; {each}" for each in left_out))
     _write(path, values, title)
     return Saved(sum(map(len, values.values())), tuple(left_out))
 
@@ -68,7 +68,7 @@ def _unwritable(parameter: ParameterInfo) -> str:
         return "is an empty array, to which ROS parameter files give no type"
     numbers = parameter.value if isinstance(parameter.value, tuple) else (parameter.value,)
     tiny = any(isinstance(each, float) and 0 < abs(each) < SMALLEST for each in numbers)
-    return "is too near to zero for the readers of ROS parameter files" if tiny else ""
+    return "is too close to zero for the readers of ROS parameter files" if tiny else ""
 
 
 def _write(path: Path, values: Values, title: str) -> None:
@@ -82,12 +82,14 @@ def _write(path: Path, values: Values, title: str) -> None:
         new = mark + patched(text or title, values).encode(encoding)
         save_file(path, new, lambda written: compare(before, sections(_decoded(written)[2]), values))
     except ValueError as error:
-        why = "it is no text" if isinstance(error, UnicodeDecodeError) else str(error)
-        raise NotSaved(f"{path} cannot take parameters: {why}; give another name, such as {_free_name(path)}") from None
+        why = "it is not a text file" if isinstance(error, UnicodeDecodeError) else str(error)
+        raise NotSaved(
+            f"parameters cannot be added to {path}: {why}; give another name, such as {_free_name(path)}"
+        ) from None
 
 
 def _decoded(content: bytes) -> tuple[bytes, str, str]:
-    """The byte order mark, the encoding, and the text behind the mark; raises `UnicodeDecodeError`."""
+    """The byte order mark, the encoding, and the text after the mark; raises `UnicodeDecodeError`."""
     mark, encoding = next((each for each in _MARKS if content.startswith(each[0])), (b"", "utf-8"))
     return mark, encoding, content[len(mark) :].decode(encoding)
 
@@ -97,5 +99,5 @@ def _free_name(path: Path) -> str:
     names = (path.with_name(f"{path.stem}-parameters{number}.yaml") for number in ("", *map(str, range(2, 1000))))
     try:
         return next((str(each) for each in names if not each.exists()), "another folder")
-    except OSError:  # the name is as long as a name may be
+    except OSError:  # the name has the maximum length already
         return "a shorter one"

@@ -1,4 +1,4 @@
-"""The text of parameter files: parsed as ROS does, and values written so that ROS reads them back."""
+"""The text of parameter files: parsed as ROS does, and values written so that ROS reads them back unchanged."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from bot_console.tui.console.parameters.file.yaml_tree import Mapping, Scalar, S
 from bot_console.tui.text.yaml_flow import is_plain
 
 KEYWORD = "ros__parameters"
-NOTHING = f"it sets nothing; a parameter stands below 'node_name: {KEYWORD}:'"
+NOTHING = f"it sets nothing; parameters belong below 'node_name: {KEYWORD}:'"
 SMALLEST = 2.0**-1022
-"""The smallest double above zero that ROS reads from a text."""
+"""The smallest double above zero that ROS can read from text."""
 
 Places: TypeAlias = Map[str, "Scalar | Sequence"]
-"""Where the value of each parameter stands, by full name."""
+"""The position of each parameter's value, by full name."""
 
 _SafeDumper: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 _TRUE = frozenset(("Y", "y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"))
@@ -40,16 +40,16 @@ class Section:
 
 
 def sections(text: str) -> list[Section]:
-    """All nodes of a parameter file as they stand; none of a text without content.
+    """All nodes of a parameter file as written; none if the text has no content.
 
-    Raises `ValueError`, with the line, for a text that ROS does not take as a parameter file.
+    Raises `ValueError`, with the line, for a text that ROS does not accept as a parameter file.
     """
     root = read_tree(text)
     if root is None:
         return []
     if not isinstance(root, Mapping):
         kind = "a list" if isinstance(root, Sequence) else "only text"
-        raise ValueError(f"it holds {kind}; a parameter stands below 'node_name: {KEYWORD}:'")
+        raise ValueError(f"it contains {kind}; parameters belong below 'node_name: {KEYWORD}:'")
     found = list(_sections("", root))
     if not found:
         raise ValueError(NOTHING)
@@ -60,23 +60,23 @@ def _sections(space: str, mapping: Mapping) -> Iterator[Section]:
     for key, below in mapping.entries:
         if key.text == KEYWORD:
             if not space:
-                raise ValueError(f"line {key.line}: no node name stands above '{KEYWORD}:'")
+                raise ValueError(f"line {key.line}: there is no node name above '{KEYWORD}:'")
             if not isinstance(below, Mapping):
-                raise ValueError(f"line {below.line}: below '{KEYWORD}:' of {space} stand no 'name: value' lines")
+                raise ValueError(f"line {below.line}: there are no 'name: value' lines below '{KEYWORD}:' of {space}")
             yield Section(space, below, _unique(_places("", below)))
         elif key.text.startswith("ros_parameters"):
             raise ValueError(f"line {key.line}: '{key.text}' should be '{KEYWORD}', with two underscores")
         elif isinstance(below, Mapping):
             yield from _sections(f"{space.rstrip('/')}/{key.text.strip('/')}", below)
         else:
-            raise ValueError(f"line {key.line}: '{key.text}' is no parameter: it does not stand below '{KEYWORD}:'")
+            raise ValueError(f"line {key.line}: '{key.text}' is not a parameter: it is not below '{KEYWORD}:'")
 
 
 def _unique(places: Iterator[tuple[str, Scalar | Sequence]]) -> Places:
     found: dict[str, Scalar | Sequence] = {}
     for name, place in places:
         if name in found:
-            raise ValueError(f"line {place.line}: '{name}' stands here for the second time")
+            raise ValueError(f"line {place.line}: '{name}' appears for the second time")
         found[name] = place
     return found
 
@@ -90,7 +90,7 @@ def _places(prefix: str, mapping: Mapping) -> Iterator[tuple[str, Scalar | Seque
 
 
 def value_at(name: str, place: YamlTree) -> Value:
-    """The value at a position; raises `ValueError`, with the line, if ROS reads none there."""
+    """The value at a position; raises `ValueError`, with the line, if it is not valid in ROS."""
     if isinstance(place, Scalar):
         if place.missing:
             raise ValueError(f"line {place.line}: {name} has no value")
@@ -98,14 +98,14 @@ def value_at(name: str, place: YamlTree) -> Value:
     found = place.elements if isinstance(place, Sequence) else ()
     elements: tuple[Any, ...] = tuple(value_at(name, each) for each in found if isinstance(each, Scalar))
     if isinstance(place, Mapping) or len(elements) < len(found):
-        raise ValueError(f"line {place.line}: {name} holds a list or a mapping in a list")
+        raise ValueError(f"line {place.line}: {name} contains a list or a mapping in a list")
     if len(set(map(type, elements))) > 1:
         raise ValueError(f"line {place.line}: the elements of {name} are not of one type")
     return elements
 
 
 def plain_value(text: str) -> bool | int | float | str:
-    """What ROS makes of an unquoted scalar: it knows no dates, no `1:30` and no null, but `1e3` is a number."""
+    """How ROS reads an unquoted scalar: it knows no dates, no `1:30` and no null, but `1e3` is a number."""
     if text in _TRUE or text in _FALSE:
         return text in _TRUE
     if _INTEGER.fullmatch(text):
@@ -114,7 +114,7 @@ def plain_value(text: str) -> bool | int | float | str:
             return value
     if _DOUBLE.fullmatch(text):
         number = float(text)
-        # What a double can only hold with fewer digits is out of range for C's strtod, and so text for ROS.
+        # A subnormal double is out of range for C's strtod, so ROS reads such a number as text.
         return text if math.isinf(number) or 0 < abs(number) < SMALLEST else number
     return float(text.lstrip(".").replace("-.", "-").replace("+.", "")) if _NOT_FINITE.fullmatch(text) else text
 

@@ -15,7 +15,7 @@ _TEXT_TAG = "tag:yaml.org,2002:str"
 
 @dataclass
 class Scalar:
-    """A scalar as it is written; `start` and `end` are positions in the text."""
+    """A scalar as written; `start` and `end` are positions in the text."""
 
     text: str
     quoted: bool
@@ -61,10 +61,10 @@ YamlTree: TypeAlias = Union[Scalar, Sequence, Mapping]  # noqa: UP007 -- evaluat
 
 
 def read_tree(text: str) -> YamlTree | None:
-    """The tree of a text, None for one without content.
+    """The tree of a text; None if it has no content.
 
-    Raises `ValueError` with the line for what is not YAML, for an alias, for a key that is no scalar, and for more than
-    one document: ROS parameter files have none of these.
+    Raises `ValueError` with the line if the text is not YAML, or contains an alias, a key that is not a scalar, or more
+    than one document: none of these is valid in a ROS parameter file.
     """
     try:
         return _Builder(_yaml.parse(text, Loader=_Loader)).document()
@@ -74,7 +74,7 @@ def read_tree(text: str) -> YamlTree | None:
         problem = getattr(error, "problem", None) or getattr(error, "reason", None) or error
         raise ValueError(f"{where}not YAML: {problem}") from None
     except RecursionError:
-        raise ValueError("its levels are too many") from None
+        raise ValueError("it is nested too deeply") from None
 
 
 class _Builder:
@@ -109,7 +109,7 @@ class _Builder:
             return sequence
         if isinstance(event, yaml.MappingStartEvent):
             return self._mapping(Mapping(bool(event.flow_style), start, line, event.start_mark.column))
-        raise ValueError(f"line {line}: an alias (*{event.anchor}) stands here, which ROS does not read")
+        raise ValueError(f"line {line}: there is an alias (*{event.anchor}), which ROS does not read")
 
     def _mapping(self, mapping: Mapping) -> Mapping:
         keys: set[str] = set()
@@ -121,7 +121,7 @@ class _Builder:
             if not isinstance(key, Scalar) or not key.text:
                 raise ValueError(f"line {key.line}: a key has to be a name")
             if key.text in keys:
-                raise ValueError(f"line {key.line}: '{key.text}' stands here for the second time")
+                raise ValueError(f"line {key.line}: '{key.text}' appears for the second time")
             keys.add(key.text)
             mapping.entries.append((key, self._tree(next(self._events))))
         return mapping

@@ -18,7 +18,7 @@ OPTIONS: Mapping[str, tuple[str, ...]] = {
 }
 MAX_MEANS = 20
 MAX_NAME = 200
-"""Characters of a name."""
+"""Maximum length of a name, in characters."""
 NAME = re.compile(r"/?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
 
 
@@ -35,11 +35,11 @@ class ConfiguredMeans:
     state: str = ""
     """The Bool topic on which the robot reports that a lock topic holds it; empty: nothing acknowledges it."""
     controllers: tuple[str, ...] = ()
-    """The controllers that are deactivated, and activated again."""
+    """The controllers to deactivate, and to activate again on release."""
 
     @property
     def name(self) -> str:
-        """For people."""
+        """The name shown to users."""
         return f"{self.kind} {self.target}"
 
 
@@ -58,7 +58,7 @@ def configured_means(data: object) -> tuple[tuple[ConfiguredMeans, ...], list[st
         except ValueError as error:
             wrong.append(f"entry {number}: {error}")
     if len(entries) > MAX_MEANS:
-        wrong.append(f"more than {MAX_MEANS} entries; the rest is not used")
+        wrong.append(f"more than {MAX_MEANS} entries; the rest is ignored")
     return tuple(found), wrong
 
 
@@ -94,4 +94,4 @@ def _is_texts(value: object) -> bool:
 def _name(key: str, value: object) -> str:
     if isinstance(value, str) and len(value) <= MAX_NAME and NAME.fullmatch(value):
         return f"/{value.lstrip('/')}"
-    raise ValueError(f"{key}: '{str(value)[:40]}' is no name of ROS, such as /base/stop")
+    raise ValueError(f"{key}: '{str(value)[:40]}' is not a valid ROS name, such as /base/stop")

@@ -1,4 +1,6 @@
-"""The means of stopping a robot, as ROS interfaces: each is asked without waiting, and says later whether it holds."""
+"""The means of stopping a robot, as ROS interfaces: each is requested without waiting, and later reports whether it
+holds.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,7 @@ AT_REST = (State.PRIMARY_STATE_UNCONFIGURED, State.PRIMARY_STATE_INACTIVE, State
 
 
 class Status(Enum):
-    """How far a means is."""
+    """The progress of a means of stopping."""
 
     RELEASED = "released"
     ASKED = "asked"
@@ -42,23 +44,23 @@ class StopMeans(Protocol):
     name: str
     status: Status
     problem: str
-    """Why it does not hold, or was not released; empty for no reason."""
+    """Why it does not hold, or was not released; empty if there is no reason."""
 
     def hold(self) -> None:
-        """Ask it to hold the robot."""
+        """Request that it hold the robot."""
         ...
 
     def release(self) -> None:
-        """Undo what `hold` has done; nothing if it has done nothing."""
+        """Undo what `hold` has done, if anything."""
         ...
 
     def refresh(self) -> None:
-        """Look whether it still holds, and repeat what must be repeated; called ten times a second."""
+        """Check whether it still holds, and repeat what must be repeated; called ten times a second."""
         ...
 
 
 class LockTopic:
-    """A Bool topic, as the locks of twist_mux; nobody acknowledges one, unless another topic reports its state."""
+    """A Bool topic, like the locks of twist_mux; nothing acknowledges it, unless another topic reports its state."""
 
     def __init__(self, node: Node, configured: ConfiguredMeans) -> None:
         self.name = configured.name
@@ -75,17 +77,17 @@ class LockTopic:
 
     def hold(self) -> None:
         """Publish the value that holds, now and with every `refresh`."""
-        self.status, self.problem = Status.ASKED, "is sent, and nothing acknowledges it"
+        self.status, self.problem = Status.ASKED, "is sent, but nothing acknowledges it"
         self.refresh()
 
     def release(self) -> None:
-        """Publish the opposite, once: whoever else locks by this topic is not argued with."""
+        """Publish the opposite, once, so as not to override others who lock by this topic."""
         if self.status is not Status.RELEASED:
             self.status, self.problem = Status.RELEASED, ""
             self._publisher.publish(Bool(data=not self._hold))
 
     def refresh(self) -> None:
-        """Publish again: such a lock may forget what it has not heard for a while."""
+        """Publish again: such a lock may expire when it has received nothing for a while."""
         if self.status in (Status.ASKED, Status.HOLDS):
             self.status = Status.HOLDS if self._reported else Status.ASKED
             self._publisher.publish(Bool(data=self._hold))
@@ -106,7 +108,9 @@ class ServiceMeans:
         self._release_client = node.create_client(kind, release_service) if release_service else self._client
         self._held, self._freed = held, freed
         self._turn = 0
-        """Counts changes between holding and releasing: an answer from before the last one says nothing any more."""
+        """Counts changes between holding and releasing: a response to a request from before the last change is
+        ignored.
+        """
         self._holding = False
         self._sent = False
 
@@ -133,7 +137,7 @@ class ServiceMeans:
             self._ask(self._release_client, self._release_service, self._freed, self._on_released)
 
     def refresh(self) -> None:
-        """A server that has gone holds nothing."""
+        """Note when the server has gone, since it then no longer holds the robot."""
         if self.status is Status.HOLDS and not self._client.service_is_ready():
             self._fail(f"the node of {self._service} has gone")
 
@@ -194,7 +198,7 @@ class LifecycleMeans(ServiceMeans):
 
 
 class UnknownMeans:
-    """A means whose messages are not known here: it only says so."""
+    """A means whose message types are unknown here: it only reports that."""
 
     def __init__(self, name: str, problem: str) -> None:
         self.name, self._why = name, problem
@@ -205,15 +209,15 @@ class UnknownMeans:
         self.status, self.problem = Status.FAILED, self._why
 
     def release(self) -> None:
-        """Nothing was done."""
+        """Do nothing: there is nothing to undo."""
         self.status, self.problem = Status.RELEASED, ""
 
     def refresh(self) -> None:
-        """Nothing changes."""
+        """Do nothing."""
 
 
 def means_of(node: Node, configured: ConfiguredMeans) -> StopMeans:
-    """A means as configured, by interfaces of a node; one that cannot be made says so when it is asked."""
+    """A means as configured, using interfaces of a node; one that cannot be set up reports that when it is used."""
     try:
         return _made(node, configured)
     except Exception as error:
@@ -239,7 +243,7 @@ def _switch(node: Node, configured: ConfiguredMeans) -> StopMeans:
     try:
         kind = importlib.import_module("controller_manager_msgs.srv").SwitchController
     except (ImportError, AttributeError):
-        problem = "the package controller_manager_msgs is not known here: source it, or add it to the workspace"
+        problem = "the package controller_manager_msgs is not available here: source it, or add it to the workspace"
         return UnknownMeans(configured.name, problem)
     names, strict = list(configured.controllers), kind.Request.STRICT
     held = kind.Request(deactivate_controllers=names, strictness=strict)

@@ -9,16 +9,16 @@ from collections.abc import Callable, Sequence
 from bot_console.tui.console.robot.stop_means.means import Status, StopMeans
 
 NEXT_AFTER_S = 0.3
-"""From one means to the next, unless one holds; one that has failed is not waited for so long."""
+"""Seconds after which the next means is tried, unless one holds; after a failure it is tried sooner."""
 AGAIN_AFTER_S = 1.0
-"""From the last means to the first again."""
+"""Seconds from the last means until the first is tried again."""
 
 TICK_S = 0.1
-"""Between two calls of `tick`."""
+"""Seconds between two calls of `tick`."""
 
 
 class StopSequence:
-    """The means of stopping in their order; methods may be called from any thread, and return at once."""
+    """The means of stopping in order; methods may be called from any thread, and return at once."""
 
     def __init__(self, means: Sequence[StopMeans], now: Callable[[], float] = time.monotonic) -> None:
         """`now` returns seconds."""
@@ -32,7 +32,7 @@ class StopSequence:
 
     @property
     def configured(self) -> bool:
-        """Whether there are any."""
+        """Whether any means is configured."""
         return bool(self._means)
 
     @property
@@ -44,7 +44,7 @@ class StopSequence:
 
     @property
     def news(self) -> str:
-        """What is known about the means that was tried last; after a release, which of them could not be undone."""
+        """The result of the means tried last; after a release, which of them could not be undone."""
         with self._lock:
             if self._holding:
                 last = self._means[(self._next or len(self._means)) - 1] if self._tried else None
@@ -68,7 +68,7 @@ class StopSequence:
             self._tried.clear()
 
     def tick(self) -> None:
-        """Go on; to be called ten times a second."""
+        """Continue the sequence; to be called ten times a second."""
         with self._lock:
             if not self._holding:
                 return
@@ -87,7 +87,7 @@ class StopSequence:
 
     @staticmethod
     def _ask(means: StopMeans, step: Callable[[], None]) -> None:
-        """A fault in one means keeps neither the zeros nor the next means from being sent."""
+        """Run a step of a means; its failure must prevent neither zeros nor the next means from being sent."""
         try:
             step()
         except Exception as error:

@@ -122,7 +122,7 @@ def test_pairs_that_do_not_match_are_reported_and_types_are_known(node) -> None:
     node.create_publisher(String, "/words", weak)
     node.create_subscription(String, "/words", lambda message: None, 10)
     (found,) = pair_findings(node)
-    assert found.level is Level.WARN and found.text.startswith("/words: /base hears nothing of /base")
+    assert found.level is Level.WARN and found.text.startswith("/words: /base receives nothing from /base")
     assert found.hint == "change the QoS of one of them"
     assert [each.level for each in type_findings(node)] == [Level.OK]
 
@@ -131,7 +131,7 @@ def test_a_topic_of_two_types_is_reported_as_such_and_not_as_one_of_another_defi
     node.create_publisher(String, "/words", 1)
     node.create_subscription(Twist, "/words", lambda message: None, 1)
     (found,) = pair_findings(node)
-    assert found.text == "/words: /base publishes std_msgs/msg/String, /base wants geometry_msgs/msg/Twist"
+    assert found.text == "/words: /base publishes std_msgs/msg/String, /base expects geometry_msgs/msg/Twist"
     assert [each.level for each in type_findings(node)] == [Level.OK]
 
 

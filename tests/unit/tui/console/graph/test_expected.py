@@ -48,7 +48,7 @@ actions: {/go: a/action/B}
     assert differences(expected, GRAPH) == [
         "node /lost is missing",
         "topic /odom is of type nav_msgs/msg/Odometry, not std_msgs/msg/String",
-        "/other publishes /odom no more, or not yet",
+        "/other no longer publishes /odom, or not yet",
         "/sim publishes /odom, which was not expected",
         "/nav subscribes to /odom, which was not expected",
         "topic /scan is missing",
@@ -74,14 +74,14 @@ def test_what_is_written_is_as_expected_when_it_is_read() -> None:
     ("text", "message"),
     [
         ("nodes: /sim", "nodes should be a list of names"),
-        ("topic: {}", "'topic' in the file is not known; known are nodes, topics"),
+        ("topic: {}", "'topic' in the file is unknown; expected one of nodes, topics"),
         ("topics: [/odom]", "topics should be a mapping"),
-        ("topics: {/odom: {rte: 5}}", "'rte' in /odom is not known"),
+        ("topics: {/odom: {rte: 5}}", "'rte' in /odom is unknown"),
         ("topics: {/odom: {rate: fast}}", "'fast' at /odom should be a number"),
-        ("nodes: [", "this is no YAML"),
-        ("nodes: !!timestamp x", "this is no YAML: has a value that its tag does not allow"),
-        ("[" * 1000, "this is no YAML: nested too deeply"),
-        ("nodes: [a\0]", "this is no YAML: "),
+        ("nodes: [", "this is not YAML"),
+        ("nodes: !!timestamp x", "this is not YAML: has a value that its tag does not allow"),
+        ("[" * 1000, "this is not YAML: nested too deeply"),
+        ("nodes: [a\0]", "this is not YAML: "),
     ],
 )
 def test_a_file_that_cannot_be_used_is_explained(text: str, message: str) -> None:

@@ -58,7 +58,7 @@ def test_services_and_actions_without_a_server_or_with_two() -> None:
 
 def test_a_node_without_any_end_and_hidden_ones() -> None:
     assert message(NodeInfo("/a", (Endpoint("/rosout", ()),), services=(OWN,))) == [
-        "/a publishes, hears and serves nothing"
+        "/a publishes, subscribes to and serves nothing"
     ]
     assert message(NodeInfo("/_tool", (), (Endpoint("/x", TWIST),))) == []
 

@@ -25,10 +25,10 @@ def end(node, qos=RELIABLE, kind=SCAN, type_hash=ONE):
 @pytest.mark.parametrize(
     ("publisher", "subscription", "parts"),
     [
-        (end("/lidar", WEAK), end("/nav"), ("/nav hears nothing of /lidar", "reliab")),
-        (end("/map"), end("/a/view", LATCHED), ("/a/view hears nothing of /map", "change the QoS")),
-        (end("/lidar"), end("/nav", type_hash=TWO), ("defined otherwise in /lidar than in /nav", "same definition")),
-        (end("/lidar"), end("/nav", kind="std_msgs/msg/String"), ("/nav wants std_msgs/msg/String", "rename")),
+        (end("/lidar", WEAK), end("/nav"), ("/nav receives nothing from /lidar", "reliab")),
+        (end("/map"), end("/a/view", LATCHED), ("/a/view receives nothing from /map", "change the QoS")),
+        (end("/lidar"), end("/nav", type_hash=TWO), ("in /lidar differs from that in /nav", "same definition")),
+        (end("/lidar"), end("/nav", kind="std_msgs/msg/String"), ("/nav expects std_msgs/msg/String", "rename")),
     ],
 )
 def test_what_does_not_pass_is_reported(publisher, subscription, parts):

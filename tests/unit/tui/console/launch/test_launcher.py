@@ -68,7 +68,7 @@ def test_kill(bench, waiter):
 
 @pytest.mark.parametrize(
     ("before", "verb", "text"),
-    [("", "start", "runs already"), ("stop", "stop", "does not run"), ("stop", "kill", "does not run")],
+    [("", "start", "is already running"), ("stop", "stop", "is not running"), ("stop", "kill", "is not running")],
 )
 def test_what_makes_no_sense_is_refused_with_the_reason(bench, waiter, before, verb, text):
     if before:
@@ -255,7 +255,7 @@ def test_a_missing_package(bench):
 
 def test_an_endless_include(bench):
     answer = bench.launcher.launch(bench.file("[IncludeLaunchDescription(__file__)]"), {}).result(3 * TIMEOUT_S)
-    assert answer.text.endswith("line 8: launch files include each other without end")
+    assert answer.text.endswith("line 8: launch files include each other endlessly")
 
 
 def test_a_missing_file(bench):
@@ -385,7 +385,7 @@ def test_a_node_that_is_not_here_stands_as_missing_and_the_rest_goes_on(bench):
     assert "package 'nowhere_cpp' not found" in missing.problem and "bot-console compiles nothing" in missing.problem
     assert running.state is ProcessState.RUNNING
     refused = bench.do("start", missing)
-    assert not refused.ok and "nowhere_cpp/driver is not here" in refused.text
+    assert not refused.ok and "nowhere_cpp/driver is not available here" in refused.text
 
 
 def test_without_that_a_missing_node_ends_the_launch(bench):

@@ -109,7 +109,8 @@ def test_it_is_filtered_as_the_log_is(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "why"), [("", "is a folder"), ("none", "no such file"), ("pipe", "no regular file"), ("\0", "zero byte")]
+    ("name", "why"),
+    [("", "is a folder"), ("none", "no such file"), ("pipe", "not a regular file"), ("\0", "zero byte")],
 )
 def test_what_cannot_be_read_reports_why(tmp_path: Path, name: str, why: str) -> None:
     os.mkfifo(tmp_path / "pipe")

@@ -89,7 +89,7 @@ def test_a_file_that_is_no_database_is_put_aside_and_reported(tmp_path: Path) ->
     file = tmp_path / "history.sqlite"
     file.write_bytes(b"not a database at all, and longer than a header of SQLite is. " * 40)
     history = History(file, 7)
-    assert "begins anew" in history.problem
+    assert "starts afresh" in history.problem
     (aside,) = tmp_path.glob("*.broken-7")
     assert aside.read_bytes().startswith(b"not a database")
     history.add(change(1))
@@ -164,7 +164,7 @@ def test_what_is_no_regular_file_is_not_opened(tmp_path: Path) -> None:
     for name in ("pipe", "folder"):
         history = History(tmp_path / name, 1)
         history.add(change(1))
-        assert history.problem == f"changes are not kept: {tmp_path / name} is no regular file"
+        assert history.problem == f"changes are not kept: {tmp_path / name} is not a regular file"
 
 
 def test_of_two_consoles_that_find_a_broken_file_one_sets_it_aside(
@@ -187,7 +187,7 @@ def test_of_two_consoles_that_find_a_broken_file_one_sets_it_aside(
     late = History(file, 2)
     late.add(change(2))
     assert [each.name for each in tmp_path.glob("*.broken-*")] == ["h.broken-1"]
-    assert (late.problem, "begins anew" in others[0].problem) == ("", False)
+    assert (late.problem, "starts afresh" in others[0].problem) == ("", False)
     for each in (*others, late):
         each.close()
     assert [each.stamp // SECOND for each in kept(file)] == [1, 2]
@@ -200,7 +200,7 @@ def test_a_broken_file_that_another_console_repairs_is_left_to_it(
     (tmp_path / "h").write_bytes(b"not a database" * 1000)
     with folder_lock(tmp_path, 0.0) as locked:
         assert locked
-        assert "another console repairs" in History(tmp_path / "h", 1).problem
+        assert "another console is repairing" in History(tmp_path / "h", 1).problem
     assert (tmp_path / "h").read_bytes().startswith(b"not a database")
 
 

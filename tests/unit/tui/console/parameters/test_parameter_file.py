@@ -83,10 +83,10 @@ def test_what_no_parameter_file_can_hold_is_reported(tmp_path: Path) -> None:
     assert saved.text(path) == (
         f"1 parameter saved to {path}; left out: /a data is a byte array, which ROS parameter files cannot hold; "
         "left out: /a names is an empty array, to which ROS parameter files give no type; "
-        "left out: /a tiny is too near to zero for the readers of ROS parameter files"
+        "left out: /a tiny is too close to zero for the readers of ROS parameter files"
     )
     assert path.read_text() == "/a:\n  ros__parameters:\n    speed: 1.0\n"
-    with pytest.raises(NotSaved, match="there is no parameter to save"):
+    with pytest.raises(NotSaved, match="there are no parameters to save"):
         save(tmp_path / "other.yaml", {"/a": ParameterTree("/a", (data,))})
     assert not (tmp_path / "other.yaml").exists()
 
@@ -151,35 +151,35 @@ KINDS: dict[str, tuple[str | bytes, str | bytes]] = {
 }
 
 REFUSED: dict[str, tuple[str | bytes, str]] = {
-    "plain text": ("Milk, bread\nand butter\n", "it holds only text"),
+    "plain text": ("Milk, bread\nand butter\n", "it contains only text"),
     "Python": ("import rclpy\n\ndef main():\n    rclpy.init()\n", "line 3: not YAML"),
-    "a list": ("- 1\n- 2\n", "it holds a list"),
-    "a scalar": ("42\n", "it holds only text"),
-    "another YAML": ("version: 3\nservices: {}\n", "line 1: 'version' is no parameter"),
+    "a list": ("- 1\n- 2\n", "it contains a list"),
+    "a scalar": ("42\n", "it contains only text"),
+    "another YAML": ("version: 3\nservices: {}\n", "line 1: 'version' is not a parameter"),
     "a map of maps": ("a: {b: {}}\n", "it sets nothing"),
     "one underscore": ("a:\n  ros_parameters:\n    x: 1\n", "two underscores"),
     "no node": ("ros__parameters:\n  x: 1\n", "no node name"),
-    "an alias": (f"{NODE}a: &x 1\n    b: *x\n", r"line 4: an alias \(\*x\)"),
-    "a cyclic alias": ("a: &a\n  ros__parameters: *a\n", "line 2: an alias"),
-    "billion laughs": ("a: &a [x, x]\nb: &b [*a, *a]\nc: [*b, *b]\n", "line 2: an alias"),
+    "an alias": (f"{NODE}a: &x 1\n    b: *x\n", r"line 4: there is an alias \(\*x\)"),
+    "a cyclic alias": ("a: &a\n  ros__parameters: *a\n", "line 2: there is an alias"),
+    "billion laughs": ("a: &a [x, x]\nb: &b [*a, *a]\nc: [*b, *b]\n", "line 2: there is an alias"),
     "a merge": (f"base: &b\n  x: 1\n{NODE}<<: *b\n", "an alias"),
     "a sequence as key": (f"{NODE}? [a, b]\n    : 1\n", "line 3: a key has to be a name"),
     "another empty value": (f"{NODE}a:\n", "line 3: a has no value"),
-    "no parameters": ("robot_navigator:\n  ros__parameters:\n", "line 2: below 'ros__parameters:'"),
-    "a name twice": (f"{NODE}a: 1\n    a: 2\n", "line 4: 'a' stands here for the second time"),
-    "a name twice, dotted": (f"{NODE}a: {{b: 1}}\n    a.b: 2\n", "line 4: 'a.b' stands here for the second time"),
-    "a list in a list": (f"{NODE}a: [[1], [2]]\n", "line 3: a holds a list or a mapping in a list"),
+    "no parameters": ("robot_navigator:\n  ros__parameters:\n", "line 2: there are no 'name: value' lines"),
+    "a name twice": (f"{NODE}a: 1\n    a: 2\n", "line 4: 'a' appears for the second time"),
+    "a name twice, dotted": (f"{NODE}a: {{b: 1}}\n    a.b: 2\n", "line 4: 'a.b' appears for the second time"),
+    "a list in a list": (f"{NODE}a: [[1], [2]]\n", "line 3: a contains a list or a mapping in a list"),
     "a mixed list": (f"{NODE}a: [1, x]\n", "line 3: the elements of a are not of one type"),
     "two documents": (f"{NODE}a: 1\n---\n{NODE}a: 2\n", "line 4: a second document"),
     "broken": ("a: [", "not YAML"),
     "a tab": ("a:\n\tros__parameters:\n", "line 2: not YAML"),
     "a NUL": ("a: 1\0\n", "not YAML: .*characters are not allowed"),
-    "bytes": (b"\x89PNG\r\n\x1a\n\0\0", "it is no text"),
-    "Latin-1": ("# für\n".encode("latin-1"), "it is no text"),
-    "deep": ("[" * 1000, "not YAML|too many"),
+    "bytes": (b"\x89PNG\r\n\x1a\n\0\0", "it is not a text file"),
+    "Latin-1": ("# für\n".encode("latin-1"), "it is not a text file"),
+    "deep": ("[" * 1000, "not YAML|too deeply"),
     "a wildcard behind it": (
         f"{NODE}a: 1\n/**:\n  ros__parameters:\n    max_speed: 1.0\n",
-        r"/robot_navigator would get the max_speed that stands below '/\*\*'",
+        r"/robot_navigator would get the max_speed that is below '/\*\*'",
     ),
 }
 
@@ -213,7 +213,7 @@ def test_a_kind_of_file_that_is_refused_and_stays_as_it_is(kind: str, tmp_path: 
 def test_a_refused_file_whose_name_cannot_be_longer(tmp_path: Path) -> None:
     path = tmp_path / f"{'n' * 250}.yaml"
     path.write_text("- 1\n")
-    with pytest.raises(NotSaved, match=r"it holds a list; .* give another name, such as a shorter one$"):
+    with pytest.raises(NotSaved, match=r"it contains a list; .* give another name, such as a shorter one$"):
         save(path, {ROBOT: tree(ROBOT, max_speed=2.5)})
     assert path.read_text() == "- 1\n"
 

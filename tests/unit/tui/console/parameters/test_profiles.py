@@ -158,7 +158,7 @@ def test_keys_that_mean_no_node_and_parameters_that_no_node_has_are_reported(tmp
         (f"launch: {'[' * 1000}\n", "not YAML: nested too deeply"),
         ("launch: a\0\n", "not YAML: .*characters are not allowed"),
         ('"a\nlaunch: b"\n', "a launch profile has the lines"),
-        (f"launch: a\narguments: {{n: 0x{'f' * 5000}}}\n", "a whole number of thousands of digits"),
+        (f"launch: a\narguments: {{n: 0x{'f' * 5000}}}\n", "an integer with thousands of digits"),
     ],
 )
 def test_a_launch_profile_that_cannot_be_read_reports_why_on_one_line(tmp_path: Path, text: str, problem: str) -> None:

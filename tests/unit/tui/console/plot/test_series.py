@@ -73,12 +73,13 @@ def test_an_array_becomes_one_number_and_what_hits_nothing_counts_for_nothing():
 
     assert reader(*parse_path("orientation.yaw()"))(Pose(orientation=turned)) == pytest.approx(1.5707963)
     for path, why in (
-        ("angle_min.mean()", "no array"), ("header.frame_id.len()", "no array"), ("ranges.yaw()", "no quaternion"),
-        ("ranges[0:2]", "not a number"), ("header.min()", "no array"),
+        ("angle_min.mean()", "not an array"), ("header.frame_id.len()", "not an array"),
+        ("ranges.yaw()", "not a quaternion"),
+        ("ranges[0:2]", "not a number"), ("header.min()", "not an array"),
     ):  # fmt: skip
         with pytest.raises(NotPlottable, match=why):
             reader(*parse_path(path))(scan)
-    with pytest.raises(NotPlottable, match="there are min, max, mean"):
+    with pytest.raises(NotPlottable, match="array are min, max, mean"):
         parse_path("ranges.median()")
 
 

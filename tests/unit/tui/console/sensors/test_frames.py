@@ -53,7 +53,7 @@ def test_a_ros_without_the_messages_of_tf2_reports_it(monkeypatch: pytest.Monkey
     bench = Bench()
     bench.watch.poll(True, GRAPH)
     assert bench.topics == []
-    assert bench.watch.frames().problem.startswith("the type tf2_msgs/msg/TFMessage is not known here")
+    assert bench.watch.frames().problem.startswith("the type tf2_msgs/msg/TFMessage is not available here")
 
 
 def test_nothing_is_subscribed_while_nobody_looks() -> None:
@@ -101,7 +101,7 @@ def test_two_parents_that_are_reported_once_stay_two() -> None:
     bench.now += 60.0
     assert bench.frame("laser").others == ("base",)
     assert next(text for _, text in findings(bench.watch.frames(), bench.now)) == (
-        "laser has more than one parent: base and mast; the one that is heard last counts"
+        "laser has more than one parent: base and mast; the last one received counts"
     )
 
 
@@ -115,9 +115,9 @@ def test_what_is_wrong_in_words() -> None:
         Frame("slow", "map", heard=8.0, rate=1.0),
     )
     assert [text for _, text in findings(Frames(frames), 10.0)] == [
-        "a in b in a: a loop, nothing can be looked up in it",
+        "a in b in a: a loop, so nothing can be looked up in it",
         "base has more than one parent: map and odom; it jumps from one to the other",
-        "odom was last told 5 s ago",
-        "2 trees that nothing joins: map, world",
+        "odom was last published 5 s ago",
+        "2 separate trees: map, world",
     ]
     assert list(findings(Frames(frames[3:4]), 10.0)) == []

@@ -59,7 +59,7 @@ def test_wide_numbers_go_from_black_to_white(encoding: str, kind: str, big: bool
 def test_what_is_no_number_is_black() -> None:
     pixels, output = scaled(image("32FC1", np.array([[np.nan, 1.0], [np.inf, 3.0]], "f4")), 2, 2)
     assert pixels[:, :, 0].tolist() == [[0, 0], [0, 255]] and output == "1 to 3"
-    assert scaled(image("32FC1", np.full((2, 2), np.nan, "f4")), 2, 2)[1] == "no number in it"
+    assert scaled(image("32FC1", np.full((2, 2), np.nan, "f4")), 2, 2)[1] == "contains no numbers"
 
 
 def test_a_pixel_is_the_mean_of_those_that_fall_onto_it() -> None:
@@ -74,7 +74,7 @@ def test_a_pixel_is_the_mean_of_those_that_fall_onto_it() -> None:
         (Image(height=0, width=0, encoding="rgb8"), "without pixels"),
         (
             Image(height=2, width=2, encoding="rgb8", step=6, data=b"12345"),
-            "needs 6 bytes a line, 12 in all; there are 6 and 5",
+            "needs 6 bytes per row, 12 in total; there are 6 and 5",
         ),
         (Image(height=2, width=2, encoding="rgb8", step=1, data=b"1" * 12), "there are 1 and 12"),
     ],
@@ -109,5 +109,5 @@ def test_compressed_images_need_pillow_and_report_what_is_wrong_with_them() -> N
         10,
         20,
     ]
-    with pytest.raises(ValueError, match="cannot be unpacked"):
+    with pytest.raises(ValueError, match="cannot be decoded"):
         _shown(CompressedImage(format="jpeg", data=b"\xff\xd8nonsense"), 4, 4)

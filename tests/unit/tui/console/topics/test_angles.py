@@ -13,7 +13,7 @@ from geometry_msgs.msg import Quaternion
     ("parts", "text"),
     [
         ((0.0, 0.0, 1.0, 1.0), "yaw 90.0°"),
-        ((0.0, 0.0, 0.0, 0.0), "no rotation: its length is 0"),
+        ((0.0, 0.0, 0.0, 0.0), "not a rotation: its length is 0"),
         ((0.0, 0.0, math.nan, 1.0), "not finite"),
         ((0.0, 0.0, 1e300, 1e300), "yaw 90.0°"),
         ((1.7e308, 1.7e308, 1.7e308, 1.7e308), "not finite"),

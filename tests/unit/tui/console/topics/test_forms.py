@@ -56,8 +56,8 @@ def test_enumerations_are_typed_by_name_or_number() -> None:
         (BATTERY, "colour", "1", "there is no field colour"),
         (SCAN, "ranges", "1.0, 2.0", "as in YAML"),
         (SCAN, "ranges", "[far]", "not a number"),
-        (ODOM, "pose.covariance", "[1.0]", "it has 36"),
-        (ODOM, "pose.pose.orientation", "north", "no yaw"),
+        (ODOM, "pose.covariance", "[1.0]", "the array has 36"),
+        (ODOM, "pose.pose.orientation", "north", "not a yaw"),
         (ODOM, "header.stamp", "soon", "not a number"),
     ],
 )
@@ -82,7 +82,7 @@ def test_a_command_line_has_only_what_was_typed_and_now() -> None:
 
 
 def test_an_unknown_type_is_reported_with_a_hint() -> None:
-    with pytest.raises(ValueError, match="not known here; source the workspace"):
+    with pytest.raises(ValueError, match="not available here; source the workspace"):
         slots(Payload.MESSAGE, "nowhere_msgs/msg/Nothing", {})
 
 
