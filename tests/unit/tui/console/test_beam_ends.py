@@ -1,4 +1,4 @@
-"""Where beams end: nothing is worked out before somebody looks, and what is no return is left out."""
+"""End points of beams: computed on demand, without beams that have no return."""
 
 import math
 
@@ -17,7 +17,7 @@ SCAN = LaserScan(
 )
 
 
-def test_ends_lie_around_the_pose_and_are_worked_out_when_they_are_inspected():
+def test_end_points_are_computed_around_the_pose_on_demand():
     ends = BeamEnds(SCAN, Pose(1.0, 2.0, math.pi / 2))
     assert ends.nearest == 1.0 and len(ends) == 3 and bool(ends)
     assert "points" not in vars(ends), "nobody has looked"
@@ -28,12 +28,12 @@ def test_ends_lie_around_the_pose_and_are_worked_out_when_they_are_inspected():
 
 
 @pytest.mark.parametrize("pose", [None, Pose(0.0, 0.0, math.nan)])
-def test_without_a_pose_the_nearest_return_is_known_and_no_end(pose):
+def test_without_a_pose_only_the_nearest_return_is_known(pose):
     ends = BeamEnds(SCAN, pose)
     assert ends.nearest == 1.0 and not ends and np.asarray(ends, float).shape == (0, 2)
 
 
-def test_a_scan_without_returns_has_neither():
+def test_a_scan_without_returns_has_neither_end_points_nor_nearest():
     ends = BeamEnds(LaserScan(ranges=[math.inf, math.nan], range_max=10.0), Pose())
     assert ends.nearest is None and not ends
     assert not BeamEnds(LaserScan(), Pose())

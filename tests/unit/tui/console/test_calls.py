@@ -1,4 +1,4 @@
-"""How long the console waits for an answer."""
+"""How long the console waits for a response."""
 
 import pytest
 from bot_console.tui.console.calls import ANSWER_TIMEOUT_S, MIN_POLLS, Calls, NoAnswer
@@ -7,7 +7,7 @@ from std_srvs.srv import Trigger
 
 
 class StubNode:
-    """A node whose client never gets an answer, and whose timer fires when the test says so."""
+    """A node whose client never gets a response, and whose timer fires when the test says so."""
 
     def __init__(self):
         self.answer, self.ready = Future(), True
@@ -31,20 +31,20 @@ class StubNode:
         pass
 
 
-def test_time_in_which_the_console_itself_stood_still_takes_no_timeout():
+def test_time_lost_by_the_console_itself_does_not_count_towards_the_timeout():
     node = StubNode()
     asking = Calls(node, None).ask(Trigger, "/wait", Trigger.Request())
     asking.send(None)
     assert node.period * MIN_POLLS == ANSWER_TIMEOUT_S
     for _ in range(MIN_POLLS - 1):
-        node.fire()  # each may come as late as it likes
+        node.fire()  # each may be arbitrarily late
         assert not node.answer.done()
     node.fire()
     with pytest.raises(NoAnswer, match=r"/wait did not answer within 5 s"):
         asking.send(None)
 
 
-def test_a_server_that_went_away_is_reported_without_waiting_for_the_rest_of_the_time():
+def test_a_server_that_disappears_is_reported_before_the_timeout():
     node = StubNode()
     asking = Calls(node, None).ask(Trigger, "/home", Trigger.Request(), 30.0)
     asking.send(None)

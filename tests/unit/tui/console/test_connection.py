@@ -1,4 +1,6 @@
-"""The console's link to ROS: before it stands, when it breaks, and when it is closed while somebody waits."""
+"""The console's connection to ROS: before it is up, when it breaks, and when it is closed while requests are
+pending.
+"""
 
 import itertools
 
@@ -41,7 +43,7 @@ def console(domain):
     made.close()
 
 
-def test_before_it_has_begun_everything_is_refused_and_nothing_is_known(console):
+def test_before_it_is_connected_everything_is_refused_and_nothing_is_known(console):
     assert console.snapshot().graph.nodes == ()
     assert console.snapshot() is console.snapshot()
     assert "still connecting" in console.undo().result(TIMEOUT_S).text
@@ -52,7 +54,7 @@ def test_before_it_has_begun_everything_is_refused_and_nothing_is_known(console)
     assert list(console.changes()) == list(console.plottable()) == []
 
 
-def test_whoever_waits_when_it_is_closed_gets_an_answer(console, idle):
+def test_pending_requests_are_answered_when_the_console_is_closed(console, idle):
     console.start()
     assert console.wait_ready(TIMEOUT_S)
     waiting = console.call("/wait", "std_srvs/srv/Trigger", {})
@@ -61,7 +63,7 @@ def test_whoever_waits_when_it_is_closed_gets_an_answer(console, idle):
     assert (answer.ok, answer.text) == (False, "the console has closed")
 
 
-def test_a_link_that_breaks_reports_where_and_refuses_from_then_on(console, idle, monkeypatch):
+def test_a_broken_connection_reports_the_place_and_refuses_from_then_on(console, idle, monkeypatch):
     console.start()
     assert console.wait_ready(TIMEOUT_S)
     waiting = console.call("/wait", "std_srvs/srv/Trigger", {})
@@ -78,14 +80,14 @@ def test_a_link_that_breaks_reports_where_and_refuses_from_then_on(console, idle
     assert "the graph is gone" in console.undo().result(TIMEOUT_S).text
 
 
-def test_closing_before_it_has_connected_leaves_no_thread(console):
-    console._closed = True  # as if `close` came while the thread is still importing
+def test_closing_before_it_is_connected_leaves_no_thread(console):
+    console._closed = True  # as if `close` was called while the thread is still importing
     console.start()
     console._thread.join(TIMEOUT_S)
     assert not console._thread.is_alive()
 
 
-def test_a_stop_that_is_asked_for_before_it_has_begun_is_sent_as_soon_as_it_is_linked(console):
+def test_a_stop_requested_before_connecting_is_sent_once_connected(console):
     console.all_stop(True, "at the first key")
     console.start()
     assert console.wait_ready(TIMEOUT_S)
@@ -93,7 +95,7 @@ def test_a_stop_that_is_asked_for_before_it_has_begun_is_sent_as_soon_as_it_is_l
     assert console.snapshot().drive.stop_reason == "at the first key"
 
 
-def test_a_stop_that_was_taken_back_before_it_has_begun_is_not_sent(console):
+def test_a_stop_withdrawn_before_connecting_is_not_sent(console):
     console.all_stop(True)
     console.all_stop(False)
     console.start()

@@ -25,14 +25,14 @@ _made: list["Bench"] = []
 
 @pytest.fixture(autouse=True)
 def close_benches():
-    """A node that stays would keep `/rosout` of its name from later ones."""
+    """A node that remains would keep the `/rosout` publisher of its name from later nodes."""
     yield
     while _made:
         _made.pop().close()
 
 
 class Bench:
-    """A console's link, and a node in the place of the robot."""
+    """A console's link, and a node that takes the robot's place."""
 
     def __init__(self, *topics: str, arbiter: bool = False) -> None:
         context = self.context = Context()
@@ -89,7 +89,7 @@ def test_all_stop_sends_zero_everywhere_and_takes_no_command(bench):
     assert bench.link.info(WorldInfo()).stopped
 
 
-def test_all_stop_answers_somebody_elses_command_at_once(bench):
+def test_all_stop_answers_another_publishers_command_at_once(bench):
     other = bench.robot.create_publisher(Twist, "/cmd_vel", 10)
     bench.link.stop(True, "ALL STOP")
     bench.settle()
@@ -100,7 +100,7 @@ def test_all_stop_answers_somebody_elses_command_at_once(bench):
     assert [value for topic, value in bench.got if topic == "/cmd_vel"][-2:] == [1.0, 0.0]
 
 
-def test_a_released_robot_is_driven_again(bench):
+def test_a_released_robot_can_be_driven_again(bench):
     bench.link.stop(True, "ALL STOP")
     bench.link.stop(False, "")
     bench.link.drive(0.5, 0.0)
@@ -109,14 +109,14 @@ def test_a_released_robot_is_driven_again(bench):
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
-def test_a_velocity_that_is_no_number_is_refused(bench, value):
+def test_a_velocity_that_is_not_finite_is_refused(bench, value):
     with pytest.raises(ValueError, match="finite"):
         bench.link.drive(value, 0.0)
     bench.settle()
     assert bench.got == []
 
 
-def test_the_arbiters_reason_is_reported():
+def test_the_arbiters_reason_is_shown():
     bench = Bench("/cmd_vel", arbiter=True)
     publisher = bench.robot.create_publisher(DiagnosticArray, "/diagnostics", 10)
     values = {"limited_by": "warning_distance", "final.linear": "0.2", "final.angular": "0"}
@@ -128,7 +128,7 @@ def test_the_arbiters_reason_is_reported():
     assert (info.limited_by, info.asked, info.limited) == ("warning_distance", (0.8, 0.0), (0.2, 0.0))
 
 
-def test_silence_is_reported(bench, monkeypatch):
+def test_silence_of_the_robot_is_reported(bench, monkeypatch):
     other = bench.robot.create_publisher(Twist, "/cmd_vel", 10)
     other.publish(Twist())
     bench.settle()
@@ -142,7 +142,7 @@ def _listening(*topics):
     return GraphInfo(nodes=(NodeInfo("/robot", subscriptions=tuple(Endpoint(each, (TWIST,)) for each in topics)),))
 
 
-def test_a_robot_whose_arbiter_has_left_is_not_driven_past_it():
+def test_a_robot_whose_arbiter_has_left_is_not_driven_directly():
     bench = Bench("/cmd_vel", "/cmd_vel_teleop")
     bench.link.follow(_listening("/cmd_vel"))
     bench.link.drive(1.0, 0.0)
@@ -158,7 +158,7 @@ def test_a_robot_whose_arbiter_has_left_is_not_driven_past_it():
     assert (bench.link.topic, bench.link.info(WorldInfo()).limited_by) == ("/cmd_vel_teleop", "")
 
 
-def test_a_stop_that_its_lock_did_not_live_to_acknowledge_goes_on_as_zeros_until_it_is_taken_back():
+def test_zeros_continue_until_release_if_the_lock_dies_before_acknowledging():
     bench = Bench("/cmd_vel")
     lock = Endpoint("/emergency_stop/arbiter", ("diagnostic_msgs/msg/DiagnosticStatus",))
     listened = (Endpoint("/cmd_vel_teleop", (TWIST,)),)
@@ -180,14 +180,14 @@ def test_a_stop_that_its_lock_did_not_live_to_acknowledge_goes_on_as_zeros_until
     assert bench.got == []
 
 
-def test_a_stop_goes_on_as_zeros_until_its_lock_acknowledges_it():
+def test_zeros_continue_until_the_lock_acknowledges_the_stop():
     bench = Bench("/cmd_vel", "/cmd_vel_teleop")
     topic, kind = "/emergency_stop/arbiter", "diagnostic_msgs/msg/DiagnosticStatus"
     message_of = bench.robot.create_publisher(DiagnosticStatus, topic, QoSProfile(depth=1, durability=LATCHED))
     arbiter = NodeInfo("/arbiter", publishers=(Endpoint(topic, (kind,)),))
     bench.link.follow(GraphInfo(nodes=(*_listening("/cmd_vel", "/cmd_vel_teleop").nodes, arbiter)))
     bench.link.stop(True, "ALL STOP")
-    for _ in range(3):  # it hangs
+    for _ in range(3):  # the lock hangs
         bench.settle()
         bench.got.clear()
         bench.link._repeat()
@@ -201,7 +201,7 @@ def test_a_stop_goes_on_as_zeros_until_its_lock_acknowledges_it():
     assert bench.got == [] and bench.link.info(WorldInfo()).stop_confirmed
 
 
-def test_the_next_robot_needs_no_arbiter():
+def test_a_new_robot_without_arbiter_is_driven_directly():
     bench = Bench("/cmd_vel", "/cmd_vel_teleop")
     bench.link.follow(_listening())
     bench.link.follow(_listening("/cmd_vel"))
@@ -220,7 +220,7 @@ def _robots(*ends: tuple[str, str], clock: bool = False) -> GraphInfo:
 
 
 @pytest.mark.parametrize("simulated", [False, True])
-def test_a_robot_that_wants_stamps_gets_them_and_none_of_ours_in_simulated_time(simulated):
+def test_stamped_commands_are_sent_on_demand_without_our_time_in_simulated_time(simulated):
     bench, got = Bench(), []
     bench.robot.create_subscription(TwistStamped, "/base/cmd_vel", got.append, 10)
     bench.link.follow(_robots(("/base/cmd_vel", STAMPED), clock=simulated))
@@ -233,7 +233,7 @@ def test_a_robot_that_wants_stamps_gets_them_and_none_of_ours_in_simulated_time(
     assert bench.link.info(WorldInfo()).final == (0.5, -0.25)
 
 
-def test_of_several_robots_one_is_steered_and_all_are_stopped():
+def test_one_of_several_robots_is_driven_and_all_are_stopped():
     bench = Bench("/a/cmd_vel", "/bb/cmd_vel", "/elsewhere/velocity")
     bench.link.follow(_robots(("/bb/cmd_vel", TWIST), ("/a/cmd_vel", TWIST), ("/elsewhere/velocity", TWIST)))
     info = bench.link.info(WorldInfo())
@@ -249,7 +249,7 @@ def test_of_several_robots_one_is_steered_and_all_are_stopped():
     assert set(bench.got) == {("/a/cmd_vel", 0.0), ("/bb/cmd_vel", 0.0)}
 
 
-def test_a_topic_of_another_name_is_driven_only_when_it_is_chosen():
+def test_a_topic_with_another_name_is_driven_only_when_chosen():
     bench = Bench("/elsewhere/velocity")
     bench.link.follow(_robots(("/elsewhere/velocity", TWIST)))
     bench.link.drive(0.5, 0.0)
@@ -262,7 +262,7 @@ def test_a_topic_of_another_name_is_driven_only_when_it_is_chosen():
     assert set(bench.got[1:]) == {("/elsewhere/velocity", 0.0)}
 
 
-def test_a_robot_that_was_only_inspected_hears_nothing_when_the_console_leaves():
+def test_a_robot_that_was_only_watched_receives_nothing_when_the_console_leaves():
     bench = Bench("/cmd_vel")
     bench.link.close()
     bench.settle()
@@ -274,7 +274,7 @@ def test_a_robot_that_was_only_inspected_hears_nothing_when_the_console_leaves()
 
 
 class Waits:
-    """How long a link has waited for nobody's answer (s)."""
+    """The time (s) for which a link waits without acknowledgement."""
 
     def __init__(self, monkeypatch):
         self.waited = []
@@ -284,7 +284,7 @@ class Waits:
         self.waited.append(seconds)
 
 
-def test_a_zero_that_nobody_acknowledges_gets_its_time_where_somebody_hears_it(monkeypatch):
+def test_closing_waits_for_an_unacknowledged_zero_if_there_is_a_subscription(monkeypatch):
     bench, waits = Bench("/cmd_vel"), Waits(monkeypatch)
     bench.link.close(7.0)
     assert waits.waited == [], "it was only looked at"
@@ -293,7 +293,7 @@ def test_a_zero_that_nobody_acknowledges_gets_its_time_where_somebody_hears_it(m
     assert waits.waited == [7.0]
 
 
-def test_a_robot_that_has_gone_is_not_waited_for(monkeypatch):
+def test_closing_does_not_wait_for_a_robot_that_has_gone(monkeypatch):
     bench, waits = Bench("/cmd_vel"), Waits(monkeypatch)
     bench.link.stop(True, "bot-console was quit")
     bench.robot.destroy_node()

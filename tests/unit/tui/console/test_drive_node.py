@@ -1,4 +1,4 @@
-"""What the robot says of its lock is heard while the console's own thread is busy."""
+"""Reports of the robot's lock are processed while the console's own thread is busy."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _domains = itertools.count(8200)
 
 @pytest.fixture
 def console(monkeypatch: pytest.MonkeyPatch) -> Iterator[RosConsole]:
-    """Linked to a base with its lock."""
+    """Connected to a base with a lock."""
     domain = next(_domains)
     monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
     monkeypatch.setattr(linked_console, "LAST_WORD", 0.0)
@@ -45,7 +45,7 @@ def console(monkeypatch: pytest.MonkeyPatch) -> Iterator[RosConsole]:
     context.try_shutdown()
 
 
-def test_a_stop_and_its_release_are_acknowledged_while_a_look_at_the_graph_takes_long(
+def test_stop_and_release_are_acknowledged_during_a_long_graph_poll(
     console: RosConsole, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     until(lambda: console.snapshot().drive.lockable, "the lock")

@@ -1,4 +1,4 @@
-"""Stops for key presses whose turn has not come hold the robot's lock under an id of their own."""
+"""Stops for key presses that are not processed yet hold the robot's lock under separate ids."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _domains = itertools.count(3300)
 
 
 class Rig:
-    """The link of a console, and a lock."""
+    """A console's link, and a lock."""
 
     def __init__(self) -> None:
         self.context = Context()
@@ -37,7 +37,7 @@ class Rig:
         self.settle()
 
     def settle(self) -> DriveInfo:
-        """Let all messages arrive; what the console then shows."""
+        """Let all messages arrive; returns what the console then shows."""
         for _ in range(200):
             self.executor.spin_once(timeout_sec=0)
         return self.link.info(WorldInfo())
@@ -88,7 +88,7 @@ def test_console_makes_the_stop_of_a_press_its_own_and_releases_it(rig: Rig) -> 
     assert not rig.settle().stopped and not rig.locked
 
 
-def test_stop_of_a_press_that_may_be_text_is_not_the_one_that_a_person_asked_for(rig: Rig) -> None:
+def test_stop_of_a_press_that_may_be_text_is_not_the_one_a_person_requested(rig: Rig) -> None:
     rig.link.hold_early("1")
     rig.link.stop(True, "ALL STOP")
     rig.settle()
@@ -96,7 +96,7 @@ def test_stop_of_a_press_that_may_be_text_is_not_the_one_that_a_person_asked_for
     assert rig.settle().stopped_here and rig.locked
 
 
-def test_release_leaves_a_press_alone_whose_turn_has_not_come(rig: Rig) -> None:
+def test_release_does_not_affect_the_stop_of_an_unprocessed_press(rig: Rig) -> None:
     rig.link.stop(True, "ALL STOP")
     rig.link.hold_early("1")
     rig.settle()

@@ -1,4 +1,4 @@
-"""A stop holds until a person releases it, whatever becomes of locks and consoles; and then it does not come back."""
+"""A stop holds until a person releases it, whatever becomes of locks and consoles; afterwards it does not come back."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ MONITOR, BASE_NODE = "safety_monitor", "simulator"
 
 @pytest.fixture
 def rig(tmp_path: Path) -> Iterator[StopRig]:
-    """A robot with a stop file, which anna's console and ben's follow; all that is sent is recorded."""
+    """A robot with a stop file, followed by the consoles of anna and ben; all messages are recorded."""
     made = StopRig(str(tmp_path / "stops.json"))
     made.robot()
     made.console("anna")
@@ -48,7 +48,7 @@ def killed_console_and_up(rig: StopRig) -> None:
 
 
 def robot_without_file(rig: StopRig) -> None:
-    """Only consoles remember."""
+    """Only the consoles remember the stop."""
     rig.stop_file = ""
     down_and_up(rig)
 
@@ -87,7 +87,7 @@ def test_a_stop_holds_whatever_happens_until_a_person_releases_it(rig: StopRig, 
 
 
 @pytest.mark.parametrize("disturb", DISTURBANCES.values(), ids=DISTURBANCES)
-def test_a_stop_that_somebody_else_has_released_does_not_come_back(rig: StopRig, disturb: Disturbance) -> None:
+def test_a_stop_released_by_somebody_else_does_not_come_back(rig: StopRig, disturb: Disturbance) -> None:
     rig.links["anna"].stop("the arm swings")
     rig.settle()
     ben = rig.links["ben"]
@@ -100,7 +100,7 @@ def test_a_stop_that_somebody_else_has_released_does_not_come_back(rig: StopRig,
 
 
 def held(rig: StopRig) -> bool:
-    """Whether all locks hold the robot; fails where they do not agree."""
+    """Whether all locks hold the robot; fails if they disagree."""
     [agreed] = {lock.lock.held for lock in rig.locks.values()}
     return agreed
 
@@ -109,10 +109,8 @@ def reasons(lock: EmergencyStop) -> list[str]:
     return [each.reason for each in lock.lock.stops]
 
 
-def test_a_recorded_release_releases_neither_the_same_stop_nor_another_and_is_logged(
-    rig: StopRig, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Recorded when it did not count, as if it was lost on its way."""
+def test_a_replayed_release_releases_no_stop_and_is_logged(rig: StopRig, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Recorded when it had no effect, as if it had been lost on its way."""
     lines: list[str] = []
     for name in (MONITOR, BASE_NODE):
         monkeypatch.setattr(rig.nodes[name].get_logger(), "warning", lambda text, **_: lines.append(text))
@@ -127,7 +125,7 @@ def test_a_recorded_release_releases_neither_the_same_stop_nor_another_and_is_lo
     assert len([each for each in lines if "Release by anna ignored" in each]) >= 2
 
 
-def test_a_recorded_report_of_a_lock_does_not_confirm_the_next_stop(rig: StopRig) -> None:
+def test_a_replayed_lock_report_does_not_confirm_the_next_stop(rig: StopRig) -> None:
     anna = rig.links["anna"]
     anna.stop("an earlier stop")
     rig.settle()
@@ -143,7 +141,7 @@ def test_a_recorded_report_of_a_lock_does_not_confirm_the_next_stop(rig: StopRig
     assert reports and anna.info.locks == 2 and not anna.info.confirmed and anna.stopping
 
 
-def test_after_a_bag_was_played_everybody_sees_the_robot_as_it_is(rig: StopRig) -> None:
+def test_after_a_bag_was_played_every_console_shows_the_actual_state(rig: StopRig) -> None:
     ben = rig.links["ben"]
     rig.links["anna"].stop("the arm swings")
     rig.settle()
@@ -168,7 +166,7 @@ def test_a_lock_that_no_longer_reports_confirms_nothing(rig: StopRig, monkeypatc
     assert anna.info.confirmed
 
 
-def test_a_console_that_lost_all_locks_reports_that_its_stop_is_not_confirmed_and_gives_it_to_those_that_come(
+def test_a_stop_without_locks_is_unconfirmed_and_sent_to_new_locks(
     rig: StopRig,
 ) -> None:
     rig.stop_file = ""
@@ -184,7 +182,7 @@ def test_a_console_that_lost_all_locks_reports_that_its_stop_is_not_confirmed_an
     assert held(rig) and anna.info.confirmed
 
 
-def test_one_of_two_stops_of_a_console_is_withdrawn_alone(rig: StopRig) -> None:
+def test_one_of_two_stops_of_a_console_can_be_withdrawn_alone(rig: StopRig) -> None:
     anna = rig.links["anna"]
     first, second = anna.stop("the arm swings"), anna.add_stop("! typed while keys were waiting")
     assert anna.stop("the arm swings") == first != second
@@ -197,7 +195,7 @@ def test_one_of_two_stops_of_a_console_is_withdrawn_alone(rig: StopRig) -> None:
     assert not held(rig)
 
 
-def test_a_stop_for_a_reason_of_the_consoles_own_ends_with_robot_and_console(rig: StopRig) -> None:
+def test_a_stop_made_by_the_console_itself_ends_with_robot_and_console(rig: StopRig) -> None:
     rig.links["anna"].stop("bot-console was quit", kept=False)
     rig.settle()
     restart(rig, MONITOR)
@@ -208,7 +206,7 @@ def test_a_stop_for_a_reason_of_the_consoles_own_ends_with_robot_and_console(rig
     assert not held(rig)
 
 
-def test_what_a_service_call_stopped_holds_after_down_and_up_and_a_call_releases_it(rig: StopRig) -> None:
+def test_a_stop_by_service_call_survives_a_restart_and_a_call_releases_it(rig: StopRig) -> None:
     from std_srvs.srv import Trigger
 
     def call(lock: EmergencyStop, verb: str) -> Trigger.Response:
@@ -224,7 +222,7 @@ def test_what_a_service_call_stopped_holds_after_down_and_up_and_a_call_releases
     assert not held(rig)
 
 
-def test_a_file_that_cannot_be_read_locks_and_a_release_moves_it_aside(rig: StopRig, tmp_path: Path) -> None:
+def test_an_unreadable_stop_file_locks_and_a_release_moves_it_aside(rig: StopRig, tmp_path: Path) -> None:
     path = Path(rig.stop_file)
     rig.kill(MONITOR, BASE_NODE)
     path.write_text("{")
@@ -240,10 +238,10 @@ def test_a_file_that_cannot_be_read_locks_and_a_release_moves_it_aside(rig: Stop
     assert not held(rig)
 
 
-def test_while_the_file_cannot_be_written_no_release_frees_the_robot(rig: StopRig) -> None:
+def test_no_release_frees_the_robot_while_the_stop_file_cannot_be_written(rig: StopRig) -> None:
     path = Path(rig.stop_file)
     rig.kill(MONITOR, BASE_NODE)
-    rig.stop_file = str(path / "stops.json")  # below a file
+    rig.stop_file = str(path / "stops.json")  # its parent is a file
     rig.robot()
     rig.settle(2)
     ben = rig.links["ben"]
@@ -265,7 +263,7 @@ def pairs(values: dict[str, str]) -> list[KeyValue]:
     return [KeyValue(key=key, value=value) for key, value in values.items()]
 
 
-def test_an_older_console_stops_and_releases_beside_these_locks(rig: StopRig) -> None:
+def test_an_older_console_stops_and_releases_with_these_locks(rig: StopRig) -> None:
     publisher = rig.node("older").create_publisher(DiagnosticStatus, REQUEST, 10)
     rig.settle()
     for _ in range(2):
@@ -284,7 +282,7 @@ def last_values(rig: StopRig, topic: str) -> dict[str, str]:
 
 
 class OlderLock:
-    """A lock that tells stops of one key not apart, and reports neither releases nor challenges."""
+    """A lock that does not distinguish stops of one key, and reports neither releases nor challenges."""
 
     def __init__(self, rig: StopRig, instance: str) -> None:
         node = rig.node(f"older{instance}")
@@ -318,7 +316,7 @@ def older_rig() -> Iterator[StopRig]:
     made.close()
 
 
-def test_beside_an_older_lock_a_console_stops_and_releases_and_restores_its_stop(older_rig: StopRig) -> None:
+def test_a_console_stops_releases_and_restores_its_stop_with_an_older_lock(older_rig: StopRig) -> None:
     lock = OlderLock(older_rig, "1")
     anna: StopLink = older_rig.console("anna")
     older_rig.settle()

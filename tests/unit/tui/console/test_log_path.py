@@ -1,4 +1,4 @@
-"""The way of a log line, end to end: every line once, whichever ways it has, at full rate and at the end."""
+"""The path of a log line, end to end: every line once, whichever way it takes, at full rate and at the end."""
 
 import itertools
 import os
@@ -49,7 +49,7 @@ def console(tmp_path, monkeypatch):
 
 
 def run(console, folder, entities):
-    """Launch and wait until all of it has ended."""
+    """Launch entities and wait until all have ended."""
     (folder / "writer.py").write_text(WRITER)
     path = folder / "system.launch.py"
     path.write_text(HEAD.replace("{entities}", entities))
@@ -70,7 +70,7 @@ def run(console, folder, entities):
 
 
 def texts(console, words):
-    """What the log has, when nothing more comes."""
+    """The log's lines, once no more are added."""
     last = -1
     while console.snapshot().logs.end != last:
         last = console.snapshot().logs.end
@@ -90,7 +90,7 @@ def node(folder, name, count, more=""):
 
 @pytest.mark.parametrize("name", ["loud", "quiet"])
 @pytest.mark.parametrize("before", ["", "SetEnvironmentVariable('RCUTILS_CONSOLE_OUTPUT_FORMAT', '{{message}}'),"])
-def test_every_line_is_there_once(console, tmp_path, name, before):
+def test_every_line_appears_once(console, tmp_path, name, before):
     run(console, tmp_path, f"[{before.replace('{{', '{').replace('}}', '}')} {node(tmp_path, name, 40)}]")
     assert texts(console, f"re:^{name}") == expected(name, 40)
 
@@ -101,10 +101,10 @@ def flood(console, folder, count):
         assert texts(console, f"re:^{name}") == expected(name, count)
 
 
-def test_two_writers_at_full_rate_lose_and_double_nothing(console, tmp_path):
+def test_two_writers_at_full_rate_lose_and_duplicate_nothing(console, tmp_path):
     flood(console, tmp_path, 2_000)
 
 
 @pytest.mark.soak
-def test_a_flood_loses_and_doubles_nothing(console, tmp_path):
+def test_a_flood_of_lines_is_neither_lost_nor_duplicated(console, tmp_path):
     flood(console, tmp_path, 75_000)

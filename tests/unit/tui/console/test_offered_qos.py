@@ -1,4 +1,4 @@
-"""A subscription asks for what is offered, and for less as soon as a publisher offers less."""
+"""A subscription requests the QoS offered, and less as soon as a publisher offers less."""
 
 import itertools
 
@@ -49,17 +49,17 @@ def asked(node):
         ([(ReliabilityPolicy.UNKNOWN, DurabilityPolicy.UNKNOWN)], (BEST_EFFORT, VOLATILE)),
     ],
 )
-def test_no_more_than_all_offer(offers, wanted):
+def test_no_more_is_requested_than_all_publishers_offer(offers, wanted):
     profiles = [QoSProfile(depth=1, reliability=one, durability=two) for one, two in offers]
     assert weakest(BEST, profiles) == wanted
 
 
-def test_no_more_than_is_wanted():
+def test_no_more_is_requested_than_wanted():
     wanted = QoSProfile(depth=1, reliability=BEST_EFFORT, durability=VOLATILE)
     assert weakest(wanted, [BEST]) == (BEST_EFFORT, VOLATILE)
 
 
-def test_a_weak_publisher_is_heard_and_the_others_still_are(node):
+def test_messages_of_a_weaker_publisher_and_of_others_are_received(node):
     heard = []
     strong = node.create_publisher(String, "/t", BEST)
     subscription = OfferedSubscription(node, String, "/t", lambda message: heard.append(message.data), BEST)
@@ -74,7 +74,7 @@ def test_a_weak_publisher_is_heard_and_the_others_still_are(node):
     assert heard == ["strong", "weak", "strong again"]
 
 
-def test_more_is_asked_for_again_when_the_weak_one_has_left_unless_that_would_bring_lines_twice(node):
+def test_stronger_qos_is_requested_again_unless_that_would_duplicate_lines(node):
     strong, weak = node.create_publisher(String, "/t", BEST), node.create_publisher(String, "/t", WEAK)
     heard = []
     once = OfferedSubscription(node, String, "/t", lambda message: heard.append(message.data), BEST, once_weak=True)
@@ -91,7 +91,7 @@ def test_more_is_asked_for_again_when_the_weak_one_has_left_unless_that_would_br
     assert asked(node) == (RELIABLE, LATCHED)
 
 
-def test_one_that_is_not_eager_asks_for_nothing_before_it_is_offered(node):
+def test_without_eager_nothing_is_requested_before_it_is_offered(node):
     heard = []
     subscription = OfferedSubscription(
         node, String, "/offered_late", lambda message: heard.append(message.data), BEST, eager=False

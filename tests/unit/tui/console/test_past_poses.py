@@ -1,4 +1,4 @@
-"""Where the robot was, by moment."""
+"""Past poses of the robot, by time."""
 
 from bot_console.tui.console.robot.past_poses import MAX_GAP, PastPoses
 from bot_console.tui.console.robot.robot_model import Pose
@@ -8,7 +8,7 @@ from geometry_msgs.msg import Pose as Message
 START = 1_700_000_000_000_000_000
 
 
-def test_the_pose_of_a_moment_is_the_newest_one_before_it_and_the_oldest_fall_out():
+def test_the_newest_pose_before_a_time_is_found_and_the_oldest_are_dropped():
     past = PastPoses(capacity=4)
     assert past.at(START) is None
     for step in range(6):

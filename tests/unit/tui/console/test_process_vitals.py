@@ -1,4 +1,4 @@
-"""What a process uses of a processor and of memory, measured now and then."""
+"""CPU and memory usage of a process, measured from time to time."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from bot_console.tui.console.launch.vitals import FROZEN, HANGS, Usage
 
 
 class Reported:
-    """Vitals that a test sets."""
+    """Vitals that are set by the test."""
 
     def __init__(self) -> None:
         self.seconds: float | None = 0.0
@@ -38,7 +38,7 @@ class Reported:
         return ""
 
 
-def test_a_share_over_each_second() -> None:
+def test_cpu_usage_is_measured_over_each_second() -> None:
     reported = Reported()
     usage = Usage(reported, 0.0)
     reported.seconds = 0.5
@@ -51,7 +51,7 @@ def test_a_share_over_each_second() -> None:
     assert (usage.share, usage.memory) == (1.5, 1230)
 
 
-def test_how_long_it_has_not_waited() -> None:
+def test_time_without_waiting_is_measured() -> None:
     reported = Reported()
     usage = Usage(reported, 0.0)
     for second, used in enumerate((0.95, 1.9, 2.0, 3.0), 1):
@@ -60,7 +60,7 @@ def test_how_long_it_has_not_waited() -> None:
     assert usage.busy_s == 1.0
 
 
-def test_one_that_gets_little_of_a_busy_processor_has_not_waited_either() -> None:
+def test_a_process_waiting_for_a_busy_cpu_counts_as_not_waiting() -> None:
     reported = Reported()
     reported.wanted = 5.0
     usage = Usage(reported, 0.0)
@@ -70,7 +70,7 @@ def test_one_that_gets_little_of_a_busy_processor_has_not_waited_either() -> Non
     assert (usage.share, usage.busy_s) == (0.1, 1.0)
 
 
-def test_a_frozen_one_is_seen_within_half_a_second() -> None:
+def test_a_frozen_process_is_noticed_within_half_a_second() -> None:
     reported = Reported()
     usage = Usage(reported, 0.0)
     reported.stopped = True
@@ -83,7 +83,7 @@ def test_a_frozen_one_is_seen_within_half_a_second() -> None:
     assert not usage.stands
 
 
-def test_one_whose_lock_is_held_is_seen_with_the_line() -> None:
+def test_a_held_interpreter_lock_is_reported_with_the_line() -> None:
     reported = Reported()
     usage = Usage(reported, 0.0)
     reported.held = "holds.py:12, in tick"
@@ -94,7 +94,7 @@ def test_one_whose_lock_is_held_is_seen_with_the_line() -> None:
     assert not usage.stands
 
 
-def test_what_nobody_reports_is_not_known() -> None:
+def test_unavailable_vitals_are_unknown() -> None:
     reported = Reported()
     usage = Usage(reported, 0.0)
     reported.seconds = reported.bytes = None
@@ -103,7 +103,7 @@ def test_what_nobody_reports_is_not_known() -> None:
 
 
 @pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="needs /proc")
-def test_this_process_and_none() -> None:
+def test_vitals_exist_for_this_process_but_not_for_a_dead_one() -> None:
     vitals = SystemVitals(os.getpid())
     assert (vitals.memory_bytes() or 0) > 5_000_000 and (vitals.cpu_seconds() or 0.0) > 0.0
     assert SystemVitals(1 << 22).memory_bytes() is None

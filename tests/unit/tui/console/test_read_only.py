@@ -1,4 +1,4 @@
-"""A console that only looks on refuses with the reason whatever would change something."""
+"""A read-only console refuses everything that would change something, with the reason."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def fake() -> FakeConsole:
     return FakeConsole(ConsoleSnapshot(parameters={"/robot_navigator": navigator()}))
 
 
-def test_it_reads_what_there_is_and_changes_nothing(fake: FakeConsole) -> None:
+def test_everything_can_be_read_and_nothing_changed(fake: FakeConsole) -> None:
     reported: list[str] = []
     console = ReadOnlyConsole(fake, reported.append)
     assert console.snapshot() is console.snapshot() and console.snapshot().graph is fake.snapshot().graph
@@ -42,7 +42,7 @@ def test_it_reads_what_there_is_and_changes_nothing(fake: FakeConsole) -> None:
     assert fake.asked == []
 
 
-def test_anybody_may_stop_the_robot_but_not_release_it(fake: FakeConsole) -> None:
+def test_the_robot_can_be_stopped_but_not_released(fake: FakeConsole) -> None:
     reported: list[str] = []
     console = ReadOnlyConsole(fake, reported.append)
     console.all_stop(True)
@@ -54,7 +54,7 @@ def test_anybody_may_stop_the_robot_but_not_release_it(fake: FakeConsole) -> Non
 
 
 @pytest.mark.parametrize("verb", ["start", "stop", "kill", "restart"])
-def test_it_starts_and_ends_nothing(verb: str) -> None:
+def test_no_process_can_be_started_or_ended(verb: str) -> None:
     launcher: Launcher = ReadOnlyLauncher()
     assert getattr(launcher, verb)("a").result(0).text == WHY
     assert launcher.launch("x.launch.py", {}).result(0).text == WHY
@@ -77,7 +77,7 @@ def test_it_starts_and_ends_nothing(verb: str) -> None:
         ("", False),
     ],
 )
-def test_lines_that_only_read_run(line: str, runs: bool) -> None:
+def test_only_lines_that_read_are_run(line: str, runs: bool) -> None:
     ran: list[str] = []
 
     class Lines(NoCommandLine):

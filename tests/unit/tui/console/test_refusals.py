@@ -1,4 +1,4 @@
-"""What the console foretells of a refusal is what rclpy would say: by descriptor, or not at all."""
+"""The refusals predicted by the console are those of rclpy, as far as the descriptor allows a prediction."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ CASES = [
 
 
 @pytest.mark.parametrize(("limits", "value"), CASES)
-def test_a_step_is_rounded_as_in_rclpy(limits: Range, value: float) -> None:
+def test_steps_are_rounded_as_in_rclpy(limits: Range, value: float) -> None:
     integer = limits is INTEGERS
     kind = Kind.INTEGER if integer else Kind.DOUBLE
     descriptor = ParameterDescriptor(type=int(kind))

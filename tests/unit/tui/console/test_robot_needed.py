@@ -1,4 +1,4 @@
-"""What nodes lack of a robot, by the resolved names and types of the graph."""
+"""What nodes need from a missing robot, by the resolved names and types of the graph."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from sensor_msgs.msg import LaserScan
 
 
 class Nodes:
-    """Makes nodes that want and give topics."""
+    """Makes nodes that subscribe to topics and publish them."""
 
     def __init__(self) -> None:
         self._context = Context()
@@ -46,7 +46,7 @@ def node() -> Iterator[Nodes]:
 
 @pytest.fixture
 def watcher(node: Nodes) -> Any:
-    """The node that looks."""
+    """The node that observes the graph."""
     return node("_watcher")
 
 
@@ -54,7 +54,7 @@ SCAN, ODOM, CMD = (LaserScan, "scan"), (Odometry, "/odom"), (Twist, "cmd_vel")
 STAMPED = (TwistStamped, "cmd_vel")
 
 
-def test_each_lack_is_reported_with_who_has_it(node, watcher):
+def test_each_missing_topic_is_reported_with_the_nodes_that_need_it(node, watcher):
     assert robot_wanted(watcher) == ""
     node("one", wants=[SCAN])
     assert robot_wanted(watcher) == "nobody publishes /scan for /one"
@@ -68,20 +68,20 @@ def test_each_lack_is_reported_with_who_has_it(node, watcher):
 
 
 @pytest.mark.parametrize("gives", [SCAN, ODOM])
-def test_a_robot_that_is_there_is_enough(gives, node, watcher):
+def test_no_robot_is_needed_if_there_is_one(gives, node, watcher):
     node("robot", gives=[gives])
     node("driver", wants=[SCAN, ODOM], gives=[CMD])
     assert robot_wanted(watcher) == ""
 
 
-def test_a_base_that_obeys_is_a_robot_for_who_only_drives(node, watcher):
+def test_a_base_that_takes_velocities_is_enough_for_a_node_that_only_drives(node, watcher):
     node("driver", gives=[CMD])
     assert robot_wanted(watcher) == "nobody subscribes to /cmd_vel of /driver"
     node("base", wants=[CMD])
     assert robot_wanted(watcher) == ""
 
 
-def test_who_drives_with_a_time_stamp_wants_a_robot_that_takes_it(node, watcher):
+def test_stamped_velocities_need_a_robot_that_takes_them(node, watcher):
     assert not drives_stamped(watcher)
     node("driver", gives=[STAMPED])
     assert robot_wanted(watcher) == "nobody subscribes to /cmd_vel of /driver"
@@ -103,12 +103,12 @@ def test_who_drives_with_a_time_stamp_wants_a_robot_that_takes_it(node, watcher)
     ],
     ids=["type", "name", "namespace", "hidden"],
 )
-def test_what_our_robot_cannot_give_is_not_wanted_of_it(wanting, node, watcher):
+def test_topics_that_the_simulator_cannot_provide_are_not_needed(wanting, node, watcher):
     node(wanting.pop("name", "node"), **wanting)
     assert robot_wanted(watcher) == ""
 
 
-def test_the_graph_rests_until_something_of_it_changes(node, watcher):
+def test_endpoints_are_equal_until_the_relevant_graph_changes(node, watcher):
     before = endpoints(watcher)
     assert endpoints(watcher) == before
     driver = node("driver")

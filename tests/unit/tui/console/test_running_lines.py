@@ -1,11 +1,11 @@
-"""What a line that goes on has printed last."""
+"""The most recent output of a line that keeps running."""
 
 from __future__ import annotations
 
 from bot_console.tui.console.running_lines import MAX_LINES, RunningLine
 
 
-def test_pieces_become_lines_and_only_the_last_are_kept() -> None:
+def test_pieces_are_joined_into_lines_and_only_the_last_are_kept() -> None:
     line = RunningLine()
     assert line.lines() == ()
     line.append("a\nb")

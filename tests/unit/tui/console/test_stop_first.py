@@ -1,4 +1,4 @@
-"""The link that stops the robot exists before everything else of a console, and outlives every other part."""
+"""The connection that stops the robot exists before everything else in a console, and outlives every other part."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _domains = itertools.count(8400)
 
 
 class Base:
-    """A robot's base with its lock, served in a thread."""
+    """A robot's base with a lock, served in a thread."""
 
     def __init__(self, domain: int) -> None:
         self.context = Context()
@@ -103,7 +103,7 @@ def test_a_stop_reaches_the_robot_whatever_else_fails(
 
 
 @pytest.mark.parametrize("part", ["the history", "reading the history", "the profiles"])
-def test_a_console_is_linked_without_a_store_that_fails_and_reports_it_once(
+def test_a_console_connects_without_a_failing_store_and_reports_it_once(
     part: str, base: Base, console: RosConsole, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     owner, name = PARTS[part]
@@ -133,7 +133,7 @@ def test_a_history_with_an_unreadable_row_is_reported_once_and_ends_nothing(
     assert sum("1 row of the history cannot be read" in each.text for each in message if each) == 1
 
 
-def test_a_fault_in_what_the_robot_reports_is_reported_once_and_the_link_goes_on(
+def test_an_error_in_the_robots_reports_is_logged_once_and_the_link_stays_up(
     base: Base, console: RosConsole, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(DriveLink, "_reported", broken)
@@ -153,7 +153,7 @@ def test_a_fault_in_what_the_robot_reports_is_reported_once_and_the_link_goes_on
     ("fails", "message_of"),
     [(False, "STOP NOT SENT: the console is still connecting"), (True, "STOP NOT SENT: this console is not connected")],
 )
-def test_a_stop_that_reaches_nobody_reports_it_at_once(
+def test_a_stop_that_cannot_be_sent_is_reported_at_once(
     fails: bool, message_of: str, base: Base, console: RosConsole, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert status_text(console.snapshot()).startswith("no robot yet")
@@ -168,7 +168,7 @@ def test_a_stop_that_reaches_nobody_reports_it_at_once(
     assert "STOP" not in status_text(console.snapshot())
 
 
-def test_closing_while_only_the_stop_is_linked_leaves_no_thread(
+def test_closing_while_only_the_stop_is_connected_leaves_no_thread(
     base: Base, console: RosConsole, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(linked_console.LinkedConsole, "__init__", broken)

@@ -1,4 +1,4 @@
-"""A holder is gone when it was a process of this machine that has ended; of any other nothing is said."""
+"""A holder is marked as gone if it was a process of this machine that has ended; others are not marked."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from bot_console.tui.console.robot.stop_link import user
 
 @pytest.fixture(scope="module")
 def ended() -> int:
-    """The number of a process that has ended."""
+    """The pid of a process that has ended."""
     process = subprocess.Popen([sys.executable, "-c", ""])
     process.wait()
     return process.pid
@@ -26,13 +26,13 @@ def gone(holder: str, *, here: bool = False) -> bool:
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a process cannot be asked there without ending it")
-def test_a_process_that_has_ended_is_gone(ended: int) -> None:
+def test_a_process_that_has_ended_is_marked_as_gone(ended: int) -> None:
     assert gone(f"bot-console of {user()} (pid {ended})")
     stop = with_gone([RobotStop("key", f"bot-console of {user()} (pid {ended})", "because")])[0]
     assert stop.who == f"bot-console of {user()} (gone)" and stop.reason == "because"
 
 
-def test_of_others_nothing_is_reported(ended: int) -> None:
+def test_other_holders_are_not_marked(ended: int) -> None:
     assert not gone(f"bot-console of {user()} (pid {os.getpid()})")
     assert not gone(f"bot-console of {user()} (pid {ended})", here=True)
     assert not gone(f"bot-console of ben@not-{platform.node()} (pid {ended})")

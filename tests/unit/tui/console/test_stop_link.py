@@ -1,4 +1,4 @@
-"""The emergency stop as the console sees it: sent again until it is acknowledged, and held only then."""
+"""The emergency stop as the console sees it: sent again until it is acknowledged, and confirmed only then."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from rclpy.serialization import deserialize_message, serialize_message
 from stop_rig import StopRig
 
 TIMEOUT_S = 60.0
-"""Seconds after which a test gives up; nothing is measured by it."""
+"""Seconds after which a test gives up; the tests measure no time."""
 
 
 class Rig(StopRig):
-    """A console's link; locks of a robot join when they are asked for."""
+    """A console's link, and locks of a robot that join on request."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -32,7 +32,7 @@ def rig() -> Iterator[Rig]:
     made.close()
 
 
-def test_it_is_held_when_every_lock_has_confirmed(rig: Rig) -> None:
+def test_a_stop_is_confirmed_once_every_lock_has_acknowledged_it(rig: Rig) -> None:
     arbiter, base = rig.lock("safety_monitor"), rig.lock("simulator")
     rig.settle()
     assert (rig.link.info.stopped, rig.link.info.locks) == (False, 2)
@@ -71,7 +71,7 @@ def test_text_that_cannot_be_encoded_does_not_prevent_a_stop(
 
 
 def encoding(publish: Callable[[DiagnosticStatus], None]) -> Callable[[DiagnosticStatus], None]:
-    """Publish as to another process, for which every message is encoded."""
+    """Publish as if to another process, for which every message is encoded."""
 
     def encoded(message: DiagnosticStatus) -> None:
         publish(deserialize_message(serialize_message(message), DiagnosticStatus))
@@ -79,7 +79,7 @@ def encoding(publish: Callable[[DiagnosticStatus], None]) -> Callable[[Diagnosti
     return encoded
 
 
-def test_a_stop_whose_text_only_python_can_hold_is_reported_by_the_lock(rig: Rig) -> None:
+def test_a_stop_whose_text_cannot_be_encoded_is_reported_by_the_lock(rig: Rig) -> None:
     lock = rig.lock("simulator")
     rig.nodes["simulator"].create_publisher(DiagnosticStatus, FOLDER + "request", 10).publish(
         DiagnosticStatus(
@@ -92,7 +92,7 @@ def test_a_stop_whose_text_only_python_can_hold_is_reported_by_the_lock(rig: Rig
     assert rig.link.info.confirmed
 
 
-def test_another_console_sees_who_holds_it_and_releases_it_by_name_alone(rig: Rig) -> None:
+def test_another_console_sees_the_holder_and_releases_the_stop_by_its_key(rig: Rig) -> None:
     rig.lock("simulator")
     other = StopLink(rig.node("other"), "ben")
     rig.settle()
@@ -108,7 +108,7 @@ def test_another_console_sees_who_holds_it_and_releases_it_by_name_alone(rig: Ri
     assert not other.info.stopped
 
 
-def test_two_hold_it_and_each_takes_back_what_is_theirs(rig: Rig) -> None:
+def test_two_consoles_hold_the_robot_and_each_withdraws_its_own_stop(rig: Rig) -> None:
     lock = rig.lock("simulator")
     other = StopLink(rig.node("other"), "ben")
     rig.settle()
@@ -127,7 +127,7 @@ def test_two_hold_it_and_each_takes_back_what_is_theirs(rig: Rig) -> None:
     assert not (lock.lock.held or rig.link.info.stopped)
 
 
-def test_a_lock_that_reports_no_more_than_that_it_is_locked_acknowledges_everybody(rig: Rig) -> None:
+def test_a_lock_that_reports_only_that_it_is_locked_acknowledges_every_stop(rig: Rig) -> None:
     publisher = rig.node("plain").create_publisher(DiagnosticStatus, "emergency_stop/plain", LATCHED)
     publisher.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="false")]))
     rig.settle()
@@ -142,7 +142,7 @@ def test_a_lock_that_reports_no_more_than_that_it_is_locked_acknowledges_everybo
     assert not (rig.link.releasing or rig.link.info.stopped)
 
 
-def test_a_stop_is_repeated_until_a_lock_that_came_late_has_heard_it(rig: Rig) -> None:
+def test_a_stop_is_repeated_until_a_late_lock_has_received_it(rig: Rig) -> None:
     rig.settle()
     rig.link.stop("now")
     assert (rig.link.info.stopped, rig.link.info.confirmed, rig.link.info.locks) == (True, False, 0)
@@ -153,7 +153,7 @@ def test_a_stop_is_repeated_until_a_lock_that_came_late_has_heard_it(rig: Rig) -
     assert base.lock.held and rig.link.info.confirmed
 
 
-def test_a_lock_that_reports_nothing_readable_confirms_nothing(rig: Rig) -> None:
+def test_a_lock_with_unreadable_reports_confirms_nothing(rig: Rig) -> None:
     rig.node("odd").create_publisher(DiagnosticStatus, "emergency_stop/odd", LATCHED).publish(DiagnosticStatus())
     rig.settle()
     rig.link.stop("now")
@@ -161,7 +161,7 @@ def test_a_lock_that_reports_nothing_readable_confirms_nothing(rig: Rig) -> None
     assert (rig.link.info.stopped, rig.link.info.confirmed) == (True, False)
 
 
-def test_who_steers_is_seen_and_hands_back(rig: Rig) -> None:
+def test_the_console_in_control_is_shown_and_can_hand_back(rig: Rig) -> None:
     base = rig.lock("simulator")
     rig.settle()
     rig.link.steer()
@@ -172,7 +172,7 @@ def test_who_steers_is_seen_and_hands_back(rig: Rig) -> None:
     assert not (rig.link.info.steered_by or base.steered_by or base.lock.held)
 
 
-def test_who_waits_for_the_stop_goes_on_with_the_last_acknowledgement_and_not_before(rig: Rig) -> None:
+def test_waiting_for_a_stop_ends_with_the_last_acknowledgement_and_not_before(rig: Rig) -> None:
     rig.lock("safety_monitor")
     rig.lock("simulator")
     rig.settle()

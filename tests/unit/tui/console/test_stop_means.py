@@ -1,4 +1,4 @@
-"""The own means of robots without an emergency stop: in order, without waiting, and undone by a release."""
+"""Means of stopping robots without an emergency stop: tried in order, without waiting, and undone by a release."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ EVERY_KIND = (
 
 
 class Robot:
-    """A base without an emergency stop of ours, with one or more means of stopping it."""
+    """A base without our emergency stop, with one or more means of stopping it."""
 
     def __init__(self, node: Node) -> None:
         self.node = node
@@ -51,7 +51,7 @@ class Robot:
         node.create_subscription(Twist, "/cmd_vel", lambda message: self.velocities.append(message.linear.x), 10)
 
     def offer(self, entry: dict[str, Any]) -> None:
-        """The interface that an entry of the settings names."""
+        """Offer the interface that an entry of the settings names."""
         add: dict[str, Callable[[], object]] = {
             "lock": self._lock,
             "set_bool": lambda: self.node.create_service(SetBool, entry["set_bool"], self._on_bool(entry)),
@@ -165,7 +165,7 @@ def kind_of(entry: dict[str, Any]) -> str:
 
 
 @pytest.mark.parametrize("entry", EVERY_KIND, ids=kind_of)
-def test_a_means_holds_by_its_own_word_and_a_release_undoes_it(bench: Bench, entry: dict[str, Any]) -> None:
+def test_a_means_confirms_that_it_holds_and_a_release_undoes_it(bench: Bench, entry: dict[str, Any]) -> None:
     bench.robot.offer(entry)
     bench.link_with(entry)
     bench.pass_time(1.0)
@@ -188,7 +188,7 @@ def test_a_means_holds_by_its_own_word_and_a_release_undoes_it(bench: Bench, ent
 
 
 @pytest.mark.parametrize("entry", EVERY_KIND, ids=kind_of)
-def test_a_means_that_refuses_is_no_confirmation(bench: Bench, entry: dict[str, Any]) -> None:
+def test_a_means_that_refuses_is_not_a_confirmation(bench: Bench, entry: dict[str, Any]) -> None:
     bench.robot.offer(entry)
     bench.robot.refuses = True
     bench.link_with(entry)
@@ -201,7 +201,7 @@ def test_a_means_that_refuses_is_no_confirmation(bench: Bench, entry: dict[str, 
 
 
 @pytest.mark.parametrize("entry", EVERY_KIND, ids=kind_of)
-def test_a_means_that_is_not_there_is_named_and_used_when_it_comes(bench: Bench, entry: dict[str, Any]) -> None:
+def test_an_unavailable_means_is_named_and_used_when_it_appears(bench: Bench, entry: dict[str, Any]) -> None:
     bench.link_with(entry)
     bench.link.stop(True, "ALL STOP")
     bench.pass_time(0.5)
@@ -211,8 +211,8 @@ def test_a_means_that_is_not_there_is_named_and_used_when_it_comes(bench: Bench,
     assert bench.robot.stands and bench.info.stop_confirmed
 
 
-def test_zeros_go_out_at_once_and_the_next_means_does_not_wait_for_the_last(bench: Bench) -> None:
-    frozen = Node("frozen", context=bench.context)  # in the graph, and never answers
+def test_zeros_are_sent_at_once_and_the_next_means_does_not_wait_for_the_last(bench: Bench) -> None:
+    frozen = Node("frozen", context=bench.context)  # in the graph, but never responds
     bench.nodes.append(frozen)
     for name in ("/one", "/two"):
         frozen.create_service(Trigger, name, lambda _, response: response)
@@ -243,7 +243,7 @@ def test_the_next_means_is_not_tried_once_one_holds(bench: Bench) -> None:
     assert bench.robot.calls == ["stop", "clear"], "what was not used is not released"
 
 
-def test_all_means_that_were_tried_are_undone(bench: Bench) -> None:
+def test_all_means_tried_are_undone(bench: Bench) -> None:
     entries = ({"lock": "/e_stop"}, {"set_bool": "/motors/hold"})
     for each in entries:
         bench.robot.offer(each)
@@ -257,7 +257,7 @@ def test_all_means_that_were_tried_are_undone(bench: Bench) -> None:
     assert bench.robot.calls.count(False) == 2
 
 
-def test_without_configuration_no_interface_is_made_and_only_zeros_are_sent(bench: Bench) -> None:
+def test_without_configuration_only_zeros_are_sent(bench: Bench) -> None:
     for each in EVERY_KIND:
         bench.robot.offer(each)
     bench.link_with()
@@ -278,7 +278,7 @@ def test_a_robot_with_a_lock_is_not_stopped_by_other_means(bench: Bench) -> None
     assert bench.info.stop_confirmed and not bench.robot.calls and not bench.info.unlocked
 
 
-def test_an_answer_from_before_the_release_does_not_confirm_the_next_stop(bench: Bench) -> None:
+def test_a_response_from_before_the_release_does_not_confirm_the_next_stop(bench: Bench) -> None:
     bench.robot.offer({"set_bool": "/motors/hold"})
     bench.link_with({"set_bool": "/motors/hold"})
     bench.link.stop(True, "ALL STOP")
@@ -301,7 +301,7 @@ def test_a_means_whose_node_has_gone_no_longer_confirms(bench: Bench) -> None:
     assert not bench.info.stop_confirmed and "THE ROBOT MAY MOVE" in bench.status
 
 
-def test_a_node_that_was_not_active_is_not_activated_by_a_release(bench: Bench) -> None:
+def test_a_node_that_was_inactive_is_not_activated_by_a_release(bench: Bench) -> None:
     bench.robot.offer({"deactivate": "/base_driver"})
     bench.robot.stands, bench.robot.refuses = True, True
     bench.link_with({"deactivate": "/base_driver"})
@@ -314,7 +314,7 @@ def test_a_node_that_was_not_active_is_not_activated_by_a_release(bench: Bench) 
     assert bench.robot.stands and bench.robot.calls == [4]
 
 
-def test_what_cannot_be_released_is_reported(bench: Bench) -> None:
+def test_a_means_that_cannot_be_released_is_reported(bench: Bench) -> None:
     bench.robot.offer({"trigger": "/base/stop"})
     bench.link_with({"trigger": "/base/stop"})
     bench.link.stop(True, "ALL STOP")
@@ -324,7 +324,7 @@ def test_what_cannot_be_released_is_reported(bench: Bench) -> None:
     assert "NOT RELEASED: trigger /base/stop has no `release` in the settings" in bench.status
 
 
-def test_a_type_that_is_not_known_is_one_clear_message(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_unknown_message_type_gives_one_clear_message(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
     def unknown(name: str) -> None:
         raise ModuleNotFoundError(name)
 
@@ -343,7 +343,7 @@ def robots_with(*spaces: str, locked: str) -> GraphInfo:
     return GraphInfo(nodes=tuple(node(each) for each in spaces))
 
 
-def test_beside_a_robot_with_a_lock_the_one_without_is_held_by_zeros_and_named(bench: Bench) -> None:
+def test_a_robot_without_lock_beside_one_with_a_lock_is_held_by_zeros_and_named(bench: Bench) -> None:
     states = bench.nodes[1].create_publisher(DiagnosticStatus, f"/robot2{LOCK}", LATCHED)
     bench.link_with()
     bench.link.follow(robots_with("", "/robot2", locked="/robot2"))
@@ -381,7 +381,7 @@ def test_beside_a_robot_with_a_lock_the_one_without_is_held_by_zeros_and_named(b
         (3, "a list with entries"),
     ],
 )
-def test_an_entry_that_cannot_be_used_is_named_and_the_others_are_kept(data: object, problem: str) -> None:
+def test_an_invalid_entry_is_named_and_the_others_are_kept(data: object, problem: str) -> None:
     entries = [*data, {"lock": "good"}] if isinstance(data, list) else data
     found, wrong = configured_means(entries)
     assert any(problem in each for each in wrong), wrong
@@ -389,7 +389,7 @@ def test_an_entry_that_cannot_be_used_is_named_and_the_others_are_kept(data: obj
         assert found == (ConfiguredMeans("lock", "/good"),) and wrong[0].startswith("entry 1: ")
 
 
-def test_a_fault_in_one_means_keeps_nothing_from_the_next(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_exception_in_one_means_does_not_prevent_the_next(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
     def fault(self: object) -> None:
         raise ValueError("this means is broken")
 

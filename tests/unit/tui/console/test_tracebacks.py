@@ -1,4 +1,4 @@
-"""A traceback in the log: the exception first, then the user's own frames; libraries folded."""
+"""A traceback in the log: the exception first, then the user's own frames, with library frames folded."""
 
 import sysconfig
 
@@ -48,13 +48,13 @@ def test_the_reason_names_the_users_line() -> None:
     assert Traceback(LINES).reason == "KeyError: 'speed' (node.py:12)"
 
 
-def test_without_a_frame_of_the_users_all_are_shown() -> None:
+def test_all_frames_are_shown_if_none_is_the_users() -> None:
     found = Traceback([LINES[0], *LINES[1:3], "OSError: no"])
     assert found.reason == "OSError: no"
     assert "runpy.py" in found.text()
 
 
-def test_a_syntax_error_keeps_its_place() -> None:
+def test_a_syntax_error_is_shown_with_its_place() -> None:
     text = Traceback(
         [TRACEBACK, '  File "/home/u/a.py", line 3', "    def x(", "         ^", "SyntaxError: bad"]
     ).text()
@@ -62,14 +62,14 @@ def test_a_syntax_error_keeps_its_place() -> None:
     assert 'File "/home/u/a.py", line 3' in text
 
 
-def test_a_chain_names_what_came_before() -> None:
+def test_a_chained_exception_names_its_cause() -> None:
     link = "During handling of the above exception, another exception occurred:"
     (_, first), (_, second) = printed([*LINES, link, TRACEBACK, *LINES[3:5], "ValueError: bad"])
     assert first.startswith("KeyError")
     assert second.splitlines()[:2] == ["ValueError: bad", "  while handling KeyError: 'speed'"]
 
 
-def test_a_fault_is_what_was_printed_last() -> None:
+def test_a_fault_is_the_last_thing_printed() -> None:
     stream = Printed("node-1", lambda *each: None, stderr=True)
     for line in LINES:
         stream.line(line)
@@ -78,12 +78,12 @@ def test_a_fault_is_what_was_printed_last() -> None:
     assert not stream.fault
 
 
-def test_one_that_was_cut_off_is_shown_as_far_as_it_came() -> None:
+def test_a_truncated_traceback_is_shown_as_far_as_it_came() -> None:
     (severity, text), = printed(LINES[:5])  # fmt: skip
     assert severity == 40
     assert "rclpy.spin(node)" in text
 
 
-def test_a_line_number_that_is_none_is_text() -> None:
+def test_an_invalid_line_number_is_treated_as_text() -> None:
     [(_, text)] = printed([TRACEBACK, f'  File "a.py", line {"9" * 5000}, in f', "ValueError: bad"])
     assert "ValueError: bad" in text

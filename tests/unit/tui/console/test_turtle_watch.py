@@ -1,4 +1,4 @@
-"""What the console knows of turtles."""
+"""What the console knows about turtles."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from turtlesim.msg import Pose
 
 
 class Watched:
-    """A console's watch of the world, spun by hand."""
+    """A console's world watch, spun by hand."""
 
     def __init__(self) -> None:
         self.node = rclpy.create_node("_watch")
@@ -28,7 +28,7 @@ class Watched:
         self.graph = GraphWatch(self.node, self.world.follow)
 
     def spin_until(self, done: object) -> None:
-        """Spin until a condition holds; the test's own time limit ends what never comes."""
+        """Spin until a condition holds; the test's timeout ends it if that never happens."""
         while not done():  # type: ignore[operator]
             self.executor.spin_once(timeout_sec=0.1)
             self.graph.poll()
@@ -41,7 +41,7 @@ def watched() -> Iterator[Watched]:
     rclpy.shutdown()
 
 
-def test_turtles_and_what_they_draw(watched: Watched) -> None:
+def test_turtles_and_their_drawings_are_shown(watched: Watched) -> None:
     sim = TurtleSim()
     watched.executor.add_node(sim)
     world = watched.world
@@ -60,7 +60,7 @@ def test_turtles_and_what_they_draw(watched: Watched) -> None:
     watched.spin_until(lambda: not world.info.fields)
 
 
-def test_a_turtlesim_that_reports_only_poses(watched: Watched) -> None:
+def test_trails_are_shown_for_a_turtlesim_that_publishes_only_poses(watched: Watched) -> None:
     other = Node("sim", namespace="/lab")
     poses = other.create_publisher(Pose, "turtle9/pose", 1)
     watched.graph.poll()
@@ -77,7 +77,7 @@ def test_a_turtlesim_that_reports_only_poses(watched: Watched) -> None:
     assert watched.world.info is same
 
 
-def test_turtles_of_another_machine_whose_messages_are_not_here_are_left_out(
+def test_turtles_whose_messages_are_not_installed_are_left_out(
     watched: Watched, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "turtlesim.msg", None)

@@ -1,4 +1,4 @@
-"""Two robots on one graph: figures, map, limits and verdicts are those of the steered one; a stop is for both."""
+"""Two robots on one graph: values, map, limits and verdicts belong to the driven one; a stop applies to both."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _domains = itertools.count(3600)
 
 
 def node(name: str, listens: str = "", publishes: str = "") -> NodeInfo:
-    """A node by `topic=type` words; without a type it is a Twist."""
+    """A node given by `topic=type` words; the default type is Twist."""
 
     def ends(text: str) -> tuple[Endpoint, ...]:
         words = (each.partition("=") for each in text.split())
@@ -72,11 +72,11 @@ BASE = node("/base", "/cmd_vel", f"/odom={ODOMETRY} /map={MAP}")
                      id="one robot alone"),
     ],
 )  # fmt: skip
-def test_odometry_of_a_robot(nodes: tuple[NodeInfo, ...], robot: str, expected: str) -> None:
+def test_odometry_is_attributed_to_its_robot(nodes: tuple[NodeInfo, ...], robot: str, expected: str) -> None:
     assert own_topic(GraphInfo(nodes=nodes), robot, ODOMETRY) == ({expected} if expected else set())
 
 
-def test_a_map_server_serves_several_robots_and_a_robots_own_map_only_itself() -> None:
+def test_a_map_server_serves_several_robots_but_a_robots_map_only_itself() -> None:
     robot1 = node("/base", "/cmd_vel", f"/odom={ODOMETRY}")
     robot2 = node("/robot2/base", "/robot2/cmd_vel")
     server = node("/map_server", "", f"/map={MAP}")
@@ -110,7 +110,7 @@ class Robots:
         self.follow("", "/robot2")
 
     def follow(self, *spaces: str) -> None:
-        """The graph has these robots."""
+        """Set the robots of the graph."""
         found = tuple(
             node(
                 f"{space}/base",
@@ -156,7 +156,7 @@ def robots() -> Iterator[Robots]:
     made.context.try_shutdown()
 
 
-def test_figures_and_verdicts_follow_the_steered_robot(robots: Robots) -> None:
+def test_values_and_verdicts_follow_the_driven_robot(robots: Robots) -> None:
     def both_say() -> None:
         robots.show_text("", 0.25, "warning_distance")
         robots.show_text("/robot2", 0.75, "no fresh scan")
@@ -174,13 +174,13 @@ def test_figures_and_verdicts_follow_the_steered_robot(robots: Robots) -> None:
     assert (robots.world.info.robot, robots.world.info.robots) == ("/robot2", ("/", "/robot2"))
 
 
-def test_figures_of_the_robot_before_are_not_shown_until_the_view_has_followed(robots: Robots) -> None:
+def test_values_of_the_previous_robot_are_not_shown_after_a_change(robots: Robots) -> None:
     robots.show_text("", 0.25, "")
     robots.drive.choose("/robot2")
     assert (robots.info.robot, robots.info.actual, robots.info.silent_s) == ("/robot2", None, 0)
 
 
-def test_a_robot_that_leaves_is_silent_and_its_figures_are_not_given_to_the_next(robots: Robots) -> None:
+def test_a_robot_that_leaves_is_silent_and_its_values_are_not_given_to_the_next(robots: Robots) -> None:
     robots.follow("/robot2")
     robots.show_text("/robot2", 0.75, "")
     robots.follow()
@@ -190,7 +190,7 @@ def test_a_robot_that_leaves_is_silent_and_its_figures_are_not_given_to_the_next
     assert robots.info.actual is None and robots.world.info.silent_s == 0
 
 
-def test_a_stop_reaches_every_robot_whichever_is_steered(robots: Robots) -> None:
+def test_a_stop_reaches_every_robot_whichever_is_driven(robots: Robots) -> None:
     robots.choose("/robot2")
     robots.drive.stop(True, "ALL STOP")
     robots.settle()
@@ -205,7 +205,7 @@ def test_a_verdict_expires_when_its_arbiter_is_silent(robots: Robots) -> None:
     assert (robots.info.asked, robots.info.limited, robots.info.limited_by) == (None, None, "")
 
 
-def test_a_requested_velocity_expires_as_a_command_does(robots: Robots) -> None:
+def test_a_requested_velocity_expires_like_a_command(robots: Robots) -> None:
     command = Twist()
     command.linear.x = 0.4
     robots.asked[""].publish(command)
@@ -229,7 +229,7 @@ def test_keys_meant_for_a_robot_that_has_left_do_not_drive_the_next_one(robots: 
     assert robots.stopped["/robot2"][-1] == 0.5
 
 
-def test_choosing_a_robot_moves_steering_and_view_together() -> None:
+def test_choosing_a_robot_changes_control_and_view_together() -> None:
     context = Context()
     context.init([], domain_id=next(_domains))
     console = ConsoleNode(DriveNode(context, lambda error: None), lambda *_: None)

@@ -1,4 +1,4 @@
-"""What the console says of a robot that tells nothing any more: how old it is, and no speed."""
+"""A robot that has gone silent is shown with the age of its data, and without speed."""
 
 import math
 
@@ -19,7 +19,7 @@ from sensor_msgs.msg import LaserScan
 GRAPH = GraphInfo(nodes=(NodeInfo("/robot", publishers=(Endpoint("/odom", ("nav_msgs/msg/Odometry",)),)),))
 
 
-def test_a_robot_that_has_gone_silent_has_no_actual_speed():
+def test_a_silent_robot_has_no_actual_speed():
     context = Context()
     context.init([], domain_id=3900)
     console, robot = Node("console", context=context), Node("robot", context=context)
@@ -77,7 +77,7 @@ def watched(*, grid: OccupancyGrid | None = None, odometry: Odometry, scan: Lase
 
 
 @pytest.mark.parametrize("number", EXTREMES)
-def test_whatever_numbers_come_they_are_drawn_or_left_out(number):
+def test_any_numbers_in_messages_are_drawn_or_left_out(number):
     small = max(-3e38, min(3e38, number)) if math.isfinite(number) else number
     odometry = Odometry()
     odometry.pose.pose.position.x = odometry.pose.pose.orientation.z = odometry.twist.twist.linear.x = number
@@ -98,13 +98,13 @@ def test_whatever_numbers_come_they_are_drawn_or_left_out(number):
     ("width", "height", "resolution", "x"),
     [(0, 0, 0.1, 0.0), (3, 1, 0.1, 0.0), (2, 1, 0.0, 0.0), (2, 1, -1.0, 0.0), (2, 1, 1e30, 0.0), (2, 1, 0.1, math.nan)],
 )
-def test_a_map_that_cannot_be_is_none(width, height, resolution, x):
+def test_an_impossible_map_is_ignored(width, height, resolution, x):
     info = MapMetaData(width=width, height=height, resolution=resolution, origin=Pose(position=Point(x=x)))
     assert grid_of(OccupancyGrid(info=info, data=[0, 100][: width * height])) is None
 
 
-def test_a_scale_that_has_no_room_is_a_shorter_one_with_its_length() -> None:
-    window = Window(0.0, 0.0, 10.0)  # 0.2 m a cell
+def test_a_scale_without_room_becomes_a_shorter_one_with_its_length() -> None:
+    window = Window(0.0, 0.0, 10.0)  # 0.2 m per cell
     assert scale_text(window, 60) == "├────────┤ 2 m"
     assert scale_text(window, 60, 11) == "├───┤ 1 m"
     assert scale_text(window, 60, 9) == "├───┤ 1 m"

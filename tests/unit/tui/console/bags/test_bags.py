@@ -1,4 +1,4 @@
-"""Bags: what is written is read by others as well, what a kill leaves is mended, what is played comes in its order."""
+"""Bags: other libraries can read them, files cut short are repaired, and playing keeps the order of messages."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def node() -> Iterator[rclpy.node.Node]:
 
 
 def words(folder: Path, *texts: str) -> Path:
-    """A bag with a text each second."""
+    """A bag with one text message per second."""
     writer = BagWriter(folder)
     writer.topic("/words", String, [])
     for second, text in enumerate(texts, 1):
@@ -57,7 +57,7 @@ def texts(bag: Bag) -> list[str]:
     return [deserialize_message(each.data, String).data for each in bag.messages()]
 
 
-def test_others_read_it(tmp_path: Path) -> None:
+def test_rosbags_library_reads_a_written_bag(tmp_path: Path) -> None:
     highlevel = pytest.importorskip("rosbags.highlevel")
     mcap = pytest.importorskip("mcap.reader")
     writer = BagWriter(tmp_path / "bag")
@@ -83,7 +83,7 @@ def test_others_read_it(tmp_path: Path) -> None:
     assert ("sensor_msgs/msg/LaserScan", SECOND) in found and len(found) == 3
 
 
-def test_a_definition_has_all_that_it_needs() -> None:
+def test_a_definition_contains_all_types_it_uses() -> None:
     text = definition(Twist)
     assert text.startswith("geometry_msgs/Vector3 linear\n") and "MSG: geometry_msgs/Vector3\nfloat64 x\n" in text
     assert interface_type_name(Twist) == "geometry_msgs/msg/Twist"
@@ -91,7 +91,7 @@ def test_a_definition_has_all_that_it_needs() -> None:
     assert "float64[36] covariance" in definition(get_message("geometry_msgs/msg/PoseWithCovariance"))
 
 
-def test_what_is_written_comes_back(tmp_path: Path) -> None:
+def test_a_bag_is_read_back_as_written(tmp_path: Path) -> None:
     bag = Bag(words(tmp_path / "bag", "a", "b", "c"))
     assert texts(bag) == ["a", "b", "c"] and not bag.repaired
     about = bag.metadata
@@ -102,7 +102,7 @@ def test_what_is_written_comes_back(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("part", [0.3, 0.5, 0.7, 0.9, 0.999])
-def test_a_file_that_was_cut_is_repaired_and_keeps_what_came_whole(tmp_path: Path, part: float) -> None:
+def test_a_truncated_file_is_repaired_and_keeps_its_complete_messages(tmp_path: Path, part: float) -> None:
     folder = tmp_path / "bag"
     writer = BagWriter(folder)
     writer.topic("/words", String, [])
@@ -119,7 +119,7 @@ def test_a_file_that_was_cut_is_repaired_and_keeps_what_came_whole(tmp_path: Pat
     assert not Bag(folder).repaired and Bag(folder).metadata.count == len(found)
 
 
-def test_what_is_damaged_before_its_end_is_kept_as_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_damaged_before_its_end_is_kept_unchanged(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(damage, "MAX_CUT_BYTES", 4_000_000)
     file = words(tmp_path / "bag", "first", *(["x" * 4_000_000] * 3)) / "bag_0.mcap"
     whole = file.read_bytes()
@@ -132,7 +132,9 @@ def test_what_is_damaged_before_its_end_is_kept_as_it_was(tmp_path: Path, monkey
     assert texts(bag)[0] == "first" and not Bag(file.parent).repaired
 
 
-def test_a_full_disk_costs_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_repair_that_fails_on_a_full_disk_leaves_the_file_unchanged(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     file = words(tmp_path / "bag", "mine") / "bag_0.mcap"
     cut = file.read_bytes()[:-20]
     file.write_bytes(cut)
@@ -148,7 +150,7 @@ def test_a_full_disk_costs_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert texts(Bag(file.parent)) == ["mine"]
 
 
-def test_bags_of_sqlite_are_read(tmp_path: Path) -> None:
+def test_sqlite_bags_are_read(tmp_path: Path) -> None:
     folder = tmp_path / "bag"
     folder.mkdir()
     base = sqlite3.connect(folder / "bag_0.db3")
@@ -163,7 +165,7 @@ def test_bags_of_sqlite_are_read(tmp_path: Path) -> None:
     assert texts(Bag(folder)) == ["a", "b"] and Bag(folder).metadata.count == 2
 
 
-def test_what_is_no_bag_is_refused(tmp_path: Path) -> None:
+def test_files_that_are_not_bags_are_refused(tmp_path: Path) -> None:
     (tmp_path / "empty").mkdir()
     (tmp_path / "bad.mcap").write_bytes(b"nothing of the kind")
     (tmp_path / "bad.db3").write_bytes(b"nothing of the kind")
@@ -178,7 +180,7 @@ def test_what_is_no_bag_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("step", [3, pytest.param(1, marks=pytest.mark.soak)])
-def test_a_damaged_byte_anywhere_is_reported_or_does_no_harm(tmp_path: Path, step: int) -> None:
+def test_a_damaged_byte_anywhere_is_reported_or_harmless(tmp_path: Path, step: int) -> None:
     file = words(tmp_path / "bag", "a", "b") / "bag_0.mcap"
     whole, reported = file.read_bytes(), 0
     for place in range(0, len(whole), step):
@@ -193,7 +195,7 @@ def test_a_damaged_byte_anywhere_is_reported_or_does_no_harm(tmp_path: Path, ste
 
 
 @pytest.mark.parametrize("stamp", ["'soon'", "-1", "9300000000000000000.0"])
-def test_a_message_from_no_time_is_reported(tmp_path: Path, stamp: str) -> None:
+def test_a_message_with_an_impossible_time_is_reported(tmp_path: Path, stamp: str) -> None:
     base = sqlite3.connect(tmp_path / "bag_0.db3")
     base.execute("create table topics (id integer primary key, name, type, serialization_format, offered_qos_profiles)")
     base.execute("create table messages (id integer primary key, topic_id, timestamp, data)")
@@ -205,7 +207,7 @@ def test_a_message_from_no_time_is_reported(tmp_path: Path, stamp: str) -> None:
         Bag(tmp_path)
 
 
-def test_metadata_that_are_no_yaml_do_not_matter(tmp_path: Path) -> None:
+def test_invalid_metadata_yaml_does_not_prevent_reading(tmp_path: Path) -> None:
     folder = words(tmp_path / "bag", "mine")
     for about in ("!!int", f"{{relative_file_paths: [{'long' * 100}.mcap]}}"):
         (folder / "metadata.yaml").write_text(f"rosbag2_bagfile_information: {about}")
@@ -226,7 +228,7 @@ def test_a_topic_of_an_impossible_type_is_reported(tmp_path: Path, type_name: st
     console.close()
 
 
-def test_metadata_lead_nowhere_else(tmp_path: Path) -> None:
+def test_metadata_cannot_refer_to_files_outside_the_bag(tmp_path: Path) -> None:
     folder = words(tmp_path / "bag", "mine")
     words(tmp_path / "other", "theirs")
     about = folder / "metadata.yaml"
@@ -234,13 +236,13 @@ def test_metadata_lead_nowhere_else(tmp_path: Path) -> None:
     assert texts(Bag(folder)) == ["mine"]
 
 
-def test_a_bag_is_never_written_over(tmp_path: Path) -> None:
+def test_an_existing_bag_is_never_overwritten(tmp_path: Path) -> None:
     words(tmp_path / "bag", "a")
     with pytest.raises(NotSaved, match="exists already"):
         BagWriter(tmp_path / "bag")
 
 
-def test_recorded_and_played_again(tmp_path: Path, node: rclpy.node.Node) -> None:
+def test_recorded_messages_can_be_played(tmp_path: Path, node: rclpy.node.Node) -> None:
     latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     publisher = node.create_publisher(String, "/words", latched)
     other = node.create_publisher(String, "/hidden", 10)
@@ -265,7 +267,7 @@ def test_recorded_and_played_again(tmp_path: Path, node: rclpy.node.Node) -> Non
     assert heard == texts(bag) and player.published == len(heard)
 
 
-def test_what_is_taken_at_once_lies_as_it_was_sent_unless_clocks_differ() -> None:
+def test_messages_taken_at_once_are_ordered_by_sending_time_unless_clocks_differ() -> None:
     now, foreign = 100 * SECOND, 90 * SECOND
     found = [(now - 1, "/late", b"c"), (now - 3, "/early", b"a"), (foreign, "/foreign", b"d"), (now - 2, "/late", b"b")]
     ordered = [(received - now, data) for received, _, data, _ in in_order(found, now, last=0)]
@@ -273,7 +275,7 @@ def test_what_is_taken_at_once_lies_as_it_was_sent_unless_clocks_differ() -> Non
     assert [each[0] for each in in_order(found, now, last=now - 2)] == [now - 2, now - 2, now - 1, now]
 
 
-def test_a_topic_whose_type_is_not_here_is_reported(tmp_path: Path, node: rclpy.node.Node) -> None:
+def test_a_topic_of_an_unknown_type_is_reported(tmp_path: Path, node: rclpy.node.Node) -> None:
     folder = words(tmp_path / "bag", "a")
     bag = Bag(folder)
     bag.metadata.topics["/words"].type = "nobody_msgs/msg/Such"
@@ -282,7 +284,7 @@ def test_a_topic_whose_type_is_not_here_is_reported(tmp_path: Path, node: rclpy.
     assert "nobody_msgs/msg/Such" in player.unknown["/words"] and player.published == 0
 
 
-def test_a_ring_keeps_the_last_seconds_and_no_more_than_its_bytes(tmp_path: Path) -> None:
+def test_a_ring_keeps_the_last_seconds_within_its_byte_limit(tmp_path: Path) -> None:
     ring = Ring(seconds=10, maximum=100_000)
     ring.topic("/words", String, [], "")
     data = serialize_message(String(data="x"))
@@ -302,7 +304,7 @@ def test_a_ring_keeps_the_last_seconds_and_no_more_than_its_bytes(tmp_path: Path
     writer.close()
 
 
-def test_offers_are_noted_and_made_again() -> None:
+def test_offered_qos_profiles_are_restored_from_a_bag() -> None:
     weak = QoSProfile(depth=7, reliability=ReliabilityPolicy.BEST_EFFORT)
     again = offered(noted([weak]))
     assert again.reliability == ReliabilityPolicy.BEST_EFFORT and again.depth == 7
@@ -311,7 +313,7 @@ def test_offers_are_noted_and_made_again() -> None:
     assert offered([{"depth": "many", "history": 3}]).depth == 10
 
 
-def test_the_definition_of_an_actions_feedback_has_what_stands_beside_it() -> None:
+def test_the_definition_of_action_feedback_includes_nested_types() -> None:
     text = definition(Fibonacci.Impl.FeedbackMessage)
     assert "MSG: action_tutorials_interfaces/Fibonacci_Feedback\nint32[] partial_sequence\n" in text
     assert "MSG: unique_identifier_msgs/UUID\nuint8[16] uuid\n" in text

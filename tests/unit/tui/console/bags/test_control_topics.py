@@ -116,7 +116,7 @@ def test_the_warning_reports_what_is_left_out_and_how_to_include_it(
         ("/base/e_stop", "std_msgs/msg/Bool"),
     ],
 )
-def test_control_topics(topic: str, type_name: str) -> None:
+def test_control_topics_are_recognised(topic: str, type_name: str) -> None:
     assert controls(topic, type_name)
 
 
@@ -135,5 +135,5 @@ def test_control_topics(topic: str, type_name: str) -> None:
         ("/blocked", "std_msgs/msg/Bool"),
     ],
 )
-def test_other_topics(topic: str, type_name: str) -> None:
+def test_other_topics_are_not_control_topics(topic: str, type_name: str) -> None:
     assert not controls(topic, type_name)

@@ -1,4 +1,4 @@
-"""A bag as a console: all that it tells, and nothing that could be done."""
+"""A bag as a console: it shows everything recorded, and refuses every change."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def console(folder: Path) -> OpenedBag:
     return OpenedBag(Contents(Bag(folder)), "bag")
 
 
-def test_messages_are_those_of_the_moment_that_is_inspected(console: OpenedBag) -> None:
+def test_messages_are_those_of_the_time_being_viewed(console: OpenedBag) -> None:
     traffic = console.topics
     rate, size = traffic.measured()["/odom"].rate, len(serialize_message(odometry(1)))
     assert rate == 1.0 and traffic.measured()["/odom"].bandwidth == pytest.approx(size)
@@ -79,7 +79,7 @@ def test_messages_are_those_of_the_moment_that_is_inspected(console: OpenedBag) 
     assert traffic.publish("/odom", "nav_msgs/msg/Odometry", {}).text == WHY
 
 
-def test_log_changes_and_world_are_those_of_the_bag(console: OpenedBag) -> None:
+def test_log_parameter_changes_and_world_come_from_the_bag(console: OpenedBag) -> None:
     now = console.snapshot()
     assert [each.name for each in now.graph.topics] == ["/map", "/odom", "/parameter_events", "/rosout"]
     line = console.log(0)
@@ -92,7 +92,7 @@ def test_log_changes_and_world_are_those_of_the_bag(console: OpenedBag) -> None:
     assert "10 s" in now.link.to and console.snapshot() is now
 
 
-def test_numbers_over_the_time_of_the_bag(console: OpenedBag) -> None:
+def test_values_are_plotted_over_the_time_of_the_bag(console: OpenedBag) -> None:
     path = "/odom/twist.twist.linear.x"
     assert path in console.plottable() and "/nav:max_speed" in console.plottable()
     assert console.watch(path).ok and console.watch("/nav:max_speed").ok
@@ -109,14 +109,14 @@ def test_numbers_over_the_time_of_the_bag(console: OpenedBag) -> None:
         assert not console.watch(wrong).ok and console.watch(wrong).text
 
 
-def test_nothing_can_be_done(console: OpenedBag) -> None:
+def test_every_change_is_refused(console: OpenedBag) -> None:
     assert "robot" not in status_text(console.snapshot()), "none is waited for"
     (outcome,) = console.set_parameters("/nav", {"max_speed": 1.0}).result()
     assert not outcome.accepted and outcome.reason == WHY
     assert console.undo().result().text == WHY and console.recording.start("x").result().text == WHY
 
 
-def test_of_a_bag_that_is_too_large_the_largest_topic_is_left_out(
+def test_the_largest_topic_of_a_bag_that_is_too_large_is_left_out(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(contents, "MAX_BYTES", 2000)

@@ -1,4 +1,4 @@
-"""Recording in the console: a bag begun, ended, and the last minutes saved afterwards."""
+"""Recording in the console: starting and ending a bag, and saving the last minutes afterwards."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def room() -> Iterator[Recordings]:
     made.close()
 
 
-def test_a_bag_is_recorded_from_begin_to_end(tmp_path: Path, node: rclpy.node.Node, room: Recordings) -> None:
+def test_a_bag_is_recorded_from_start_to_stop(tmp_path: Path, node: rclpy.node.Node, room: Recordings) -> None:
     latched = node.create_publisher(
         String, "/map_name", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     )
@@ -56,7 +56,7 @@ def test_a_bag_is_recorded_from_begin_to_end(tmp_path: Path, node: rclpy.node.No
     assert not reported(room.stop()).ok and not reported(room.keep("x")).ok and room.info.folder == ""
     assert reported(room.start(str(tmp_path / "bag"))).ok
     assert room.info.folder == str(tmp_path / "bag") and room.info is room.info
-    assert "already" in reported(room.start("another")).text  # by which time all topics are heard
+    assert "already" in reported(room.start("another")).text  # by then all topics are being received
     assert publisher.get_subscription_count() == 1
     for number in range(20):
         publisher.publish(String(data=str(number)))
@@ -71,7 +71,7 @@ def test_a_bag_is_recorded_from_begin_to_end(tmp_path: Path, node: rclpy.node.No
     assert reported(room.start(str(tmp_path / "late"))) == Answer(False, "the console has closed")
 
 
-def test_what_was_is_saved_afterwards_with_what_had_been_latched(tmp_path: Path) -> None:
+def test_the_last_minutes_are_saved_with_earlier_latched_messages(tmp_path: Path) -> None:
     sink = RingSink(Ring(10.0, 10_000_000))
     sink.topic("/map_name", String, LATCHED)
     sink.topic("/rosout", String, LATCHED)
@@ -102,7 +102,7 @@ def test_a_full_disk_ends_the_bag(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     assert sink.writer is None and "No space left" in sink.problem and "bag" in sink.problem
 
 
-def test_a_fault_ends_one_bag_and_not_recording(
+def test_an_error_ends_one_bag_and_the_next_can_be_recorded(
     tmp_path: Path, node: rclpy.node.Node, room: Recordings, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def broken(*_: object) -> None:

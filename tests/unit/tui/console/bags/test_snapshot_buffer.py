@@ -1,4 +1,4 @@
-"""The last minutes: kept as they were carried, each message once, and saved as a bag."""
+"""The snapshot buffer: each message is kept once, in the order of sending, and saved as a bag."""
 
 from __future__ import annotations
 
@@ -30,7 +30,8 @@ def test_each_message_is_kept_once_in_the_order_of_sending_and_saved(tmp_path: P
     buffer.hear(endpoint("/map_name", latching=True), OTHER, 1, now - 9000, String(data="office"))
     buffer.hear(endpoint("/clock", Clock), b"3" * 16, 1, now - 8000, Clock())
     buffer.hear(words, ONE, 2, now - 2000, serialize_message(String(data="second")))
-    buffer.hear(words, ONE, 2, now - 2000, serialize_message(String(data="second")))  # another subscription's
+    # received through another subscription
+    buffer.hear(words, ONE, 2, now - 2000, serialize_message(String(data="second")))
     buffer.hear(echo, OTHER, 2, now - 3000, String(data="first"))
     answer = buffer.keep(str(tmp_path / "bag")).result(10)
     buffer.close()
@@ -41,7 +42,7 @@ def test_each_message_is_kept_once_in_the_order_of_sending_and_saved(tmp_path: P
     assert bag.metadata.topics["/words"].type_hash == "RIHS01_String"
 
 
-def test_a_folder_that_is_there_is_refused_and_keeping_goes_on(tmp_path: Path) -> None:
+def test_an_existing_folder_is_refused_and_keeping_continues(tmp_path: Path) -> None:
     buffer = SnapshotBuffer(SIZE, serialize_message, str)
     buffer.hear(endpoint("/words"), ONE, 1, time.time_ns(), String(data="word"))
     refused = buffer.keep(str(tmp_path)).result(10)

@@ -22,7 +22,7 @@ services: {/reset: std_srvs/srv/Trigger}
 """
 
 
-def test_a_graph_that_is_as_expected_has_no_differences() -> None:
+def test_an_expected_graph_has_no_differences() -> None:
     assert differences(read(FILE), GRAPH) == []
     assert differences(read(FILE), GRAPH, {"/odom": 54.0}) == []
 
@@ -34,7 +34,7 @@ def test_rates_have_a_tolerance() -> None:
     assert "has nothing instead of 50 Hz" in differences(expected, GRAPH, {})[0]
 
 
-def test_everything_that_is_missing_or_other_is_a_line() -> None:
+def test_missing_and_different_parts_are_reported_one_per_line() -> None:
     expected = read(
         """
 nodes: [/sim, /lost]
@@ -58,12 +58,12 @@ actions: {/go: a/action/B}
     ]
 
 
-def test_with_exact_nothing_else_may_be_there() -> None:
+def test_exact_reports_everything_not_listed() -> None:
     found = differences(read("{nodes: [/sim], exact: true}"), GRAPH)
     assert found == ["node /nav was not expected", "topic /odom was not expected"]
 
 
-def test_what_is_written_is_as_expected_when_it_is_read() -> None:
+def test_a_written_file_matches_the_graph_it_was_written_from() -> None:
     text = written(GRAPH, {"/odom": 49.7})
     again = read(text)
     assert again.topics["/odom"].rate == 50.0 and "/_bot_console" not in text
@@ -84,7 +84,7 @@ def test_what_is_written_is_as_expected_when_it_is_read() -> None:
         ("nodes: [a\0]", "this is not YAML: "),
     ],
 )
-def test_a_file_that_cannot_be_used_is_explained(text: str, message: str) -> None:
+def test_an_invalid_file_is_explained(text: str, message: str) -> None:
     with pytest.raises(ValueError, match=message.replace("[", r"\[").replace("(", r"\(")) as caught:
         read(text)
     assert len(str(caught.value).splitlines()) == 1

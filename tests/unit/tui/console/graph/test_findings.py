@@ -1,4 +1,4 @@
-"""What is odd about a graph, in words."""
+"""Anomalies of a graph, as text."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def message(*nodes: NodeInfo) -> list[str]:
     return [each.text for each in findings(GraphInfo(nodes))]
 
 
-def test_incompatible_qos_is_reported_with_both_nodes_and_only_where_the_middleware_says_so() -> None:
+def test_incompatible_qos_is_reported_with_both_nodes_if_the_middleware_checks_it() -> None:
     nodes = (
         NodeInfo("/lidar", (Endpoint("/scan", SCAN, BEST),)),
         NodeInfo("/nav", (), (Endpoint("/scan", SCAN, RELIABLE),)),
@@ -27,7 +27,7 @@ def test_incompatible_qos_is_reported_with_both_nodes_and_only_where_the_middlew
     )
 
 
-def test_a_topic_without_a_publisher_is_a_fault_one_without_a_listener_is_not() -> None:
+def test_a_topic_without_publisher_is_a_fault_but_one_without_subscription_is_not() -> None:
     listens = NodeInfo("/nav", (), (Endpoint("/goal_pose", TWIST, RELIABLE),))
     assert message(listens) == ["nobody publishes /goal_pose, which /nav listens to"]
     assert message(NodeInfo("/nav", (Endpoint("/plan", TWIST, RELIABLE),))) == []
@@ -41,12 +41,12 @@ def test_two_publishers_are_a_hint_except_on_shared_topics() -> None:
     assert not findings(GraphInfo(both))[0].fault
 
 
-def test_types_that_differ_are_a_fault() -> None:
+def test_different_types_on_one_topic_are_a_fault() -> None:
     nodes = NodeInfo("/a", (Endpoint("/t", SCAN),)), NodeInfo("/b", (), (Endpoint("/t", TWIST),))
     assert "different types" in message(*nodes)[0] and findings(GraphInfo(nodes))[0].fault
 
 
-def test_services_and_actions_without_a_server_or_with_two() -> None:
+def test_services_and_actions_without_a_server_or_with_two_are_reported() -> None:
     client = NodeInfo("/c", clients=(Endpoint("/reset", ("std_srvs/srv/Trigger",)),))
     server = NodeInfo("/s", services=(Endpoint("/reset", ("std_srvs/srv/Trigger",)),))
     other = NodeInfo("/o", services=server.services)
@@ -56,20 +56,20 @@ def test_services_and_actions_without_a_server_or_with_two() -> None:
     assert message(NodeInfo("/g", action_clients=(Endpoint("/go", ()),))) == ["nobody executes /go, which /g asks for"]
 
 
-def test_a_node_without_any_end_and_hidden_ones() -> None:
+def test_a_node_without_endpoints_is_reported_unless_hidden() -> None:
     assert message(NodeInfo("/a", (Endpoint("/rosout", ()),), services=(OWN,))) == [
         "/a publishes, subscribes to and serves nothing"
     ]
     assert message(NodeInfo("/_tool", (), (Endpoint("/x", TWIST),))) == []
 
 
-def test_nodes_of_one_name_are_a_fault() -> None:
+def test_duplicate_node_names_are_a_fault() -> None:
     found = findings(GraphInfo((NodeInfo("/a", copies=2, services=(OWN, Endpoint("/go", ("T",)))),)))
     assert [(each.subject, each.fault) for each in found] == [("/a", True)]
     assert found[0].text.startswith("two nodes are called /a")
 
 
-def test_what_is_published_on_occasion_needs_no_publisher() -> None:
+def test_topics_published_on_demand_need_no_publisher() -> None:
     topics = ("/initialpose", "/robot1/emergency_stop/arbiter", "/scan")
     base = NodeInfo("/base", (), tuple(Endpoint(each, ("T",)) for each in topics))
     assert message(base) == ["nobody publishes /scan, which /base listens to"]

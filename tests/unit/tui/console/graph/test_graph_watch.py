@@ -1,4 +1,4 @@
-"""The console's look at the graph: only after an event, each topic asked about once, nothing described twice."""
+"""The console's view of the graph: polled only after an event, each topic queried once, nothing described twice."""
 
 import itertools
 
@@ -13,7 +13,7 @@ _domains = itertools.count(8600)
 
 
 class Events:
-    """Stands in for a system that tells of changes of its graph."""
+    """Replaces a system that reports changes of its graph."""
 
     def __init__(self):
         self.changed, self.ended = None, False
@@ -41,7 +41,7 @@ def node(context):
     made.destroy_node()
 
 
-def test_it_looks_only_after_an_event(context, node):
+def test_graph_is_polled_only_after_an_event(context, node):
     events, polls = Events(), []
     watch = GraphWatch(node, lambda graph: None, events)
     assert events.domain == context.get_domain_id()
@@ -57,7 +57,7 @@ def test_it_looks_only_after_an_event(context, node):
     assert events.ended
 
 
-def test_without_events_it_looks_at_every_tick(node):
+def test_graph_is_polled_at_every_tick_without_events(node):
     watch, polls = GraphWatch(node, lambda graph: None), []
     watch.poll = lambda: polls.append(1)
     for _ in range(3):
@@ -65,7 +65,7 @@ def test_without_events_it_looks_at_every_tick(node):
     assert len(polls) == 3
 
 
-def test_after_a_long_look_it_rests(node, monkeypatch):
+def test_polling_pauses_after_a_long_poll(node, monkeypatch):
     now, spent, polls = [0.0], [0.0], []
     monkeypatch.setattr("bot_console.tui.console.graph.watch.monotonic", lambda: now[0])
     monkeypatch.setattr("bot_console.tui.console.graph.watch.thread_time", lambda: spent[0])
@@ -82,7 +82,7 @@ def test_after_a_long_look_it_rests(node, monkeypatch):
     assert polls == [0.0, 1.5, 3.0, 4.5], "a fifth of the time at most"
 
 
-def test_only_what_changed_is_described_again(context, node):
+def test_only_changed_nodes_are_described_again(context, node):
     others = [rclpy.create_node(f"n{number}", context=context) for number in range(3)]
     seen = []
     watch = GraphWatch(node, seen.append)
@@ -104,7 +104,7 @@ def test_only_what_changed_is_described_again(context, node):
     assert "/speed" not in {each.name for each in seen[2].topics}
 
 
-def test_each_topic_is_asked_about_once(context, node):
+def test_each_topic_is_queried_once(context, node):
     others = [rclpy.create_node(f"n{number}", context=context) for number in range(8)]
     asked, ask = [], node.get_publishers_info_by_topic
     node.get_publishers_info_by_topic = lambda topic: asked.append(topic) or ask(topic)
@@ -117,7 +117,7 @@ def test_each_topic_is_asked_about_once(context, node):
     assert asked == ["/speed"]
 
 
-def test_only_the_node_that_an_event_names_is_asked_about(context, node):
+def test_only_the_node_named_by_an_event_is_queried(context, node):
     others = [rclpy.create_node(f"n{number}", context=context) for number in range(3)]
     watch = GraphWatch(node, lambda graph: None, graph_events)
     watch.poll()
@@ -137,7 +137,7 @@ def test_only_the_node_that_an_event_names_is_asked_about(context, node):
     watch.close()
 
 
-def test_events_of_the_runtime_lead_to_a_look(context, node):
+def test_runtime_events_trigger_a_poll(context, node):
     watch = GraphWatch(node, lambda graph: None, graph_events)
     watch.poll()
     other = rclpy.create_node("late", context=context)
@@ -149,7 +149,7 @@ def test_events_of_the_runtime_lead_to_a_look(context, node):
     watch.close()
 
 
-def test_nodes_of_a_stopped_process_are_reported_at_the_next_tick_until_it_goes_on(context, node):
+def test_nodes_of_a_stopped_process_are_reported_until_it_continues(context, node):
     stopped, seen = {}, []
     watch = GraphWatch(node, seen.append, graph_events, lambda domain: stopped)
     watch._tick()
@@ -167,7 +167,7 @@ def test_nodes_of_a_stopped_process_are_reported_at_the_next_tick_until_it_goes_
     watch.close()
 
 
-def test_nodes_of_one_name_are_counted(context, node):
+def test_nodes_with_the_same_name_are_counted(context, node):
     first = rclpy.create_node("twin", context=context)
     watch = GraphWatch(node, lambda graph: None, graph_events)
     copies = []

@@ -1,4 +1,6 @@
-"""What keeps messages from passing is said with who, why and what to do; what passes is not mentioned."""
+"""Reports of endpoints whose messages do not pass name the nodes, the reason and a remedy; other pairs are not
+mentioned.
+"""
 
 from types import SimpleNamespace
 
@@ -31,7 +33,7 @@ def end(node, qos=RELIABLE, kind=SCAN, type_hash=ONE):
         (end("/lidar"), end("/nav", kind="std_msgs/msg/String"), ("/nav expects std_msgs/msg/String", "rename")),
     ],
 )
-def test_what_does_not_pass_is_reported(publisher, subscription, parts):
+def test_incompatible_endpoints_are_reported_with_reason_and_remedy(publisher, subscription, parts):
     (text,) = unheard("/scan", [publisher], [subscription])
     assert text.startswith("/scan: ")
     assert all(part in text for part in parts), text
@@ -47,18 +49,18 @@ def test_what_does_not_pass_is_reported(publisher, subscription, parts):
         (end("/lidar", WEAK), end("/_bot_console")),
     ],
 )
-def test_what_passes_or_is_a_tools_own_affair_is_not(publisher, subscription):
+def test_compatible_endpoints_and_tools_are_not_reported(publisher, subscription):
     assert list(unheard("/scan", [publisher], [subscription])) == []
 
 
-def test_a_hash_that_is_none_counts_as_unknown():
+def test_an_empty_type_hash_counts_as_unknown():
     assert hash_of(end("/a")) == ONE
     assert hash_of(end("/a", type_hash="INVALID")) == ""
     assert hash_of(SimpleNamespace()) == ""
 
 
 class FakeNode:
-    """Counts the questions."""
+    """Counts the queries."""
 
     def __init__(self, publishers, subscriptions):
         self.ends = publishers, subscriptions
@@ -72,7 +74,7 @@ class FakeNode:
         return self.ends[1]
 
 
-def test_ends_of_two_types_are_no_two_definitions_of_one():
+def test_endpoints_of_different_types_are_not_reported_as_different_definitions():
     node = FakeNode([end("/lidar")], [end("/nav", kind="std_msgs/msg/String", type_hash=TWO)])
     publisher = NodeInfo("/lidar", publishers=(Endpoint("/scan", (SCAN,)),))
     subscription = NodeInfo("/nav", subscriptions=(Endpoint("/scan", ("std_msgs/msg/String",)),))
@@ -81,7 +83,7 @@ def test_ends_of_two_types_are_no_two_definitions_of_one():
     assert pairs.found == ()
 
 
-def test_a_topic_is_asked_about_once_and_again_when_its_ends_change():
+def test_a_topic_is_queried_once_and_again_when_its_endpoints_change():
     node = FakeNode([end("/lidar")], [end("/nav", type_hash=TWO)])
     publishes, listens = Endpoint("/scan", (SCAN,), "best effort"), Endpoint("/scan", (SCAN,), "reliable")
     alone = NodeInfo("/lidar", publishers=(publishes, Endpoint("/odom", ())))

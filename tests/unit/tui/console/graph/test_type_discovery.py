@@ -1,4 +1,4 @@
-"""Who is asked for types that nobody here has, and how often."""
+"""Which nodes are asked for unknown types, and how often."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ SPOT = "told_nowhere/msg/Spot"
 
 
 class Graph:
-    """Stands for the console's node, its calls and what makes types of answers; only `/knows` knows."""
+    """Replaces the console's node, its calls and the type source; only `/knows` can describe types."""
 
     def __init__(self) -> None:
         self.context = SimpleNamespace(get_domain_id=lambda: 0)
@@ -30,7 +30,7 @@ class Graph:
         self.learned += 1
 
     def has(self, *nodes: str, types: tuple[str, ...] = (SPOT,)) -> None:
-        """These nodes publish the types, and one has a type that is here."""
+        """These nodes publish the types; another node uses a type that is available here."""
         self._nodes = nodes
         topics = (Endpoint("/spots", types), Endpoint("/words", ("std_msgs/msg/String",)))
         self.reported.follow(GraphInfo(tuple(NodeInfo(each) for each in nodes), topics))
@@ -59,7 +59,7 @@ class Graph:
         assert prefix.endswith("/get_type_description")
 
 
-def test_each_node_is_asked_once_until_one_knows() -> None:
+def test_each_node_is_asked_once_until_one_describes_the_type() -> None:
     graph = Graph()
     graph.has("/hangs", "/other")
     graph.has("/hangs", "/other")
@@ -81,10 +81,10 @@ def test_a_node_that_has_come_back_is_asked_again() -> None:
     assert "did not answer within 5 s" in graph.reported.explain(SPOT, "")
 
 
-def test_a_package_of_which_one_type_was_learned_has_more(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_further_types_of_a_learned_package_are_requested(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     graph = Graph()
     graph.has("/knows")
     monkeypatch.syspath_prepend(tmp_path)
-    (tmp_path / "told_nowhere").mkdir()  # as what is learned can be imported
+    (tmp_path / "told_nowhere").mkdir()  # makes the package importable, as learning a type does
     graph.has("/knows", types=(SPOT, "told_nowhere/action/Draw_FeedbackMessage", "told_nowhere/action/Draw_SendGoal"))
     assert graph.types == [SPOT, "told_nowhere/action/Draw"] and graph.learned == 2

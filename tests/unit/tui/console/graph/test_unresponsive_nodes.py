@@ -1,4 +1,4 @@
-"""Nodes that are in the graph and do not answer."""
+"""Nodes that are in the graph but do not respond."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from rclpy.task import Future
 
 
 class Client:
-    """What the watch has of a node: whether its service is there, and what was asked."""
+    """A client as the watch sees it: whether its service is there, and the requests sent."""
 
     def __init__(self) -> None:
         self.ready = True
@@ -32,7 +32,7 @@ class Client:
 
 
 class Bench:
-    """A watch over a node whose clients and timer are the test's."""
+    """A watch whose clients and timer are controlled by the test."""
 
     def __init__(self) -> None:
         self.clients: dict[str, Client] = {}
@@ -47,7 +47,7 @@ class Bench:
         self.watch = SilentNodes(node, lambda silent: setattr(self, "silent", silent))
 
     def tick(self, times: int = 1, *answering: str) -> None:
-        """Look so often; these answer at once what they are asked."""
+        """Poll `times` times; the nodes named respond at once."""
         for _ in range(times):
             self.watch.tick()
             for name in answering:
@@ -66,7 +66,7 @@ def bench() -> Bench:
     return made
 
 
-def test_one_that_was_killed_is_silent_after_a_second_and_the_others_are_not(bench: Bench) -> None:
+def test_only_a_killed_node_is_silent_after_a_second(bench: Bench) -> None:
     bench.tick(6, "/arm", "/base")
     assert bench.silent == ()
     bench.tick(2, "/base")  # its next request, at most a second later
@@ -76,7 +76,7 @@ def test_one_that_was_killed_is_silent_after_a_second_and_the_others_are_not(ben
     assert bench.silent == () and list(bench.clients) == ["/base"]
 
 
-def test_one_that_answers_late_lives_again_and_a_request_that_was_lost_is_sent_again(bench: Bench) -> None:
+def test_a_late_response_revives_a_node_and_a_lost_request_is_repeated(bench: Bench) -> None:
     arm = bench.clients["/arm"]
     bench.tick(4, "/base")
     assert bench.silent == ("/arm",) and len(arm.asked) == 1
@@ -88,12 +88,12 @@ def test_one_that_answers_late_lives_again_and_a_request_that_was_lost_is_sent_a
     assert bench.silent == ()
 
 
-def test_nobody_is_asked_more_than_once_a_second(bench: Bench) -> None:
+def test_no_node_is_asked_more_than_once_a_second(bench: Bench) -> None:
     bench.tick(20, "/arm", "/base")
     assert len(bench.clients["/arm"].asked) == 10
 
 
-def test_a_new_client_finds_its_server_first_and_one_whose_server_has_gone_is_silent(bench: Bench) -> None:
+def test_a_new_client_waits_for_its_server_and_a_node_without_server_is_silent(bench: Bench) -> None:
     arm = bench.clients["/arm"]
     arm.ready = False
     bench.tick(6, "/base")
@@ -105,7 +105,7 @@ def test_a_new_client_finds_its_server_first_and_one_whose_server_has_gone_is_si
     assert bench.silent == ("/arm",)
 
 
-def test_nobody_is_asked_while_nobody_looks_and_those_without_the_service_never(bench: Bench) -> None:
+def test_nodes_are_asked_only_while_viewed_and_never_without_the_service(bench: Bench) -> None:
     bench.tick(4)
     assert bench.silent == ("/arm", "/base")
     bench.watch.poll(False, graph("/arm", "/base"))

@@ -1,4 +1,4 @@
-"""What the log warns of when it appears in the graph."""
+"""Conditions of the graph that are logged as warnings."""
 
 from __future__ import annotations
 
@@ -24,17 +24,19 @@ def logged(*graphs: GraphInfo) -> list[str]:
     return lines
 
 
-def test_two_that_command_one_robot_are_named_with_the_topic() -> None:
+def test_two_publishers_of_a_velocity_topic_are_named_with_the_topic() -> None:
     (line,) = logged(RIVALS)
     assert line.startswith("/cmd_vel is published by /navigator and /teleop: the newest command wins")
 
 
 @pytest.mark.parametrize("nodes", [(BASE, NAVIGATOR), (BASE, NAVIGATOR, HIDDEN), (NAVIGATOR, TELEOP)])
-def test_one_that_commands_a_console_beside_it_and_two_that_nobody_hears_are_none(nodes: Sequence[NodeInfo]) -> None:
+def test_a_console_beside_one_publisher_and_topics_without_subscriptions_are_no_rivals(
+    nodes: Sequence[NodeInfo],
+) -> None:
     assert not logged(GraphInfo(tuple(nodes)))
 
 
-def test_servers_with_a_lifecycle_take_turns_unless_another_node_joins_them() -> None:
+def test_lifecycle_nodes_are_no_rivals_unless_another_node_joins_them() -> None:
     managed = tuple(
         NodeInfo(name, CMD_VEL, services=(Endpoint(f"{name}/change_state", ("lifecycle_msgs/srv/ChangeState",)),))
         for name in ("/behavior_server", "/controller_server")
@@ -49,12 +51,12 @@ def test_topics_of_other_types_may_have_several_publishers() -> None:
     assert not logged(GraphInfo(nodes))
 
 
-def test_a_warning_is_reported_once_and_again_when_it_comes_back() -> None:
+def test_a_warning_is_logged_once_and_again_when_it_recurs() -> None:
     assert len(logged(RIVALS, RIVALS)) == 1
     assert len(logged(RIVALS, GraphInfo((BASE, NAVIGATOR)), RIVALS)) == 2
 
 
-def test_nodes_of_one_name_and_frozen_ones_are_reported() -> None:
+def test_duplicate_names_and_frozen_nodes_are_reported() -> None:
     doubled = GraphInfo((replace(BASE, copies=2),), frozen=(("/navigator", 42),))
     lines = logged(doubled, doubled)
     assert len(lines) == 2

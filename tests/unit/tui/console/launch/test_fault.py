@@ -1,4 +1,4 @@
-"""Why a launch file cannot be run, where launch tells what it was at and where it does not."""
+"""Why a launch file cannot be run, both if launch records what it was doing and if it does not."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def reported(error: Exception, file: str, line: int | None, entity: object = Non
 
 
 def as_upstream(error: BaseException) -> BaseException:
-    """An exception as a launch raises it that tells nothing on it."""
+    """An exception as raised by a launch that records nothing on it."""
     if error.__cause__ is not None:
         as_upstream(error.__cause__)
     error.__dict__.pop(ATTRIBUTE, None)
@@ -38,24 +38,24 @@ def read_error(path: Path, text: str) -> BaseException:
     return caught.value
 
 
-def test_what_launch_has_reported():
+def test_place_recorded_by_launch_is_used():
     assert fault_text(reported(ValueError("no"), "/a.launch.xml", 7), ASKED) == "/a.launch.xml, line 7: no"
     assert fault_text(reported(ValueError("no"), "/a.launch.xml", None), ASKED) == "/a.launch.xml: no"
     assert fault_text(ValueError("no"), ASKED) == f"{ASKED}: no"
 
 
-def test_a_library_that_makes_actions_is_reported_as_the_launch_file_that_uses_it():
+def test_an_error_in_a_library_is_reported_in_the_launch_file_that_uses_it():
     entity = object()
     error = reported(ValueError("no"), LIBRARY, 7, entity)
     assert fault_text(error, ASKED, lambda asked: "/uses.launch.py" if asked is entity else "") == "/uses.launch.py: no"
     assert fault_text(error, ASKED) == f"{ASKED}: no"
 
 
-def test_an_installed_launch_file_that_cannot_be_read_is_reported_itself():
+def test_an_unreadable_installed_launch_file_is_reported_itself():
     assert fault_text(reported(ValueError("no"), LIBRARY, 7), ASKED) == f"{LIBRARY}, line 7: no"
 
 
-def test_a_launch_that_reports_nothing(tmp_path):
+def test_place_comes_from_the_traceback_if_launch_records_nothing(tmp_path):
     path = tmp_path / "a.launch.py"
     error = as_upstream(read_error(path, "\n\n1 / 0\n"))
     assert fault_text(error, ASKED) == f"{path}, line 3: ZeroDivisionError: division by zero"
@@ -65,13 +65,13 @@ def test_a_launch_that_reports_nothing(tmp_path):
     ("name", "text", "message"),
     [("a.launch.xml", "<launch>\n<", "line 2: "), ("a.launch.yaml", "launch:\n- {a", "line 2: ")],
 )
-def test_a_parsers_line_is_of_the_file_that_was_asked_for_only_while_that_is_read(tmp_path, name, text, message):
+def test_a_parsers_line_belongs_to_the_requested_file_only_while_that_is_read(tmp_path, name, text, message):
     error = as_upstream(read_error(tmp_path / name, text))
     assert fault_text(error, ASKED, reading=True).startswith(f"{ASKED}, {message}")
     assert fault_text(error, ASKED).startswith(f"{ASKED}: ")
 
 
-def test_nothing_private_and_no_frame_is_read():
+def test_no_private_attribute_and_no_frame_is_read():
     tree = ast.parse(Path(fault.__file__).read_text())
     names = {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
     names |= {node.value for node in ast.walk(tree) if isinstance(node, ast.Constant) and isinstance(node.value, str)}

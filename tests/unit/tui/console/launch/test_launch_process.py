@@ -16,7 +16,7 @@ def running():
     return process
 
 
-def test_it_starts_as_starting():
+def test_a_process_begins_in_the_starting_state():
     process = LaunchedProcess("key", "node-1", ("a.launch.py",))
     assert (process.info.state, process.info.group) == (ProcessState.STARTING, ("a.launch.py",))
 
@@ -25,7 +25,7 @@ def test_it_starts_as_starting():
     ("code", "state"),
     [(0, ProcessState.EXITED), (1, ProcessState.CRASHED), (-2, ProcessState.CRASHED), (-9, ProcessState.CRASHED)],
 )
-def test_an_end_that_nobody_asked_for(code, state):
+def test_exit_code_decides_the_state_after_an_unrequested_end(code, state):
     process = running()
     assert process.exited(code, respawns=False) is Order.NOTHING
     assert (process.info.state, process.info.exit_code, bool(process.info.problem)) == (state, code, code != 0)
@@ -35,7 +35,7 @@ def test_an_end_that_nobody_asked_for(code, state):
     ("code", "state"),
     [(0, ProcessState.EXITED), (-2, ProcessState.EXITED), (-15, ProcessState.EXITED), (1, ProcessState.CRASHED)],
 )
-def test_a_stop(code, state):
+def test_a_stop_is_answered_when_the_process_has_ended(code, state):
     process = running()
     order, answer = process.want("stop")
     assert (order, process.info.state, answer.done()) == (Order.SHUT_DOWN, ProcessState.STOPPING, False)
@@ -43,7 +43,7 @@ def test_a_stop(code, state):
     assert (process.info.state, answer.result().ok) == (state, True)
 
 
-def test_restart_starts_when_it_has_ended_and_answers_when_it_runs():
+def test_restart_starts_after_the_end_and_answers_when_running():
     process = running()
     order, answer = process.want("restart")
     assert order is Order.SHUT_DOWN
@@ -53,7 +53,7 @@ def test_restart_starts_when_it_has_ended_and_answers_when_it_runs():
     assert (process.info.label, process.info.restarts, answer.result().ok) == ("node-2", 1, True)
 
 
-def test_stop_before_it_runs_is_done_as_soon_as_it_does():
+def test_a_stop_requested_before_it_runs_takes_effect_as_soon_as_it_does():
     process = LaunchedProcess("key", "node-1")
     order, answer = process.want("stop")
     assert order is Order.SHUT_DOWN
@@ -62,7 +62,7 @@ def test_stop_before_it_runs_is_done_as_soon_as_it_does():
     assert answer.result().ok
 
 
-def test_a_start_that_fails():
+def test_a_failed_start_is_answered_with_the_reason():
     process = running()
     process.exited(0, respawns=False)
     order, answer = process.want("start")
@@ -72,7 +72,7 @@ def test_a_start_that_fails():
     assert (answer.result().ok, answer.result().text) == (False, "node-1: no such file")
 
 
-def test_the_news_that_it_is_over_may_come_before_that_of_its_end():
+def test_over_reported_before_the_exit_leaves_the_process_running():
     process = running()
     assert process.over() is Order.NOTHING
     assert process.info.state is ProcessState.RUNNING
@@ -81,7 +81,9 @@ def test_the_news_that_it_is_over_may_come_before_that_of_its_end():
 
 
 class Life(RuleBasedStateMachine):
-    """Any order of wishes and events: each wish is answered once all is quiet, and the state tells the truth."""
+    """Any order of requests and events: each request is answered once all is quiet, and the displayed state is
+    correct.
+    """
 
     def __init__(self):
         super().__init__()
@@ -132,7 +134,7 @@ TestLife.settings = settings(max_examples=80, stateful_step_count=20, deadline=N
 
 
 @given(st.lists(st.sampled_from(VERBS), max_size=6))
-def test_requests_while_it_runs_lead_to_one_end(verbs):
+def test_requests_while_running_lead_to_a_single_end(verbs):
     process = running()
     answers = [process.want(verb)[1] for verb in verbs]
     for _ in range(3):
@@ -144,7 +146,7 @@ def test_requests_while_it_runs_lead_to_one_end(verbs):
     assert all(answer.done() for answer in answers)
 
 
-def test_a_stop_that_comes_just_after_a_crash_is_done_when_launch_gives_up_the_respawn():
+def test_a_stop_just_after_a_crash_is_done_when_launch_gives_up_the_respawn():
     process = LaunchedProcess("k", "n-1")
     process.started("n-1", 1)
     order, stop = process.want("stop")

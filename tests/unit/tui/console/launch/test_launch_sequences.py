@@ -1,4 +1,4 @@
-"""Verbs in any order, one right after the other: every verb is answered, and the last one decides."""
+"""Verbs in any order, in quick succession: each one is answered, and the last one decides."""
 
 import itertools
 import threading
@@ -39,7 +39,7 @@ def bench(tmp_path, monkeypatch):
 
 @pytest.fixture
 def three(bench):
-    """The keys of three nodes of one launch that wait."""
+    """The keys of three waiting nodes of one launch."""
     path = bench.program(WAITS)
     nodes = ", ".join(f"Node(executable={path!r}, name='n{number}')" for number in range(3))
     assert bench.run(f"[{nodes}]").ok
@@ -60,21 +60,21 @@ def answers(futures):
 
 
 def has_ended(bench):
-    """Whether the launch of the bench is over, so that the next start needs another one."""
+    """Whether the bench's launch is over, so that the next start needs another one."""
     return not bench.launcher._runs
 
 
 def test_a_stopped_launch_starts_again_with_all_its_processes(bench, three):
     answers(ask(bench, "stop", three))
     bench.until(lambda: has_ended(bench), "the end of the launch")
-    bench.gate.clear()  # the three are asked for before the launch that starts them runs
+    bench.gate.clear()  # all three are requested before the launch that starts them runs
     starts = ask(bench, "start", three)
     bench.gate.set()
     assert all(each.ok for each in answers(starts))
     assert states(bench) == [ProcessState.RUNNING] * 3
 
 
-def test_a_stop_before_the_launch_runs_again_leaves_that_process_ended(bench, three):
+def test_a_stop_before_the_launch_runs_again_keeps_that_process_ended(bench, three):
     answers(ask(bench, "stop", three))
     bench.until(lambda: has_ended(bench), "the end of the launch")
     bench.gate.clear()
@@ -86,7 +86,7 @@ def test_a_stop_before_the_launch_runs_again_leaves_that_process_ended(bench, th
     assert states(bench) == [ProcessState.RUNNING, ProcessState.EXITED, ProcessState.RUNNING]
 
 
-def test_a_launch_that_cannot_begin_again_reports_it_for_each_process(bench, three, monkeypatch):
+def test_a_launch_that_cannot_begin_again_reports_that_for_each_process(bench, three, monkeypatch):
     import launch
 
     answers(ask(bench, "stop", three))
@@ -115,7 +115,7 @@ def test_closing_before_the_launch_runs_again_starts_nothing(bench, three, monke
     assert all(each in ENDED for each in states(bench))
 
 
-def test_verbs_one_right_after_the_other(bench, three):
+def test_verbs_in_quick_succession_are_all_answered(bench, three):
     for verbs in (each for length in (1, 2, 3) for each in itertools.product(VERBS, repeat=length)):
         answers([future for verb in verbs for future in ask(bench, verb, three)])
         running = verbs[-1] in ("start", "restart")
@@ -128,7 +128,7 @@ def test_verbs_one_right_after_the_other(bench, three):
 
 
 @pytest.mark.parametrize("delay", [0.0, 600.0])
-def test_a_crash_at_start_that_respawns_is_stopped_and_started(bench, delay):
+def test_a_respawning_process_that_crashes_at_start_can_be_stopped_and_started(bench, delay):
     path = bench.program(FAILS)
     bench.run(f"[Node(executable={path!r}, respawn=True, respawn_delay={delay})]")
     bench.until(lambda: bench.process().exit_code == 1, "the crash")

@@ -1,4 +1,4 @@
-"""The launcher over the embedded launch: processes steered one by one, several launch files, files that fail."""
+"""The launcher over the embedded launch: processes controlled one by one, several launch files, files that fail."""
 
 import itertools
 import re
@@ -28,13 +28,13 @@ def waiter(bench):
     return bench.process()
 
 
-def test_what_is_shown_of_a_process(bench, waiter):
+def test_a_process_is_shown_with_label_pid_and_nodes(bench, waiter):
     assert (waiter.state, waiter.nodes, waiter.group) == (ProcessState.RUNNING, ("/ns/bob",), ("system.launch.py",))
     assert waiter.pid and waiter.restarts == 0 and waiter.exit_code is None
     assert bench.info is bench.info
 
 
-def test_stop_then_start_again(bench, waiter):
+def test_a_stopped_process_can_be_started_again(bench, waiter):
     assert bench.do("stop", waiter).ok
     ended = bench.process()
     assert (ended.state, ended.exit_code, ended.pid) == (ProcessState.EXITED, 0, None)
@@ -45,7 +45,7 @@ def test_stop_then_start_again(bench, waiter):
     assert again.exit_code == 0, "the last exit stays visible"
 
 
-def test_restart(bench, waiter):
+def test_restart_ends_and_starts_a_process(bench, waiter):
     assert bench.do("restart", waiter).ok
     again = bench.process()
     assert (again.state, again.restarts) == (ProcessState.RUNNING, 1)
@@ -58,7 +58,7 @@ def test_restart_of_an_ended_process_starts_it(bench, waiter):
     assert bench.process().state is ProcessState.RUNNING
 
 
-def test_kill(bench, waiter):
+def test_kill_ends_a_process_at_once(bench, waiter):
     assert bench.do("kill", waiter).ok
     killed = bench.process()
     assert (killed.state, killed.exit_code) == (ProcessState.CRASHED, -9)
@@ -70,7 +70,7 @@ def test_kill(bench, waiter):
     ("before", "verb", "text"),
     [("", "start", "is already running"), ("stop", "stop", "is not running"), ("stop", "kill", "is not running")],
 )
-def test_what_makes_no_sense_is_refused_with_the_reason(bench, waiter, before, verb, text):
+def test_verbs_that_do_not_apply_are_refused_with_the_reason(bench, waiter, before, verb, text):
     if before:
         bench.do(before, waiter)
     answer = bench.do(verb, waiter)
@@ -78,7 +78,7 @@ def test_what_makes_no_sense_is_refused_with_the_reason(bench, waiter, before, v
     assert text in answer.text
 
 
-def test_an_unknown_process(bench):
+def test_an_unknown_process_is_refused(bench):
     answer = bench.launcher.stop("nobody").result(TIMEOUT_S)
     assert (answer.ok, answer.text) == (False, "there is no process nobody")
 
@@ -91,7 +91,7 @@ def test_a_process_that_ignores_signals_is_killed_by_the_escalation(bench):
     assert bench.process().exit_code == -9
 
 
-def test_kill_while_it_is_stopping(bench):
+def test_a_stopping_process_can_be_killed(bench):
     path = bench.program(DEAF)
     bench.run(f"[ExecuteProcess(cmd=['python3', '-u', {path!r}], sigterm_timeout='600')]")
     bench.until(lambda: any("up" in text for _, _, text in bench.printed), "its first line")
@@ -102,7 +102,7 @@ def test_kill_while_it_is_stopping(bench):
     assert stopping.result(TIMEOUT_S).ok
 
 
-def test_stop_takes_a_restart_back(bench):
+def test_stop_cancels_a_pending_restart(bench):
     path = bench.program(DEAF)
     bench.run(f"[ExecuteProcess(cmd=['python3', '-u', {path!r}], sigterm_timeout='1.0', sigkill_timeout='0.1')]")
     bench.until(lambda: any("up" in text for _, _, text in bench.printed), "its first line")
@@ -113,7 +113,7 @@ def test_stop_takes_a_restart_back(bench):
     assert bench.process().restarts == 0
 
 
-def test_a_respawning_process(bench):
+def test_a_respawning_process_comes_back(bench):
     path = bench.program(FAILS)
     bench.run(f"[Node(executable={path!r}, respawn=True, respawn_delay=0.01)]")
     bench.until(lambda: bench.process().restarts >= 3, "the third respawn")
@@ -125,7 +125,7 @@ def test_a_respawning_process(bench):
     assert bench.process().restarts == stopped.restarts
 
 
-def test_stop_during_the_delay_of_a_respawn(bench):
+def test_stop_during_the_respawn_delay_prevents_the_respawn(bench):
     path = bench.program(ENDS)
     bench.run(f"[Node(executable={path!r}, respawn=True, respawn_delay=600.0)]")
     bench.until(lambda: bench.process().exit_code is not None, "its end")
@@ -142,7 +142,7 @@ def test_a_killed_process_that_respawns_comes_back(bench):
     assert bench.process().restarts == 1
 
 
-def test_it_still_respawns_after_a_restart(bench):
+def test_a_process_still_respawns_after_a_restart(bench):
     path = bench.program(WAITS)
     bench.run(f"[Node(executable={path!r}, respawn=True)]")
     assert bench.do("restart", bench.process()).ok
@@ -150,7 +150,7 @@ def test_it_still_respawns_after_a_restart(bench):
     bench.until(lambda: bench.process().restarts == 2 and bench.process().state is ProcessState.RUNNING, "the respawn")
 
 
-def test_a_crash_is_reported_and_leaves_the_others_alone(bench):
+def test_a_crash_is_reported_and_does_not_affect_other_processes(bench):
     fails, waits = bench.program(FAILS, "fails.py"), bench.program(WAITS, "waits.py")
     bench.run(f"[Node(executable={waits!r}), Node(executable={fails!r})]")
     bench.until(lambda: len(bench.info.processes) == 2 and bench.process("fails").exit_code == 1, "the crash")
@@ -160,7 +160,7 @@ def test_a_crash_is_reported_and_leaves_the_others_alone(bench):
     assert next(each for each in bench.info.timeline if each.severity is Severity.ERROR).text.startswith("fails.py")
 
 
-def test_a_program_that_went_missing_does_not_end_the_launch(bench):
+def test_a_deleted_program_does_not_end_the_launch(bench):
     fails, waits = bench.folder / "fails.py", bench.program(WAITS, "waits.py")
     bench.program(FAILS, "fails.py")
     bench.run(f"[Node(executable={waits!r}), Node(executable={str(fails)!r})]")
@@ -172,7 +172,7 @@ def test_a_program_that_went_missing_does_not_end_the_launch(bench):
     assert bench.process("waits").state is ProcessState.RUNNING
 
 
-def test_starts_that_are_put_off_are_counted_until_they_have_begun(bench):
+def test_postponed_starts_are_counted_until_they_begin(bench):
     path = bench.program(WAITS, "waits.py")
     late = f"Node(executable={path!r})"
     never = "TimerAction(period=3600.0, actions=[Shutdown()])"
@@ -201,7 +201,7 @@ def test_the_tree_names_files_and_groups(bench):
     }
 
 
-def test_two_launch_files_at_once_and_one_of_them_twice(bench):
+def test_two_launch_files_run_at_once_and_one_of_them_twice(bench):
     path = bench.program(WAITS)
     bench.run(f"[Node(executable={path!r}, name='a')]", "a.launch.py")
     bench.run(f"[Node(executable={path!r}, name='b')]", "b.launch.py")
@@ -211,7 +211,7 @@ def test_two_launch_files_at_once_and_one_of_them_twice(bench):
     assert [each.state for each in bench.info.processes[1:]] == [ProcessState.RUNNING] * 2
 
 
-def test_a_launch_that_came_to_nothing_takes_no_number(bench):
+def test_a_failed_launch_does_not_use_up_a_number(bench):
     bench.file("[1 / 0]", "a.launch.py")
     assert not bench.launcher.launch(str(bench.folder / "a.launch.py"), {}).result(TIMEOUT_S).ok
     bench.run(f"[Node(executable={bench.program(WAITS)!r}, name='a')]", "a.launch.py")
@@ -234,7 +234,7 @@ EXITS = "import sys\nsys.exit('no robot today')\n"
     ],
 )
 @pytest.mark.parametrize("included", [False, True])
-def test_a_launch_file_that_fails_is_one_message_and_nothing_else_stops(bench, waiter, text, message, included):
+def test_a_failing_launch_file_gives_one_message_and_stops_nothing_else(bench, waiter, text, message, included):
     path = bench.folder / "broken.launch.py"
     path.write_text(text)
     asked = bench.file(f"[IncludeLaunchDescription({str(path)!r})]", "asked.launch.py") if included else str(path)
@@ -247,18 +247,18 @@ def test_a_launch_file_that_fails_is_one_message_and_nothing_else_stops(bench, w
     assert bench.process().state is ProcessState.RUNNING
 
 
-def test_a_missing_package(bench):
+def test_a_missing_package_is_reported(bench):
     answer = bench.run("[LogInfo(msg='x'),\n Node(package='not_there', executable='x')]")
     assert not answer.ok
     assert "system.launch.py, line 9: package 'not_there' not found" in answer.text
 
 
-def test_an_endless_include(bench):
+def test_an_endless_include_is_reported(bench):
     answer = bench.launcher.launch(bench.file("[IncludeLaunchDescription(__file__)]"), {}).result(3 * TIMEOUT_S)
     assert answer.text.endswith("line 8: launch files include each other endlessly")
 
 
-def test_a_missing_file(bench):
+def test_a_missing_file_is_reported(bench):
     answer = bench.launcher.launch("/nowhere/x.launch.py", {}).result(TIMEOUT_S)
     assert (answer.ok, answer.text) == (False, "/nowhere/x.launch.py: No such file or directory")
 
@@ -271,7 +271,7 @@ def test_a_missing_file(bench):
         ("b.launch.yaml", "launch:\n- {a: b\n- c", "line 3: expected"),
     ],
 )
-def test_other_kinds_of_launch_files(bench, name, text, message):
+def test_xml_and_yaml_launch_files_run(bench, name, text, message):
     path = bench.folder / name
     path.write_text(text)
     assert message in bench.launcher.launch(str(path), {}).result(TIMEOUT_S).text
@@ -279,7 +279,7 @@ def test_other_kinds_of_launch_files(bench, name, text, message):
         bench.launcher.arguments(str(path))
 
 
-def test_arguments_as_a_form(bench):
+def test_arguments_are_described_for_a_form(bench):
     path = bench.file(
         "[DeclareLaunchArgument('must', description='needed'), DeclareLaunchArgument('size', default_value='1'),"
         " DeclareLaunchArgument('same', default_value=LaunchConfiguration('size')),"
@@ -303,7 +303,7 @@ def test_arguments_reach_the_launch(bench):
     assert bench.run("[DeclareLaunchArgument('must'), Node(executable=LaunchConfiguration('must'))]", must=path).ok
 
 
-def test_a_launch_that_shuts_itself_down(bench):
+def test_a_launch_that_shuts_itself_down_ends_its_processes(bench):
     ends, waits = bench.program(ENDS, "ends.py"), bench.program(WAITS, "waits.py")
     bench.run(f"[Node(executable={waits!r}), Node(executable={ends!r}, on_exit=Shutdown(reason='enough'))]")
     bench.until(lambda: bench.process("waits").exit_code is not None, "the end of the other")
@@ -312,7 +312,7 @@ def test_a_launch_that_shuts_itself_down(bench):
     assert bench.do("start", bench.process("waits")).ok
 
 
-def test_what_a_process_uses_of_a_processor(bench, waiter, monkeypatch):
+def test_cpu_usage_of_a_process_is_shown(bench, waiter, monkeypatch):
     from bot_console.tui.console.launch import vitals as process_vitals
 
     monkeypatch.setattr(process_vitals, "CPU_POLL_S", 0.0)
@@ -355,7 +355,7 @@ def test_code_that_survives_being_killed_is_reported(bench):
         stop.touch()
 
 
-def test_closing(bench, waiter):
+def test_closing_ends_all_processes(bench, waiter):
     bench.launcher.close()
     bench.launcher.close()
     assert bench.process().state is ProcessState.EXITED
@@ -363,7 +363,7 @@ def test_closing(bench, waiter):
         assert answer.result(TIMEOUT_S).text == "the console is closing"
 
 
-def test_closing_kills_what_does_not_end_in_time(bench):
+def test_closing_kills_processes_that_do_not_end_in_time(bench):
     path = bench.program(DEAF)
     bench.run(f"[ExecuteProcess(cmd=['python3', '-u', {path!r}])]")
     bench.until(lambda: any("up" in text for _, _, text in bench.printed), "its first line")
@@ -371,7 +371,7 @@ def test_closing_kills_what_does_not_end_in_time(bench):
     assert bench.process().exit_code == -9
 
 
-def test_a_node_that_is_not_here_stands_as_missing_and_the_rest_goes_on(bench):
+def test_a_missing_package_is_shown_as_missing_and_the_launch_goes_on(bench):
     path = bench.program(WAITS, "waits.py")
     nodes = f"[Node(package='nowhere_cpp', executable='driver', name='d'), Node(executable={path!r}, name='bob')]"
     assert bench.run(nodes, allow_missing="true").ok
@@ -388,6 +388,6 @@ def test_a_node_that_is_not_here_stands_as_missing_and_the_rest_goes_on(bench):
     assert not refused.ok and "nowhere_cpp/driver is not available here" in refused.text
 
 
-def test_without_that_a_missing_node_ends_the_launch(bench):
+def test_a_missing_package_ends_the_launch_by_default(bench):
     outcome = bench.run("[Node(package='nowhere_cpp', executable='driver', name='d')]")
     assert not outcome.ok and "nowhere_cpp" in outcome.text

@@ -1,4 +1,6 @@
-"""Output of processes: what a logger wrote is told from a print by its mark, taken only where `/rosout` lacks it."""
+"""Output of processes: a logger's lines are told from printed text by a mark, and added only if `/rosout` lacks
+them.
+"""
 
 import pytest
 from bot_console.tui.console.launch.process_output import (
@@ -37,14 +39,14 @@ def read(*pieces: str) -> tuple[list[tuple[object, ...]], list[str]]:
     return records, printed
 
 
-def test_a_logger_line_among_prints() -> None:
+def test_a_logger_line_is_recognised_among_prints() -> None:
     records, printed = read("hello\n" + marked("two\nlines") + "no end")
     assert records == [(5, 30, "n", "two\nlines", ("f.py", "g", 7), False)]
     assert printed == ["hello", "no end"]
 
 
 @pytest.mark.parametrize("number", ["\u00b2", "9" * 5000, "9" * 19, "-1", "", "x"])
-def test_a_mark_that_a_node_made_up_does_no_harm(number: str) -> None:
+def test_a_mark_forged_by_a_node_is_harmless(number: str) -> None:
     line = marked("x").replace("\x1d5\x1d", f"\x1d{number}\x1d")
     records, printed = read(line, marked("after"))
     assert number in line and [record[3] for record in records] == ["after"] and len(printed) == 1
@@ -53,37 +55,37 @@ def test_a_mark_that_a_node_made_up_does_no_harm(number: str) -> None:
 
 
 @pytest.mark.parametrize("begin", ["", "\x1e"])
-def test_what_never_ends_is_handed_on_in_parts(begin: str) -> None:
+def test_output_without_an_end_is_passed_on_in_parts(begin: str) -> None:
     _, printed = read(begin, *["x" * 65536] * 32)
     assert len(printed) == 2 and sum(map(len, printed)) == 32 * 65536 + len(begin)
 
 
-def test_a_print_without_an_end_before_a_logger_line() -> None:
+def test_a_print_without_newline_before_a_logger_line_is_separate() -> None:
     assert read("prompt> " + marked("x"))[1] == ["prompt> "]
 
 
-def test_colours_around_a_marked_line_are_no_prints() -> None:
+def test_colours_around_a_marked_line_are_not_printed_text() -> None:
     records, printed = read(RED + marked("x").rstrip("\n") + RESET + "\n" + "after\n")
     assert [record[3] for record in records] == ["x"]
     assert printed == ["after"]
 
 
 @pytest.mark.parametrize("text", ["has \x1f in it", "has \x1d in it", "ends so \x1f"])
-def test_a_message_may_hold_what_marks_are_made_of(text: str) -> None:
+def test_a_message_may_contain_mark_characters(text: str) -> None:
     records, printed = read(marked(text, usual=f"[n] {text.split(maxsplit=1)[0]}"))
     assert [record[3] for record in records] == [text]
     assert not printed
 
 
 @given(st.data(), st.lists(st.one_of(st.just("print\n"), st.builds(marked, st.text("ab\n ", max_size=5))), max_size=8))
-def test_pieces_do_not_matter(data: st.DataObject, parts: list[str]) -> None:
+def test_the_division_into_pieces_does_not_matter(data: st.DataObject, parts: list[str]) -> None:
     text = "".join(parts)
     cuts = sorted(data.draw(st.lists(st.integers(0, len(text)), max_size=6)))
     pieces = [text[a:b] for a, b in zip([0, *cuts], [*cuts, len(text)], strict=True)]
     assert read(*pieces) == read(text)
 
 
-def test_only_what_rosout_lacks_is_taken() -> None:
+def test_only_lines_missing_from_rosout_are_added() -> None:
     taken: list[str] = []
     output = ProcessOutput("n-1", lambda *record: taken.append(record[3]), lambda *line: taken.append(line[2]))
     output.feed(marked("on both", "1") + marked("here alone", "0") + "a print\n", stderr=False)
@@ -91,7 +93,7 @@ def test_only_what_rosout_lacks_is_taken() -> None:
     assert taken == ["here alone", "a print"]
 
 
-def test_a_line_of_a_real_logger_counts_when_rosout_never_brings_that_logger() -> None:
+def test_a_real_loggers_line_is_added_if_rosout_never_brings_that_logger() -> None:
     now, heard, taken = [0.0], {"n"}, []
     undecided = Undecided(lambda *record: taken.append(record[2]), heard.__contains__, lambda: now[0])
     for name in ("n", "late", "nodeless"):
@@ -106,11 +108,11 @@ def test_a_line_of_a_real_logger_counts_when_rosout_never_brings_that_logger() -
     assert taken == ["nodeless", "last words"]
 
 
-def test_a_real_logger_prints_the_field_that_it_does_not_know_as_it_is() -> None:
+def test_a_real_logger_prints_the_unknown_field_verbatim() -> None:
     assert read(marked("x", "{on_rosout}"))[0][0][-1] is None
 
 
-def test_a_format_of_the_users_stays_inside_the_mark() -> None:
+def test_a_format_set_by_the_user_stays_inside_the_mark() -> None:
     variables = marking({FORMAT_VARIABLE: "{name}> {message}"})
     assert variables[FORMAT_VARIABLE] == ENVELOPE.replace("{line}", "{name}> {message}")
     assert variables[ENVELOPE_VARIABLE] == ENVELOPE

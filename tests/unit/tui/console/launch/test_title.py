@@ -1,4 +1,4 @@
-"""What a launch goes by: its file, or the one program that a person has named."""
+"""The title of a launch: its file, or the one program that the user has named."""
 
 import pytest
 from bot_console.tui.console.launch.title import argument_line, title_of, unused
@@ -13,17 +13,17 @@ from bot_console.tui.console.launch.title import argument_line, title_of, unused
         ("/a/program.launch.py", {}, "program.launch.py"),
     ],
 )
-def test_the_title_is_what_a_person_has_named(path, arguments, title):
+def test_the_title_is_the_file_or_program_named_by_the_user(path, arguments, title):
     assert title_of(path, arguments) == title
 
 
-def test_a_number_distinguishes_two_and_one_that_is_free_is_taken_again():
+def test_duplicate_titles_are_numbered_and_free_numbers_reused():
     assert unused("a", ()) == "a"
     assert unused("a", {"a", "a (2)"}) == "a (3)"
     assert unused("a", {"b", "a (2)"}) == "a"
 
 
-def test_what_was_asked_for_is_reported_as_a_person_would_ask_for_it() -> None:
+def test_the_argument_line_repeats_the_request() -> None:
     assert argument_line("/a/robot.launch.py", {"world": "maze"}) == "launch /a/robot.launch.py world:=maze"
     assert argument_line("/a/robot.launch.py", {}) == "launch /a/robot.launch.py"
     talker = {"package": "mine", "program": "talker", "words": "--ros-args -r a:=b"}

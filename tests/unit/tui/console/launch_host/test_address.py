@@ -1,4 +1,4 @@
-"""The socket by which further consoles come in."""
+"""The socket through which further consoles connect to a launch host."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from bot_console.tui.console.launch_host.address import (
 )
 
 
-def test_who_knocks_is_let_in_until_it_is_closed(tmp_path: Path) -> None:
+def test_connections_are_accepted_until_the_listener_is_closed(tmp_path: Path) -> None:
     entered: queue.Queue[socket.socket] = queue.Queue()
     gate = HostListener(str(tmp_path), entered.put)
     (tmp_path / "4711.0a1b2c3d").write_text("another file of the folder")

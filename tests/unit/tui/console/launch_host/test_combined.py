@@ -1,4 +1,4 @@
-"""The hosts of a domain as one launcher: whoever draws never waits until the own host has been started."""
+"""The hosts of a domain as one launcher: the drawing thread never waits while this console's own host starts."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessInf
 from pytest import MonkeyPatch
 
 TIMEOUT_S = 30.0
-"""Seconds after which a test gives up; nothing is measured by it."""
+"""Seconds after which a test gives up; the tests measure no time."""
 
 
 class Host:
-    """One launch host with a process per launch, and what is asked of it."""
+    """A launch host with one process per launch, and the requests it received."""
 
     def __init__(self) -> None:
         self.closed = threading.Event()
@@ -43,7 +43,7 @@ class Host:
 
 
 class Own(Host):
-    """A host that is started when it is told to."""
+    """A host that starts when the test lets it."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -62,7 +62,7 @@ def combined(own: Own) -> CombinedLauncher:
 
 
 def beside(work: Any) -> Any:
-    """What a thread comes back with, which must not wait for the host."""
+    """The result of work in another thread, which must not wait for the host."""
     found: list[Any] = []
     thread = threading.Thread(target=lambda: found.append(work()), daemon=True)
     thread.start()
@@ -71,7 +71,7 @@ def beside(work: Any) -> Any:
     return found[0]
 
 
-def test_nobody_waits_for_a_host_that_is_being_started() -> None:
+def test_nothing_waits_for_a_host_that_is_being_started() -> None:
     own = Own()
     launcher = combined(own)
     answer = beside(lambda: launcher.launch("one", {}))
@@ -84,7 +84,7 @@ def test_nobody_waits_for_a_host_that_is_being_started() -> None:
     assert own.closed.is_set()
 
 
-def test_a_host_that_comes_after_the_end_is_ended_at_once() -> None:
+def test_a_host_that_starts_after_closing_is_ended_at_once() -> None:
     own = Own()
     launcher = combined(own)
     launcher.launch("one", {})
@@ -93,7 +93,7 @@ def test_a_host_that_comes_after_the_end_is_ended_at_once() -> None:
     assert own.closed.wait(TIMEOUT_S)
 
 
-def test_a_host_that_cannot_be_started_is_an_answer() -> None:
+def test_a_host_that_cannot_be_started_is_reported_in_the_answer() -> None:
     own = Own()
     own.problem = "no room"
     own.may_start.set()
@@ -106,7 +106,7 @@ def labels(launcher: CombinedLauncher) -> list[str]:
     return [each.label for each in launcher.info().processes]
 
 
-def test_a_host_whose_door_is_found_before_it_is_known_as_ones_own_is_shown_once(monkeypatch: MonkeyPatch) -> None:
+def test_own_host_found_by_its_address_before_it_is_known_is_shown_once(monkeypatch: MonkeyPatch) -> None:
     monkeypatch.setattr(combining, "HOSTS_POLL_S", 0.001)
     own, entered, searched = Own(), Host(), threading.Semaphore(0)
 
@@ -129,7 +129,7 @@ def test_a_host_whose_door_is_found_before_it_is_known_as_ones_own_is_shown_once
     assert own.closed.is_set()
 
 
-def test_each_launch_file_gets_a_host_of_its_own_where_hosts_are_not_shared() -> None:
+def test_each_launch_file_gets_a_separate_host_if_hosts_are_not_reused() -> None:
     hosts: list[Host] = []
 
     def start() -> tuple[str, HostedLauncher]:
@@ -146,7 +146,7 @@ def test_each_launch_file_gets_a_host_of_its_own_where_hosts_are_not_shared() ->
     assert not launcher.launch("three", {}).result(TIMEOUT_S).ok and len(hosts) == 2
 
 
-def test_a_host_that_has_gone_is_replaced_for_the_next_launch_and_its_processes_stay_visible() -> None:
+def test_a_lost_host_is_replaced_for_the_next_launch() -> None:
     hosts: list[Host] = []
 
     def start() -> tuple[str, HostedLauncher]:

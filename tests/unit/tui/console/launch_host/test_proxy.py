@@ -1,4 +1,4 @@
-"""A console whose own launch host has ended without being asked to says so, also where nothing had been started."""
+"""A console reports that its own launch host ended unrequested, even if the host had started nothing."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.tui.console.model import Severity
 TIMEOUT_S = 20.0
 
 
-def test_a_host_that_ends_before_it_has_started_anything_is_reported() -> None:
+def test_an_own_host_that_ends_before_it_has_started_anything_is_reported() -> None:
     ours, theirs = socket.socketpair()
     printed, reported = list[tuple[int, str, str]](), threading.Event()
 
@@ -29,7 +29,7 @@ def test_a_host_that_ends_before_it_has_started_anything_is_reported() -> None:
     launcher.close()
 
 
-def test_another_ones_host_may_end() -> None:
+def test_the_end_of_another_consoles_host_is_not_reported() -> None:
     ours, theirs = socket.socketpair()
     printed: list[object] = []
     launcher = HostedLauncher(ours, lambda *record: None, lambda *line: printed.append(line), owner=False)
@@ -41,7 +41,7 @@ def test_another_ones_host_may_end() -> None:
     launcher.close()
 
 
-def test_a_host_that_was_frozen_with_the_interpreters_lock_goes_on_when_it_is_to_end() -> None:
+def test_a_frozen_host_is_resumed_so_that_it_can_end() -> None:
     ours, theirs = socket.socketpair()
     thawed: list[bool] = []
     launcher = HostedLauncher(

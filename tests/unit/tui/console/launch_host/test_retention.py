@@ -1,4 +1,4 @@
-"""The last minutes are where the nodes are: a console asks the launch host to save them."""
+"""The last minutes are kept where the nodes run: a console asks the launch host to save them."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Kept:
 
 
 @pytest.mark.parametrize(("past", "ok", "text"), [(Kept(), True, "in /there"), (None, False, "does not know 'keep'")])
-def test_a_host_saves_the_last_minutes_where_it_keeps_them(past: Kept | None, ok: bool, text: str) -> None:
+def test_a_host_saves_the_last_minutes_it_keeps(past: Kept | None, ok: bool, text: str) -> None:
     ours, theirs = socket.socketpair()
     service: Any = SimpleNamespace(info=LaunchInfo, close=lambda: None)
     host = LaunchHost(lambda record, printed: service, buffer=past)

@@ -17,7 +17,7 @@ def filled(capacity: int = 100) -> LogStore:
     return store
 
 
-def test_a_record_comes_back_as_it_was_added() -> None:
+def test_a_record_is_read_back_as_it_was_added() -> None:
     record = filled().record(0)
     assert record is not None
     assert (record.seq, record.stamp, record.severity, record.node) == (0, 1, Severity.INFO, "robot_navigator")
@@ -52,23 +52,23 @@ def test_a_record_comes_back_as_it_was_added() -> None:
         (LogFilter(only=("détail", "must")), [2, 3]),
     ],
 )
-def test_filters(which: LogFilter, found: list[int]) -> None:
+def test_filters_select_the_matching_records(which: LogFilter, found: list[int]) -> None:
     assert matching(filled(), which) == found
 
 
-def test_filtering_goes_on_where_it_stopped() -> None:
+def test_filtering_resumes_where_it_stopped() -> None:
     store = filled()
     assert matching(store, LogFilter(words="speed"), after=1) == [2]
     assert matching(store, LogFilter(), limit=2) == [2, 3]
 
 
 @pytest.mark.parametrize("words", ["re:(", "sev:loud", "!re:*", "time:25:00", "time:noon", "time:14:00..2026-11-22"])
-def test_a_filter_that_does_not_parse_reports_it(words: str) -> None:
+def test_an_invalid_filter_is_refused_with_the_reason(words: str) -> None:
     with pytest.raises(ValueError, match=r"regular expression|severity|time"):
         matching(filled(), LogFilter(words=words))
 
 
-def test_the_oldest_half_falls_out_and_is_counted() -> None:
+def test_the_oldest_half_is_dropped_and_counted() -> None:
     store = LogStore(4)
     for number in range(7):
         store.add(number, 20, "n", f"line {number}")
@@ -77,7 +77,7 @@ def test_the_oldest_half_falls_out_and_is_counted() -> None:
     assert matching(store, LogFilter(words="line")) == [4, 5, 6]
 
 
-def test_clear_forgets_but_numbers_go_on() -> None:
+def test_clear_discards_records_but_numbering_continues() -> None:
     store = filled()
     store.clear()
     assert (store.state.first, store.state.end) == (4, 4)

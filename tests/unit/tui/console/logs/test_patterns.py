@@ -1,4 +1,6 @@
-"""Patterns where google-re2 is missing: searched elsewhere, with a limit; nothing of it can freeze the console."""
+"""Patterns where google-re2 is missing: searched in another process with a time limit, so that none can freeze the
+console.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +36,7 @@ def test_the_engine_here_is_re2() -> None:
 
 
 @pytest.mark.usefixtures("without_re2")
-def test_an_endless_pattern_ends_with_a_word_for_it_and_others_go_on() -> None:
+def test_a_pattern_that_takes_too_long_is_refused_and_others_still_work() -> None:
     store = LogStore()
     for number in range(100):
         store.add(number, 20, "n", "a" * 40 + str(number))
@@ -48,7 +50,7 @@ def test_an_endless_pattern_ends_with_a_word_for_it_and_others_go_on() -> None:
 
 
 @pytest.mark.usefixtures("without_re2")
-def test_a_list_is_not_kept_waiting_twice() -> None:
+def test_a_costly_pattern_delays_a_list_only_once() -> None:
     query = parse(f"re:{ENDLESS}")
     began = time.monotonic()
     assert not any(query.matches("a" * 40 + str(number)) for number in range(1000))
@@ -63,7 +65,7 @@ def test_an_invalid_pattern_is_refused_with_its_reason(wrong: str) -> None:
 
 
 @pytest.mark.usefixtures("without_re2")
-def test_the_process_is_started_again_when_it_has_ended() -> None:
+def test_the_process_is_restarted_after_it_has_ended() -> None:
     assert Pattern("a.c").search("xabc")
     process = regex_process.PROCESS._process
     assert process is not None
@@ -100,5 +102,5 @@ def test_plain_words_need_no_process(word: str, monkeypatch: pytest.MonkeyPatch)
         (r"\pN", None),
     ],
 )
-def test_what_a_pattern_is_within_a_line(body: str, expected: str | None) -> None:
+def test_patterns_are_rewritten_to_match_within_lines(body: str, expected: str | None) -> None:
     assert within_lines(body) == expected

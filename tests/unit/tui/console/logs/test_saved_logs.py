@@ -1,4 +1,4 @@
-"""Saved logs: what their lines say, files that grow and are rotated."""
+"""Saved logs: parsing their lines, and following files that grow and are rotated."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def records(*pieces: str) -> list[tuple[int, int, str, str]]:
     return found
 
 
-def test_lines_of_nodes_of_launch_and_of_nobody() -> None:
+def test_lines_of_nodes_and_launch_are_parsed_and_others_continue_a_record() -> None:
     assert records(
         "before\n[INFO] [12.5] [/arm]: one\n  File x\r\n\x1b[33m[WARNING] [1700000000.123456789] [a.b]: two\x1b[0m\n",
         "1700000001.25 [ERROR] [launch]: three\n[INFO] no head\n",
@@ -35,7 +35,7 @@ def test_lines_of_nodes_of_launch_and_of_nobody() -> None:
     ]
 
 
-def test_a_time_that_no_clock_shows_is_the_last_one() -> None:
+def test_a_time_beyond_the_limit_becomes_the_latest_possible_one() -> None:
     assert records("[INFO] [9999999999.9] [n]: x")[0][0] == 2**63 - 1
 
 
@@ -43,7 +43,7 @@ def grown(tail: Tail) -> str:
     return "".join(tail.more())
 
 
-def test_a_file_is_followed_over_rotation_and_truncation(tmp_path: Path) -> None:
+def test_a_file_is_followed_through_rotation_and_truncation(tmp_path: Path) -> None:
     path = tmp_path / "log"
     path.write_text("a\nb")
     tail = Tail(path)
@@ -60,7 +60,7 @@ def test_a_file_is_followed_over_rotation_and_truncation(tmp_path: Path) -> None
     path.write_text("")
     with path.open("a") as file:
         file.write("e\n")
-    assert grown(tail) == ""  # as long as before: nobody can tell yet
+    assert grown(tail) == ""  # as long as before, so the replacement cannot be noticed yet
     path.write_text("")
     assert grown(tail) == ""
     with path.open("a") as file:
@@ -69,7 +69,7 @@ def test_a_file_is_followed_over_rotation_and_truncation(tmp_path: Path) -> None
     tail.close()
 
 
-def test_what_was_written_just_before_a_rotation_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_lines_written_just_before_a_rotation_are_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "log"
     path.write_text("a\n")
     tail = Tail(path)
@@ -77,7 +77,7 @@ def test_what_was_written_just_before_a_rotation_is_read(tmp_path: Path, monkeyp
 
     def rotated(*which: Any, **how: Any) -> os.stat_result:
         monkeypatch.setattr(os, "stat", poll)
-        with path.open("a") as file:  # after all had been read
+        with path.open("a") as file:  # after everything had been read
             file.write("b\n")
         os.rename(path, tmp_path / "log.1")
         path.write_text("c\n")
@@ -88,14 +88,14 @@ def test_what_was_written_just_before_a_rotation_is_read(tmp_path: Path, monkeyp
     tail.close()
 
 
-def test_a_large_file_comes_in_pieces_of_whole_lines(tmp_path: Path) -> None:
+def test_a_large_file_is_read_in_pieces_of_whole_lines(tmp_path: Path) -> None:
     path = tmp_path / "log"
     path.write_text("x" * 999 + "\n" + ("y" * 999 + "\n") * (2 * AT_ONCE // 1000))
     pieces = list(Tail(path).more())
     assert len(pieces) > 2 and all(each.endswith("\n") for each in pieces) and "".join(pieces) == path.read_text()
 
 
-def test_it_is_filtered_as_the_log_is(tmp_path: Path) -> None:
+def test_a_saved_log_is_filtered_like_the_live_log(tmp_path: Path) -> None:
     path = tmp_path / "log"
     path.write_text("".join(f"[INFO] [{number}.0] [n]: line {number}\n" for number in range(10)))
     log = open_log(str(path))
@@ -112,7 +112,7 @@ def test_it_is_filtered_as_the_log_is(tmp_path: Path) -> None:
     ("name", "why"),
     [("", "is a folder"), ("none", "no such file"), ("pipe", "not a regular file"), ("\0", "zero byte")],
 )
-def test_what_cannot_be_read_reports_why(tmp_path: Path, name: str, why: str) -> None:
+def test_an_unreadable_path_is_refused_with_the_reason(tmp_path: Path, name: str, why: str) -> None:
     os.mkfifo(tmp_path / "pipe")
     with pytest.raises(ValueError, match=why):
         open_log(f"{tmp_path}/{name}")

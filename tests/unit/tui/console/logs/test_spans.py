@@ -1,4 +1,4 @@
-"""Spans of time in a filter: as local clocks show it, on any day, over midnight and the change of the clocks."""
+"""Time spans in a filter: in local time, on any day, across midnight and across daylight-saving changes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bot_console.tui.console.model import LogFilter, Severity
 from bot_console.tui.format import clock_text
 
 NOW = 1_792_913_400 * SECOND
-"""2026-10-25 07:30:00 in UTC: a day on which clocks in Berlin are put back."""
+"""2026-10-25 07:30:00 UTC: a day on which clocks in Berlin are put back."""
 
 
 @pytest.fixture(autouse=True)
@@ -41,7 +41,7 @@ CLOCK = {
 
 @cache
 def two_days() -> tuple[list[int], list[str], LogStore]:
-    """Lines 10 s apart: their stamps, the times of day that are shown, and a store that holds them."""
+    """Lines 10 s apart: their stamps, the times of day shown, and a store that contains them."""
     stamps = [NOW + step * 10 * SECOND + SECOND // 4 for step in range(-8640, 8640)]
     store = LogStore(len(stamps) * 2)
     for each in stamps:
@@ -50,7 +50,7 @@ def two_days() -> tuple[list[int], list[str], LogStore]:
 
 
 @pytest.mark.parametrize("written", CLOCK)
-def test_a_time_of_day_is_the_one_that_is_shown(written: str) -> None:
+def test_a_time_of_day_matches_the_time_shown(written: str) -> None:
     stamps, shown, store = two_days()
     wanted = [number for number, each in enumerate(shown) if CLOCK[written](each)]
     assert matching(store, LogFilter(words=f"time:{written}")) == wanted and wanted
@@ -71,7 +71,7 @@ def test_a_time_of_day_is_the_one_that_is_shown(written: str) -> None:
         ("=2026-10-25T08:30:00", NOW, NOW + SECOND),
     ],
 )
-def test_moments_with_a_date(written: str, begin: int, end: int | None) -> None:
+def test_times_with_a_date_select_that_day(written: str, begin: int, end: int | None) -> None:
     span = parse_span(written, NOW)
     assert not span.daily and span.begin == begin
     assert span.holds(begin) and not span.holds(begin - 1)
@@ -82,6 +82,6 @@ def test_moments_with_a_date(written: str, begin: int, end: int | None) -> None:
     "written",
     ["", "..", "24:00", "12:60", "1:2", "14:03.5", "2026-02-30", "2026-10-25T", "-5", "@", "14:00..@3", "x..y"],
 )
-def test_what_is_no_time_reports_it(written: str) -> None:
+def test_an_invalid_time_is_explained(written: str) -> None:
     with pytest.raises(ValueError, match=r"time '.*for instance 14:03"):
         parse_span(written, NOW)

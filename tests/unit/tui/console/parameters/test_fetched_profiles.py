@@ -1,4 +1,4 @@
-"""Profiles from a server: taken in beside the thread that draws, named by their address."""
+"""Profiles from a server: downloaded without blocking the drawing thread, and named after their address."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from bot_console.tui.console.parameters.profile_store import ProfileStore
 ADDRESS = "https://config.example/robots/fast.yaml?version=2"
 
 
-def test_what_was_fetched_is_a_profile_by_the_name_of_its_address(tmp_path: Path) -> None:
+def test_a_fetched_file_becomes_a_profile_named_after_its_address(tmp_path: Path) -> None:
     copy = tmp_path / "3f2a.yaml"
     copy.write_text("# For the track\n/robot: {ros__parameters: {speed: 2.0}}\n")
     profile_store = ProfileStore([], fetch=lambda address: copy)
@@ -21,7 +21,7 @@ def test_what_was_fetched_is_a_profile_by_the_name_of_its_address(tmp_path: Path
     assert dict(profile_store.profiles[0].values) == {("/robot", "speed"): 3.0}
 
 
-def test_why_nothing_was_fetched_is_reported(tmp_path: Path) -> None:
+def test_a_failed_download_is_reported(tmp_path: Path) -> None:
     def refused(address: str) -> Path:
         raise OSError(f"{address}: the server answers 404 Not Found")
 
@@ -31,7 +31,7 @@ def test_why_nothing_was_fetched_is_reported(tmp_path: Path) -> None:
     assert "give the path of a file" in ProfileStore([]).fetch(ADDRESS).result(10).text
 
 
-def test_what_is_no_parameter_file_is_reported(tmp_path: Path) -> None:
+def test_a_downloaded_file_that_is_not_a_parameter_file_is_refused(tmp_path: Path) -> None:
     copy = tmp_path / "3f2a.yaml"
     copy.write_text("a: 1\n")
     answer = ProfileStore([], fetch=lambda address: copy).fetch(ADDRESS).result(10)

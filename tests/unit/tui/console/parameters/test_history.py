@@ -1,4 +1,4 @@
-"""The history: kept between runs, bounded, and whole whatever ends the program."""
+"""The history: kept between runs, bounded, and consistent however the program ends."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def kept(file: Path, run: int = 99) -> list[Change]:
     return found
 
 
-def test_the_changes_of_a_run_are_there_in_the_next_one_numbered_below_zero(tmp_path: Path) -> None:
+def test_changes_of_a_run_appear_in_the_next_one_with_negative_numbers(tmp_path: Path) -> None:
     file = tmp_path / "state" / "history.sqlite"
     first = Journal(history=History(file, 1))
     first.record(SECOND, "/robot", "speed", (0.5, 1.0), ChangeSource.PROFILE, by="indoor")
@@ -57,7 +57,7 @@ VALUES: list[Value] = [
 
 
 @pytest.mark.parametrize("value", VALUES, ids=repr)
-def test_every_value_comes_back_as_it_was(tmp_path: Path, value: Value) -> None:
+def test_every_value_is_restored_exactly(tmp_path: Path, value: Value) -> None:
     history = History(tmp_path / "h", 1)
     history.add(change(1, value))
     history.close()
@@ -65,7 +65,7 @@ def test_every_value_comes_back_as_it_was(tmp_path: Path, value: Value) -> None:
     assert same(found.new, value)
 
 
-def test_it_is_bounded(tmp_path: Path) -> None:
+def test_the_number_of_rows_is_limited(tmp_path: Path) -> None:
     history = History(tmp_path / "h", 1, rows=50)
     for number in range(TRIMMED_EVERY + 10):
         history.add(change(number, number))
@@ -74,7 +74,7 @@ def test_it_is_bounded(tmp_path: Path) -> None:
     assert len(found) <= 60 and found[-1].new == TRIMMED_EVERY + 9
 
 
-def test_a_change_that_two_consoles_saw_stands_once_as_that_of_who_made_it(tmp_path: Path) -> None:
+def test_a_change_recorded_by_two_consoles_appears_once_as_that_of_its_maker(tmp_path: Path) -> None:
     ours, theirs = History(tmp_path / "h", 1), History(tmp_path / "h", 2)
     ours.add(change(10))
     theirs.add(change(10, source=ChangeSource.OTHER))
@@ -85,7 +85,7 @@ def test_a_change_that_two_consoles_saw_stands_once_as_that_of_who_made_it(tmp_p
         each.close()
 
 
-def test_a_file_that_is_no_database_is_put_aside_and_reported(tmp_path: Path) -> None:
+def test_a_file_that_is_not_a_database_is_moved_aside_and_reported(tmp_path: Path) -> None:
     file = tmp_path / "history.sqlite"
     file.write_bytes(b"not a database at all, and longer than a header of SQLite is. " * 40)
     history = History(file, 7)
@@ -111,7 +111,7 @@ BAD_ROWS = {
 
 
 @pytest.mark.parametrize(("statement", "left_out"), BAD_ROWS.values(), ids=BAD_ROWS)
-def test_a_row_that_cannot_be_read_costs_no_other(tmp_path: Path, statement: str, left_out: bool) -> None:
+def test_an_unreadable_row_does_not_affect_others(tmp_path: Path, statement: str, left_out: bool) -> None:
     file = tmp_path / "h"
     first = History(file, 1)
     for number in (1, 2, 3):
@@ -133,7 +133,7 @@ def test_a_row_that_cannot_be_read_costs_no_other(tmp_path: Path, statement: str
 @pytest.mark.parametrize(
     "bad", [change(1, reason="\udcff"), change(1, "\ud800"), change(2**70)], ids=["reason", "value", "time"]
 )
-def test_a_change_that_cannot_be_stored_costs_no_later_one(tmp_path: Path, bad: Change) -> None:
+def test_a_change_that_cannot_be_stored_does_not_affect_later_ones(tmp_path: Path, bad: Change) -> None:
     history = History(tmp_path / "h", 1)
     history.add(bad)
     history.add(change(2))
@@ -142,7 +142,7 @@ def test_a_change_that_cannot_be_stored_costs_no_later_one(tmp_path: Path, bad: 
     assert kept(tmp_path / "h")[-1].stamp == 2 * SECOND
 
 
-def test_a_file_damaged_in_the_middle_gives_what_can_be_read(tmp_path: Path) -> None:
+def test_the_readable_part_of_a_damaged_file_is_used(tmp_path: Path) -> None:
     file = tmp_path / "h"
     first = History(file, 1)
     for number in range(400):
@@ -158,7 +158,7 @@ def test_a_file_damaged_in_the_middle_gives_what_can_be_read(tmp_path: Path) -> 
     journal.close()
 
 
-def test_what_is_no_regular_file_is_not_opened(tmp_path: Path) -> None:
+def test_a_path_that_is_not_a_regular_file_is_not_opened(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
     (tmp_path / "folder").mkdir()
     for name in ("pipe", "folder"):
@@ -167,16 +167,14 @@ def test_what_is_no_regular_file_is_not_opened(tmp_path: Path) -> None:
         assert history.problem == f"changes are not kept: {tmp_path / name} is not a regular file"
 
 
-def test_of_two_consoles_that_find_a_broken_file_one_sets_it_aside(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_only_one_of_two_consoles_moves_a_broken_file_aside(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     file = tmp_path / "h"
     file.write_bytes(b"not a database" * 1000)
     others: list[History] = []
 
     @contextmanager
     def other_first(folder: Path, timeout_s: float) -> Iterator[bool]:
-        """The other console is through with it when this one gets the lock."""
+        """The other console has finished when this one gets the lock."""
         monkeypatch.setattr(history_module, "folder_lock", folder_lock)
         others.append(History(file, 1))
         others[0].add(change(1))
@@ -193,7 +191,7 @@ def test_of_two_consoles_that_find_a_broken_file_one_sets_it_aside(
     assert [each.stamp // SECOND for each in kept(file)] == [1, 2]
 
 
-def test_a_broken_file_that_another_console_repairs_is_left_to_it(
+def test_a_broken_file_is_left_to_the_console_that_is_repairing_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(history_module, "TIMEOUT_S", 0.0)
@@ -204,7 +202,7 @@ def test_a_broken_file_that_another_console_repairs_is_left_to_it(
     assert (tmp_path / "h").read_bytes().startswith(b"not a database")
 
 
-def test_a_history_that_fails_ends_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failing_history_ends_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     journal = Journal(history=History(tmp_path / "h", 1))
 
     def broken(*given: object) -> None:
@@ -218,7 +216,7 @@ def test_a_history_that_fails_ends_nothing_else(tmp_path: Path, monkeypatch: pyt
     assert "whatever it is" in Journal(history=History(tmp_path / "h", 2)).state.problem
 
 
-def test_a_folder_that_cannot_be_made_costs_nothing_but_the_history(tmp_path: Path) -> None:
+def test_a_folder_that_cannot_be_created_only_disables_the_history(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     journal = Journal(history=History(tmp_path / "file" / "history.sqlite", 1))
     journal.record(1, "/n", "p", (1, 2), ChangeSource.EDIT)
@@ -246,8 +244,8 @@ while True:
 
 
 @pytest.mark.parametrize("programs", [3, pytest.param(10, marks=pytest.mark.soak)])
-def test_nothing_that_was_confirmed_is_lost_when_the_program_is_killed(tmp_path: Path, programs: int) -> None:
-    """100 changes and saves in each of several programs, each killed in the midst of what it does next."""
+def test_no_confirmed_change_is_lost_when_the_program_is_killed(tmp_path: Path, programs: int) -> None:
+    """100 changes and saves in each of several programs, each killed in the middle of the next one."""
     confirmed: dict[str, int] = {}
     for run in range(1, programs + 1):
         command = [sys.executable, "-c", WRITER, str(tmp_path), str(run)]
@@ -258,7 +256,7 @@ def test_nothing_that_was_confirmed_is_lost_when_the_program_is_killed(tmp_path:
                 if int(line) >= 99:
                     break
             program.kill()
-            # What it could still say before it was killed is confirmed as well.
+            # Whatever it still printed before it was killed is confirmed as well.
             for line in program.stdout:
                 if line.endswith("\n"):
                     confirmed[f"p{run}"] = int(line)

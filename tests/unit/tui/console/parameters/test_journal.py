@@ -13,7 +13,7 @@ def test_entries_are_numbered_and_bounded() -> None:
     assert (journal.state.first, journal.state.end, journal.state.dropped) == (1, 3, 1)
 
 
-def test_undo_then_redo() -> None:
+def test_undo_and_redo_mirror_each_other() -> None:
     journal = Journal()
     step = Step((Move("/n", {"p": 1}, {"p": 2}),))
     journal.did(step, ChangeSource.EDIT)
@@ -27,7 +27,7 @@ def test_undo_then_redo() -> None:
     assert journal.take_redo() is None
 
 
-def test_a_new_edit_forgets_what_could_be_redone() -> None:
+def test_a_new_edit_discards_redoable_steps() -> None:
     journal = Journal()
     journal.did(Step((Move("/n", {"p": 1}, {"p": 2}),)), ChangeSource.EDIT)
     undone = journal.take_undo()
@@ -46,7 +46,7 @@ def test_a_refused_undo_is_put_back() -> None:
     assert journal.state.can_undo
 
 
-def test_what_a_node_has_restarted_with_is_neither_undone_nor_lost() -> None:
+def test_a_value_restored_by_a_restart_is_neither_undoable_nor_unsaved() -> None:
     journal = Journal()
     journal.did(Step((Move("/n", {"p": 1}, {"p": 2}),)), ChangeSource.EDIT)
     both = (Move("/n", {"p": 2, "q": 1}, {"p": 3, "q": 2}), Move("/other", {"p": 1}, {"p": 2}))

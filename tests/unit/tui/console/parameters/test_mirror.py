@@ -1,4 +1,4 @@
-"""Reading the parameters of many nodes: a few at a time, each for itself, and only those that are still there."""
+"""Reading the parameters of many nodes: a few at a time, independently, and only of nodes that are still there."""
 
 import asyncio
 from collections import Counter
@@ -15,7 +15,7 @@ MANY = 4 * WINDOW
 
 
 class StubNode:
-    """Takes what a mirror creates."""
+    """Accepts what a mirror creates."""
 
     def create_subscription(self, kind, topic, callback, qos):
         self.event = callback
@@ -25,7 +25,7 @@ class StubNode:
 
 
 class Asked:
-    """Answers for all nodes; those in `silent` never do, the others when `open` is set."""
+    """Responds for all nodes; those in `silent` never do, the others once `open` is set."""
 
     def __init__(self):
         self.tasks, self.pending, self.maximum = [], Counter(), 0
@@ -78,7 +78,7 @@ async def finished(asked):
         await asyncio.wait(asked.tasks)
 
 
-def test_all_nodes_are_read_some_at_a_time(names):
+def test_all_nodes_are_read_a_few_at_a_time(names):
     async def scenario():
         asked = Asked()
         mirror = ParameterMirror(StubNode(), asked, lambda *change: None)
@@ -94,7 +94,7 @@ def test_all_nodes_are_read_some_at_a_time(names):
     asyncio.run(scenario())
 
 
-def test_a_node_that_does_not_answer_costs_the_others_nothing_that_they_gave(names):
+def test_a_silent_node_does_not_affect_values_of_others(names):
     async def scenario():
         asked = Asked()
         asked.silent = set(names[::5])
@@ -109,12 +109,12 @@ def test_a_node_that_does_not_answer_costs_the_others_nothing_that_they_gave(nam
         node.poll_again()
         await finished(asked)
         assert not any(tree.problem for tree in mirror.trees.values())
-        assert {asked.times[name] for name in names[1::5]} == {1}  # only whether the names are still the same
+        assert {asked.times[name] for name in names[1::5]} == {1}  # only asked whether the names are still the same
 
     asyncio.run(scenario())
 
 
-def test_nobody_looks_again_while_nodes_wait_to_be_read(names):
+def test_nodes_are_not_relisted_while_others_wait_to_be_read(names):
     async def scenario():
         asked, node = Asked(), StubNode()
         mirror = ParameterMirror(node, asked, lambda *change: None)
@@ -127,7 +127,7 @@ def test_nobody_looks_again_while_nodes_wait_to_be_read(names):
     asyncio.run(scenario())
 
 
-def test_who_leaves_while_it_waits_is_not_asked(names):
+def test_a_node_that_leaves_while_waiting_is_not_queried(names):
     async def scenario():
         asked = Asked()
         mirror = ParameterMirror(StubNode(), asked, lambda *change: None)
@@ -141,7 +141,7 @@ def test_who_leaves_while_it_waits_is_not_asked(names):
 
 
 @pytest.mark.parametrize("seen", [True, False], ids=["seen gone", "too quick to be seen gone"])
-def test_the_value_of_a_node_that_was_restarted_is_its_start_value_and_nobody_has_set_it(seen):
+def test_the_value_after_a_restart_is_the_start_value_set_by_nobody(seen):
     async def scenario():
         asked, node, changed, on_restart = Asked(), StubNode(), [], []
         asked.open.set()
@@ -169,7 +169,7 @@ def test_the_value_of_a_node_that_was_restarted_is_its_start_value_and_nobody_ha
     asyncio.run(scenario())
 
 
-def test_a_node_that_comes_back_as_it_was_has_not_restarted():
+def test_a_node_that_returns_unchanged_has_not_restarted():
     async def scenario():
         asked, on_restart = Asked(), []
         asked.open.set()
@@ -184,7 +184,7 @@ def test_a_node_that_comes_back_as_it_was_has_not_restarted():
     asyncio.run(scenario())
 
 
-def test_when_one_of_two_nodes_by_one_name_leaves_the_other_is_read():
+def test_when_one_of_two_nodes_with_the_same_name_leaves_the_other_is_read():
     async def scenario():
         asked, node, on_restart = Asked(), StubNode(), []
         asked.open.set()

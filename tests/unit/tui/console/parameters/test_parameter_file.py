@@ -1,4 +1,4 @@
-"""Saving parameters: what ROS reads back, and nothing of an existing file lost, whatever kind of file it is."""
+"""Saving parameters: ROS reads the values back, and nothing else in an existing file is lost."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def test_saving_writes_a_file_that_ros_reads(tmp_path: Path) -> None:
     assert [each.name for each in path.parent.iterdir()] == ["file.yaml"]
 
 
-def test_what_no_parameter_file_can_hold_is_reported(tmp_path: Path) -> None:
+def test_values_that_no_parameter_file_can_hold_are_reported(tmp_path: Path) -> None:
     path = tmp_path / "file.yaml"
     data = ParameterInfo("/a", "data", Kind.BYTE_ARRAY, (b"\x01",))
     names = ParameterInfo("/a", "names", Kind.STRING_ARRAY, ())
@@ -189,7 +189,7 @@ def as_bytes(content: str | bytes) -> bytes:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_kind_of_file_that_takes_the_value(kind: str, tmp_path: Path) -> None:
+def test_a_valid_file_is_patched_with_the_value(kind: str, tmp_path: Path) -> None:
     path = tmp_path / "file.yaml"
     path.write_bytes(as_bytes(KINDS[kind][0]))
     save(path, {ROBOT: tree(ROBOT, max_speed=2.5)})
@@ -197,7 +197,7 @@ def test_a_kind_of_file_that_takes_the_value(kind: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("kind", REFUSED)
-def test_a_kind_of_file_that_is_refused_and_stays_as_it_is(kind: str, tmp_path: Path) -> None:
+def test_an_invalid_file_is_refused_and_stays_unchanged(kind: str, tmp_path: Path) -> None:
     content, why = REFUSED[kind]
     path = tmp_path / "file.txt"
     path.write_bytes(as_bytes(content))
@@ -210,7 +210,7 @@ def test_a_kind_of_file_that_is_refused_and_stays_as_it_is(kind: str, tmp_path: 
     assert len(list(tmp_path.iterdir())) == 2
 
 
-def test_a_refused_file_whose_name_cannot_be_longer(tmp_path: Path) -> None:
+def test_a_refused_file_with_a_name_of_maximum_length_suggests_a_shorter_one(tmp_path: Path) -> None:
     path = tmp_path / f"{'n' * 250}.yaml"
     path.write_text("- 1\n")
     with pytest.raises(NotSaved, match=r"it contains a list; .* give another name, such as a shorter one$"):
@@ -219,7 +219,7 @@ def test_a_refused_file_whose_name_cannot_be_longer(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(os.name != "posix", reason="modes and links of POSIX")
-def test_link_and_mode_of_a_patched_file_stay(tmp_path: Path) -> None:
+def test_link_and_mode_of_a_patched_file_are_kept(tmp_path: Path) -> None:
     real, link = tmp_path / "real.yaml", tmp_path / "link.yaml"
     real.write_text(FILE)
     real.chmod(0o640)
@@ -230,7 +230,7 @@ def test_link_and_mode_of_a_patched_file_stay(tmp_path: Path) -> None:
     assert read(real.read_text())["max_speed"] == 2.5
 
 
-def test_a_text_that_looks_like_something_else_is_written_in_quotes() -> None:
+def test_ambiguous_text_is_written_in_quotes() -> None:
     texts = (
         "1",
         "yes",
@@ -255,6 +255,6 @@ def test_a_text_that_looks_like_something_else_is_written_in_quotes() -> None:
     assert below == {"1": 1, "a": {"b": 1}, "a.b.c": 2, "x..y": 3, "-": 4}
 
 
-def test_values_are_the_same_only_with_their_type() -> None:
+def test_values_are_equal_only_with_the_same_type() -> None:
     assert same(float("nan"), float("nan")) and same((1.0, float("inf")), (1.0, float("inf")))
     assert not same(1, 1.0) and not same(True, 1) and not same((1,), (1.0,)) and not same((), None)

@@ -1,4 +1,4 @@
-"""Profiles: what a file means for the running nodes, where files are found, and that none loses anything."""
+"""Profiles: how a file applies to the running nodes, where files are found, and that saving loses nothing."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def tree(node: str, values: Mapping[str, Value], **more: object) -> ParameterTre
 
 
 def declaring(path: Path) -> dict[str, ParameterTree]:
-    """Nodes that have what a file has; a wildcard stands for one node of its own."""
+    """Nodes with the parameters of a file; a wildcard becomes one node."""
     values: dict[str, dict[str, Value]] = {}
     for section in sections(path.read_text()):
         node = "/some_node" if "*" in section.key else section.key
@@ -67,7 +67,7 @@ def test_a_file_of_a_public_package_previews_applies_and_saves_with_only_the_cha
             (seen,) = differences(profile, other)
             assert (seen.node, seen.name, seen.now, seen.refusal, seen.unknown) == (node, each.name, new, "", False)
             if node == "/some_node":
-                continue  # saved, it gets a section of its own: the wildcard is meant for others, too
+                continue  # saving adds a section for this node, since the wildcard applies to others, too
             place = tmp_path / "saved.yaml"
             place.write_text(original)
             save(place, {node: other[node]}, (node,))
@@ -78,7 +78,7 @@ def test_a_file_of_a_public_package_previews_applies_and_saves_with_only_the_cha
 
 
 @pytest.mark.parametrize("path", PUBLIC, ids=lambda path: path.stem)
-def test_a_node_started_with_such_a_file_gets_what_the_preview_shows(path: Path) -> None:
+def test_a_node_started_with_such_a_file_gets_the_values_previewed(path: Path) -> None:
     table = ParameterTable()
     table.add_file(str(path))
     for node, found in declaring(path).items():
@@ -117,7 +117,7 @@ EVERYTHING = """\
 """
 
 
-def test_dump_load_dump_is_byte_equal_for_a_file_with_everything(tmp_path: Path) -> None:
+def test_dump_load_dump_is_byte_identical_for_a_comprehensive_file(tmp_path: Path) -> None:
     path = tmp_path / "all.yaml"
     path.write_bytes(EVERYTHING.encode())
     trees = {each: found for each, found in declaring(path).items() if each == "/robot"}
@@ -128,7 +128,7 @@ def test_dump_load_dump_is_byte_equal_for_a_file_with_everything(tmp_path: Path)
     given = table.for_node("/robot")
     for each in trees["/robot"].parameters:
         value = given[each.name]
-        if each.value != ():  # to which ROS gives no type, and so no value
+        if each.value != ():  # an empty array has no type in ROS, and so no value
             assert same(tuple(value) if isinstance(value, list) else value, each.value)
     text = new_text({"/robot": {each.name: each.value for each in trees["/robot"].parameters if each.value != ()}})
     (tmp_path / "dump.yaml").write_text(text)
@@ -136,7 +136,7 @@ def test_dump_load_dump_is_byte_equal_for_a_file_with_everything(tmp_path: Path)
     assert new_text({"/robot": {each.name: each.value for each in again.parameters}}) == text
 
 
-def test_keys_that_mean_no_node_and_parameters_that_no_node_has_are_reported(tmp_path: Path) -> None:
+def test_keys_and_parameters_without_a_node_are_reported(tmp_path: Path) -> None:
     (tmp_path / "p.yaml").write_text(
         "/**:\n  ros__parameters: {speed: 2.0, other: 1}\n/n:\n  ros__parameters: {speed: 9.0, gone: 1}\n"
         "/x/*:\n  ros__parameters: {a: 1}\n"
@@ -161,7 +161,7 @@ def test_keys_that_mean_no_node_and_parameters_that_no_node_has_are_reported(tmp
         (f"launch: a\narguments: {{n: 0x{'f' * 5000}}}\n", "an integer with thousands of digits"),
     ],
 )
-def test_a_launch_profile_that_cannot_be_read_reports_why_on_one_line(tmp_path: Path, text: str, problem: str) -> None:
+def test_an_unreadable_launch_profile_is_explained_on_one_line(tmp_path: Path, text: str, problem: str) -> None:
     path = tmp_path / "bad.yaml"
     path.write_text(text)
     reported = load(path).problem
@@ -209,7 +209,7 @@ def test_profiles_are_found_opened_saved_and_keep_their_comments(tmp_path: Path)
     assert profile_store.profiles == before
 
 
-def test_only_what_differs_is_saved_on_request(tmp_path: Path) -> None:
+def test_only_changed_values_are_saved_on_request(tmp_path: Path) -> None:
     found = ParameterTree(
         "/n",
         (
@@ -221,7 +221,7 @@ def test_only_what_differs_is_saved_on_request(tmp_path: Path) -> None:
     assert (tmp_path / "p.yaml").read_text() == "/n:\n  ros__parameters:\n    other: 2\n"
 
 
-def test_only_the_persons_own_are_renamed_and_deleted(tmp_path: Path) -> None:
+def test_only_the_users_own_profiles_can_be_renamed_and_deleted(tmp_path: Path) -> None:
     (tmp_path / "ours").mkdir()
     (tmp_path / "ours" / "indoor.yaml").write_text("/n:\n  ros__parameters: {speed: 1.0}\n")
     profile_store = ProfileStore([tmp_path / "ours"], tmp_path / "own")
@@ -249,7 +249,7 @@ def test_only_the_persons_own_are_renamed_and_deleted(tmp_path: Path) -> None:
     assert not gone.ok and "not deleted" in gone.text
 
 
-def test_of_keys_that_alternate_the_one_that_comes_last_with_a_name_counts() -> None:
+def test_the_last_of_alternating_keys_with_a_name_takes_effect() -> None:
     values: dict[tuple[str, str], Value] = {("/n", "a"): 1, ("/**", "b"): 2, ("/**", "a"): 3, ("/n", "b"): 4}
     found = differences(Profile("p", "", values=values), {"/n": tree("/n", {"a": 0, "b": 0})})
     assert {each.name: each.then for each in found} == {"a": 3, "b": 4}

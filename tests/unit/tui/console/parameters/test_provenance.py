@@ -1,4 +1,4 @@
-"""Where a value comes from: declared, given by the launch, the command line, a profile, or unknown."""
+"""Where a value comes from: the declaration, the launch file, the command line, a profile, or unknown."""
 
 from __future__ import annotations
 
@@ -37,26 +37,28 @@ def reported(override: str, given: str = "", value: Value = 2.0) -> ParameterInf
         ("parameter_overrides of its program", "", 2.0, "parameter_overrides of its program"),
     ],
 )
-def test_the_override_that_counts_names_the_origin(override: str, given: str, value: Value, origin: str) -> None:
+def test_the_override_that_takes_effect_is_named_as_origin(
+    override: str, given: str, value: Value, origin: str
+) -> None:
     found = reported(override, given, value)
     assert found.origin == origin
     assert (found.default, found.declared_at) == (1.0, "/ws/src/n.py:12")
     assert found.changed is (value != 1.0), "a mark says what differs from what was declared"
 
 
-def test_the_values_of_the_start_are_known_where_they_were_reported() -> None:
+def test_start_values_are_known_if_they_were_reported() -> None:
     provenance = Provenance()
     facts = [["speed", 1.0, "/n.py:1", "-p", 2.0], ["gains", [1.0], "/n.py:2", "", [1.0, 2.0]], ["old", 1, "", ""]]
     provenance.learn("declared", {"node": "/n", "parameters": facts})
     assert provenance.starts() == {("/n", "speed"): 2.0, ("/n", "gains"): (1.0, 2.0)}
 
 
-def test_what_nobody_reported_stays_a_start_value() -> None:
+def test_an_unreported_value_stays_a_start_value() -> None:
     assert Provenance().applied(first_snapshot()) == first_snapshot()
     assert Provenance().learn("notice", {"text": "x"}) == ""
 
 
-def test_who_has_set_a_value_since_is_not_forgotten() -> None:
+def test_a_later_set_remains_the_origin() -> None:
     provenance = Provenance()
     provenance.learn("declared", {"node": "/n", "parameters": [["speed", 1.0, "/n.py:1", "-p"]]})
     known = ParameterInfo("/n", "speed", Kind.DOUBLE, 3.0, default=2.0, origin="set here at 10:00:00")
@@ -64,7 +66,7 @@ def test_who_has_set_a_value_since_is_not_forgotten() -> None:
     assert found.origin == "set here at 10:00:00" and found.default == 1.0
 
 
-def test_a_declared_list_is_a_tuple_and_a_type_is_no_default() -> None:
+def test_a_declared_list_becomes_a_tuple_and_a_type_is_not_a_default() -> None:
     provenance = Provenance()
     facts = [["speed", None, "/n.py:1", ""], ["list", [1, 2], "/n.py:2", ""]]
     provenance.learn("declared", {"node": "/n", "parameters": facts})
@@ -73,7 +75,7 @@ def test_a_declared_list_is_a_tuple_and_a_type_is_no_default() -> None:
     assert provenance.applied(array).origin == "declared value"
 
 
-def test_declared_bytes_are_bytes() -> None:
+def test_declared_bytes_are_kept_as_bytes() -> None:
     provenance = Provenance()
     provenance.learn("declared", {"node": "/n", "parameters": [["raw", [{"byte": 1}, {"byte": 255}], "/n.py:1", ""]]})
     raw = ParameterInfo("/n", "raw", Kind.BYTE_ARRAY, (b"\x01", b"\xff"), default=(b"\x01", b"\xff"), origin=START)

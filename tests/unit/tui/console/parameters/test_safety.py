@@ -1,4 +1,4 @@
-"""Which changes take from the robot's safety."""
+"""Which parameter changes make the robot less safe."""
 
 import pytest
 from bot_console.tui.console.model import Kind, ParameterInfo
@@ -32,7 +32,7 @@ def result(name, before, after, description=""):
         ("disable_collision_check", False, True, "turns a protection off by switching it on"),
     ],
 )
-def test_one_way_takes_from_safety_and_the_other_does_not(name, before, after, why):
+def test_a_change_is_less_safe_in_one_direction_only(name, before, after, why):
     assert result(name, before, after) == why
     assert result(name, after, before) == ""
     assert result(name, before, before) == ""
@@ -52,10 +52,10 @@ def test_one_way_takes_from_safety_and_the_other_does_not(name, before, after, w
         ("lidar.range_max", 8.0, 12.0),
     ],
 )
-def test_others_do_not(name, before, after):
+def test_other_parameters_are_not_safety_related(name, before, after):
     assert result(name, before, after) in ("", OFF if name == "enable_safety" else "")
 
 
-def test_a_description_reports_where_the_name_does_not():
+def test_the_description_decides_if_the_name_does_not():
     assert result("turn_rate", 1.0, 2.0, "Maximum angular velocity (rad/s)") == MORE
     assert result("turn_rate", 1.0, 2.0) == ""

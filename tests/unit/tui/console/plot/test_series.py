@@ -12,7 +12,7 @@ from bot_console.tui.console.plot.series import Series, parse_path, parse_steps,
 from bot_console.tui.console.plot.watch import PlotWatch
 
 
-def test_samples_are_read_by_cursor_and_the_oldest_fall_out() -> None:
+def test_samples_are_read_by_cursor_and_the_oldest_are_dropped() -> None:
     series = Series(4)
     for number in range(6):
         series.add(number, number * 10.0)
@@ -29,17 +29,17 @@ def test_samples_are_read_by_cursor_and_the_oldest_fall_out() -> None:
     [("linear.x", ("linear", "x")), ("pose/pose.position.x", ("pose", "pose", "position", "x")),
      ("ranges[3]", ("ranges", 3)), ("data", ("data",)), ("a[-1].b", ("a", -1, "b"))],
 )  # fmt: skip
-def test_paths(text: str, steps: tuple[str | int, ...]) -> None:
+def test_field_paths_are_parsed_into_steps(text: str, steps: tuple[str | int, ...]) -> None:
     assert parse_steps(text) == steps
 
 
 @pytest.mark.parametrize("text", ["", "a..b", "a[", "3a", "a b"])
-def test_bad_paths(text: str) -> None:
+def test_invalid_paths_are_refused(text: str) -> None:
     with pytest.raises(NotPlottable, match="field path"):
         parse_steps(text)
 
 
-def test_reading_a_message() -> None:
+def test_a_path_reads_the_number_from_a_message() -> None:
     from geometry_msgs.msg import Twist
     from sensor_msgs.msg import LaserScan
     from std_msgs.msg import Bool, String
@@ -57,7 +57,7 @@ def test_reading_a_message() -> None:
         reader(("ranges", 9))(LaserScan())
 
 
-def test_an_array_becomes_one_number_and_what_hits_nothing_counts_for_nothing():
+def test_an_array_is_reduced_to_one_number_ignoring_infinite_elements():
     from geometry_msgs.msg import Quaternion
     from sensor_msgs.msg import LaserScan
 
@@ -83,7 +83,7 @@ def test_an_array_becomes_one_number_and_what_hits_nothing_counts_for_nothing():
         parse_path("ranges.median()")
 
 
-def test_suggested_paths_name_fields_then_elements_then_what_is_made_of_arrays():
+def test_suggested_paths_are_fields_then_elements_then_array_functions():
     paths = number_paths("sensor_msgs/msg/LaserScan")
     assert paths[0] == "header.stamp.sec" and paths.index("range_max") < paths.index("ranges[0]")
     assert paths[-3:] == ("intensities.min()", "intensities.max()", "intensities.mean()")
@@ -91,7 +91,7 @@ def test_suggested_paths_name_fields_then_elements_then_what_is_made_of_arrays()
     assert number_paths("no_such/msg/Thing") == ()
 
 
-def test_the_colon_of_a_slice_names_no_parameter() -> None:
+def test_the_colon_of_a_slice_does_not_mark_a_parameter() -> None:
     made: list[str] = []
     node: Any = SimpleNamespace(create_subscription=lambda kind, topic, take, qos: made.append(topic))
     graph = GraphInfo(topics=(Endpoint("/scan", ("sensor_msgs/msg/LaserScan",)),))

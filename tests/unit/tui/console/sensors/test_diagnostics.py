@@ -1,4 +1,4 @@
-"""Diagnostics of real nodes, as the console hears them."""
+"""Diagnostics of real nodes, as the console receives them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from piloting import Clock
 
 
 class FakeNode:
-    """Knows what it has subscribed."""
+    """Keeps its subscriptions."""
 
     def __init__(self) -> None:
         self.topics: list[str] = []
@@ -38,7 +38,7 @@ def graph(*topics: str) -> GraphInfo:
     return GraphInfo((NodeInfo("/robot", ends),), ends)
 
 
-def test_the_newest_of_each_name_is_kept_with_its_values_and_when_it_was_heard() -> None:
+def test_the_newest_status_of_each_name_is_kept_with_values_and_time() -> None:
     clock = Clock()
     watch = DiagnosticsWatch(FakeNode(), clock)
     watch.take(output(DiagnosticStatus.OK, "fine", temperature="40"))
@@ -51,7 +51,7 @@ def test_the_newest_of_each_name_is_kept_with_its_values_and_when_it_was_heard()
     assert watch.diagnostics() is watch.diagnostics(), "the same object until something is said"
 
 
-def test_the_history_has_every_change_of_level_and_of_what_is_wrong_but_no_repetitions() -> None:
+def test_the_history_has_every_change_of_level_or_message_but_no_repetitions() -> None:
     watch = DiagnosticsWatch(FakeNode())
     for level, message in ((0, "10 Hz"), (0, "11 Hz"), (1, "warm"), (1, "warm"), (1, "hot"), (2, "dead"), (0, "10 Hz")):
         watch.take(output(bytes([level]), message))
@@ -61,7 +61,7 @@ def test_the_history_has_every_change_of_level_and_of_what_is_wrong_but_no_repet
     ]  # fmt: skip
 
 
-def test_names_and_history_are_bounded(monkeypatch) -> None:
+def test_names_and_history_are_limited(monkeypatch) -> None:
     monkeypatch.setattr(module, "MAX_NAMES", 3)
     watch = DiagnosticsWatch(FakeNode())
     for number in range(5):
@@ -72,13 +72,13 @@ def test_names_and_history_are_bounded(monkeypatch) -> None:
     assert len(watch.diagnostics().statuses[0].history) == REMEMBERED
 
 
-def test_an_unknown_level_is_an_error() -> None:
+def test_an_unknown_level_counts_as_error() -> None:
     watch = DiagnosticsWatch(FakeNode())
     watch.take(output(b"\x09"))
     assert watch.diagnostics().statuses[0].level is Level.ERROR
 
 
-def test_an_aggregator_speaks_for_all_and_topics_come_and_go() -> None:
+def test_an_aggregator_replaces_other_topics_while_it_is_there() -> None:
     node = FakeNode()
     watch = DiagnosticsWatch(node)
     watch.follow(graph("/diagnostics", "/other/diagnostics"))

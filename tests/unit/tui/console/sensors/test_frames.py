@@ -1,4 +1,4 @@
-"""Frames as they are told, and what is found to be wrong with them."""
+"""Frames as they are published, and what is found to be wrong with them."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Bench:
         return next(each for each in self.watch.frames().frames if each.name == name)
 
 
-def test_a_ros_without_the_messages_of_tf2_reports_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_tf2_msgs_package_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "tf2_msgs.msg", None)
     bench = Bench()
     bench.watch.poll(True, GRAPH)
@@ -56,7 +56,7 @@ def test_a_ros_without_the_messages_of_tf2_reports_it(monkeypatch: pytest.Monkey
     assert bench.watch.frames().problem.startswith("the type tf2_msgs/msg/TFMessage is not available here")
 
 
-def test_nothing_is_subscribed_while_nobody_looks() -> None:
+def test_nothing_is_subscribed_while_nobody_is_viewing() -> None:
     bench = Bench()
     bench.watch.follow(GRAPH)
     assert bench.topics == []
@@ -70,7 +70,7 @@ def test_nothing_is_subscribed_while_nobody_looks() -> None:
     assert bench.topics == [] and bench.watch.frames().frames == ()
 
 
-def test_rate_place_and_age() -> None:
+def test_rate_position_and_age_are_measured() -> None:
     bench = Bench()
     for _ in range(40):
         bench.reported("map", "/odom", 1.5, 0.5)
@@ -79,11 +79,11 @@ def test_rate_place_and_age() -> None:
     assert (frame.parent, frame.place[0], frame.fixed) == ("map", 1.5, False)
     assert frame.turn == pytest.approx((0.0, 0.0, 0.5))
     assert frame.rate == pytest.approx(10.0)
-    assert frame.late is None  # its stamp is of another clock
+    assert frame.late is None  # its stamp is from another clock
     assert bench.now - frame.heard == pytest.approx(0.1)
 
 
-def test_two_parents_within_some_seconds() -> None:
+def test_two_parents_within_a_few_seconds_are_reported() -> None:
     bench = Bench()
     bench.reported("map", "base")
     bench.now += 1.0
@@ -94,7 +94,7 @@ def test_two_parents_within_some_seconds() -> None:
     assert bench.frame("base").others == ()
 
 
-def test_two_parents_that_are_reported_once_stay_two() -> None:
+def test_two_static_parents_stay_reported() -> None:
     bench = Bench()
     bench.reported("base", "laser", fixed=True)
     bench.reported("mast", "laser", fixed=True)
@@ -105,7 +105,7 @@ def test_two_parents_that_are_reported_once_stay_two() -> None:
     )
 
 
-def test_what_is_wrong_in_words() -> None:
+def test_findings_are_described_in_text() -> None:
     frames = (
         Frame("a", "b", heard=10.0),
         Frame("b", "a", heard=10.0),

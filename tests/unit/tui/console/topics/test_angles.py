@@ -1,4 +1,4 @@
-"""A quaternion as angles, whatever a node sends."""
+"""A quaternion as angles, whatever a node publishes."""
 
 from __future__ import annotations
 
@@ -20,6 +20,6 @@ from geometry_msgs.msg import Quaternion
         ((0.0, 0.0, 0.0, -math.inf), "not finite"),
     ],
 )
-def test_it_is_reported(parts: tuple[float, float, float, float], text: str) -> None:
+def test_a_quaternion_is_shown_as_angles_or_explained(parts: tuple[float, float, float, float], text: str) -> None:
     x, y, z, w = parts
     assert angles_text(Quaternion(x=x, y=y, z=z, w=w)) == text

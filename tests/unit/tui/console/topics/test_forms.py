@@ -1,4 +1,4 @@
-"""Forms: what fields hold, what may be typed into them, and the message that comes of it."""
+"""Forms: the values of fields, what may be typed into them, and the resulting message."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def test_a_yaw_stands_for_the_numbers_of_a_quaternion() -> None:
     assert "pose.pose.orientation" in shown and "pose.pose.orientation.z" not in shown
 
 
-def test_stamps_are_now_at_each_sending_unless_a_time_was_given() -> None:
+def test_stamps_are_set_at_each_sending_unless_a_time_was_given() -> None:
     message, now = filled(Payload.MESSAGE, ODOM, {})
     stamp(message, now, lambda: Time(sec=7))
     assert message.header.stamp.sec == 7
@@ -61,13 +61,13 @@ def test_enumerations_are_typed_by_name_or_number() -> None:
         (ODOM, "header.stamp", "soon", "not a number"),
     ],
 )
-def test_what_cannot_stand_in_a_field_is_reported(type_name: str, path: str, text: str, output: str) -> None:
+def test_an_invalid_text_for_a_field_is_explained(type_name: str, path: str, text: str, output: str) -> None:
     assert output in wrong(Payload.MESSAGE, type_name, path, text)
     with pytest.raises(ValueError, match=output.split(maxsplit=1)[0]):
         filled(Payload.MESSAGE, type_name, {path: text})
 
 
-def test_arrays_are_typed_as_yaml_also_those_of_messages() -> None:
+def test_arrays_including_those_of_messages_are_typed_as_yaml() -> None:
     message, _ = filled(Payload.MESSAGE, SCAN, {"ranges": "[1.0, .inf, 3]"})
     assert list(message.ranges) == [1.0, math.inf, 3.0]
     path, _ = filled(Payload.MESSAGE, "geometry_msgs/msg/Polygon", {"points": "[{x: 1.0, y: 2.0}]"})
@@ -86,7 +86,7 @@ def test_an_unknown_type_is_reported_with_a_hint() -> None:
         slots(Payload.MESSAGE, "nowhere_msgs/msg/Nothing", {})
 
 
-def test_a_long_array_and_an_image_are_summaries() -> None:
+def test_a_long_array_and_an_image_are_shown_as_summaries() -> None:
     scan = LaserScan(ranges=[1.0, 3.0, math.inf] * 120)
     texts = {each.path: each.text for each in tree(scan, SCAN)}
     assert texts["ranges"] == "360 values, 1 .. 3, mean 2, 120 not finite"
@@ -95,7 +95,7 @@ def test_a_long_array_and_an_image_are_summaries() -> None:
     assert texts["data"] == "image of 64 x 48, rgb8, 9216 bytes"
 
 
-def test_a_tree_names_enumerations_units_and_turns() -> None:
+def test_a_tree_shows_enumeration_names_units_and_angles() -> None:
     texts = {each.path: each for each in tree(BatteryState(voltage=12.5, power_supply_status=1), BATTERY)}
     assert texts["power_supply_status"].text == "1 CHARGING"
     assert (texts["voltage"].text, texts["voltage"].unit, texts["voltage"].number) == ("12.5", "V", True)

@@ -1,4 +1,4 @@
-"""Rates, amounts, ages and latencies from serialized messages."""
+"""Rate, bandwidth, age and latency from serialized messages."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from bot_console.tui.console.topics.meters import Meter, in_turn
 
 
 class Time:
-    """A clock of two faces that goes when it is told to."""
+    """Wall time and monotonic time, advanced by the test."""
 
     def __init__(self) -> None:
         self.now = 1000.0
@@ -36,7 +36,7 @@ def message(stamp: float, size: int = 100) -> bytes:
 
 
 def play(meter: Meter, time: Time, rate: float, seconds: float, late: float = 0.0) -> None:
-    """Messages at a rate, looked at once a second."""
+    """Send messages at a rate, polling once a second."""
     polled = time.now
     for _ in range(round(seconds * rate)):
         time.now += 1 / rate
@@ -57,7 +57,7 @@ def test_a_steady_rate_is_reported_exactly(time: Time, rate: float) -> None:
     assert found.count == round(20 * rate)
 
 
-def test_a_topic_that_falls_silent_goes_to_zero_and_its_age_grows(time: Time) -> None:
+def test_a_silent_topic_has_rate_zero_and_a_growing_age(time: Time) -> None:
     meter = Meter(True, time.time_ns)
     play(meter, time, 10, 10)
     for _ in range(3):
@@ -70,12 +70,12 @@ def test_a_topic_that_falls_silent_goes_to_zero_and_its_age_grows(time: Time) ->
     assert meter.poll().rate == 0.0 and meter.poll().age == pytest.approx(13.0)
 
 
-def test_before_anything_came_nothing_is_known(time: Time) -> None:
+def test_nothing_is_known_before_the_first_message(time: Time) -> None:
     meter = Meter(True, time.time_ns)
     assert meter.poll() == meters.Measure(None, None, None, None, 0)
 
 
-def test_stamps_of_another_clock_are_no_latency(time: Time) -> None:
+def test_stamps_of_another_clock_give_no_latency(time: Time) -> None:
     meter = Meter(True, lambda: int(1.7e18))
     play(meter, time, 10, 3)
     assert meter.poll().latency is None
@@ -87,11 +87,11 @@ def test_a_message_without_a_header_has_no_latency(time: Time) -> None:
     assert meter.poll().latency is None and meter.poll().rate == pytest.approx(10, rel=0.01)
 
 
-def test_all_are_measured_while_few_messages_come() -> None:
+def test_all_topics_are_measured_while_messages_are_few() -> None:
     assert in_turn({"/a": 100.0, "/b": 10.0}, [], 200) == {"/a", "/b"}
 
 
-def test_the_fastest_take_turns_and_each_has_its_turn() -> None:
+def test_the_fastest_topics_take_turns() -> None:
     rates = {"/slow": 1.0, **{f"/fast{number}": 100.0 for number in range(10)}}
     resting: list[str] = []
     seen: set[str] = set()
@@ -105,5 +105,5 @@ def test_the_fastest_take_turns_and_each_has_its_turn() -> None:
     assert seen == rates.keys()
 
 
-def test_one_topic_alone_beyond_the_budget_is_measured_all_the_same() -> None:
+def test_a_single_topic_beyond_the_budget_is_still_measured() -> None:
     assert in_turn({"/camera": 9000.0}, [], 1500) == {"/camera"}

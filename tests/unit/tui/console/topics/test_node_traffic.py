@@ -1,4 +1,4 @@
-"""Topics, services and actions of real nodes: measured, heard, published, called, sent goals."""
+"""Topics, services and actions of real nodes: measured, received, published, called, sent goals."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _domains = itertools.count(9100)
 
 
 class Robot:
-    """Publishes odometry at 50 Hz, best effort; takes velocities, a service, an action that waits for its end."""
+    """Publishes odometry at 50 Hz, best effort; takes velocities, a service, and an action that waits for its end."""
 
     def __init__(self, domain: int) -> None:
         self.context = Context()
@@ -91,7 +91,7 @@ def console(robot: Robot) -> Iterator[RosConsole]:
     made.close()
 
 
-def test_a_topic_is_measured_as_it_is_offered_and_let_go(console: RosConsole) -> None:
+def test_a_topic_is_measured_with_the_qos_offered_and_released(console: RosConsole) -> None:
     graph: GraphInfo = console.snapshot().graph
     assert not offered_qos(graph, "/odom").reliable, "best effort is offered, so best effort is asked for"
     traffic = console.traffic
@@ -103,7 +103,7 @@ def test_a_topic_is_measured_as_it_is_offered_and_let_go(console: RosConsole) ->
     until(lambda: not traffic.measured(), "nothing measured")
 
 
-def test_the_newest_message_is_heard_as_lines(console: RosConsole) -> None:
+def test_the_newest_message_is_shown_as_lines(console: RosConsole) -> None:
     console.traffic.listen("/odom")
     heard = until(lambda: console.traffic.heard() if console.traffic.heard().count else None, "a message")
     assert {each.path: each.text for each in heard.fields}["pose.pose.position.x"] == "4.25"
@@ -111,7 +111,7 @@ def test_the_newest_message_is_heard_as_lines(console: RosConsole) -> None:
     until(lambda: "no topic /nowhere" in console.traffic.heard().problem, "the problem")
 
 
-def test_a_message_is_published_once_and_at_a_rate_until_all_stop(console: RosConsole, robot: Robot) -> None:
+def test_a_message_is_published_once_or_at_a_rate_until_stopped(console: RosConsole, robot: Robot) -> None:
     traffic = console.traffic
     assert traffic.publish("/cmd_vel", TWIST, {"linear.x": "0.5"}).ok
     until(lambda: robot.velocities == [0.5], "the one message")
@@ -125,7 +125,7 @@ def test_a_message_is_published_once_and_at_a_rate_until_all_stop(console: RosCo
     assert [dict(each) for each in traffic.earlier("/cmd_vel")] == [{"linear.x": "0.5"}, {"linear.x": "0.7"}]
 
 
-def test_a_service_is_called_and_its_fields_come_back(console: RosConsole) -> None:
+def test_a_service_is_called_and_its_response_shown(console: RosConsole) -> None:
     reply = console.traffic.call("/enable", SET_BOOL, {"data": "true"}).result(TIMEOUT_S)
     assert reply.ok and reply.seconds > 0
     assert [(each.name, each.text) for each in reply.fields] == [("success", "true"), ("message", "it is on")]
@@ -147,7 +147,7 @@ def test_a_goal_gives_feedback_and_a_result(console: RosConsole, robot: Robot) -
     assert not traffic.cancel("/count").ok
 
 
-def test_a_goal_is_cancelled(console: RosConsole) -> None:
+def test_a_goal_can_be_cancelled(console: RosConsole) -> None:
     traffic = console.traffic
     traffic.send_goal("/count", FIBONACCI, {})
     until(lambda: traffic.goals().get("/count") and traffic.goals()["/count"].status == "executing", "the goal to run")
@@ -155,7 +155,7 @@ def test_a_goal_is_cancelled(console: RosConsole) -> None:
     until(lambda: traffic.goals()["/count"].status == "canceled", "the cancellation")
 
 
-def test_the_command_line_reports_the_same(console: RosConsole) -> None:
+def test_the_command_line_sends_the_same(console: RosConsole) -> None:
     line = console.traffic.line(Payload.MESSAGE, "/cmd_vel", TWIST, {"linear.x": "0.5"}, 10)
     assert line == "ros2 topic pub --rate 10 /cmd_vel geometry_msgs/msg/Twist '{linear: {x: 0.5}}'"
     assert console.traffic.line(Payload.REQUEST, "/enable", SET_BOOL, {"data": "yes"}).endswith("'{data: true}'")
