@@ -1,4 +1,4 @@
-"""What is known about the parameter at the cursor, in words."""
+"""The details of the parameter at the cursor, as text."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ def details(
     marks: Sequence[str] = (),
     late: Value = None,
 ) -> Text:
-    """What is waited for first, a refusal, a mark, description, what would take from safety, facts, and the command.
+    """The details, in order: a pending value, a refusal, a mark, the description, safety, facts, and the command.
 
-    `marks` are what the marks of the row mean, in words; `late` is a value that the node has not answered yet.
+    `marks` explains the marks of the row; `late` is a value that the node has not answered yet.
     """
     text = Text(no_wrap=False, overflow="fold")
     if late is not None:
@@ -47,7 +47,7 @@ def details(
 
 
 def _default(parameter: ParameterInfo) -> str:
-    """What was declared, and where; else the value first seen, where it is another one now."""
+    """The declared value and where it was declared; else the first value seen, if it differs from the present one."""
     value = sanitize(value_text(parameter.default))
     if parameter.declared_at:
         return f"declared {value} in {sanitize(short_place(parameter.declared_at))}"
@@ -55,5 +55,5 @@ def _default(parameter: ParameterInfo) -> str:
 
 
 def short_place(place: str) -> str:
-    """`folder/file.py:12` of a longer path: which of many files of one name it is."""
+    """Shorten a path to `folder/file.py:12`, which tells files of the same name apart."""
     return "/".join(place.replace("\\", "/").split("/")[-2:])

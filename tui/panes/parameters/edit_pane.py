@@ -64,19 +64,19 @@ class EditPane(ListPane):
         return row.parameter if row else None
 
     def redraw_marks(self) -> None:
-        """Draw what is marked and refused, and tell of it."""
+        """Redraw marks and refusals, and the details."""
         raise NotImplementedError
 
     def action_fold(self, closed: bool) -> None:
-        """Close or open what stands at the cursor."""
+        """Fold or unfold the row at the cursor."""
         raise NotImplementedError
 
     def _now(self, parameter: ParameterInfo) -> Value:
-        """The value that a step goes on from: the marked one, else the present one."""
+        """The value from which a step continues: the marked one, else the present one."""
         return self.staging.marked.get((parameter.node, parameter.name), parameter.value)
 
     def action_edit(self) -> None:
-        """Edit a value, toggle a bool, list the elements of an array, open or close a node or a group."""
+        """Edit a value, toggle a boolean, list the elements of an array, or fold or unfold a node or group."""
         row = self._list.current
         if row is None:
             return
@@ -92,7 +92,7 @@ class EditPane(ListPane):
             self.ask(Elements(editing.label(parameter), then, gone, values=values, kind=parameter.kind))
 
     def action_edit_text(self) -> None:
-        """Edit a value on one line; toggle a bool."""
+        """Edit a value on one line; toggle a boolean."""
         parameter = self._at()
         if parameter is None or not self.may_change():
             return
@@ -125,11 +125,11 @@ class EditPane(ListPane):
             self._set(parameter, editing.typed_value(text, parameter))
 
     def _set(self, parameter: ParameterInfo, value: Value) -> None:
-        """Send a value, or mark it."""
+        """Send or mark a value."""
         if self.staging.marking:
             key = (parameter.node, parameter.name)
             self.staging.mark(key, parameter.value, value)
-            self._list.refused.pop(key, None)  # of a value before this one, whose mark would hide this one's
+            self._list.refused.pop(key, None)  # a refusal of an earlier value would hide this mark
             self.redraw_marks()
             return
         answer = self.console.set_parameters(parameter.node, {parameter.name: value}, ChangeSource.EDIT)
@@ -137,12 +137,12 @@ class EditPane(ListPane):
         answer.add_done_callback(lambda done: self.host.call_later(self._outcome, done))
 
     def _wait_for(self, answer: Future[tuple[SetOutcome, ...]], values: Mapping[Key, Value]) -> None:
-        """Know that values are on their way, until the answer is there."""
+        """Track sent values until they are answered."""
         number = self.unanswered.sent(values, self.clock())
         answer.add_done_callback(lambda _: self.host.call_later(self.unanswered.answered, number))
 
     def _outcome(self, done: Future[tuple[SetOutcome, ...]]) -> bool:
-        """Mark what was refused; whether everything was taken."""
+        """Mark refused values; returns whether all were accepted."""
         error = done.exception()
         if error is not None:
             self.notify(str(error), severity="error", markup=False)
@@ -173,7 +173,7 @@ class EditPane(ListPane):
             self._set(parameter, value)
 
     def action_limit(self, share: float) -> None:
-        """The least value of the range, or the greatest."""
+        """Go to the minimum or maximum of the range."""
         parameter = self._at()
         if parameter is None:
             return
@@ -191,23 +191,23 @@ class EditPane(ListPane):
             self._set(event.parameter, value)
 
     def on_parameter_rows_pressed(self, event: ParameterRows.Pressed) -> None:
-        """A row was clicked that was chosen already."""
+        """Edit the clicked row if it was already selected."""
         event.stop()
         self.action_edit()
 
     def action_reset(self) -> None:
-        """Put the default back."""
+        """Reset to the default."""
         parameter = self._at()
         if parameter is not None and self._now(parameter) != parameter.default and parameter.default is not None:
             self._set(parameter, parameter.default)
 
     def action_stage(self) -> None:
-        """Mark edits from now on instead of sending them, or send them again."""
+        """Switch between marking edits and sending them."""
         self.staging.marking = not self.staging.marking
         self.redraw_marks()
 
     def action_apply(self) -> None:
-        """Send all marked values together: all of them are taken, or none."""
+        """Send all marked values together; all of them are accepted, or none."""
         if not self.staging.marked:
             self.notify("Nothing is marked; m marks edits instead of sending them.")
             return
@@ -215,7 +215,7 @@ class EditPane(ListPane):
         self._asked_first("Apply what is marked?", values, partial(self._apply, values))
 
     def _apply(self, values: dict[Key, Value]) -> None:
-        # Not when the answer comes: who presses m meanwhile means to mark again.
+        # Not when the answer arrives: someone who presses m in the meantime wants to mark again.
         self.staging.marking = bool(self.staging.marked.keys() - values.keys())
         answer = self.console.set_all(by_node(values), ChangeSource.EDIT)
         self._wait_for(answer, values)
@@ -231,7 +231,7 @@ class EditPane(ListPane):
             self._report_refusal(done)
 
     def action_compare(self) -> None:
-        """Make set B of what is marked and send it; or swap the two sets."""
+        """Make the marked values set B and send it, or swap the two sets."""
         if self.staging.marked:
             values = dict(self.staging.marked)
             self._asked_first(f"Send {SETS[1]}?", values, partial(self._begin_sets, values))
@@ -264,7 +264,7 @@ class EditPane(ListPane):
             self.notify(refused, severity="error")
 
     def action_tune(self) -> None:
-        """Ask for ranges, score and runs, then have settings of what is marked, else of this parameter, tried."""
+        """Ask for ranges, score and runs, then tune the marked parameters, or else this one."""
         if getattr(self.host, "tuner", None) is None:
             self.notify(NO_TUNER, severity="warning")
             return
@@ -303,18 +303,18 @@ class EditPane(ListPane):
     def _tune(self, tunables: Sequence[Tunable], score: str, text: str) -> None:
         question = tuning.specification_of(tunables, score, text, self.console.snapshot().parameters)
         wanted = self.TuningWanted(question, partial(self._take_tuned, tunables))
-        # When the prompt has given the keyboard back, so that the key bar is told before it is covered.
+        # After the prompt has returned the focus, so that the key bar is updated before it is covered.
         self.call_after_refresh(self.post_message, wanted)
 
     def _take_tuned(self, tunables: Sequence[Tunable], setting: Setting) -> None:
-        """Send the values that a tuning has found; one undo takes them back."""
+        """Send the values found by tuning; a single undo restores the old ones."""
         values: dict[Key, Value] = {
             (tunable.node, tunable.name): value for tunable, value in zip(tunables, setting, strict=True)
         }
         self._asked_first("Take what was tuned?", values, partial(self._apply, values))
 
     def _asked_first(self, question: str, values: Mapping[Key, Value], then: partial[None]) -> None:
-        """Do it; where it takes from the robot's safety, only after that was said and agreed to."""
+        """Call `then`; if the values make the robot less safe, ask first."""
         trees = self.console.snapshot().parameters
         reasons: list[str] = []
         for (node, name), value in values.items():
@@ -330,7 +330,7 @@ class EditPane(ListPane):
 
 
 def _preview(parameter: ParameterInfo, text: str) -> str:
-    """What a typed text means where it is an expression, and what the change would take from safety."""
+    """The value of a typed expression, and a warning if it makes the robot less safe."""
     value = editing.typed_value(text, parameter)
     plain = field_text(value)
     unit = f" {parameter.unit}" if parameter.unit else ""

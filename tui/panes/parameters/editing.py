@@ -1,4 +1,4 @@
-"""Turns what a person types or presses into a new value. Pure."""
+"""Turns typed text and key presses into new values. Pure."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ NUMBERS = (Kind.INTEGER, Kind.DOUBLE)
 
 
 def label(parameter: ParameterInfo) -> str:
-    """Name, kind, range and unit of what is asked for."""
+    """The prompt for a parameter: name, type, range and unit."""
     facts = (parameter.kind.word, range_text(parameter.range, parameter.kind), parameter.unit)
     return f"{parameter.name} ({', '.join(each for each in facts if each)})"
 
 
 def typed_value(text: str, parameter: ParameterInfo) -> Value:
-    """What a person typed: a value as YAML has it, or for a number an expression, with a unit behind it.
+    """The value of a typed text: YAML or, for a number, an expression that may end in a unit.
 
-    Raises `ValueError` with a mend.
+    Raises `ValueError` that says how to fix the text.
     """
     try:
         return parse_value(text, parameter)
@@ -40,7 +40,7 @@ def _calculated(text: str, parameter: ParameterInfo) -> Value:
         literal = NUMBER.fullmatch(text.strip().lstrip("+-"))
         raise ValueError(f"'{cut(text, 24)}' is too large" if literal else "the result is no finite number")
     if parameter.kind is Kind.DOUBLE:
-        return float(f"{value:.12g}")  # 30 cm is 0.3 m, whatever binary fractions make of it
+        return float(f"{value:.12g}")  # 30 cm is 0.3 m exactly, despite binary rounding
     nearest = round(value)
     if abs(value - nearest) > 1e-9 * max(1.0, abs(value)):
         raise ValueError(f"{value:g} is not an integer")
@@ -59,12 +59,12 @@ def wrong(parameter: ParameterInfo, text: str) -> str:
 
 
 def is_number(value: Value) -> bool:
-    """Whether a value can be moved by steps."""
+    """Whether a value can be changed in steps."""
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def stepped(parameter: ParameterInfo, value: Value, steps: int) -> Value:
-    """A number moved by some steps: those of its descriptor, or hundredths of its range; None where there is none."""
+    """A number moved by steps of its descriptor, or by hundredths of its range; None without either."""
     if not isinstance(value, (int, float)) or isinstance(value, bool):
         return None
     limits = parameter.range
@@ -79,7 +79,7 @@ def stepped(parameter: ParameterInfo, value: Value, steps: int) -> Value:
 
 
 def at_share(parameter: ParameterInfo, share: float) -> Value:
-    """The value at a share (0 to 1) of the range, on one of its steps; None where there is no range."""
+    """The value at a share (0 to 1) of the range, rounded to a step; None without a range."""
     limits = parameter.range
     if limits is None or not is_number(parameter.value):
         return None

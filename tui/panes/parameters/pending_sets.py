@@ -1,4 +1,4 @@
-"""Values that were sent to a node and that it has not answered yet."""
+"""Values that were sent to a node and not answered yet."""
 
 from __future__ import annotations
 
@@ -9,28 +9,28 @@ from bot_console.tui.console.model import Value
 from bot_console.tui.panes.parameters.staging import Key
 
 ANSWER_DELAY_S = 0.5
-"""Seconds that a node takes before it is said that it is waited for: most answer within a few hundredths."""
+"""Seconds after which a pending value is shown as such; most nodes answer within a few hundredths of a second."""
 
 
 class PendingSets:
-    """What was sent, each time with its number; times are those of a steady clock (s)."""
+    """Tracks sent values by numbers; times are those of a monotonic clock (s)."""
 
     def __init__(self) -> None:
         self._numbers = count()
         self._sent: dict[int, tuple[float, Mapping[Key, Value]]] = {}
 
     def sent(self, values: Mapping[Key, Value], now: float) -> int:
-        """Values were sent together; the number by which they are answered."""
+        """Note values that were sent together; returns their number."""
         number = next(self._numbers)
         self._sent[number] = now, values
         return number
 
     def answered(self, number: int) -> None:
-        """The answer is there, whatever it is."""
+        """Note that the answer has arrived."""
         self._sent.pop(number, None)
 
     def late(self, now: float) -> Mapping[Key, Value]:
-        """What has been waited for longer than is usual; of values sent twice the newer one."""
+        """The values that have been pending for unusually long; of values sent twice, the newer one."""
         return {
             key: value
             for at, values in self._sent.values()

@@ -16,9 +16,10 @@ BUILT_IN_PREFIX = "qos_overrides."
 _SEPARATOR = re.compile(r"[./]")
 
 
-@dataclass(slots=True)  # not frozen: thousands are made at each key of a filter, and freezing is what costs
+# not frozen: thousands are made at each key of a filter, and frozen instances take longer to create
+@dataclass(slots=True)
 class Row:
-    """A line of the tree: a namespace, a node, a group, or a parameter; `depth` is its indentation."""
+    """A line of the tree: a namespace, a node, a group or a parameter, at an indentation level of `depth`."""
 
     node: str
     """The node, or the namespace."""
@@ -29,40 +30,40 @@ class Row:
     count: int = 0
     folded: bool = False
     fold: str = ""
-    """What is closed and opened by this name; empty for a parameter."""
+    """The name by which the row is folded; empty for a parameter."""
     title: str = ""
-    """How a namespace or a node is written below its namespace."""
+    """The label of a namespace or node below its namespace."""
 
 
 @dataclass(frozen=True)
 class View:
-    """How a person wants to see the parameters."""
+    """What the user has chosen to see of the parameters."""
 
     query: Query = field(default_factory=Query)
     only_changed: bool = False
     built_in: bool = False
     folded: Collection[str] = frozenset()
-    """What is closed while all is shown."""
+    """What is folded while no filter is active."""
 
     folded_matches: Collection[str] = frozenset()
-    """What was closed since a filter came: what it finds is seen, however the tree was left."""
+    """What was folded since the filter was set; its matches are visible however the tree was folded before."""
 
     essential: bool = False
     """Whether, without a filter, only the parameters that decide how the robot drives are shown, in a flat list."""
 
     @property
     def filtering(self) -> bool:
-        """Whether only some parameters are shown: those that pass a filter, or that differ."""
+        """Whether only some parameters are shown: those that match a filter, or that differ."""
         return bool(self.query.terms) or self.only_changed
 
     @property
     def closed(self) -> Collection[str]:
-        """What is closed now."""
+        """What is folded now."""
         return self.folded_matches if self.filtering else self.folded
 
 
 def opened(folded: Collection[str], node: str, name: str) -> frozenset[str]:
-    """What is closed once a parameter is to be seen: without its namespaces, its node and its groups."""
+    """What stays folded to make a parameter visible: all but its namespaces, node and groups."""
 
     def holds(fold: str) -> bool:
         if fold.startswith(f"{node}:"):
@@ -73,7 +74,7 @@ def opened(folded: Collection[str], node: str, name: str) -> frozenset[str]:
 
 
 class TreeRows:
-    """Makes rows; those of a node whose parameters and view are the same objects as before are not made anew."""
+    """Makes rows; a node's rows are reused while its parameters and the view are the same objects."""
 
     def __init__(self) -> None:
         self._view: View | None = None
@@ -82,7 +83,7 @@ class TreeRows:
         self._sorted: dict[str, _Sorted] = {}
 
     def rows(self, trees: Mapping[str, ParameterTree], view: View) -> list[Row]:
-        """All rows, in the order in which they stand."""
+        """All rows, from top to bottom."""
         if view != self._view:
             self._made.clear()
             self._view = view
@@ -113,7 +114,7 @@ class TreeRows:
         return found
 
     def count(self, trees: Iterable[str], view: View) -> int:
-        """How many parameters of these nodes, whose rows were made, a view shows without a filter."""
+        """The number of parameters of these nodes in a view without its filter; their rows must have been made."""
         return sum(self._sorted[each].count(view) for each in trees)
 
     def _node(self, name: str, tree: ParameterTree, depth: int, space: str, view: View) -> list[Row]:
@@ -133,7 +134,7 @@ class TreeRows:
         return made
 
     def _rows_below(self, name: str, parameters: list[ParameterInfo], depth: int, folded: Collection[str]) -> list[Row]:
-        """The rows of these parameters; those of before where a key of the filter lets the same ones pass."""
+        """The rows of these parameters; reused if a new filter passes the same ones."""
         known = self._below.get(name)
         if known and known[0] == parameters and known[1] == depth and known[2] == folded:
             return known[3]
@@ -158,7 +159,7 @@ def worth_changing(found: Sequence[Row]) -> int:
 
 
 def rows(trees: Mapping[str, ParameterTree], view: View) -> list[Row]:
-    """All rows, in the order in which they stand."""
+    """All rows, from top to bottom."""
     return TreeRows().rows(trees, view)
 
 
@@ -169,7 +170,7 @@ def _space_row(space: str, depth: int, above: str, count: int, folded: bool) -> 
 
 @lru_cache(maxsize=4)
 def _spaces(nodes: tuple[str, ...]) -> dict[str, tuple[str, ...]]:
-    """The namespaces that each node stands in, outermost first; only those with several nodes are worth a row."""
+    """The namespaces of each node, outermost first; only those with several nodes get a row."""
     counts: dict[str, int] = {}
     for node in nodes:
         for space in _above(node):
@@ -177,7 +178,7 @@ def _spaces(nodes: tuple[str, ...]) -> dict[str, tuple[str, ...]]:
     found: dict[str, tuple[str, ...]] = {}
     for node in nodes:
         spaces = [space for space in _above(node) if counts[space] > 1]
-        # Of namespaces that hold the same nodes the innermost one stands for all.
+        # Of namespaces with the same nodes, the innermost one is shown.
         found[node] = tuple(
             each for at, each in enumerate(spaces) if at + 1 == len(spaces) or counts[spaces[at + 1]] < counts[each]
         )
@@ -190,7 +191,7 @@ def _above(node: str) -> list[str]:
 
 
 class _Sorted:
-    """The parameters of a node in the order of the rows, with the texts that a filter looks at."""
+    """The parameters of a node in row order, with the texts that a filter searches."""
 
     def __init__(self, tree: ParameterTree) -> None:
         self.tree = tree
@@ -200,11 +201,11 @@ class _Sorted:
         self._own = [at for at, each in enumerate(self._parameters) if not _is_built_in(each.name)]
 
     def count(self, view: View) -> int:
-        """How many there are to filter: all, or without those that every node has."""
+        """The number of parameters to filter, with or without those that every node has."""
         return len(self._parameters if view.built_in else self._own)
 
     def passing(self, view: View) -> list[ParameterInfo]:
-        """Those that a view shows."""
+        """The parameters that a view shows."""
         found: Iterable[int] = range(len(self._parameters)) if view.built_in else self._own
         if view.query.terms:
             found = self._matching(view.query, found)
@@ -212,7 +213,7 @@ class _Sorted:
         return [each for each in parameters if each.changed] if view.only_changed else parameters
 
     def _matching(self, query: Query, found: Iterable[int]) -> Iterable[int]:
-        """What passes each word, as `Query.matches` has it, but the node's name is looked at once."""
+        """The parameters that match each word, as in `Query.matches`, but checking the node's name only once."""
         node = self.tree.node
         if any(term.stands_in(node) is term.exclude for term in query.nodes):
             return ()
@@ -234,9 +235,9 @@ def _is_built_in(name: str) -> bool:
 
 
 def namesake(found: Sequence[Row], name: str, cursor: int) -> int | None:
-    """The row of a parameter with just this name, or else of one with it as the last level: the cursor's, or the first.
+    """The row of the parameter with exactly this name, or with it as the last level: at the cursor, else the first.
 
-    A filter shows much that only mentions what was typed; who types a whole name means that parameter.
+    A filter also shows rows that merely mention the words; someone who types a whole name means that parameter.
     """
     called = [at for at, each in enumerate(found) if each.name.endswith(name) and each.parameter] if name else []
     full = {at: each.parameter.name for at in called if (each := found[at]).parameter}
@@ -246,7 +247,7 @@ def namesake(found: Sequence[Row], name: str, cursor: int) -> int | None:
 
 
 def matches(parameter: ParameterInfo, query: Query) -> bool:
-    """Whether a parameter passes a filter, by its name, what it is for, and its node."""
+    """Whether a parameter matches a filter by its name, description or node."""
     return query.matches(_text(parameter), parameter.node)
 
 
@@ -256,13 +257,13 @@ def _text(parameter: ParameterInfo) -> str:
 
 @lru_cache(maxsize=20_000)
 def _parts(name: str) -> tuple[str, ...]:
-    """The levels of a name: `lidar.front/noise` is three."""
+    """The levels of a name: `lidar.front/noise` has three."""
     return tuple(_SEPARATOR.split(name))
 
 
 @lru_cache(maxsize=20_000)
 def _order(name: str) -> tuple[tuple[bool, str], ...]:
-    """Names by their levels, what stands on a level before what stands below it."""
+    """Sort key: names by their levels, with a level's own entries before those below it."""
     *groups, last = _parts(name)
     return (*((True, each) for each in groups), (False, last))
 
@@ -270,7 +271,7 @@ def _order(name: str) -> tuple[tuple[bool, str], ...]:
 def _below(
     node: str, parameters: Sequence[ParameterInfo], level: int, depth: int, folded: Collection[str]
 ) -> Iterator[Row]:
-    """Parameters that share their first levels, with a row above each group of at least two that share one more."""
+    """Rows of parameters with common first levels; at least two that share another level get a group row."""
     at = 0
     while at < len(parameters):
         first = parameters[at]
@@ -288,7 +289,7 @@ def _below(
 
 
 def _group(node: str, group: Sequence[ParameterInfo], level: int, depth: int, folded: Collection[str]) -> Iterator[Row]:
-    """A group that shares one more level, or several of them at once."""
+    """A group with one or more common levels."""
     parts = _parts(group[0].name)
     deepest = level + 1
     while len(parts) > deepest + 1 and all(_shares(each, parts, deepest) for each in group):
@@ -308,5 +309,5 @@ def _shares(parameter: ParameterInfo, parts: tuple[str, ...], level: int) -> boo
 
 @lru_cache(maxsize=20_000)
 def _start(name: str, level: int) -> int:
-    """Where a level of a name begins."""
+    """The position at which a level of a name begins."""
     return sum(len(each) + 1 for each in _parts(name)[:level])

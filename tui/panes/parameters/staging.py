@@ -11,12 +11,12 @@ from bot_console.tui.console.model import ParameterTree, Value
 Key: TypeAlias = "tuple[str, str]"
 Values: TypeAlias = "dict[Key, Value]"
 SETS = ("set A", "set B")
-"""What a change is said to be a part of, in the journal."""
+"""The names of the two sets in the journal."""
 
 
 @dataclass
 class Staging:
-    """What is marked, and the sets A and B with the one that is live."""
+    """The marked values, and the sets A and B with the one that is live."""
 
     marking: bool = False
     """Whether edits are marked instead of sent."""
@@ -26,14 +26,16 @@ class Staging:
     """Which of the sets was sent last."""
 
     def mark(self, key: Key, now: Value, value: Value) -> None:
-        """Mark a value; one that is the present one needs no mark."""
+        """Mark a value; the present value needs no mark."""
         if value == now and type(value) is type(now):
             self.marked.pop(key, None)
         else:
             self.marked[key] = value
 
     def begin(self, values: Values, trees: Mapping[str, ParameterTree]) -> None:
-        """Make two sets: A is how some marked parameters are now, B what is marked for them; A is live."""
+        """Create the two sets: A with the present values of the marked parameters, B with the marked ones; A is
+        live.
+        """
         before: Values = {}
         for key in values:
             tree = trees.get(key[0])
@@ -51,7 +53,7 @@ class Staging:
         return self.sets[1 - self.live] if self.sets else {}
 
     def caption(self) -> str:
-        """What is to be known of it in a few words."""
+        """The state of staging in a few words."""
         parts: list[str] = []
         if self.marking or self.marked:
             parts.append(f"{'marking, ' if self.marking else ''}{len(self.marked)} marked: a applies")

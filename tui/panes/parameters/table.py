@@ -1,4 +1,4 @@
-"""The rows of the parameter pane as they are drawn: name, value, slider, description, or why a value was refused."""
+"""Draws the rows of the parameter pane: name, value, slider, and description or reason of a refusal."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class ParameterRows(ItemList[Row]):
             self.share = share
 
     class Pressed(Message):
-        """A row that was chosen already was clicked."""
+        """The selected row was clicked."""
 
         def __init__(self, row: Row) -> None:
             super().__init__()
@@ -42,25 +42,25 @@ class ParameterRows(ItemList[Row]):
         """The refusals that are still marked, by node and parameter."""
 
         self.staged: dict[tuple[str, str], Value] = {}
-        """Values that are marked and not sent, by node and parameter."""
+        """Marked values, by node and parameter."""
         self.unsaved: frozenset[tuple[str, str]] = frozenset()
-        """The values that are in no file."""
+        """Values that are not in any file."""
         self.moved: frozenset[tuple[str, str]] = frozenset()
-        """The values that are not those of the start."""
+        """Values that have changed since the start."""
         self.late: Mapping[tuple[str, str], Value] = {}
-        """The values that were sent a while ago and are not answered yet."""
+        """Values that are still unanswered after some time."""
         self.flashing: dict[tuple[str, str], float] = {}
-        """The values that have just changed, and until when (s) that is shown."""
+        """Values that have just changed, with the time (s) until which they are highlighted."""
 
         self._measures = Measures()
 
     @property
     def key_at_cursor(self) -> tuple[str, str, str] | None:
-        """What the row at the cursor is about."""
+        """The key of the row at the cursor."""
         return self.key(self.current) if self.current else None
 
     def key(self, item: Row) -> tuple[str, str, str]:
-        """A row is about a node, a group or a parameter, whatever its value."""
+        """The node, group or parameter of a row, regardless of its value."""
         return item.node, item.name, item.parameter.name if item.parameter else ""
 
     def exchange(self, rows: Sequence[Row], *, stay: bool = True) -> None:

@@ -1,4 +1,4 @@
-"""What a position on the steering pane means: a velocity on a slider, both on the pad, or a step of a button. Pure."""
+"""The meaning of a mouse position on the steering pane: a slider's velocity, both velocities, or a button. Pure."""
 
 from __future__ import annotations
 
@@ -12,7 +12,9 @@ ENDS = 7
 
 
 def button(lines: Sequence[Line], x: int, y: int) -> tuple[int, int] | None:
-    """The axis (0 linear, 1 angular) and the step (1 faster or to the left, 0 zero, -1) of a button at a cell."""
+    """The axis (0 linear, 1 angular) and step (1 faster or left, 0 zero, -1 slower or right) of the button at a
+    cell.
+    """
     text = "".join(text for text, _ in lines[y]) if 0 <= y < len(lines) else ""
     for axis, (word, (less, zero, more)) in enumerate(BUTTONS.items()):
         begin = text.rfind(less)
@@ -27,7 +29,9 @@ def button(lines: Sequence[Line], x: int, y: int) -> tuple[int, int] | None:
 def velocities(
     lines: Sequence[Line], x: int, y: int, greatest: tuple[float, float]
 ) -> tuple[float | None, float | None, bool] | None:
-    """Linear and angular velocity (m/s, rad/s; None: as it is) at a cell, and whether it is on the pad; None beside."""
+    """Linear and angular velocity (m/s, rad/s; None: unchanged) at a cell, and whether it is on the pad; None
+    elsewhere.
+    """
     texts = ["".join(text for text, _ in line) for line in lines]
     if not 0 <= y < len(texts):
         return None

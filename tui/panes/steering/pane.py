@@ -1,4 +1,4 @@
-"""The steering pane: drives the robot by keys, as rqt_robot_steering does, with a dead-man time-out."""
+"""The steering pane: drives the robot by keys like rqt_robot_steering, with a dead-man timeout."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from bot_console.tui.widgets.prompt.question import Line
 from textual.app import ComposeResult
 from textual.events import MouseDown, MouseEvent, MouseMove, MouseUp
 
-HELD = "The all-stop holds the robot; see the line below for how it is let go."
+HELD = "The all-stop holds the robot; the line below shows how to release it."
 
 
 class SteeringPane(Pane):
@@ -44,29 +44,29 @@ class SteeringPane(Pane):
     BINDINGS = keymap.bindings("steering")
 
     clock: Callable[[], float] = staticmethod(time.monotonic)
-    """Seconds of a steady clock; tests give one that they step."""
+    """A monotonic clock (s), replaced in tests."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self.state = Steering()
         self._states: dict[str, Steering] = {}
-        """Limits, dead-man time and command of each robot that was steered, by its name."""
+        """Limits, dead-man time and command of each robot steered so far, by its name."""
         self._robot = ""
         self._snapshot = ConsoleSnapshot()
         self.can_focus = True
         self._dragging = self._on_pad = False
 
     def compose(self) -> ComposeResult:
-        """One picture, and a line to type limits."""
+        """The picture, and a prompt for limits."""
         yield Picture()
         yield Prompt(id="steering-prompt")
 
     def focus_target(self) -> None:
-        """The pane itself takes the keys."""
+        """Focus the pane itself."""
         self.focus()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Draw what became of the command; the all-stop zeroes it."""
+        """Show what became of the command; the all-stop zeroes it."""
         before, self._snapshot = self._snapshot, snapshot
         drive = snapshot.drive
         if drive.robot != self._robot:
@@ -81,7 +81,7 @@ class SteeringPane(Pane):
         self._draw()
 
     def _take_robot(self, robot: str) -> None:
-        """Go on with what was set for a robot; keys that were meant for another one never move it."""
+        """Restore the settings of a robot; keys meant for another one never move it."""
         if self._robot and self.state.armed:
             self._disarm("Disarmed: another robot is steered now." if robot else "Disarmed: the robot has left.")
         self._robot = robot
@@ -96,13 +96,13 @@ class SteeringPane(Pane):
         self.set_class(self.state.armed, "armed")
 
     def _others(self) -> list[str]:
-        """Nodes that publish commands on the topic of this pane; the console's own is a hidden one."""
+        """Other nodes that publish commands on this pane's topic."""
         topic = self._snapshot.drive.topic
         nodes = (each for each in self._snapshot.graph.nodes if not each.hidden)
         return [each.name for each in nodes if any(end.name == topic for end in each.publishers)]
 
     def _limit(self) -> None:
-        """The limits that were typed, else those of the robot's parameters."""
+        """Set the typed limits, or else those of the robot's parameters."""
         trees, drive = self._snapshot.parameters.values(), self._snapshot.drive
         self.state.limit(self.state.typed or greatest_of(trees, drive.topic, drive.others))
 
@@ -118,7 +118,7 @@ class SteeringPane(Pane):
         self._draw()
 
     def on_mouse_down(self, event: MouseDown) -> None:
-        """Aim at a velocity on a slider, or at both on the pad; take a button's step."""
+        """Set a velocity by a slider, or both by the pad; handle a button."""
         picture = self.query_one(Picture)
         at = event.screen_offset - picture.region.offset
         pressed = button(picture.lines, at.x, at.y)
@@ -136,12 +136,12 @@ class SteeringPane(Pane):
             self.action_zero_axis(axis)
 
     def on_mouse_move(self, event: MouseMove) -> None:
-        """Aim along."""
+        """Follow the mouse."""
         if self._dragging:
             self._aim(event)
 
     def on_mouse_up(self, event: MouseUp) -> None:
-        """Let go: of the pad as of a stick, which goes back to zero."""
+        """Release; the pad returns to zero like a joystick."""
         self.release_mouse()
         if self._dragging and self._on_pad and self.state.armed:
             self.action_zero()
@@ -165,7 +165,7 @@ class SteeringPane(Pane):
         self._draw()
 
     def tick(self) -> None:
-        """Send the command again, or stop when no key has come for too long."""
+        """Repeat the command, or stop if no key was pressed within the dead-man time."""
         if self.state.armed and not (self.has_focus and self.host.screen is self.screen):
             self._disarm("Disarmed: the keyboard went elsewhere.")
         if self.state.armed:
@@ -185,12 +185,12 @@ class SteeringPane(Pane):
             self._draw()
 
     def _stand(self, why: str) -> None:
-        """Lock before the steering is let go, so that the robot's own program does not drive in between."""
+        """Lock before releasing the steering, so that the robot's own program does not drive in between."""
         self.console.all_stop(True, why)
         self.console.steer(False)
 
     def _steer_no_more(self) -> None:
-        """Steer no more; zero velocity."""
+        """Stop steering, with zero velocity."""
         self.state.disarm()
         self._send()
         self.console.steer(False)
@@ -205,15 +205,15 @@ class SteeringPane(Pane):
         self._draw()
 
     def on_blur(self) -> None:
-        """The keyboard goes elsewhere, so nobody steers."""
+        """Disarm, since the pane has lost the keyboard."""
         self._disarm()
 
     def on_unmount(self) -> None:
-        """Zero on exit; a robot that was steered is left locked."""
+        """Send zero velocity on exit; a steered robot stays locked."""
         self.detach()
 
     def detach(self) -> None:
-        """Disarm, with a zero velocity; a robot that was steered is left locked."""
+        """Disarm with zero velocity; a steered robot stays locked."""
         if self.state.armed:
             self.state.disarm()
             self._send()
@@ -245,11 +245,11 @@ class SteeringPane(Pane):
 
     @property
     def _own_stop(self) -> bool:
-        """Whether it was this pane that stopped the robot, so that Enter may take the steering again."""
+        """Whether this pane stopped the robot, so that Enter may resume steering."""
         return stands_after_steering(self._snapshot.drive)
 
     def _arm(self) -> None:
-        """Hold the steering before the lock is released: the robot stands until a key moves it."""
+        """Take the steering before the lock is released: the robot stands until a key moves it."""
         self.console.steer(True)
         if self._snapshot.drive.stopped:
             self.console.all_stop(False)
@@ -266,11 +266,11 @@ class SteeringPane(Pane):
             self.console.all_stop(False)
 
     def action_disarm(self) -> None:
-        """Zero velocity; keys rest."""
+        """Send zero velocity and ignore keys."""
         self._disarm()
 
     def action_steer(self, linear: int, angular: int, steps: int) -> None:
-        """Change the command and send it at once."""
+        """Change the command and send it immediately."""
         if self._ready():
             self.state.steer(linear, angular, steps, self.clock())
             self._send()
@@ -290,7 +290,7 @@ class SteeringPane(Pane):
         self._draw()
 
     def action_next_robot(self) -> None:
-        """Steer another robot; what was held is let go first."""
+        """Steer another robot; the current one is released first."""
         drive = self._snapshot.drive
         if len(drive.robots) < 2:
             self.notify("No other topic here takes commands.", severity="warning")

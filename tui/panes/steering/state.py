@@ -1,4 +1,4 @@
-"""The state of keyboard steering: two velocities, an arming switch, and a time-out that stops the robot. Pure."""
+"""The state of keyboard steering: two velocities, an arming switch, and a dead-man timeout. Pure."""
 
 from __future__ import annotations
 
@@ -11,29 +11,29 @@ from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.format import parse_number
 
 STEPS = 20
-"""Key presses from standing still to the greatest velocity."""
+"""Key presses from standstill to maximum velocity."""
 
 DEADMAN_TIMES = (1.0, 2.0, 5.0, 10.0)
-"""Seconds without a key after which the robot is stopped. Terminals tell no key release, so a time-out has to do."""
+"""Seconds without a key after which the robot is stopped; terminals do not report key releases."""
 
 GREATEST = (1.0, 3.0)
-"""Limits (m/s, rad/s) where no parameter gives any."""
+"""Limits (m/s, rad/s) if no parameter provides them."""
 
 DEAD_MAN, LEFT = "dead-man: no key came", "the steering was left"
 SILENT = "held the steering and fell silent"
-"""Why the robot stops itself when this console was frozen or cut off; see `docs/safety.md`."""
+"""The reason for which the robot stops itself if this console was frozen or cut off; see `docs/safety.md`."""
 OWN_REASONS = (DEAD_MAN, LEFT, SILENT)
-"""Why the robot stands after steering, until a person takes the steering again or hands it back."""
+"""Reasons for which the robot stands after steering, until someone resumes steering or hands it back."""
 
 MAX_LIMIT = 10.0
-"""The greatest limit that can be typed, m/s and rad/s."""
+"""The maximum of a typed limit, m/s and rad/s."""
 
 SPEED_PARAMETER, TURN_PARAMETER = "max_speed", "turn_rate"
 
 
 @dataclass
 class Steering:
-    """The command that the keys have made so far (m/s, rad/s)."""
+    """The command that results from the keys pressed so far (m/s, rad/s)."""
 
     linear: float = 0.0
     angular: float = 0.0
@@ -42,23 +42,23 @@ class Steering:
     greatest: tuple[float, float] = GREATEST
     last_key: float = 0.0
     typed: tuple[float, float] | None = None
-    """Limits that a person has typed, in place of those of the parameters."""
+    """Limits typed by the user, which replace those of the parameters."""
     sent_zero: bool = True
     expired: bool = False
-    """Whether the dead-man time has run out, and nobody has taken the steering since."""
+    """Whether the dead-man time has expired and nobody has resumed steering since."""
 
     def arm(self, now: float) -> None:
-        """Take keys from now on; the robot stands until one moves it."""
+        """Accept keys; the robot stands until one moves it."""
         self.armed, self.last_key, self.expired = True, now, False
         self.linear = self.angular = 0.0
 
     def disarm(self) -> None:
-        """Take no more keys; the robot stands still."""
+        """Ignore keys; the robot stands still."""
         self.armed = False
         self.zero()
 
     def zero(self) -> None:
-        """Stand still; the zero is sent even when it was sent before."""
+        """Stop; the zero is sent even if it was sent before."""
         self.linear = self.angular = 0.0
         self.sent_zero = False
 
@@ -71,13 +71,13 @@ class Steering:
             self.angular = 0.0
 
     def steer(self, linear: int, angular: int, steps: int, now: float) -> None:
-        """Change the command by steps of a twentieth of what is allowed; it never passes through zero unnoticed."""
+        """Change the command by steps of a twentieth of the limit; it always stops at zero before changing sign."""
         self.last_key, self.expired = now, False
         self.linear = _moved(self.linear, linear * steps, self.greatest[0])
         self.angular = _moved(self.angular, angular * steps, self.greatest[1])
 
     def aim(self, linear: float | None, angular: float | None, now: float) -> None:
-        """Take velocities that were pointed at; None leaves one as it is."""
+        """Set velocities chosen by mouse; None leaves one unchanged."""
         self.last_key, self.expired, self.sent_zero = now, False, False
         if linear is not None:
             self.linear = round(max(-self.greatest[0], min(linear, self.greatest[0])), 3)
@@ -85,17 +85,19 @@ class Steering:
             self.angular = round(max(-self.greatest[1], min(angular, self.greatest[1])), 3)
 
     def limit(self, greatest: tuple[float, float]) -> None:
-        """Other limits hold: the command stays inside them."""
+        """Set other limits, and clip the command to them."""
         self.greatest = greatest
         self.linear = max(-greatest[0], min(self.linear, greatest[0]))
         self.angular = max(-greatest[1], min(self.angular, greatest[1]))
 
     def left(self, now: float) -> float:
-        """The share of the dead-man time that is left, 0 to 1."""
+        """The remaining share of the dead-man time, 0 to 1."""
         return max(0.0, min(1.0, 1.0 - (now - self.last_key) / self.deadman)) if self.armed else 0.0
 
     def command(self, now: float) -> tuple[float, float] | None:
-        """What to send now: velocities again and again, a zero once. The dead-man time ends the steering."""
+        """The command to send now, if any: velocities repeatedly, a zero once. The dead-man timeout ends the
+        steering.
+        """
         moving = (self.linear, self.angular) != (0.0, 0.0)
         if self.armed and moving and now - self.last_key >= self.deadman:
             self.disarm()
@@ -116,14 +118,14 @@ def _moved(value: float, steps: int, greatest: float) -> float:
 
 
 def stands_after_steering(drive: DriveInfo) -> bool:
-    """Whether the robot stands because of this pane alone, so that one key may take or hand back the steering."""
-    if not drive.lockable:  # nothing but zeros of this console holds it, and what they are for
+    """Whether only this pane holds the robot, so that one key may resume or hand back the steering."""
+    if not drive.lockable:  # only this console's zeros hold it, sent for one of these reasons
         return drive.stopped_here and drive.stop_reason in OWN_REASONS
     return bool(drive.stops) and all(each.here and each.reason in OWN_REASONS for each in drive.stops)
 
 
 def parse_limits(text: str) -> tuple[float, float] | None:
-    """Limits of speed and turn (m/s, rad/s) from `0.5 1.0`; None for an empty text; raises `ValueError`."""
+    """Parse limits of speed and turn (m/s, rad/s) such as `0.5 1.0`; None for an empty text; raises `ValueError`."""
     words = text.replace(",", " ").split()
     if not words:
         return None
@@ -136,10 +138,10 @@ def parse_limits(text: str) -> tuple[float, float] | None:
 
 
 def greatest_of(trees: Iterable[ParameterTree], topic: str = "", others: Collection[str] = ()) -> tuple[float, float]:
-    """The limits of speed and turn that the parameters of the steered robot give.
+    """The limits of speed and turn from the parameters of the steered robot.
 
-    Nodes in the namespace of the topic come first, then any that belong to no other robot; `others` are the namespaces
-    of the other robots.
+    Nodes in the namespace of the topic come first, then those that belong to no other robot; `others` are the
+    namespaces of the other robots.
     """
     found = {SPEED_PARAMETER: GREATEST[0], TURN_PARAMETER: GREATEST[1]}
     scope = Scope(f"{topic.rpartition('/')[0]}/", frozenset(others))
