@@ -1,8 +1,8 @@
-"""Esc and a key typed right after it, which many terminals send with the same bytes as Alt and that key.
+"""Tells Esc followed by a key from Alt with that key: many terminals send the same bytes for both.
 
-Over a slow link both come in one piece, and nobody can tell them apart. Textual takes them for Alt and the key, or
-loses the Esc; as in vi they are Esc and the key here, unless somebody has given a key with Alt something to do. The
-keyboard protocol by which some terminals tell Alt apart is not concerned.
+Over a slow link both keys arrive at once and cannot be told apart. Textual takes them for Alt and the key, or loses the
+Esc. Here, as in vi, they are Esc and the key, unless a key with Alt is bound. The keyboard protocol in which some
+terminals report Alt separately is not affected.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from textual.screen import Screen
 
 ESC = "\x1b"
 BEGIN = frozenset("[OP]^_X")
-"""What may begin a sequence after an Esc: a key of several bytes, or something that a terminal tells."""
+"""Characters that may begin a sequence after an Esc: a key of several bytes, or a report of the terminal."""
 EDITING = frozenset("bf\t\x7f")
 """What terminals send after an Esc for keys that move by words or delete one; Textual knows them."""
 ALT = "alt+"
 
 
 class EscapeParser(XTermParser):
-    """Textual's parser (8.2) of what a terminal sends, which takes an Esc before a single key for one."""
+    """Textual's parser (8.2) of terminal input, in which an Esc before a single key is a key of its own."""
 
     def _sequence_to_key_events(self, sequence: str, alt: bool = False) -> Iterable[events.Key]:
         pair = len(sequence) == 2 and sequence[0] == ESC and sequence[1] not in BEGIN | EDITING | {ESC}
@@ -33,7 +33,7 @@ class EscapeParser(XTermParser):
             yield from super()._sequence_to_key_events(sequence, alt)
             return
         for key in super()._sequence_to_key_events(sequence[-1], alt=True):
-            if not key.key.startswith(ALT):  # with which nothing can be bound
+            if not key.key.startswith(ALT):  # such a key cannot be bound
                 yield events.Key("escape", ESC)
             yield key
 
@@ -51,7 +51,7 @@ class EscapeParser(XTermParser):
         self._awaiting = next(self._gen)
 
     def given_up(self) -> Iterable[Message]:
-        """The keys that a sequence stands for of which nothing more comes."""
+        """The keys of an unfinished sequence that will not be completed."""
         if self.is_waiting:
             self._timeout_time = None
             self._awaiting = self._gen.throw(ParseTimeout())
@@ -60,14 +60,14 @@ class EscapeParser(XTermParser):
 
 
 def split_alt_key(event: events.Key, screen: Screen[Any]) -> list[events.Key]:
-    """Esc and the key itself, for a letter with an Alt that may have been an Esc and that nothing is bound to.
+    """Split a letter with Alt into Esc and the letter, if it may have been typed so and has no binding.
 
-    Empty for any other key: in the keyboard protocol that tells Alt apart, such a key has no letter.
+    Empty for any other key: in the keyboard protocol that reports Alt, such a key has no character.
     """
     if not event.key.startswith(ALT) or not event.character or event.key in screen.active_bindings:
         return []
     both = [events.Key("escape", ESC), events.Key(event.character, event.character)]
-    given: Any = event  # who sent it is private to Textual
+    given: Any = event  # the sender is private to Textual
     for each in both:
         each.time = event.time
         each.set_sender(given._sender)

@@ -1,7 +1,7 @@
-"""Input on its way from the thread that reads it to the app: what has not been handled yet is merged.
+"""Passes input from the reading thread to the app, and merges what has not been handled yet.
 
-Textual queues each mouse move, wheel step and resize. Handling one takes longer than making one, so a hand on the mouse
-keeps the screen, and the keys behind, busy for many seconds.
+Textual queues each mouse move, wheel step and resize. Handling one takes longer than producing one, so a moving mouse
+would keep the screen and the keys behind it busy for many seconds.
 """
 
 from __future__ import annotations
@@ -17,21 +17,21 @@ from textual import events
 from textual.message import Message
 
 MAX_WHEEL_STEPS = 8
-"""How many steps of the mouse wheel may wait; as many as presses of one key."""
+"""Maximum number of waiting wheel steps; the same as for repeated presses of one key."""
 
 Wheel = (events.MouseScrollUp, events.MouseScrollDown, events.MouseScrollLeft, events.MouseScrollRight)
 Mergeable = (events.MouseMove, events.Resize, *Wheel)
 
 
 class InputQueue:
-    """Gives the app what has come once it has handled what came before.
+    """Passes new input to the app once the earlier input is handled.
 
-    Of mouse moves and resizes that wait with no key or click in between, the last one counts, and of wheel steps the
-    last few.
+    Of mouse moves and resizes that wait with no key or click in between, only the last one is kept, and of wheel steps
+    the last few.
     """
 
     def __init__(self, app: Any, loop: asyncio.AbstractEventLoop) -> None:
-        """`loop` is the app's."""
+        """`loop` is the app's event loop."""
         self._app = app
         self._loop = loop
         self._waiting: deque[Message] = deque()
@@ -45,7 +45,7 @@ class InputQueue:
         return not self._is_handling and not self._waiting
 
     def put(self, message: Message) -> None:
-        """Pass on a message; from any thread, but from no signal handler."""
+        """Pass on a message. May be called from any thread, but not from a signal handler."""
         with self._lock:
             merge(self._waiting, message)
             begins, self._is_handling = not self._is_handling, True
@@ -53,9 +53,9 @@ class InputQueue:
             self._loop.call_soon_threadsafe(self._hand_over)
 
     def resized(self, event: Callable[[], events.Resize]) -> None:
-        """Pass on that the terminal was resized, with its size at the time when the app learns it.
+        """Pass on a resize; `event` is called when the app handles it, so that it has the size of that time.
 
-        From a signal handler, where nothing may wait for a lock.
+        May be called from a signal handler, in which no lock may be awaited.
         """
         if not self._has_resized:
             self._has_resized = True
@@ -76,19 +76,19 @@ class InputQueue:
             self._after_app(lambda: self._after_screen(lambda: self._after_app(self._hand_over)))
 
     def _after_app(self, then: Callable[[], None]) -> None:
-        """Go on once the app has handled what it was given."""
+        """Call `then` once the app has handled its input."""
         if not self._app.call_later(then):
             self._loop.call_soon(then)
 
     def _after_screen(self, then: Callable[[], None]) -> None:
-        # The app passes mouse moves and resizes on to the screen.
+        # The app forwards mouse moves and resizes to the screen.
         screens = self._app.screen_stack
         if not (screens and screens[-1].is_running and screens[-1].call_later(then)):
             then()
 
 
 def merge(waiting: deque[Message], message: Message) -> None:
-    """Append a message, and remove what it makes needless."""
+    """Append a message, and remove those that it makes redundant."""
     if isinstance(message, Mergeable):
         behind = list(takewhile(lambda each: isinstance(each, Mergeable), reversed(waiting)))
         if isinstance(message, Wheel):

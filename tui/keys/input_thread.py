@@ -1,7 +1,7 @@
-"""The thread that reads keys from the terminal in place of Textual's own (8.2).
+"""The thread that reads keys from the terminal, in place of Textual's own (8.2).
 
-It notices keys that stop the robot at once, and ends as soon as it is told to. Textual's checks ten times a second
-whether it should end, and once more with nothing to read: quitting took it 0.1 to 0.2 s.
+It notices keys that stop the robot immediately, and ends as soon as it is asked to. Textual's thread polls ten times a
+second whether it should end, and once more with nothing to read, which delays quitting by 0.1 to 0.2 s.
 """
 
 from __future__ import annotations
@@ -25,18 +25,18 @@ from textual.geometry import Size
 from textual.message import Message
 
 ESCAPE_TIMEOUT_S = 0.1
-"""Seconds after which is looked again whether the thread is to end, if it cannot be woken."""
+"""Seconds between two checks whether the thread should end, if it cannot be woken."""
 AT_ONCE = 4096
-"""Bytes that a terminal holds at a time."""
+"""Bytes that a terminal buffers."""
 MAX_READ = 65536
-"""Bytes that are read before the keys among them are passed on."""
+"""Bytes that are read before the keys in them are passed on."""
 INPUT = (events.InputEvent, events.Resize, events.AppFocus, events.AppBlur)
 FIRST = 100
-"""Our descriptors begin here, beyond those that programs close or count."""
+"""The lowest number of our descriptors, beyond those that programs close or count."""
 
 
 class Ending(threading.Event):
-    """An event that also wakes a thread waiting for a descriptor; where descriptors run out, it is polled."""
+    """An event that also wakes a thread waiting for a descriptor; without free descriptors, it is polled."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -48,34 +48,34 @@ class Ending(threading.Event):
             os.set_blocking(self._ends[1], False)
 
     def set(self) -> None:
-        """Set it, and wake."""
+        """Set the event and wake the waiting thread."""
         super().set()
         with contextlib.suppress(OSError, IndexError):
             os.write(self._ends[1], b"\0")
 
     def clear(self) -> None:
-        """Wake nobody any more."""
+        """Clear the event."""
         super().clear()
         with contextlib.suppress(OSError, IndexError):
             while select.select(self._ends[:1], [], [], 0)[0] and os.read(self._ends[0], AT_ONCE):
                 pass
 
     def readable(self, descriptor: int, seconds: float) -> bool:
-        """Wait until a descriptor can be read, the event is set or the time is over; whether it can be read."""
+        """Wait until a descriptor is readable, the event is set or the time is over; returns whether it is readable."""
         try:
             ready, _, _ = select.select([descriptor, *self._ends[:1]], [], [], seconds)
-        except (OSError, ValueError):  # a program in this process has closed ours, or those of everybody
+        except (OSError, ValueError):  # a program in this process has closed our descriptor, or all of them
             self._ends.clear()
             ready, _, _ = select.select([descriptor], [], [], seconds)
         return descriptor in ready
 
 
 class Watch(Protocol):
-    """Is given the keys that stop the robot where they are read, in the thread that reads them."""
+    """Receives the keys that stop the robot in the thread that reads them."""
 
     @property
     def due(self) -> float | None:
-        """When `look` is to be called, by `time.monotonic`; None if not at all."""
+        """When to call `poll`, by `time.monotonic`; None if not at all."""
         ...
 
     def is_stop(self, event: events.Key) -> bool:
@@ -83,16 +83,16 @@ class Watch(Protocol):
         ...
 
     def typed(self, event: events.Key, *, alone: bool) -> None:
-        """Take note of such a key, before it is passed on; `alone` says whether nothing was read before it."""
+        """Note such a key before it is passed on; `alone` says whether nothing was read before it."""
         ...
 
     def poll(self) -> None:
-        """Do what is due."""
+        """Perform what is due."""
         ...
 
 
 class Unwatched:
-    """No key stops anything."""
+    """A `Watch` without keys that stop the robot."""
 
     due = None
 
@@ -108,14 +108,14 @@ class Unwatched:
 
 
 def reads_input(driver: Any, app: Any, watch: Watch) -> InputQueue:
-    """Make a Linux driver of Textual read in a thread of ours, and pass on what was read without piling it up."""
+    """Make a Linux driver of Textual read in our thread, and pass on input without letting it pile up."""
     driver.exit_event = ending = Ending()
     queue = InputQueue(app, driver._loop)
     driver.run_input_thread = partial(take_keys, driver, ending, watch)
     send, start = driver.send_message, driver.start_application_mode
 
     def pass_on(message: Message) -> None:
-        # What the terminal answers is not input, and tells when it can take more.
+        # Replies of the terminal are not input; they tell when it can take more output.
         (queue.put if isinstance(message, INPUT) else send)(message)
 
     def signalled(number: int, frame: FrameType | None) -> None:
@@ -136,7 +136,7 @@ def reads_input(driver: Any, app: Any, watch: Watch) -> InputQueue:
 
 
 def take_keys(driver: Any, ending: Ending, watch: Watch) -> None:
-    """Pass on what is typed until told to end, or until the terminal closes.
+    """Pass on what is typed until asked to end, or until the terminal closes.
 
     Bytes that are not text are shown as such.
     """
@@ -146,7 +146,7 @@ def take_keys(driver: Any, ending: Ending, watch: Watch) -> None:
         due = min((each for each in (source.due, watch.due) if each is not None), default=now + ESCAPE_TIMEOUT_S)
         if ending.readable(driver.fileno, max(0.0, min(ESCAPE_TIMEOUT_S, due - now))):
             typed = _read(driver.fileno)
-            if typed is None:  # the terminal is gone, and would be readable for good
+            if typed is None:  # the terminal is gone, and would stay readable forever
                 break
             _hand_on(driver, source.feed(typed, time.monotonic()))
         _hand_on(driver, source.expire(time.monotonic()))
@@ -154,9 +154,10 @@ def take_keys(driver: Any, ending: Ending, watch: Watch) -> None:
 
 
 def _read(descriptor: int) -> bytes | None:
-    """All that was typed, so that a key is seen behind what the terminal holds before it; None at the end."""
+    """Read all that was typed, so that a key is noticed behind any other input; None at the end of file."""
     typed = b""
-    with contextlib.suppress(BlockingIOError):  # somebody made the terminal non-blocking, and took what there was
+    # the terminal was made non-blocking, and another process has read the input
+    with contextlib.suppress(BlockingIOError):
         while len(typed) < MAX_READ and (not typed or select.select([descriptor], [], [], 0)[0]):
             read = os.read(descriptor, AT_ONCE)
             if not read:

@@ -1,4 +1,4 @@
-"""One key: its action, and how it is written."""
+"""A key: its action, and how it is displayed."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ class Key:
     text: str
     footer: bool = False
     shown: str = ""
-    """How the key is written; empty: as Textual writes it."""
+    """The displayed name of the key; empty for Textual's."""
     priority: bool = False
     short: str = ""
-    """What the footer says, where `text` is too long for it."""
+    """The footer's text, if `text` is too long for it."""
 
 
 class Mode(NamedTuple):
@@ -56,7 +56,7 @@ NAMES = {
 
 
 def key_text(key: Key, maximum: int = 9) -> str:
-    """The keys of an action, at most so many, as a person reads them."""
+    """The displayed keys of an action, at most `maximum`."""
     return " ".join(_written(each) for each in key.keys.split(",")[:maximum])
 
 

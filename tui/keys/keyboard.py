@@ -1,7 +1,7 @@
-"""Keys in the order in which they were typed: the next one waits until all has happened that the last one does.
+"""Handles keys in the order in which they were typed: each one waits for all effects of the one before.
 
-Textual hands a key to what has the keyboard at that moment, and what a key opens takes the keyboard a little later:
-letters typed fast, or on a busy machine, would be commands instead of text.
+Textual passes a key to the widget that has the focus at that moment, and a widget that a key opens gets the focus a
+little later. Without this queue, characters typed fast or on a busy machine would be commands instead of text.
 """
 
 from __future__ import annotations
@@ -19,25 +19,27 @@ from textual.app import App
 from textual.dom import DOMNode
 
 KEY_TIMEOUT_S = 1.0
-"""Seconds after which a key that has not ended, for instance since its widget was removed, holds up no other."""
+"""Seconds after which an unfinished key, for instance one whose widget was removed, no longer holds up others."""
 
 MAX_PASTE_CHARACTERS = 20_000
-"""Letters that may be pasted at once.
+"""Maximum number of characters pasted at once.
 
-Each change of a line is checked and completed as a whole: a million letters would keep the screen, and what is typed to
+Each change of a line is checked and completed as a whole: a million characters would keep the screen, and keys typed to
 stop the robot, waiting for a minute.
 """
 
 REPEATS = 8
-"""How many presses of one key in a row may wait. A key that is held down repeats 25 times a second and more: a console
-that is slower than that would go on with it for seconds after its release.
+"""Maximum number of waiting presses of the same key. A held key repeats at 25 Hz or more: a slower console would
+continue for seconds after its release.
 """
 
 MAX_WAITING_KEYS = 2_000
-"""How many keys of any kind may wait; nobody types that many before seeing what the first ones do."""
+"""Maximum number of waiting keys of any kind; nobody types that many without seeing an effect."""
 
 PASSES = 2
-"""A key goes from what has the keyboard up to the app, where its binding acts; then once more what the action sent."""
+"""A key bubbles from the focused widget up to the app, where its binding acts; then what the action sent must be
+handled.
+"""
 
 Typed: TypeAlias = "events.Key | events.Paste"
 
@@ -45,23 +47,23 @@ Typed: TypeAlias = "events.Key | events.Paste"
 class Keyboard:
     """Passes keys on one at a time.
 
-    Of those that are typed faster than they are handled, repeats of one key are dropped, but not in a text field, and
-    never a stop.
+    If keys are typed faster than they are handled, repeats of one key are dropped, except in a text field, and never a
+    stop.
     """
 
     def __init__(self, app: App[None], deliver: Callable[[Typed], Awaitable[None]], typing: Callable[[], bool]) -> None:
-        """`typing` says whether a text field has the keyboard."""
+        """`typing` returns whether a text field has the focus."""
         self._app = app
         self._deliver = deliver
         self._typing = typing
         self._waiting: deque[Typed] = deque()
         self._under_way = 0
-        """Which key is being dealt with; 0 when none is."""
+        """The number of the key being handled; 0 if none is."""
         self._count = 0
         self.passes: Callable[[Typed], bool] = lambda _: True
-        """Whether a key may be dealt with yet; one that may not holds those behind it up."""
+        """Whether a key may be handled yet; one that may not holds up those behind it."""
         self._overtaken = 0.0
-        """When the last key was typed that waited for nothing, by the clock of Textual's events."""
+        """When the last key that did not wait was typed, by the clock of Textual's events."""
 
     @property
     def is_idle(self) -> bool:
@@ -116,7 +118,7 @@ class Keyboard:
                 self._wait_for_key()
 
     def _first(self) -> Typed:
-        """The next key to handle, as the focused widget takes it."""
+        """The next key to handle, in the form for the focused widget."""
         event = self._waiting[0]
         if isinstance(event, events.Key) and (both := split_alt_key(event, self._app.screen)):
             self._waiting.popleft()
@@ -124,16 +126,16 @@ class Keyboard:
         return self._waiting[0]
 
     async def hold(self, passes: Callable[[Typed], bool]) -> None:
-        """Hold keys back, except those that may pass, as long as they are first in line."""
+        """Hold keys back, except those that may pass while they are first in line."""
         self.passes = passes
         await self._next()
 
     async def detach(self) -> None:
-        """Handle all keys that were held, and hold no more."""
+        """Handle all held keys, and hold no more."""
         await self.hold(lambda _: True)
 
     def release(self) -> None:
-        """Go on with the next key: the widget that received the last one has ended."""
+        """Continue with the next key, since the widget that received the last one has ended."""
         self._app.call_later(self._done, self._under_way)
 
     def _wait_for_key(self) -> None:

@@ -1,4 +1,4 @@
-"""Remapping actions to the keys that a person wants."""
+"""Remaps actions to the keys that the user wants."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from dataclasses import replace
 from bot_console.tui.keymap import TABLE, Key
 
 NEVER_WITHOUT = ("app.stop", "app.quit_now")
-"""Actions that a person must always reach: they may have more keys, but keep their own."""
+"""Actions that must always be reachable: they may get more keys, but keep their own."""
 
 SHARED = ("app", "find", "narrowed", "list", "diagram")
-"""Scopes whose keys act in the panes, beside their own."""
+"""Scopes whose keys act in the panes, in addition to the pane's own."""
 
 
 def remap(keys: Mapping[str, str]) -> Mapping[str, str]:
-    """Give actions other keys, by their ids, and return the keys they have then; help, key bar and palette follow.
+    """Assign keys to actions by their ids, and return the resulting keys; help, key bar and palette follow.
 
-    Raises `ValueError` with what `wrong_keys` says.
+    Raises `ValueError` with the message of `wrong_keys`.
     """
     why = wrong_keys(keys)
     if why:
@@ -31,7 +31,7 @@ def remap(keys: Mapping[str, str]) -> Mapping[str, str]:
 
 
 def wrong_keys(keys: Mapping[str, str]) -> str:
-    """Why actions cannot have these keys: unknown id, no key, one key for two actions; empty when they can."""
+    """Why actions cannot have these keys: unknown id, no key, or one key for two actions; empty if they can."""
     known = {key.id: key for table in TABLE.values() for key in table}
     for id, given in keys.items():
         if id not in known:
@@ -51,7 +51,7 @@ def wrong_keys(keys: Mapping[str, str]) -> str:
 
 
 def _new(key: Key, keys: Mapping[str, str], pressed: str) -> bool:
-    """Whether an action has a key only because a person remapped it."""
+    """Whether an action has a key only by remapping."""
     return key.id in keys and pressed not in key.keys.split(",")
 
 

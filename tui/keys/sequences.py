@@ -1,6 +1,6 @@
-"""Splits what a terminal sends into text, escape sequences and pastes, wherever its bytes are broken off. Pure.
+"""Splits terminal input into text, escape sequences and pastes, wherever its bytes are split. Pure.
 
-This is done on bytes: the coordinates of old mouse reports (X10) are three bytes of any value, which need not be UTF-8.
+This works on bytes: the coordinates of old mouse reports (X10) are three bytes of any value, which need not be UTF-8.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from typing import NamedTuple
 ESC = 0x1B
 PASTE_BEGIN, PASTE_END = b"\x1b[200~", b"\x1b[201~"
 ESCAPE_TIMEOUT_S = 0.1
-"""An escape sequence that stops growing for so long was none: somebody has pressed Esc."""
+"""Seconds without a byte after which an incomplete escape sequence is taken as a press of Esc."""
 SEQUENCE_TIMEOUT_S = 0.2
-"""An escape sequence that is not complete after so long was none either, however much has followed."""
+"""Seconds after which an incomplete escape sequence is given up, even if it is still growing."""
 PASTE_SILENCE_S = 1.0
-"""After so long a key in the middle of a paste ends it: the terminal has lost the paste's end."""
+"""Seconds of silence after which a key inside a paste ends it: the terminal has lost the end of the paste."""
 MAX_PASTE_BYTES = 1_000_000
-"""What lies beyond is dropped; far shorter pastes are refused, too."""
+"""Bytes of a paste beyond this are dropped; far shorter pastes are refused as well."""
 
 SEQUENCE = re.compile(
     rb"""\x1b(?:
@@ -44,19 +44,19 @@ BEGINNING = re.compile(
     )?""",
     re.VERBOSE,
 )
-"""What may become such a sequence; a match of all there is waits for more."""
+"""The beginning of such a sequence; if it matches all input, more is awaited."""
 
 
 class Kind(Enum):
-    """What a piece of input is."""
+    """The kind of a piece of input."""
 
     TEXT = "text"
     SEQUENCE = "sequence"
     KEYS = "keys"
-    """What began as an escape sequence and became none: Esc, and what was typed after it."""
+    """Input that began like an escape sequence but is none: Esc, and the keys typed after it."""
     PASTE = "paste"
     STOP = "stop"
-    """A character of a text that stops the robot."""
+    """A character in a text that stops the robot."""
 
 
 class Piece(NamedTuple):
@@ -67,24 +67,24 @@ class Piece(NamedTuple):
 
 
 class Splitter:
-    """Collects bytes until they are whole characters, sequences or pastes."""
+    """Collects bytes into complete characters, sequences or pastes."""
 
     def __init__(self) -> None:
         self._waiting = b""
-        """What is not complete; begins with an Esc outside a paste."""
+        """The incomplete input; begins with Esc outside a paste."""
         self._is_pasting = False
         self._began = self._fed = 0.0
         self._decoder = getincrementaldecoder("utf-8")("replace")
 
     @property
     def due(self) -> float | None:
-        """When `expire` has something to say; None while nothing incomplete waits."""
+        """When to call `expire`; None if nothing incomplete is waiting."""
         if not self._waiting or self._is_pasting:
             return None
         return min(self._fed + ESCAPE_TIMEOUT_S, self._began + SEQUENCE_TIMEOUT_S)
 
     def feed(self, data: bytes, now: float) -> list[Piece]:
-        """Take in what was read; `now` in s."""
+        """Process new bytes; `now` in s."""
         pieces: list[Piece] = []
         if self._is_pasting and now - self._fed >= PASTE_SILENCE_S and _is_one_key(data):
             pieces.append(self._pasted(self._waiting))
@@ -98,7 +98,7 @@ class Splitter:
         return pieces
 
     def expire(self, now: float) -> list[Piece]:
-        """What has waited in vain to become a sequence."""
+        """The pieces of a sequence that was not completed in time."""
         due = self.due
         if due is None or now < due:
             return []
@@ -117,7 +117,7 @@ class Splitter:
             elif self._waiting[0] != ESC:
                 at = self._waiting.find(ESC)
                 text, self._waiting = (self._waiting, b"") if at < 0 else (self._waiting[:at], self._waiting[at:])
-                # A character that an Esc breaks off is not completed behind it.
+                # A character that is interrupted by an Esc is not completed after it.
                 if decoded := self._decoder.decode(text, final=at >= 0):
                     yield Piece(Kind.TEXT, decoded)
             elif (piece := self._sequence()) is not None:
@@ -126,7 +126,7 @@ class Splitter:
                 return
 
     def _sequence(self) -> Piece | None:
-        """The sequence or broken-off sequence at the beginning; None at that of a paste, and if more has to come."""
+        """The complete or interrupted sequence at the beginning; None for a paste, or if more has to arrive."""
         if broken := self._decoder.decode(b"", final=True):
             return Piece(Kind.TEXT, broken)
         whole = SEQUENCE.match(self._waiting)

@@ -1,8 +1,8 @@
-"""Turns what a terminal sends into Textual's events, with Textual's own parser (8.2) for keys and mouse reports.
+"""Turns terminal input into Textual's events, with Textual's own parser (8.2) for keys and mouse reports.
 
-The parser is given whole sequences only. What it does not know is dropped; it would wait for more, and take the keys
-that are typed next for a part of it. It takes a tenth of a millisecond for a sequence, so that keys that stop the robot
-are looked for first, and mouse moves that the next one makes needless are not parsed at all.
+The parser gets complete sequences only. Unknown ones are dropped, since it would wait for more and swallow the next
+keys. It takes a tenth of a millisecond per sequence, so keys that stop the robot are searched for first, and mouse
+moves that a later one makes redundant are not parsed at all.
 """
 
 from __future__ import annotations
@@ -22,26 +22,26 @@ KEYBOARD_PROTOCOL = re.compile(
     r"\x1b\[(?P<code>\d*)(?::(?P<shifted>\d*)(?::\d*)?)?"
     r"(?:;(?P<modifiers>\d*)(?::(?P<kind>\d*))?)?(?:;(?P<text>[\d:]*))?(?P<final>[u~ABCDEFHPQRS])"
 )
-"""A key in the keyboard protocol of kitty, with all the parts that a terminal may add."""
+"""A key in kitty's keyboard protocol, with all optional parts."""
 OTHER_KEYS = re.compile(r"\x1b\[27;(?P<modifiers>\d+);(?P<code>\d+)~")
-"""A key in the manner of xterm's modifyOtherKeys."""
+"""A key in the form of xterm's modifyOtherKeys."""
 MOUSE = re.compile(r"\x1b\[(?:M.*|(<?\d+);[-\d;]+[Mm])", re.DOTALL)
-"""A mouse report; the group is the number of the button."""
+"""A mouse report; the group is the button number."""
 MOVE, WHEEL = 32, 64
-"""Bits of its number."""
+"""Bits of the button number."""
 STRINGS = frozenset("]PX^_")
-"""After an Esc: a text that answers a question, of this program or of the one before it."""
+"""After an Esc, these begin a string: the reply to a query of this program or an earlier one."""
 RELEASED = "3"
 SHIFT, LOCKS = 1, 64 | 128
 """Bits of the modifiers: Shift; Caps Lock and Num Lock."""
 MAX_KNOWN = 1024
-"""Sequences whose keys are remembered."""
+"""Maximum number of cached sequences."""
 
 Notice = Callable[[events.Key, bool], None]
 
 
 class TerminalEvents:
-    """Makes events of bytes; a sequence that cannot be parsed spoils nothing but itself."""
+    """Converts bytes to events; an invalid sequence affects nothing else."""
 
     def __init__(
         self,
@@ -49,7 +49,7 @@ class TerminalEvents:
         stops: Callable[[events.Key], bool] = lambda _: False,
         notice: Notice = lambda _, __: None,
     ) -> None:
-        """`notice` is given each key that `stops`, as soon as possible, and whether it came alone."""
+        """`notice` receives each key that `stops`, as soon as possible, and whether it came alone."""
         self._splitter = Splitter()
         self._parser: Any = EscapeParser(debug)
         self._known: dict[str, list[tuple[str, str | None]]] = {}
@@ -58,7 +58,7 @@ class TerminalEvents:
 
     @property
     def due(self) -> float | None:
-        """When `expire` is to be called, by the clock whose times `feed` gets; None if not at all."""
+        """When to call `expire`, by the clock of `feed`; None if not at all."""
         return self._splitter.due
 
     def feed(self, data: bytes, now: float) -> list[Message]:
@@ -66,7 +66,7 @@ class TerminalEvents:
         return self._events(self._splitter.feed(data, now))
 
     def expire(self, now: float) -> list[Message]:
-        """The keys that have waited in vain to become an escape sequence."""
+        """The keys of escape sequences that were not completed in time."""
         return self._events(self._splitter.expire(now))
 
     def _events(self, pieces: list[Piece]) -> list[Message]:
@@ -109,12 +109,12 @@ class TerminalEvents:
             if kind is Kind.KEYS:
                 return self._keys(text)
             return [event for each in text for event in self._once(each, self._fed)]
-        except Exception:  # a number that is none, or too large
+        except Exception:  # an invalid number, or one that is too large
             self._parser.begin_again()
             return []
 
     def _once(self, text: str, parse: Callable[[str], list[Message]]) -> list[Message]:
-        """Events, which are keys most of the time: the keys of a text are parsed once."""
+        """Mostly keys; the keys of a text are parsed once."""
         known = self._known.get(text)
         if known is not None:
             return [events.Key(key, character) for key, character in known]
@@ -145,7 +145,9 @@ class TerminalEvents:
 
 
 def _without_needless_moves(pieces: Iterable[Piece]) -> Iterator[Piece]:
-    """The pieces; of mouse moves in a row with the same button only the last one, of wheel steps the last few."""
+    """The pieces without redundant ones: of consecutive mouse moves with the same button the last one is kept, of wheel
+    steps the last few.
+    """
     for button, same in groupby(pieces, _moved_button):
         if button is None:
             yield from same
@@ -161,7 +163,7 @@ def _moved_button(piece: Piece) -> str | None:
 
 
 def with_text(sequence: str) -> str:
-    """A key of the keyboard protocol as Textual can read it: with the text it stands for; empty for a released key."""
+    """Add the text of a key of the keyboard protocol, so that Textual can read it; empty for a released key."""
     match = KEYBOARD_PROTOCOL.fullmatch(sequence)
     other = OTHER_KEYS.fullmatch(sequence)
     shifted = ""
@@ -180,11 +182,11 @@ def with_text(sequence: str) -> str:
 
 
 def _text_of(code: str, shifted: str, modifiers: int) -> str:
-    """The code of the letter that a key stands for, as far as that is known; empty for a key that is no letter."""
+    """The code of a key's character, as far as it is known; empty for a key without one."""
     pressed = modifiers & ~LOCKS
     if pressed & ~SHIFT:
         return ""
     character = chr(int(shifted if pressed and shifted else code or "1"))
-    # What Shift makes of a letter or digit only the terminal knows.
+    # Only the terminal knows the shifted character of a key.
     is_known = character.isprintable() and not (pressed and not shifted and character.isalnum())
     return str(ord(character)) if is_known else ""
