@@ -21,9 +21,9 @@ class PackageNotFoundError(KeyError):
 
 
 def get_packages_with_prefixes() -> dict[str, str]:
-    """Names of all packages with their prefixes; a source package's prefix is its folder.
+    """Return the names of all packages with their prefixes; a source package's prefix is its folder.
 
-    The interface packages that come along stand behind those of the user.
+    The user's packages take precedence over the included interface packages.
     """
     found = _installed()
     for name, package in workspace().packages.items():
@@ -41,21 +41,21 @@ def _installed() -> dict[str, str]:
 
 
 def get_package_prefix(package_name: str) -> str:
-    """The prefix of a package; raises `ValueError` for no name, `PackageNotFoundError` for an unknown one."""
+    """Return a package's prefix; raises `ValueError` for an invalid name, `PackageNotFoundError` for an unknown one."""
     if not NAME.match(package_name):
         raise ValueError(f"'{package_name}' is not a valid package name")
     found = get_packages_with_prefixes().get(package_name)
     if found is None and (package := workspace().find(package_name)):
         found = str(package.folder)
     if found is None:
-        # Without prefixes the folders with source packages are all that was searched.
+        # Without prefixes only the folders with source packages were searched.
         searched = get_search_paths() or [str(each) for each in workspace().folders]
         raise PackageNotFoundError(f"package '{package_name}' not found, searching: {searched}")
     return found
 
 
 def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
-    """The share folder of a package: of an installed one `<prefix>/share/<name>`."""
+    """Return a package's share folder: for an installed one `<prefix>/share/<name>`."""
     prefix = get_package_prefix(package_name)
     if package_name in _installed():
         path = os.path.join(prefix, "share", package_name)
@@ -67,5 +67,5 @@ def get_package_share_directory(package_name: str, print_warning: bool = True) -
 
 
 def get_package_share_path(package_name: str, print_warning: bool = True) -> Path:
-    """The same as a path."""
+    """Return the same as a path."""
     return Path(get_package_share_directory(package_name, print_warning))

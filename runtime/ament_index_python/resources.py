@@ -10,25 +10,25 @@ INDEX = Path("share") / "ament_index" / "resource_index"
 
 
 def get_search_paths() -> list[str]:
-    """The prefixes that exist, in their order; none where the variable is not set."""
+    """Return the existing prefixes, in order; none if the variable is not set."""
     return [each for each in os.environ.get(PREFIX_VARIABLE, "").split(os.pathsep) if each and os.path.isdir(each)]
 
 
 class InvalidResourceTypeNameError(Exception):
-    """A kind of resources that cannot be one: it is empty, or leads to another folder."""
+    """An invalid resource type: it is empty, or leads to another folder."""
 
 
 class InvalidResourceNameError(Exception):
-    """A name of a resource that cannot be one: it is empty, or leads to another folder."""
+    """An invalid resource name: it is empty, or leads to another folder."""
 
 
 def name_is_invalid(resource_name: str) -> bool:
-    """Whether a resource, or a kind of resources, cannot have that name."""
+    """Whether the name of a resource or resource type is invalid."""
     return not resource_name or "/" in resource_name or "\\" in resource_name
 
 
 def _check(resource_type: str, resource_name: str = "any") -> None:
-    """Refuse an empty name by `AssertionError`, as upstream, and one that leads to another folder by its own error."""
+    """Reject an empty name by `AssertionError`, as upstream, and one that leads to another folder by its own error."""
     assert resource_type, "The resource type must not be empty"
     assert resource_name, "The resource name must not be empty"
     if name_is_invalid(resource_type):
@@ -38,7 +38,7 @@ def _check(resource_type: str, resource_name: str = "any") -> None:
 
 
 def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
-    """Content and prefix of a resource; raises `LookupError` when it is not there."""
+    """Return content and prefix of a resource; raises `LookupError` if it does not exist."""
     _check(resource_type, resource_name)
     for prefix in get_search_paths():
         path = Path(prefix) / INDEX / resource_type / resource_name
@@ -48,7 +48,7 @@ def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
 
 
 def get_resources(resource_type: str) -> dict[str, str]:
-    """Names of the resources of a type with their prefixes; the first prefix of a name wins."""
+    """Return the names of the resources of a type with their prefixes; the first prefix of a name wins."""
     _check(resource_type)
     found: dict[str, str] = {}
     for prefix in get_search_paths():
@@ -61,13 +61,13 @@ def get_resources(resource_type: str) -> dict[str, str]:
 
 
 def has_resource(resource_type: str, resource_name: str) -> str | bool:
-    """The prefix of a resource, or False."""
+    """Return the prefix of a resource, or False."""
     _check(resource_type, resource_name)
     return get_resources(resource_type).get(resource_name, False)
 
 
 def get_resource_types() -> dict[str, set[str]]:
-    """The kinds of resources, each with the prefixes that have some."""
+    """Return the resource types, each with the prefixes that have some."""
     found: dict[str, set[str]] = {}
     for prefix in get_search_paths():
         folder = Path(prefix) / INDEX

@@ -1,4 +1,4 @@
-"""The prefixes in which the ament index is searched."""
+"""The prefixes searched by the ament index."""
 
 from ament_index_python.resources import get_search_paths
 

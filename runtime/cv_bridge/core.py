@@ -14,14 +14,14 @@ from std_msgs.msg import Header
 
 
 class CvBridgeError(TypeError):
-    """An image cannot be what it was asked to be."""
+    """An image cannot be converted."""
 
 
 class CvBridge:
     """Converts between `sensor_msgs/Image`, `CompressedImage` and arrays; raises `CvBridgeError`."""
 
     def imgmsg_to_cv2(self, img_msg: Image, desired_encoding: str | None = "passthrough") -> np.ndarray:
-        """The pixels of a message, rows first, in the encoding asked for."""
+        """Return the pixels of a message, rows first, in the desired encoding."""
         dtype, channels = self.encoding_to_dtype_with_channels(img_msg.encoding)
         kind = np.dtype(dtype).newbyteorder(">" if img_msg.is_bigendian else "<")
         rows = np.frombuffer(bytes(img_msg.data), dtype=np.uint8)
@@ -33,13 +33,14 @@ class CvBridge:
             )
         rows = np.ascontiguousarray(rows[: img_msg.height * step].reshape(img_msg.height, step)[:, :used])
         shape = (img_msg.height, img_msg.width) + ((channels,) if channels > 1 else ())
-        image = np.ndarray(shape, dtype=kind, buffer=rows.tobytes()).astype(dtype)  # astype: native, and writable
+        # astype: native byte order, and writable
+        image = np.ndarray(shape, dtype=kind, buffer=rows.tobytes()).astype(dtype)
         if desired_encoding in (None, "passthrough"):
             return image
         return _converted(image, img_msg.encoding, desired_encoding)
 
     def cv2_to_imgmsg(self, cvim: np.ndarray, encoding: str = "passthrough", header: Header | None = None) -> Image:
-        """A message with the pixels of an array."""
+        """Return a message with the pixels of an array."""
         if not isinstance(cvim, np.ndarray):
             raise TypeError("Your input type is not a numpy array")
         channels = 1 if cvim.ndim < 3 else cvim.shape[2]
@@ -59,7 +60,7 @@ class CvBridge:
     def compressed_imgmsg_to_cv2(
         self, cmprs_img_msg: CompressedImage, desired_encoding: str | None = "passthrough"
     ) -> np.ndarray:
-        """The pixels of a compressed image; needs OpenCV (`ImportError`)."""
+        """Return the pixels of a compressed image; needs OpenCV (`ImportError`)."""
         cv2 = open_cv("Compressed images")
         image = cv2.imdecode(np.frombuffer(bytes(cmprs_img_msg.data), dtype=np.uint8), cv2.IMREAD_UNCHANGED)
         if image is None:
@@ -69,7 +70,7 @@ class CvBridge:
         return _converted(image, "bgr8" if image.ndim == 3 else "mono8", desired_encoding)
 
     def cv2_to_compressed_imgmsg(self, cvim: np.ndarray, dst_format: str = "jpg") -> CompressedImage:
-        """A compressed message with the pixels of an array; needs OpenCV (`ImportError`)."""
+        """Return a compressed message with the pixels of an array; needs OpenCV (`ImportError`)."""
         if not isinstance(cvim, np.ndarray):
             raise TypeError("Your input type is not a numpy array")
         cv2 = open_cv("Compressed images")
@@ -79,22 +80,22 @@ class CvBridge:
         return CompressedImage(format=dst_format, data=array.array("B", data.tobytes()))
 
     def encoding_to_cvtype2(self, encoding: str) -> int:
-        """OpenCV's number of an encoding."""
+        """Return OpenCV's number of an encoding."""
         try:
             return getCvType(encoding)
         except ValueError as error:
             raise CvBridgeError(error) from None
 
     def encoding_to_dtype_with_channels(self, encoding: str) -> tuple[str, int]:
-        """NumPy type and number of channels of an encoding."""
+        """Return NumPy type and number of channels of an encoding."""
         return self.cvtype2_to_dtype_with_channels(self.encoding_to_cvtype2(encoding))
 
     def cvtype2_to_dtype_with_channels(self, cvtype: int) -> tuple[str, int]:
-        """NumPy type and number of channels of OpenCV's number."""
+        """Return NumPy type and number of channels of OpenCV's number."""
         return DEPTHS[cvtype & 7], (cvtype >> 3) + 1
 
     def dtype_with_channels_to_cvtype2(self, dtype: Any, n_channels: int) -> str:
-        """OpenCV's name of a type, such as `8UC3`."""
+        """Return OpenCV's name of a type, such as `8UC3`."""
         try:
             return cv_type_name(np.dtype(dtype).name, n_channels)
         except KeyError:

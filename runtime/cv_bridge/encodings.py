@@ -17,7 +17,7 @@ _PLAIN = re.compile(r"(8U|8S|16U|16S|32S|32F|64F)C?([1-4]?)")
 
 
 class Encoding(NamedTuple):
-    """What an encoding means; `kind` is a word of `COLORS`, `bayer`, `yuv422`, or empty for mere numbers."""
+    """Properties of an encoding; `kind` is one of `COLORS`, `bayer`, `yuv422`, or empty for plain numbers."""
 
     dtype: str
     channels: int
@@ -26,7 +26,7 @@ class Encoding(NamedTuple):
 
 
 def encoding(name: str) -> Encoding:
-    """The meaning of a name; raises `ValueError` for one that there is not."""
+    """Return the encoding of this name; raises `ValueError` for an unknown one."""
     color = _COLOR.fullmatch(name)
     if color:
         return Encoding(f"uint{color[2]}", COLORS[color[1]], color[1])
@@ -43,11 +43,11 @@ def encoding(name: str) -> Encoding:
 
 
 def getCvType(name: str) -> int:
-    """OpenCV's number of a type; raises `ValueError`."""
+    """Return OpenCV's number of a type; raises `ValueError`."""
     found = encoding(name)
     return DEPTHS.index(found.dtype) + ((found.channels - 1) << 3)
 
 
 def cv_type_name(dtype: str, channels: int) -> str:
-    """OpenCV's name of a type, such as `8UC3`; raises `KeyError` for a type that images do not have."""
+    """Return OpenCV's name of a type, such as `8UC3`; raises `KeyError` for a type that images do not have."""
     return f"{CV_NAMES[dtype]}C{channels}"

@@ -1,4 +1,4 @@
-"""Tests of what a launch description starts, as upstream's `launch_pytest`: fixtures of pytest start and end it."""
+"""Tests of launched processes, as upstream's `launch_pytest`: pytest fixtures start and end them."""
 
 from launch_pytest import actions, tools
 from launch_pytest.fixture import fixture

@@ -1,4 +1,4 @@
-"""`@launch_pytest.fixture`: what a function describes runs as long as the fixture lives."""
+"""`@launch_pytest.fixture`: a launch description that runs for the lifetime of a fixture."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 RUNNING: dict[str, Any] = {}
-"""What runs, by the name of its fixture."""
+"""The running launches, by the names of their fixtures."""
 _OPTIONS = "_launch_pytest_options"
 
 
@@ -21,9 +21,9 @@ def fixture(
     auto_shutdown: bool = True,
     **options: Any,
 ) -> Any:
-    """Make a fixture of a function that returns a launch description, or a sequence that begins with one.
+    """Make a fixture from a function that returns a launch description, or a sequence starting with one.
 
-    Without `auto_shutdown` the launch has to end itself, and what comes after it waits for that.
+    Without `auto_shutdown` the launch has to end by itself, and tests after the shutdown wait for that.
     """
     if decorated is None:
         more = {"shutdown_when_idle": shutdown_when_idle, "auto_shutdown": auto_shutdown}
@@ -57,7 +57,7 @@ def fixture(
 
 
 def options_of(made: Any) -> tuple[str, str]:
-    """Name and scope of such a fixture; raises `TypeError` for anything else."""
+    """Return name and scope of such a fixture; raises `TypeError` for anything else."""
     if not hasattr(made, _OPTIONS):
         raise TypeError("pytest.mark.launch takes fixture=..., which has to be made with @launch_pytest.fixture")
     name, scope = getattr(made, _OPTIONS)

@@ -1,7 +1,7 @@
-"""A pytest plugin: a function marked `launch(fixture=...)` runs beside what its fixture describes, or after it.
+"""A pytest plugin: a function marked `launch(fixture=...)` runs beside the launch of its fixture, or after it.
 
-`shutdown=True` is for after it. A generator runs up to its `yield` beside it and goes on after it; where others use the
-fixture too, what follows the `yield` is a test of its own, which comes last.
+`shutdown=True` means after it. A generator runs up to its `yield` beside the launch and continues after it; if other
+tests use the fixture, too, the part after the `yield` is a separate test, which comes last.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ AFTER_ALONE = "generator or async generator based launch test items cannot be ma
 
 
 class LaunchTestWarning(pytest.PytestWarning):
-    """A mark says too little."""
+    """A mark lacks an argument."""
 
 
 def _is_generator(function: Any) -> bool:
@@ -35,7 +35,7 @@ def _running(item: Any) -> Any:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> Any:
-    """Take functions with the mark, coroutines and generators among them."""
+    """Collect functions with the mark, including coroutines and generators."""
     own = [each for each in getattr(obj, "pytestmark", []) if each.name == "launch"]
     marks = [*own, *collector.iter_markers("launch")]
     if not marks or not inspect.isfunction(obj) or not collector.istestfunction(obj, name):
@@ -70,7 +70,7 @@ def _second_halves(collector: Any, name: str, obj: Any, items: list[Any]) -> lis
 
 
 def pytest_collection_modifyitems(items: list[Any]) -> None:
-    """Within a class or module, what comes after the shutdown comes last."""
+    """Move tests that run after the shutdown to the end of their class or module."""
     places: dict[Any, int] = {}
     for item in items:
         places.setdefault(item.parent, len(places))
@@ -107,7 +107,7 @@ def pytest_pyfunc_call(pyfuncitem: Any) -> bool | None:
 
 
 def _step(running: Any, generator: Any) -> None:
-    """Let it run up to its next `yield`; raises `StopIteration` or `StopAsyncIteration` where none is left."""
+    """Run a generator up to its next `yield`; raises `StopIteration` or `StopAsyncIteration` if there is none left."""
     if inspect.isgenerator(generator):
         next(generator)
     else:
@@ -138,7 +138,7 @@ def _part(request: Any) -> Any:
 
 @pytest.fixture
 def launch_service(request: Any) -> Any:
-    """The launch service of what runs."""
+    """The launch service of the running launch."""
     return _part(request).service
 
 
@@ -150,10 +150,10 @@ def launch_context(launch_service: Any) -> Any:
 
 @pytest.fixture
 def event_loop(request: Any) -> Any:
-    """The loop that it runs in."""
+    """The loop of the running launch."""
     return _part(request).loop
 
 
 def pytest_configure(config: Any) -> None:
-    """The marker."""
+    """Register the marker."""
     config.addinivalue_line("markers", "launch(fixture, shutdown=False): run beside a launch description, or after it")

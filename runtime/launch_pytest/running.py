@@ -1,4 +1,4 @@
-"""A launch description that runs while tests do, in a thread and a loop of its own."""
+"""A launch description that runs beside tests, in a separate thread with its own event loop."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from launch_testing.test_run import entities_of
 from launch import LaunchDescription, LaunchService
 
 END_TIMEOUT_S = 30.0
-"""Seconds within which a launch ends once it shall."""
+"""Seconds within which a launch has to end."""
 
 
 class Running:
@@ -50,17 +50,17 @@ class Running:
         return asyncio.run_coroutine_threadsafe(work, self.loop)
 
     def run(self, work: Coroutine[Any, Any, Any]) -> Any:
-        """The result of a coroutine in the loop of the launch."""
+        """Run a coroutine in the loop of the launch and return its result."""
         return self._submit(work).result()
 
     def shutdown(self) -> None:
-        """End what runs, unless it does that itself, and wait for it; the loop goes on."""
+        """End the launch, unless it ends by itself, and wait for that; the loop continues."""
         if not self._ends_itself:
             self.service.shutdown()
         self._ended.result(END_TIMEOUT_S)
 
     def close(self) -> None:
-        """End all."""
+        """End everything."""
         try:
             self.shutdown()
         finally:

@@ -1,4 +1,4 @@
-"""Tests of what a launch description starts, as upstream's `launch_testing`: with unittest, alone or under pytest."""
+"""Tests of launched processes, as upstream's `launch_testing`: with unittest, alone or under pytest."""
 
 from launch_testing import actions, asserts, event_handlers, markers, tools, util
 from launch_testing.decorators import parametrize, post_shutdown_test, ready_to_test_action_timeout

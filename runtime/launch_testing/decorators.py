@@ -1,4 +1,4 @@
-"""What marks test cases and test descriptions."""
+"""Decorators for test cases and test descriptions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _Description = TypeVar("_Description")
 
 
 def post_shutdown_test() -> Callable[[type[Any]], type[Any]]:
-    """A class whose tests run when all processes have ended."""
+    """Mark a class whose tests run after all processes have ended."""
 
     def mark(test_item: type[Any]) -> type[Any]:
         if not isinstance(test_item, type):
@@ -25,7 +25,7 @@ def post_shutdown_test() -> Callable[[type[Any]], type[Any]]:
 
 
 def ready_to_test_action_timeout(timeout: float) -> Callable[[_Description], _Description]:
-    """A test description whose `ReadyToTest` has so many seconds, not 15."""
+    """Give the `ReadyToTest` of a test description this many seconds instead of 15."""
 
     def mark(description: _Description) -> _Description:
         setattr(description, READY_TIMEOUT, timeout)
@@ -35,7 +35,7 @@ def ready_to_test_action_timeout(timeout: float) -> Callable[[_Description], _De
 
 
 def parametrize(argnames: str | Iterable[str], argvalues: Iterable[Any]) -> Callable[[Any], Any]:
-    """A test description that is made, and tested, once for each row of values: a tuple, or the one value itself."""
+    """Create and test a test description once for each row of values: a tuple, or a single value."""
     names = [each.strip() for each in argnames.split(",")] if isinstance(argnames, str) else list(argnames)
 
     def rows() -> Iterator[dict[str, Any]]:
@@ -48,7 +48,7 @@ def parametrize(argnames: str | Iterable[str], argvalues: Iterable[Any]) -> Call
             return function(*args, **kwargs)
 
         def made_with(row: dict[str, Any]) -> Any:
-            return functools.update_wrapper(functools.partial(function, **row), function)  # with its marks
+            return functools.update_wrapper(functools.partial(function, **row), function)  # keeps its marks
 
         setattr(described, PARAMETERS, lambda: [(made_with(row), row) for row in rows()])
         return described

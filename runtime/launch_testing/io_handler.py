@@ -1,4 +1,4 @@
-"""What the processes of a test have written."""
+"""The output of the processes of a test."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from launch_testing.util import NoMatchingProcessException, resolveProcesses
 
 
 class IoHandler:
-    """Keeps all output, by process and in its order."""
+    """Keeps all output, by process and in order."""
 
     def __init__(self) -> None:
         self._sequence: list[Any] = []
         self._by_name: dict[str, list[Any]] = {}
 
     def track(self, process_name: str) -> None:
-        """Know a process that has not written anything yet."""
+        """Register a process without output."""
         self._by_name.setdefault(process_name, [])
 
     def append(self, process_io: Any) -> None:
-        """Keep one more piece."""
+        """Add a chunk of output."""
         self._sequence.append(process_io)
         self._by_name.setdefault(process_io.process_name, []).append(process_io)
 
@@ -34,11 +34,11 @@ class IoHandler:
         return [pieces[0].action for pieces in list(self._by_name.values()) if pieces]
 
     def process_names(self) -> list[str]:
-        """The names of all that are known."""
+        """The names of all known processes."""
         return list(self._by_name)
 
     def __getitem__(self, process: Any) -> list[Any]:
-        """What a process has written, by its action or its whole name; raises `KeyError` for one that is not known."""
+        """Return the output of a process, by its action or its full name; raises `KeyError` for an unknown one."""
         name = process if isinstance(process, str) else process.process_details["name"]
         return list(self._by_name[name])
 
@@ -52,16 +52,16 @@ class ActiveIoHandler(IoHandler):
 
     @property
     def io_event(self) -> threading.Condition:
-        """Is notified of each new piece."""
+        """Notified of each new chunk."""
         return self._changed
 
     def track(self, process_name: str) -> None:
-        """Know a process that has not written anything yet."""
+        """Register a process without output."""
         with self._changed:
             super().track(process_name)
 
     def append(self, process_io: Any) -> None:
-        """Keep one more piece, and tell those who wait."""
+        """Add a chunk, and notify those who wait."""
         with self._changed:
             super().append(process_io)
             self._changed.notify_all()
@@ -78,9 +78,9 @@ class ActiveIoHandler(IoHandler):
         strip_ansi_escape_sequences: bool = True,
         stream: str = "stderr",
     ) -> bool:
-        """Whether a process writes something to a stream within so many seconds.
+        """Return whether a process writes something to a stream within this many seconds.
 
-        Raises `NoMatchingProcessException` where by then none of those that are meant has written anything.
+        Raises `NoMatchingProcessException` if no matching process has written anything by then.
         """
 
         def written() -> bool:

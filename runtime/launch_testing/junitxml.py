@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 
 class TimedResult(unittest.TextTestResult):
-    """A result that knows its tests and how long each took (s)."""
+    """A result that records its tests and their durations (s)."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -17,18 +17,18 @@ class TimedResult(unittest.TextTestResult):
         self._begin = 0.0
 
     def startTest(self, test: Any) -> None:
-        """A test begins."""
+        """Note the start of a test."""
         self._begin = time.monotonic()
         super().startTest(test)
 
     def stopTest(self, test: Any) -> None:
-        """A test has ended."""
+        """Note the end of a test."""
         self.seconds[test] = time.monotonic() - self._begin
         super().stopTest(test)
 
 
 def write_report(path: str, name: str, result: TimedResult) -> None:
-    """Write what came of a result's tests; one that never began, as when the launch died, is among them."""
+    """Write the outcomes of a result's tests, including those that never began, as when the launch died."""
     reported = [("failure", result.failures), ("error", result.errors), ("skipped", result.skipped)]
     tests = list(dict.fromkeys([*result.seconds, *(test for _, pairs in reported for test, _ in pairs)]))
     numbers = {

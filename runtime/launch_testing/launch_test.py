@@ -19,7 +19,7 @@ from ros2cli.launch_show_args import print_arguments
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Run a test file; 0 where all tests passed."""
+    """Run a test file; return 0 if all tests passed."""
     parser = _parser()
     given = parser.parse_args(words)
     if given.verbose:
@@ -35,7 +35,7 @@ def main(words: Sequence[str] | None = None) -> int:
             print_arguments(runs[0].describe()[0])
             return 0
         return _run(runs, dict(parse_launch_arguments(given.launch_arguments)), given)
-    except Exception as error:  # a test file is a program: what it raises is told as the command line's fault
+    except Exception as error:  # a test file is a program: its exceptions are reported as command-line errors
         parser.error(str(error))
 
 
@@ -69,7 +69,7 @@ def _run(runs: Sequence[TestRun], arguments: dict[str, str], given: argparse.Nam
 
 
 def load(path: Path) -> Any:
-    """The module of a test file, whatever its name ends in."""
+    """Import a test file as a module, whatever its extension."""
     spec = importlib.util.spec_from_file_location(path.name.partition(".")[0], path)
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)

@@ -1,4 +1,4 @@
-"""Markers of test descriptions and of tests."""
+"""Decorators for test descriptions and tests."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ KEEP_ALIVE = "__launch_testing_keep_alive"
 
 
 def keep_alive(test_description: Any) -> Any:
-    """A description without `ReadyToTest` or processes: the tests begin at once, and the launch stays."""
+    """Mark a description without `ReadyToTest` or processes: the tests begin at once, and the launch keeps running."""
     setattr(test_description, KEEP_ALIVE, True)
     return test_description
 
@@ -19,7 +19,7 @@ def keep_alive(test_description: Any) -> Any:
 def retry_on_failure(
     *, times: int | None = None, timeout: float | None = None, delay: float = 0.0
 ) -> Callable[..., Any]:
-    """Run a test again while it fails, so many times or so long (s), with `delay` s between."""
+    """Repeat a failing test at most this many times or this long (s), with `delay` s in between."""
     if times is None and timeout is None:
         raise ValueError("either times or timeout has to be given")
 

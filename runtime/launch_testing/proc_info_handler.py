@@ -1,4 +1,4 @@
-"""How the processes of a test have ended."""
+"""The starts and exits of the processes of a test."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ class ProcInfoHandler:
         self._events: dict[Any, Any] = {}
 
     def append(self, process_info: Any) -> None:
-        """Keep one more start or exit."""
+        """Add a start or exit."""
         self._events[process_info.action] = process_info
 
     def __iter__(self) -> Iterator[Any]:
         return iter(list(self._events.values()))
 
     def processes(self) -> list[Any]:
-        """The processes that are known."""
+        """The known processes."""
         return list(self._events)
 
     def process_names(self) -> list[str]:
@@ -32,7 +32,7 @@ class ProcInfoHandler:
         return [each.process_details["name"] for each in list(self._events)]
 
     def __getitem__(self, process: Any) -> Any:
-        """The event of a process, by its action or a part of its name; raises `KeyError` for one that is not known."""
+        """Return the event of a process, by its action or a part of its name; raises `KeyError` for an unknown one."""
         if not isinstance(process, str):
             return self._events[process]
         for action, event in list(self._events.items()):
@@ -50,22 +50,22 @@ class ActiveProcInfoHandler(ProcInfoHandler):
 
     @property
     def proc_event(self) -> threading.Condition:
-        """Is notified of each start and exit."""
+        """Notified of each start and exit."""
         return self._changed
 
     def append(self, process_info: Any) -> None:
-        """Keep one more start or exit, and tell those who wait."""
+        """Add a start or exit, and notify those who wait."""
         with self._changed:
             super().append(process_info)
             self._changed.notify_all()
 
     def assertWaitForStartup(self, process: Any, cmd_args: Any = None, *, timeout: float = 10) -> None:
-        """Assert that a process starts within so many seconds."""
+        """Assert that a process starts within this many seconds."""
         so = self._wait(process, cmd_args, timeout, lambda event: True)
         assert so, f"Timed out waiting for process '{_shown(process)}' to start"
 
     def assertWaitForShutdown(self, process: Any, cmd_args: Any = None, *, timeout: float = 10) -> None:
-        """Assert that a process ends within so many seconds."""
+        """Assert that a process ends within this many seconds."""
         so = self._wait(process, cmd_args, timeout, lambda event: isinstance(event, ProcessExited))
         assert so, f"Timed out waiting for process '{_shown(process)}' to finish"
 

@@ -1,4 +1,4 @@
-"""One test description with its test cases, and how they run."""
+"""One test description with its test cases, and how they are run."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from launch_testing.proc_info_handler import ActiveProcInfoHandler
 from launch import LaunchDescription, LaunchDescriptionSource, LaunchService
 
 START_TIMEOUT_S = 15.0
-"""Seconds within which what is tested has to be ready, as upstream."""
+"""Seconds within which the processes under test have to be ready, as upstream."""
 DESCRIPTION = "generate_test_description"
 
 
 class TestRun:
-    """Starts what a description describes, runs the tests beside it, ends it, and runs the tests for afterwards."""
+    """Starts a launch description, runs its tests beside it, ends it, and runs the tests for afterwards."""
 
     __test__ = False
 
@@ -36,7 +36,9 @@ class TestRun:
         self.name = f"[{', '.join(map(str, parameters.values()))}]" if parameters else ""
 
     def describe(self) -> tuple[LaunchDescription, list[ReadyToTest], dict[str, Any]]:
-        """The launch description, its marks and what it gives to the tests; raises `Exception` without a mark."""
+        """Return the launch description, its marks and the arguments for its tests; raises `Exception` without a
+        mark.
+        """
         made = self._description()
         description, context = made if isinstance(made, tuple) else (made, {})
         marks = [each for each in entities_of(description) if isinstance(each, ReadyToTest)]
@@ -73,7 +75,7 @@ class TestRun:
         after.run(result)
 
     def _suite(self, afterwards: bool, known: Mapping[str, Any]) -> unittest.TestSuite:
-        """The test cases for beside or for afterwards, with what their methods ask for by name."""
+        """Return the test cases for beside or for afterwards, with the arguments that their methods name."""
         suite = unittest.TestSuite()
         named = (getattr(self._module, name) for name in dir(self._module))  # by name, as unittest finds them
         for case in (each for each in named if isinstance(each, type) and issubclass(each, unittest.TestCase)):
@@ -82,7 +84,7 @@ class TestRun:
         return suite
 
     def _tests_of(self, case: type[unittest.TestCase], known: Mapping[str, Any]) -> Iterator[unittest.TestCase]:
-        """The tests of a class, in a class of this run: others shall not see what is given to it."""
+        """Yield the tests of a class, in a subclass of this run: others must not see the attributes set on it."""
         own = type(case.__name__, (case,), {"__module__": case.__module__, "__qualname__": case.__qualname__})
         for name in ("proc_info", "proc_output", "launch_service", "test_args"):
             if name in known:
@@ -114,14 +116,14 @@ class TestRun:
 
 
 class _Named(unittest.TestCase):
-    """Stands for a whole run in a result."""
+    """Represents a whole run in a result."""
 
     def __init__(self, name: str) -> None:
         super().__init__("runTest")
         self._name = name
 
     def runTest(self) -> None:
-        """Nothing."""
+        """Do nothing."""
 
     def __str__(self) -> str:
         return self._name
@@ -137,7 +139,7 @@ def _raised(text: str) -> Any:
 
 
 def _print_output_of_failed(proc_info: ActiveProcInfoHandler, proc_output: ActiveIoHandler) -> None:
-    """What may say why processes ended too early."""
+    """Print output that may explain why processes ended too early."""
     for event in (each for each in proc_info if getattr(each, "returncode", 0)):
         print(f"Process '{event.process_name}' exited with {event.returncode}")
         print(f"##### '{event.process_name}' output #####")
@@ -157,7 +159,7 @@ def _watched(proc_info: ActiveProcInfoHandler, proc_output: ActiveIoHandler) -> 
 
 
 def entities_of(entity: Any) -> list[Any]:
-    """An entity and all below it."""
+    """Return an entity and all entities below it."""
     below = list(entity.entities) if isinstance(entity, LaunchDescription) else list(entity.describe_sub_entities())
     if not isinstance(entity, LaunchDescription):
         below += [each for _, some in entity.describe_conditional_sub_entities() for each in some]
@@ -165,13 +167,13 @@ def entities_of(entity: Any) -> list[Any]:
 
 
 def _given(method: Any, known: Mapping[str, Any]) -> Any:
-    """A method with those of its arguments that are known by name."""
+    """Bind those arguments of a method that are known by name."""
     wanted = [each for each in inspect.signature(method).parameters if each in known]
     return functools.partial(method, **{each: known[each] for each in wanted}) if wanted else method
 
 
 def test_runs(module: Any) -> list[TestRun]:
-    """The runs that a test module describes; none where it has no `generate_test_description`."""
+    """Return the runs that a test module describes; none if it has no `generate_test_description`."""
     description = getattr(module, DESCRIPTION, None)
     if description is None:
         return []

@@ -1,4 +1,4 @@
-"""Looks for what is expected in a text or in lines; a match is the pair of where it begins and ends."""
+"""Searches for expected texts and lines; a match is the pair of its start and end."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ ANSI_ESCAPE = re.compile(r"\x1b\[[0-9;:]*[A-Za-z]")
 
 
 def remove_ansi_escape_sequences(text: str) -> str:
-    """A text without its colours."""
+    """Return a text without its colours."""
     return ANSI_ESCAPE.sub("", text)
 
 
 def normalize_lineseps(lines: str) -> str:
-    """A text whose lines all end in one newline, also those that a terminal has taken."""
+    """Return a text whose lines all end in one newline, including those converted by a terminal."""
     return lines.replace(os.linesep, "\n").replace("\r\n", "\n")
 
 
 def build_line_match(expected_lines: Any, *, strict: bool = False) -> TextMatch:
-    """A function that finds lines among lines, from a given one on.
+    """Return a function that finds lines among lines, starting at a given one.
 
-    A text is looked for within a line, a regular expression at its beginning. Of several each is looked for behind the
-    one before; when strict they begin with the first line and follow each other, and a single one fits all lines.
-    Raises `ValueError` for anything else.
+    A text is searched for within a line, a regular expression at its beginning. Each of several is searched for after
+    the previous one; if strict, they begin with the first line and follow each other, and a single one matches whole
+    lines. Raises `ValueError` for anything else.
     """
     if isinstance(expected_lines, str):
         fits = (lambda line: line == expected_lines) if strict else (lambda line: expected_lines in line)
@@ -47,10 +47,11 @@ def build_line_match(expected_lines: Any, *, strict: bool = False) -> TextMatch:
 
 
 def build_text_match(expected_text: Any, *, strict: bool = False) -> TextMatch:
-    """A function that finds a text in a text, from a given place on.
+    """Return a function that finds a text in a text, starting at a given position.
 
-    It is a text, a regular expression, or several of these, each of which is looked for behind the one before; when
-    strict, a text is the whole rest, and an expression begins at that place. Raises `ValueError` for anything else.
+    The expectation is a text, a regular expression, or several of these, each searched for after the previous one; if
+    strict, a text must equal the whole rest, and an expression must match at that position. Raises `ValueError` for
+    anything else.
     """
     if isinstance(expected_text, str):
         return _whole(expected_text) if strict else _within(expected_text)
@@ -83,7 +84,7 @@ def _within(expected: str) -> TextMatch:
 
 
 def _in_order(matches: list[TextMatch], strict: bool) -> TextMatch:
-    """One after the other; when strict, with nothing before the first and between them."""
+    """Match one after the other; if strict, with nothing before the first and between them."""
     if not matches:
         raise ValueError("nothing is expected: give at least one text")
 

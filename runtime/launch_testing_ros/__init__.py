@@ -1,4 +1,4 @@
-"""What tests of ROS systems wait for, as upstream's `launch_testing_ros`."""
+"""Helpers that wait in tests of ROS systems, as upstream's `launch_testing_ros`."""
 
 from launch_testing_ros import tools
 from launch_testing_ros.data_republisher import DataRepublisher

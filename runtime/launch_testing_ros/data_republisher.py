@@ -1,4 +1,4 @@
-"""Publishes again what comes on a topic, changed."""
+"""Republishes modified messages of a topic."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 
 class DataRepublisher:
-    """Takes messages of one topic, and publishes on another what a function makes of each; None drops it."""
+    """Receives messages of one topic, and publishes the result of a function for each on another; None drops it."""
 
     def __init__(
         self, node: Any, listen_topic: str, publish_topic: str, msg_type: Any, transform_fn: Callable[[Any], Any]
@@ -32,13 +32,13 @@ class DataRepublisher:
         self.__node.destroy_publisher(self.__publisher)
 
     def get_num_received(self) -> int:
-        """How many messages came."""
+        """Return the number of received messages."""
         return self.__received
 
     def get_num_republished(self) -> int:
-        """How many were published again."""
+        """Return the number of republished messages."""
         return len(self.__republished)
 
     def get_republished(self) -> list[Any]:
-        """The messages that were, as they came."""
+        """Return the republished messages, as received."""
         return self.__republished

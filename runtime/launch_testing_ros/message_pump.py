@@ -1,4 +1,4 @@
-"""A node that spins beside a test."""
+"""Spins a node beside a test."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from rclpy.executors import SingleThreadedExecutor
 
 
 class MessagePump:
-    """Spins a node in a thread of its own, between `start` and `stop`; also as a context manager."""
+    """Spins a node in a separate thread, between `start` and `stop`; also as a context manager."""
 
     def __init__(self, node: Any, context: Any = None) -> None:
         self._node = node
@@ -18,13 +18,13 @@ class MessagePump:
         self._thread: threading.Thread | None = None
 
     def start(self) -> None:
-        """Begin."""
+        """Start spinning."""
         self._running = True
         self._thread = threading.Thread(target=self._spin, name="msg_pump_thread", daemon=True)
         self._thread.start()
 
     def stop(self) -> None:
-        """End, and wait up to 5 s for it; raises `Exception` where a callback takes longer."""
+        """Stop, and wait up to 5 s for that; raises `Exception` if a callback takes longer."""
         self._running = False
         if self._thread is not None:
             self._thread.join(timeout=5.0)

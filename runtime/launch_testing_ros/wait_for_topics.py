@@ -1,4 +1,4 @@
-"""Waits until messages have come on topics."""
+"""Waits for messages on topics."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class WaitForTopics:
             self._all_there.set()
 
     def wait(self) -> bool:
-        """Whether messages came on all topics in time."""
+        """Return whether messages arrived on all topics in time."""
         return self._all_there.wait(self.timeout)
 
     def shutdown(self) -> None:
@@ -69,15 +69,15 @@ class WaitForTopics:
         self._context.try_shutdown()
 
     def topics_received(self) -> set[str]:
-        """The topics on which something came."""
+        """Return the topics with messages."""
         return set(self._messages)
 
     def topics_not_received(self) -> set[str]:
-        """The others."""
+        """Return the topics without messages."""
         return {name for name, _ in self.topic_tuples} - set(self._messages)
 
     def received_messages(self, topic_name: str) -> list[Any]:
-        """The newest messages of a topic; raises `KeyError` for one that is not waited for."""
+        """Return the newest messages of a topic; raises `KeyError` for a topic not waited for."""
         if topic_name not in {name for name, _ in self.topic_tuples}:
             raise KeyError(f"No topic '{topic_name}' is waited for")
         return list(self._messages.get(topic_name, []))

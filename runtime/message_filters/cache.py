@@ -23,11 +23,11 @@ class Cache(SimpleFilter):
         self.cache_times: list[Time] = []
 
     def connectInput(self, f: Any) -> None:
-        """Take what a filter gives."""
+        """Connect to the output of a filter."""
         self.incoming_connection = f.registerCallback(self.add)
 
     def add(self, msg: Any) -> None:
-        """Take a message; the oldest one goes where there are too many."""
+        """Add a message; the oldest one is dropped if there are too many."""
         stamp = stamp_of(msg, self.allow_headerless, "cache")
         if stamp is None:
             return
@@ -39,30 +39,30 @@ class Cache(SimpleFilter):
         self.signalMessage(msg)
 
     def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:
-        """The messages from one time to another, both included."""
+        """Return the messages from one time to another, both included."""
         assert from_stamp <= to_stamp
         return self.cache_msgs[bisect_left(self.cache_times, from_stamp) : bisect_right(self.cache_times, to_stamp)]
 
     def getElemAfterTime(self, stamp: Time) -> Any:
-        """The first message at or after a time, None where there is none."""
+        """Return the first message at or after a time, None if there is none."""
         place = bisect_left(self.cache_times, stamp)
         return self.cache_msgs[place] if place < len(self.cache_msgs) else None
 
     def getElemBeforeTime(self, stamp: Time) -> Any:
-        """The last message at or before a time, None where there is none."""
+        """Return the last message at or before a time, None if there is none."""
         place = bisect_right(self.cache_times, stamp)
         return self.cache_msgs[place - 1] if place else None
 
     def getLastestTime(self) -> Time | None:
-        """The time of the newest message; the name is upstream's."""
+        """Return the time of the newest message; the name is upstream's."""
         return self.cache_times[-1] if self.cache_times else None
 
     getLatestTime = getLastestTime  # noqa: N815 -- upstream's name
 
     def getOldestTime(self) -> Time | None:
-        """The time of the oldest message."""
+        """Return the time of the oldest message."""
         return self.cache_times[0] if self.cache_times else None
 
     def getLast(self) -> Any:
-        """The newest message, None where there is none."""
+        """Return the newest message, None if there is none."""
         return self.cache_msgs[-1] if self.cache_msgs else None

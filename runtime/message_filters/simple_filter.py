@@ -1,4 +1,4 @@
-"""Filters: they take messages in, and pass results on to callbacks."""
+"""Filters: they receive messages, and pass results on to callbacks."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class SimpleFilter:
 
 
 class Subscriber(SimpleFilter):
-    """Passes on what comes on a topic: `Subscriber(node, type, topic, **options of create_subscription)`."""
+    """Passes on the messages of a topic: `Subscriber(node, type, topic, **options of create_subscription)`."""
 
     def __init__(self, node: Node, msg_type: Any, topic: str, *args: Any, **kwargs: Any) -> None:
         super().__init__()
@@ -39,22 +39,22 @@ class Subscriber(SimpleFilter):
         self.sub = node.create_subscription(msg_type, topic, self.callback, *args, **kwargs)
 
     def callback(self, msg: Any) -> None:
-        """Take a message."""
+        """Receive a message."""
         self.signalMessage(msg)
 
     def getTopic(self) -> str:
-        """The topic as it was given."""
+        """Return the topic as it was given."""
         return self.topic
 
     def __getattr__(self, key: str) -> Any:
-        """What else a subscription has."""
+        """Return any other attribute of the subscription."""
         if key == "sub":
             raise AttributeError(key)
         return getattr(self.sub, key)
 
 
 class Chain(SimpleFilter):
-    """Filters one behind the other: what goes in passes through all of them."""
+    """A sequence of filters: each message passes through all of them."""
 
     def __init__(self, *filters: Any) -> None:
         super().__init__()
@@ -63,7 +63,7 @@ class Chain(SimpleFilter):
             self.addFilter(each)
 
     def addFilter(self, new_filter: Any) -> int:
-        """Put a filter behind the last one; returns its place."""
+        """Append a filter; returns its index."""
         if self.filters:
             self.filters[-1].registerCallback(new_filter.add)
         self.filters.append(new_filter)
@@ -72,19 +72,19 @@ class Chain(SimpleFilter):
         return place - 1
 
     def _out(self, place: int, *msg: Any) -> None:
-        """Pass on what the filter that is now the last one gives."""
+        """Pass on the output of the filter that is now the last one."""
         if place == len(self.filters):
             self.signalMessage(*msg)
 
     def getFilter(self, index: int) -> Any:
-        """The filter at a place, None where there is none."""
+        """Return the filter with this index, None if there is none."""
         return self.filters[index] if 0 <= index < len(self.filters) else None
 
     def connectInput(self, input_filter: Any) -> None:
-        """Take what another filter gives."""
+        """Connect to the output of another filter."""
         input_filter.registerCallback(self.add)
 
     def add(self, *msg: Any) -> None:
-        """Put a message in."""
+        """Add a message."""
         if self.filters:
             self.filters[0].add(*msg)

@@ -13,17 +13,19 @@ HEADERLESS = (
     "auto assign ROSTIME to headerless messages once enabling constructor option of 'allow_headerless'."
 )
 WORDS = {"approx": HEADERLESS.format("for "), "cache": HEADERLESS.format("")}
-"""What is said of a message without a stamp, by the kind of filter that cannot use it."""
+"""Warnings about a message without a stamp, by the kind of filter that cannot use it."""
 
 
 def header_stamp(message: Any) -> Time:
-    """The time of a message's header; raises `AttributeError` for a message without."""
+    """Return the time of a message's header; raises `AttributeError` without a header."""
     stamp = message.header.stamp
     return stamp if isinstance(stamp, Time) else Time.from_msg(stamp)
 
 
 def stamp_of(message: Any, allow_headerless: bool, kind: str) -> Time | None:
-    """The time of a message's header; of one without, now where that is allowed, else None with a warning."""
+    """Return the time of a message's header; without a header, the present time if allowed, else None with a
+    warning.
+    """
     header = getattr(message, "header", None)
     if header is not None and hasattr(header, "stamp"):
         return header_stamp(message)

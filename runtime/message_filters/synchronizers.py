@@ -1,4 +1,4 @@
-"""Combines messages of several filters that belong to the same time."""
+"""Combines messages of several filters with the same or similar times."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Queue = dict[int, Any]
 
 
 class TimeSynchronizer(SimpleFilter):
-    """Passes on one message of each filter where all have exactly the same time."""
+    """Passes on one message of each filter if all have exactly the same time."""
 
     def __init__(self, fs: list[Any], queue_size: int) -> None:
         super().__init__()
@@ -24,7 +24,7 @@ class TimeSynchronizer(SimpleFilter):
         self.lock = threading.RLock()
 
     def connectInput(self, fs: list[Any]) -> None:
-        """Take what filters give."""
+        """Connect to the outputs of filters."""
         self.queues: list[Queue] = [{} for _ in fs]
         self.input_connections = [
             each.registerCallback(self.add, queue, index)
@@ -32,13 +32,13 @@ class TimeSynchronizer(SimpleFilter):
         ]
 
     def _keep(self, stamp: int, msg: Any, queue: Queue) -> None:
-        """Take a message; the oldest go where there are too many."""
+        """Add a message; the oldest ones are dropped if there are too many."""
         queue[stamp] = msg
         while len(queue) > self.queue_size:
             del queue[min(queue)]
 
     def add(self, msg: Any, my_queue: Queue, my_queue_index: int | None = None) -> None:
-        """Take a message of one filter; raises `AttributeError` for one without a header."""
+        """Add a message of one filter; raises `AttributeError` for one without a header."""
         stamp = header_stamp(msg).nanoseconds
         with self.lock:
             self._keep(stamp, msg, my_queue)
@@ -51,9 +51,9 @@ class TimeSynchronizer(SimpleFilter):
 
 
 class ApproximateTimeSynchronizer(TimeSynchronizer):
-    """Passes on one message of each filter where their times are less than `slop` (s) apart.
+    """Passes on one message of each filter if their times are less than `slop` (s) apart.
 
-    `sync_arrival_time` and `allow_headerless` let the time count at which a message came.
+    With `sync_arrival_time` or `allow_headerless` the time of arrival is used.
     """
 
     def __init__(
@@ -70,7 +70,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         self.sync_arrival_time = sync_arrival_time
 
     def add(self, msg: Any, my_queue: Queue, my_queue_index: int | None = None) -> None:
-        """Take a message of one filter."""
+        """Add a message of one filter."""
         by_arrival = self.sync_arrival_time
         stamp = stamp_of(None if by_arrival else msg, self.allow_headerless or by_arrival, "approx")
         if stamp is None:
@@ -81,7 +81,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
             self._pass_on(stamp.nanoseconds, mine)
 
     def _pass_on(self, stamp: int, mine: int) -> None:
-        """Pass on the set around a new message whose times lie closest, if there is one."""
+        """Pass on the set of messages around a new one whose times are closest, if there is one."""
         slop = self.slop.nanoseconds
         near: list[list[int]] = []
         for index, queue in enumerate(self.queues):

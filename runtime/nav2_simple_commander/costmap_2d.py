@@ -1,4 +1,4 @@
-"""A costmap message as a grid that programs ask. Contract: upstream's module of this name."""
+"""A costmap message as a grid. Contract: upstream's module of this name."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ import numpy as np
 
 
 class PyCostmap2D:
-    """Costs from 0 (free) to 254 (an obstacle), 255 where nothing is known; mx, my are cells, wx, wy metres."""
+    """Costs from 0 (free) to 254 (an obstacle), 255 if unknown; mx, my are cells, wx, wy metres."""
 
     def __init__(self, occupancy_map: Any) -> None:
-        """Of an `OccupancyGrid` or a `nav2_msgs/msg/Costmap`."""
+        """Create it from an `OccupancyGrid` or a `nav2_msgs/msg/Costmap`."""
         if hasattr(occupancy_map, "metadata"):
             about: Any = occupancy_map.metadata
             self.size_x, self.size_y = int(about.size_x), int(about.size_y)
@@ -23,67 +23,67 @@ class PyCostmap2D:
         self.origin_y: float = about.origin.position.y
         self.global_frame_id: str = occupancy_map.header.frame_id
         self.costmap_timestamp: Any = occupancy_map.header.stamp
-        self.costmap = np.array(occupancy_map.data).astype(np.uint8)  # -1, unknown, is 255
+        self.costmap = np.array(occupancy_map.data).astype(np.uint8)  # -1, unknown, becomes 255
 
     def getSizeInCellsX(self) -> int:
-        """Width in cells."""
+        """Return the width in cells."""
         return self.size_x
 
     def getSizeInCellsY(self) -> int:
-        """Height in cells."""
+        """Return the height in cells."""
         return self.size_y
 
     def getSizeInMetersX(self) -> float:
-        """Width (m)."""
+        """Return the width (m)."""
         return self.size_x * self.resolution
 
     def getSizeInMetersY(self) -> float:
-        """Height (m)."""
+        """Return the height (m)."""
         return self.size_y * self.resolution
 
     def getOriginX(self) -> float:
-        """Where the first cell begins (m)."""
+        """Return the x coordinate of the first cell's corner (m)."""
         return self.origin_x
 
     def getOriginY(self) -> float:
-        """Where the first cell begins (m)."""
+        """Return the y coordinate of the first cell's corner (m)."""
         return self.origin_y
 
     def getResolution(self) -> float:
-        """Metres per cell."""
+        """Return metres per cell."""
         return self.resolution
 
     def getGlobalFrameID(self) -> str:
-        """The frame of the map."""
+        """Return the frame of the map."""
         return self.global_frame_id
 
     def getCostmapTimestamp(self) -> Any:
-        """When it was made, as `builtin_interfaces/msg/Time`."""
+        """Return the time of the map, as `builtin_interfaces/msg/Time`."""
         return self.costmap_timestamp
 
     def getCostXY(self, mx: int, my: int) -> np.uint8:
-        """The cost of a cell; raises `IndexError` beyond the last one."""
+        """Return the cost of a cell; raises `IndexError` beyond the last one."""
         return np.uint8(self.costmap[self.getIndex(mx, my)])
 
     def getCostIdx(self, index: int) -> np.uint8:
-        """The cost of a cell by its number."""
+        """Return the cost of a cell by its index."""
         return np.uint8(self.costmap[index])
 
     def setCost(self, mx: int, my: int, cost: int) -> None:
-        """Give a cell another cost."""
+        """Set the cost of a cell."""
         self.costmap[self.getIndex(mx, my)] = cost
 
     def mapToWorld(self, mx: int, my: int) -> tuple[float, float]:
-        """The middle of a cell."""
+        """Return the centre of a cell."""
         return self.origin_x + (mx + 0.5) * self.resolution, self.origin_y + (my + 0.5) * self.resolution
 
     def worldToMapValidated(self, wx: float, wy: float) -> tuple[int | None, int | None]:
-        """The cell at a place, twice None where there is none."""
+        """Return the cell at a position, (None, None) outside the map."""
         if wx < self.origin_x or wy < self.origin_y:
             return None, None
         mx, my = int((wx - self.origin_x) // self.resolution), int((wy - self.origin_y) // self.resolution)
         return (mx, my) if mx < self.size_x and my < self.size_y else (None, None)
 
     def getIndex(self, mx: int, my: int) -> int:
-        """The number of a cell."""
+        """Return the index of a cell."""
         return my * self.size_x + mx

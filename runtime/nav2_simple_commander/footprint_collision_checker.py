@@ -13,13 +13,13 @@ NO_INFORMATION, LETHAL_OBSTACLE, INSCRIBED_INFLATED_OBSTACLE, MAX_NON_OBSTACLE, 
 
 
 class FootprintCollisionChecker:
-    """Asks a costmap, which `setCostmap` gives; before that, all but the constructor raises `ValueError`."""
+    """Computes costs on a costmap set by `setCostmap`; before that, all methods raise `ValueError`."""
 
     def __init__(self) -> None:
         self.costmap_: PyCostmap2D | None = None
 
     def setCostmap(self, costmap: PyCostmap2D) -> None:
-        """Ask this one."""
+        """Set the costmap."""
         self.costmap_ = costmap
 
     def _costmap(self) -> PyCostmap2D:
@@ -28,7 +28,7 @@ class FootprintCollisionChecker:
         return self.costmap_
 
     def footprintCost(self, footprint: Polygon) -> float:
-        """The highest cost on the outline; that of an obstacle where a corner is outside the map."""
+        """Return the highest cost on the outline; that of an obstacle if a corner is outside the map."""
         points: Any = footprint.points
         corners: list[tuple[int, int]] = []
         for each in points:
@@ -44,7 +44,7 @@ class FootprintCollisionChecker:
         return cost
 
     def lineCost(self, x0: int, x1: int, y0: int, y1: int, step_size: float = 0.5) -> float:
-        """The highest cost on a line of cells; an obstacle ends the search."""
+        """Return the highest cost on a line of cells; an obstacle ends the search."""
         if (x0, y0) == (x1, y1):
             return float(self.pointCost(x0, y0))
         cost, line = 0.0, LineIterator(x0, y0, x1, y1, step_size)
@@ -54,15 +54,15 @@ class FootprintCollisionChecker:
         return cost
 
     def worldToMapValidated(self, wx: float, wy: float) -> tuple[int | None, int | None]:
-        """The cell at a place (m), twice None outside the map."""
+        """Return the cell at a position (m), (None, None) outside the map."""
         return self._costmap().worldToMapValidated(wx, wy)
 
     def pointCost(self, x: int, y: int) -> float:
-        """The cost of a cell."""
+        """Return the cost of a cell."""
         return float(self._costmap().getCostXY(x, y))
 
     def footprintCostAtPose(self, x: float, y: float, theta: float, footprint: Polygon) -> float:
-        """The cost of an outline that is moved to a pose (m, rad)."""
+        """Return the cost of an outline moved to a pose (m, rad)."""
         cos, sin = math.cos(theta), math.sin(theta)
         points: Any = footprint.points
         moved = [Point32(x=x + p.x * cos - p.y * sin, y=y + p.x * sin + p.y * cos, z=p.z) for p in points]

@@ -6,10 +6,10 @@ import math
 
 
 class LineIterator:
-    """Begins at the first end, and is valid up to and with the last one, which no step passes over."""
+    """Starts at the first end, and is valid up to and including the last one, which no step passes over."""
 
     def __init__(self, x0: float, y0: float, x1: float, y1: float, step_size: float = 1.0) -> None:
-        """Raises `TypeError` for what is no number, `ValueError` for a step that is not positive, or no length."""
+        """Raises `TypeError` for anything but numbers, `ValueError` for a non-positive step or zero length."""
         for name, value in (("x0", x0), ("y0", y0), ("x1", x1), ("y1", y1), ("step_size", step_size)):
             if type(value) not in (int, float):
                 raise TypeError(f"{name} must be a number (int or float)")
@@ -25,11 +25,11 @@ class LineIterator:
         self._valid = True
 
     def isValid(self) -> bool:
-        """Whether it stands on the line."""
+        """Return whether the present point is on the line."""
         return self._valid
 
     def advance(self) -> None:
-        """Go on by a step, or past the last point."""
+        """Advance by a step, or past the last point."""
         if (self.x_, self.y_) == (self.x1_, self.y1_):
             self._valid = False
             return
@@ -43,29 +43,29 @@ class LineIterator:
         self.y_ = self.y0_ + (self.y1_ - self.y0_) * share
 
     def getX(self) -> float:
-        """Where it stands."""
+        """Return x of the present point."""
         return self.x_
 
     def getY(self) -> float:
-        """Where it stands."""
+        """Return y of the present point."""
         return self.y_
 
     def getX0(self) -> float:
-        """Where the line begins."""
+        """Return x of the first end."""
         return self.x0_
 
     def getY0(self) -> float:
-        """Where the line begins."""
+        """Return y of the first end."""
         return self.y0_
 
     def getX1(self) -> float:
-        """Where the line ends."""
+        """Return x of the last end."""
         return self.x1_
 
     def getY1(self) -> float:
-        """Where the line ends."""
+        """Return y of the last end."""
         return self.y1_
 
     def get_line_length(self) -> float:
-        """Its length, in the unit of its ends."""
+        """Return the length, in the unit of the ends."""
         return math.sqrt((self.x1_ - self.x0_) ** 2 + (self.y1_ - self.y0_) ** 2)

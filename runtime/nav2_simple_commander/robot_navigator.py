@@ -30,7 +30,7 @@ __all__ = ["BasicNavigator", "TaskResult"]
 
 
 class BasicNavigator(Node):
-    """One task at a time: start it, ask `isTaskComplete` again and again, then `getResult`."""
+    """Runs one task at a time: start it, poll `isTaskComplete`, then call `getResult`."""
 
     def __init__(self, node_name: str = "basic_navigator", namespace: str = "") -> None:
         super().__init__(node_name=node_name, namespace=namespace)
@@ -58,10 +58,10 @@ class BasicNavigator(Node):
         self._clients_of_actions.clear()
         super().destroy_node()
 
-    # What a person does with a task.
+    # Control of a task.
 
     def isTaskComplete(self) -> bool:
-        """Whether the last task has ended; waits for a tenth of a second for it."""
+        """Return whether the last task has ended; waits up to 0.1 s for that."""
         if not self.result_future:
             return True
         rclpy.spin_until_future_complete(self, self.result_future, timeout_sec=0.10)
@@ -75,58 +75,58 @@ class BasicNavigator(Node):
         return True
 
     def cancelTask(self) -> None:
-        """Ask to end the last task."""
+        """Request the cancellation of the last task."""
         self.info("Canceling current task.")
         if self.result_future:
             rclpy.spin_until_future_complete(self, self.goal_handle.cancel_goal_async())
 
     def getFeedback(self) -> Any:
-        """The newest feedback of the last task; None before there is any."""
+        """Return the newest feedback of the last task; None before there is any."""
         return self.feedback
 
     def getResult(self) -> TaskResult:
-        """How the last task ended."""
+        """Return the outcome of the last task."""
         return ENDED.get(self.status or 0, TaskResult.UNKNOWN)
 
-    # Tasks that take a while.
+    # Tasks that take some time.
 
     def goToPose(self, pose: PoseStamped, behavior_tree: str = "") -> bool:
-        """Drive to a pose; False when that is rejected."""
+        """Drive to a pose; returns False if that is rejected."""
         place = pose.pose.position
         self.info(f"Navigating to goal: {place.x} {place.y}...")
         refusal = f"Goal to {place.x} {place.y} was rejected!"
         return self._start("navigate_to_pose", refusal, pose=pose, behavior_tree=behavior_tree)
 
     def goThroughPoses(self, poses: list[PoseStamped], behavior_tree: str = "") -> bool:
-        """Drive by way of poses; False when that is rejected."""
+        """Drive via poses; returns False if that is rejected."""
         self.info(f"Navigating with {len(poses)} goals....")
         refusal = f"Goal with {len(poses)} poses was rejected!"
         return self._start("navigate_through_poses", refusal, poses=poses, behavior_tree=behavior_tree)
 
     def followWaypoints(self, poses: list[PoseStamped]) -> bool:
-        """Drive to poses one after the other; False when that is rejected."""
+        """Drive to poses one after the other; returns False if that is rejected."""
         self.info(f"Following {len(poses)} goals....")
         return self._start("follow_waypoints", f"Following {len(poses)} waypoints request was rejected!", poses=poses)
 
     def followGpsWaypoints(self, gps_poses: list[Any]) -> bool:
-        """Drive to places on the earth one after the other; False when that is rejected."""
+        """Drive to GPS positions one after the other; returns False if that is rejected."""
         self.info(f"Following {len(gps_poses)} gps goals....")
         refusal = f"Following {len(gps_poses)} gps waypoints request was rejected!"
         return self._start("follow_gps_waypoints", refusal, gps_poses=gps_poses)
 
     def spin(self, spin_dist: float = 1.57, time_allowance: int = 10) -> bool:
-        """Turn by an angle (rad); False when that is rejected."""
+        """Turn by an angle (rad); returns False if that is rejected."""
         self.info(f"Spinning to angle {spin_dist}....")
         allowance = Duration(sec=time_allowance)
         return self._start("spin", "Spin request was rejected!", target_yaw=spin_dist, time_allowance=allowance)
 
     def backup(self, backup_dist: float = 0.15, backup_speed: float = 0.025, time_allowance: int = 10) -> bool:
-        """Drive back (m, m/s); False when that is rejected."""
+        """Drive backwards (m, m/s); returns False if that is rejected."""
         self.info(f"Backing up {backup_dist} m at {backup_speed} m/s....")
         return self._straight("backup", "Backup request was rejected!", backup_dist, backup_speed, time_allowance)
 
     def driveOnHeading(self, dist: float = 0.15, speed: float = 0.025, time_allowance: int = 10) -> bool:
-        """Drive straight on (m, m/s); False when that is rejected."""
+        """Drive straight ahead (m, m/s); returns False if that is rejected."""
         self.info(f"Drive {dist} m on heading at {speed} m/s....")
         refusal = "Drive On Heading request was rejected!"
         return self._straight("drive_on_heading", refusal, dist, speed, time_allowance)
@@ -136,19 +136,19 @@ class BasicNavigator(Node):
         return self._start(name, refusal, target=target, speed=speed, time_allowance=Duration(sec=allowance))
 
     def assistedTeleop(self, time_allowance: int = 30) -> bool:
-        """Let a person steer, with help; False when that is rejected."""
+        """Let a person drive with assistance; returns False if that is rejected."""
         self.info("Running 'assisted_teleop'....")
         refusal = "Assisted Teleop request was rejected!"
         return self._start("assisted_teleop", refusal, time_allowance=Duration(sec=time_allowance))
 
     def followPath(self, path: Any, controller_id: str = "", goal_checker_id: str = "") -> bool:
-        """Drive along a path; False when that is rejected."""
+        """Follow a path; returns False if that is rejected."""
         self.info("Executing path...")
         fields = {"path": path, "controller_id": controller_id, "goal_checker_id": goal_checker_id}
         return self._start("follow_path", "Follow path was rejected!", **fields)
 
     def dockRobotByPose(self, dock_pose: PoseStamped, dock_type: str, nav_to_dock: bool = True) -> bool:
-        """Dock at a pose; False when that is rejected."""
+        """Dock at a pose; returns False if that is rejected."""
         self.info(f"Docking at pose: {dock_pose}...")
         return self._start(
             "dock_robot", "Docking request was rejected!", use_dock_id=False, dock_pose=dock_pose,
@@ -156,34 +156,34 @@ class BasicNavigator(Node):
         )  # fmt: skip
 
     def dockRobotByID(self, dock_id: str, nav_to_dock: bool = True) -> bool:
-        """Dock at a dock of the server's database; False when that is rejected."""
+        """Dock at a dock of the server's database; returns False if that is rejected."""
         self.info(f"Docking at dock ID: {dock_id}...")
         fields = {"use_dock_id": True, "dock_id": dock_id, "navigate_to_staging_pose": nav_to_dock}
         return self._start("dock_robot", "Docking request was rejected!", **fields)
 
     def undockRobot(self, dock_type: str = "") -> bool:
-        """Leave the dock; False when that is rejected."""
+        """Leave the dock; returns False if that is rejected."""
         self.info(f"Undocking from dock of type: {dock_type}...")
         return self._start("undock_robot", "Undocking request was rejected!", dock_type=dock_type)
 
-    # Answers that are waited for.
+    # Requests that wait for their answer.
 
     def getPath(self, start: PoseStamped, goal: PoseStamped, planner_id: str = "", use_start: bool = False) -> Any:
-        """A path between poses; None where there is none."""
+        """Return a path between poses; None if there is none."""
         fields = {"start": start, "goal": goal, "planner_id": planner_id, "use_start": use_start}
         return self._path("compute_path_to_pose", "Getting path", **fields)
 
     def getPathThroughPoses(
         self, start: PoseStamped, goals: list[PoseStamped], planner_id: str = "", use_start: bool = False
     ) -> Any:
-        """A path by way of poses; None where there is none."""
+        """Return a path via poses; None if there is none."""
         fields = {"start": start, "goals": goals, "planner_id": planner_id, "use_start": use_start}
         return self._path("compute_path_through_poses", "Getting path", **fields)
 
     def smoothPath(
         self, path: Any, smoother_id: str = "", max_duration: float = 2.0, check_for_collision: bool = False
     ) -> Any:
-        """A smoother path; None where there is none."""
+        """Return a smoother path; None if there is none."""
         limit = RclpyDuration(seconds=max_duration).to_msg()
         fields = {"path": path, "smoother_id": smoother_id, "max_smoothing_duration": limit}
         return self._path("smooth_path", "Smoothing path", check_for_collisions=check_for_collision, **fields)
@@ -218,16 +218,16 @@ class BasicNavigator(Node):
         self.result_future = self.goal_handle.get_result_async()
         return True
 
-    # Where the robot is, and whether Nav2 is there.
+    # The robot's pose, and whether Nav2 is active.
 
     def setInitialPose(self, initial_pose: PoseStamped) -> None:
-        """Tell where the robot is."""
+        """Set the robot's initial pose."""
         self.initial_pose_received = False
         self.initial_pose = initial_pose
         self._setInitialPose()
 
     def waitUntilNav2Active(self, navigator: str = "bt_navigator", localizer: str = "amcl") -> None:
-        """Wait until localizer and navigator say that they are active."""
+        """Wait until localizer and navigator report that they are active."""
         if localizer != "robot_localization":
             self._waitForNodeToActivate(localizer)
         if localizer == "amcl":
@@ -268,7 +268,7 @@ class BasicNavigator(Node):
     # Services of Nav2's servers.
 
     def changeMap(self, map_filepath: str) -> None:
-        """Let the map server load another map."""
+        """Make the map server load another map."""
         answer = self._ask("map_server/load_map", "LoadMap", "change map", map_url=map_filepath)
         if answer.result:
             self.error("Change map request failed!")
@@ -289,20 +289,20 @@ class BasicNavigator(Node):
         self._ask("global_costmap/clear_entirely_global_costmap", "ClearEntireCostmap", "Clear global costmaps")
 
     def getGlobalCostmap(self) -> Any:
-        """The global costmap."""
+        """Return the global costmap."""
         return self._ask("global_costmap/get_costmap", "GetCostmap", "Get global costmaps").map
 
     def getLocalCostmap(self) -> Any:
-        """The local costmap."""
+        """Return the local costmap."""
         return self._ask("local_costmap/get_costmap", "GetCostmap", "Get local costmaps").map
 
     def lifecycleStartup(self) -> None:
-        """Let all lifecycle managers start their nodes."""
+        """Make all lifecycle managers start their nodes."""
         self._manage("Starting up", 0)
         self.info("Nav2 is ready for use!")
 
     def lifecycleShutdown(self) -> None:
-        """Let all lifecycle managers shut their nodes down."""
+        """Make all lifecycle managers shut their nodes down."""
         self._manage("Shutting down", 4)
 
     def _manage(self, what: str, command: int) -> None:

@@ -1,10 +1,10 @@
-"""How a task ended."""
+"""The outcome of a task."""
 
 from enum import Enum
 
 
 class TaskResult(Enum):
-    """As upstream numbers it."""
+    """Numbered as upstream."""
 
     UNKNOWN = 0
     SUCCEEDED = 1

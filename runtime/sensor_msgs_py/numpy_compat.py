@@ -1,4 +1,4 @@
-"""What older NumPy releases lack."""
+"""Functions that older NumPy releases lack."""
 
 from __future__ import annotations
 
@@ -7,5 +7,5 @@ from numpy.lib import recfunctions
 
 
 def structured_to_unstructured(arr: np.ndarray, dtype: np.dtype | None = None, copy: bool = False) -> np.ndarray:
-    """A structured array with its fields as one more dimension."""
+    """Return a structured array with its fields as one more dimension."""
     return recfunctions.structured_to_unstructured(arr, dtype, copy)

@@ -32,7 +32,7 @@ def read_points(
     uvs: Iterable[Any] | None = None,
     reshape_organized_cloud: bool = False,
 ) -> np.ndarray:
-    """The points as a structured array: all or some fields, without those that hold a NaN, at some pixels `(u, v)`."""
+    """Return the points as a structured array: all or some fields, optionally without NaN, at some pixels `(u, v)`."""
     points = _points(cloud)
     if field_names is not None:
         missing = set(field_names) - set(points.dtype.names or ())
@@ -49,7 +49,7 @@ def read_points(
 
 
 def _points(cloud: PointCloud2) -> np.ndarray:
-    """All points in a row; rows of the image may be padded."""
+    """Return all points in a row; rows of the image may be padded."""
     dtype = dtype_from_fields(cloud.fields, cloud.point_step)
     if bool(sys.byteorder != "little") != bool(cloud.is_bigendian):
         dtype = dtype.newbyteorder()
@@ -61,7 +61,7 @@ def _points(cloud: PointCloud2) -> np.ndarray:
 
 
 def _with_nan(points: np.ndarray) -> np.ndarray:
-    """Which points hold a NaN in any field."""
+    """Return which points have a NaN in any field."""
     found = np.zeros(points.shape, dtype=bool)
     for name in points.dtype.names or ():
         values = points[name]
@@ -78,7 +78,7 @@ def read_points_numpy(
     uvs: Iterable[Any] | None = None,
     reshape_organized_cloud: bool = False,
 ) -> np.ndarray:
-    """The points as rows of a plain array; all fields asked for must be of one type."""
+    """Return the points as rows of a plain array; all selected fields must have one type."""
     fields = [each for each in cloud.fields if field_names is None or each.name in field_names]
     assert all(each.datatype == fields[0].datatype for each in fields[1:]), (
         "All fields need to have the same datatype. Use `read_points()` otherwise."
@@ -95,7 +95,7 @@ def read_points_list(
     skip_nans: bool = False,
     uvs: Iterable[Any] | None = None,
 ) -> list[Any]:
-    """The points as a list of named tuples."""
+    """Return the points as a list of named tuples."""
     assert isinstance(cloud, PointCloud2), "Cloud is not a sensor_msgs.msg.PointCloud2"
     names = [each.name for each in cloud.fields] if field_names is None else list(field_names)
     point: Any = NamedTuple("Point", [(name, Any) for name in names])  # type: ignore[misc] -- fields are known at run time only
@@ -103,7 +103,7 @@ def read_points_list(
 
 
 def dtype_from_fields(fields: Iterable[PointField], point_step: int | None = None) -> np.dtype:
-    """The type of a point: its fields at their places; one without a name gets one."""
+    """Return the type of a point: its fields at their offsets; unnamed fields get names."""
     names: list[str] = []
     offsets: list[int] = []
     formats: list[Any] = []
@@ -129,9 +129,9 @@ def create_cloud(
     step: int | None = None,
     point_step: int | None = None,
 ) -> PointCloud2:
-    """A cloud of points given as rows of an array, a list of tuples, or a structured array.
+    """Return a cloud of points given as rows of an array, a list of tuples, or a structured array.
 
-    A point takes `step` (bytes); without it as many as in a structured array, else what its fields need.
+    A point takes `step` bytes; by default as many as in a structured array, else what its fields need.
     """
     fields = list(fields)
     step = step or point_step
@@ -154,7 +154,7 @@ def create_cloud(
 
 
 def _structured(points: Any, dtype: np.dtype) -> np.ndarray:
-    """Points as a structured array of a type."""
+    """Return points as a structured array of a type."""
     if isinstance(points, np.ndarray) and points.dtype.names is not None:
         return points
     if isinstance(points, np.ndarray):
@@ -169,7 +169,7 @@ def _structured(points: Any, dtype: np.dtype) -> np.ndarray:
 def create_cloud_xyz32(
     header: Header, points: Any, step: int | None = None, point_step: int | None = None
 ) -> PointCloud2:
-    """A cloud of points with x, y and z (m) in single precision."""
+    """Return a cloud of points with x, y and z (m) in single precision."""
     fields = [
         PointField(name=name, offset=4 * index, datatype=PointField.FLOAT32, count=1)
         for index, name in enumerate("xyz")

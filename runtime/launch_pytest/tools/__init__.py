@@ -1,4 +1,4 @@
-"""What tests wait for."""
+"""Functions that wait for processes."""
 
 from launch_pytest.tools.process import (
     assert_output,

@@ -1,6 +1,6 @@
-"""Wait for a process that the launch runs: until it starts, ends or has written something.
+"""Waits until a process of the launch starts, ends or writes something.
 
-A check of output may return a bool or assert. The functions that end in `_sync` are for plain tests; the others are for
+A check of output may return a bool or assert. The functions ending in `_sync` are for plain tests; the others are for
 coroutines, in the loop of the launch.
 """
 
@@ -13,7 +13,7 @@ from typing import Any
 
 _Check = Callable[[str], Any]
 _POLL_S = 0.02
-"""Seconds between two looks."""
+"""Seconds between two polls."""
 
 
 def _started(action: Any) -> bool:
@@ -54,43 +54,43 @@ async def _wait(condition: Callable[[], bool], timeout: float | None) -> bool:
 
 
 def wait_for_start_sync(context: Any, action: Any, timeout: float | None = None) -> bool:
-    """Whether the process starts in time."""
+    """Return whether the process starts in time."""
     return _wait_sync(lambda: _started(action), timeout)
 
 
 async def wait_for_start(context: Any, action: Any, timeout: float | None = None) -> bool:
-    """Whether the process starts in time."""
+    """Return whether the process starts in time."""
     return await _wait(lambda: _started(action), timeout)
 
 
 def wait_for_exit_sync(context: Any, action: Any, timeout: float | None = None) -> bool:
-    """Whether the process ends in time."""
+    """Return whether the process ends in time."""
     return _wait_sync(lambda: _ended(action), timeout)
 
 
 async def wait_for_exit(context: Any, action: Any, timeout: float | None = None) -> bool:
-    """Whether the process ends in time."""
+    """Return whether the process ends in time."""
     return await _wait(lambda: _ended(action), timeout)
 
 
 def wait_for_output_sync(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> bool:
-    """Whether what the process has printed passes in time; in the end an assertion of the check is raised."""
+    """Return whether the output passes the check in time; at the end an assertion error of the check is raised."""
     return _wait_sync(lambda: _fits(validate, action.get_stdout), timeout) or _accepts(validate, action.get_stdout())
 
 
 async def wait_for_output(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> bool:
-    """Whether what the process has printed passes in time; in the end an assertion of the check is raised."""
+    """Return whether the output passes the check in time; at the end an assertion error of the check is raised."""
     fits = await _wait(lambda: _fits(validate, action.get_stdout), timeout)
     return fits or _accepts(validate, action.get_stdout())
 
 
 def wait_for_stderr_sync(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> bool:
-    """The same for what it has written as errors."""
+    """Return the same for the standard error."""
     return _wait_sync(lambda: _fits(validate, action.get_stderr), timeout) or _accepts(validate, action.get_stderr())
 
 
 async def wait_for_stderr(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> bool:
-    """The same for what it has written as errors."""
+    """Return the same for the standard error."""
     fits = await _wait(lambda: _fits(validate, action.get_stderr), timeout)
     return fits or _accepts(validate, action.get_stderr())
 

@@ -1,4 +1,4 @@
-"""Programs that are tests: any, one of GTest, and a file of pytest."""
+"""Programs under test: any program, a GTest program, and a pytest file."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from launch.substitutions import FindExecutable
 
 
 class Test(ExecuteProcess):
-    """A process that is killed when it has not ended after `timeout` seconds."""
+    """A process that is killed if it has not ended after `timeout` seconds."""
 
-    __test__ = False  # nothing that pytest should collect
+    __test__ = False  # not to be collected by pytest
 
     def __init__(self, *, timeout: Any = None, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -26,7 +26,7 @@ class Test(ExecuteProcess):
         return self.__timeout
 
     def execute(self, context: Any) -> list[Any] | None:
-        """Start it, and the time."""
+        """Start the process and the timeout."""
         actions = super().execute(context)
         if not self.__timeout:
             return actions
@@ -35,7 +35,7 @@ class Test(ExecuteProcess):
 
 
 class GTest(Test):
-    """A program of GTest."""
+    """A GTest program."""
 
     def __init__(self, *, path: Any, **kwargs: Any) -> None:
         super().__init__(cmd=[path], **kwargs)
@@ -43,7 +43,7 @@ class GTest(Test):
 
     @property
     def path(self) -> Any:
-        """Where it is."""
+        """Its path."""
         return self.__path
 
 
@@ -56,5 +56,5 @@ class PyTest(Test):
 
     @property
     def path(self) -> Any:
-        """Where it is."""
+        """Its path."""
         return self.__path

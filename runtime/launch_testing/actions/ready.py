@@ -1,4 +1,4 @@
-"""`ReadyToTest`: from here on the tests run."""
+"""`ReadyToTest`: from now on the tests run."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from launch.action import Action
 
 
 class ReadyToTest(Action):
-    """Tells that what was described before it has been started."""
+    """Signals that everything described before it has been started."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -19,6 +19,6 @@ class ReadyToTest(Action):
         self.__callbacks.append(callback)
 
     def execute(self, context: Any) -> None:
-        """Tell those who wait."""
+        """Notify those who wait."""
         for callback in self.__callbacks:
             callback()

@@ -1,4 +1,4 @@
-"""Assertions about how processes have ended."""
+"""Assertions about the exit codes of processes."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ def assertExitCodes(
     proc_info: Any, allowable_exit_codes: Collection[int] = (EXIT_OK,), process: Any = None, cmd_args: Any = None, *,
     strict_proc_matching: bool = True,
 ) -> None:  # fmt: skip
-    """Assert that all processes, or those that are meant, have ended with one of these codes.
+    """Assert that all processes, or the selected ones, have ended with one of these codes.
 
-    One that a signal has ended has the signal's number with a minus; the codes of signals are what a program or shell
-    returns itself.
+    A process ended by a signal has the negative signal number; the codes in `EXIT_SIG...` are those that a program or
+    shell returns itself.
     """
     for code in allowable_exit_codes:
         assert isinstance(code, int), f"Provided exit code {code} is not an int"

@@ -1,4 +1,4 @@
-"""Assertions about what processes have written."""
+"""Assertions about the output of processes."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def assertInStream(
 ) -> None:
     """Assert that a process, or any for None, has written something, by the rules of `build_text_match`.
 
-    Raises `ValueError` for a stream that is not of `STREAMS` and for a filter that cannot be called.
+    Raises `ValueError` for a stream not in `STREAMS`, and for a filter that is not callable.
     """
     meant = resolveProcesses(proc_output, process=process, cmd_args=cmd_args, strict_proc_matching=strict_proc_matching)
     if output_filter is not None and not callable(output_filter):
@@ -49,7 +49,7 @@ def assertInStdout(
     output_filter: Callable[[str], str] | None = None, strict_proc_matching: bool = True,
     strip_ansi_escape_sequences: bool = True,
 ) -> None:  # fmt: skip
-    """`assertInStream` of the standard output."""
+    """`assertInStream` for the standard output."""
     assertInStream(
         proc_output, expected_output, process, cmd_args, output_filter=output_filter,
         strict_proc_matching=strict_proc_matching, strip_ansi_escape_sequences=strip_ansi_escape_sequences,
@@ -62,7 +62,7 @@ def assertInStderr(
     output_filter: Callable[[str], str] | None = None, strict_proc_matching: bool = True,
     strip_ansi_escape_sequences: bool = True,
 ) -> None:  # fmt: skip
-    """`assertInStream` of the standard error."""
+    """`assertInStream` for the standard error."""
     assertInStream(
         proc_output, expected_output, process, cmd_args, output_filter=output_filter,
         strict_proc_matching=strict_proc_matching, strip_ansi_escape_sequences=strip_ansi_escape_sequences,
@@ -71,14 +71,14 @@ def assertInStderr(
 
 
 class SequentialTextChecker:
-    """Asserts texts one after the other: each is looked for behind the one before."""
+    """Asserts texts one after the other: each is searched for after the previous one."""
 
     def __init__(self, output: list[str]) -> None:
         self._text = "".join(output)
         self._at = 0
 
     def assertInText(self, msg: str) -> None:
-        """Assert that a text comes later; one that does not changes nothing."""
+        """Assert that a text comes later; a failure leaves the position unchanged."""
         found = self._text.find(msg, self._at)
         if found < 0:
             raise AssertionError(
@@ -92,7 +92,7 @@ class SequentialTextChecker:
         self.assertInText(msg)
 
     def get_nearby_lines(self) -> str:
-        """The line of the last match with two lines before and behind it."""
+        """Return the line of the last match with two lines before and after it."""
         begin, end = self._at, self._at
         for _ in range(3):
             begin = max(self._text.rfind("\n", 0, begin), 0)
@@ -103,6 +103,6 @@ class SequentialTextChecker:
 
 @contextmanager
 def assertSequentialStdout(proc_output: Any, process: Any, cmd_args: Any = None) -> Iterator[SequentialTextChecker]:
-    """A checker of all that one process has written, errors included."""
+    """Return a checker of all output of one process, standard error included."""
     action = resolveProcesses(proc_output, process=process, cmd_args=cmd_args)[0]
     yield SequentialTextChecker([each.text.decode(errors="replace") for each in proc_output[action]])

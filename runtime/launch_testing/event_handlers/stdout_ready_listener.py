@@ -1,4 +1,4 @@
-"""A process says that it is ready: what then."""
+"""Runs actions when a process reports that it is ready."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from launch.event_handlers import OnProcessIO
 
 
 class StdoutReadyListener(OnProcessIO):
-    """Runs actions whenever a process, or any for None, prints a piece with a text in it to its standard output."""
+    """Runs actions whenever a process, or any for None, prints a chunk containing a text to its standard output."""
 
     def __init__(self, *, target_action: Any = None, ready_txt: str, actions: list[Any]) -> None:
         def poll(event: Any) -> Any:
@@ -18,5 +18,5 @@ class StdoutReadyListener(OnProcessIO):
         self.__actions = actions
 
     def describe(self) -> tuple[str, list[Any]]:
-        """In words, and the actions."""
+        """Return a description, and the actions."""
         return super().describe()[0], self.__actions

@@ -13,7 +13,7 @@ from ros2cli.launch_file import parse_launch_arguments
 
 
 class LaunchTestFailure(Exception):
-    """Some test cases of a module have failed; the text is theirs."""
+    """Some test cases of a module have failed; the message is theirs."""
 
 
 class LaunchTestItem(pytest.Item):
@@ -42,7 +42,7 @@ class LaunchTestItem(pytest.Item):
         )
 
     def reportinfo(self) -> tuple[Path, int, str]:
-        """Where it is."""
+        """Its location."""
         return self.path, 0, f"launch tests: {self.name}"
 
 

@@ -1,4 +1,4 @@
-"""What tests say of output: lines that do not count, and what is expected."""
+"""Filters and expectations for output."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from launch_testing.texts import build_line_match, build_text_match, remove_ansi
 
 
 def get_default_filtered_prefixes() -> list[str]:
-    """Beginnings of lines that do not count unless others are given."""
+    """Return the prefixes of lines that are ignored by default."""
     return ["pid", "rc"]
 
 
 def get_default_filtered_patterns() -> list[str]:
-    """Expressions of lines that do not count unless others are given: none."""
+    """Return the patterns of lines that are ignored by default: none."""
     return []
 
 
 def basic_output_filter(
     filtered_prefixes: Sequence[str] | None = None, filtered_patterns: Sequence[str] | None = None
 ) -> Callable[[str], str]:
-    """A function that takes lines out of a text: those that begin so, or match so."""
+    """Return a function that removes lines with these prefixes or patterns from a text."""
     prefixes = tuple(get_default_filtered_prefixes() if filtered_prefixes is None else filtered_prefixes)
     some = get_default_filtered_patterns() if filtered_patterns is None else filtered_patterns
     patterns = [re.compile(each) for each in some]
@@ -35,7 +35,7 @@ def basic_output_filter(
 
 
 def expected_output_from_file(path: str, encoding: str | None = None) -> list[Any]:
-    """The lines of `path`.txt, or the expressions of `path`.regex; raises `RuntimeError` where neither is there."""
+    """Return the lines of `path`.txt, or the expressions of `path`.regex; raises `RuntimeError` if neither exists."""
     literal, regular = Path(f"{path}.txt"), Path(f"{path}.regex")
     if literal.is_file():
         return list(literal.read_text(encoding=encoding).splitlines())
@@ -53,9 +53,9 @@ def expect_output(
     strip_ansi_escape_sequences: bool = True,
     strict: bool = False,
 ) -> bool:
-    """Whether a text, or lines, have what is expected, by the rules of `build_text_match` and `build_line_match`.
+    """Return whether a text, or lines, match, by the rules of `build_text_match` and `build_line_match`.
 
-    Raises `ValueError` unless one of text and lines, and one of the two that are expected, is given.
+    Raises `ValueError` unless exactly one of text and lines, and one of the two expectations, is given.
     """
     if (text is None) == (lines is None):
         raise ValueError("Either lines or text, but not both, must be specified")

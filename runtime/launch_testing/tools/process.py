@@ -1,4 +1,4 @@
-"""A process that a test starts beside the others, and what the test sees of it."""
+"""A process that a test starts beside the others, and its state as seen by the test."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from launch import LaunchDescription
 
 
 class ProcessProxy:
-    """State and output of one process, as the handlers of a test know it."""
+    """State and output of one process, as recorded by the handlers of a test."""
 
     def __init__(
         self,
@@ -38,12 +38,12 @@ class ProcessProxy:
         self._filter = output_filter
 
     def wait_for_shutdown(self, timeout: float | None = None) -> bool:
-        """Whether it has ended within so many seconds; None waits without a limit."""
+        """Return whether it ends within this many seconds; None waits without a limit."""
         with self._proc_info.proc_event:
             return self._proc_info.proc_event.wait_for(lambda: self.terminated, timeout)
 
     def wait_for_output(self, condition: Callable[[str], Any] | None = None, timeout: float | None = None) -> Answer:
-        """Whether what it has written, while it runs, fits a condition within so many seconds; any for None."""
+        """Return whether its output, while it runs, meets a condition within this many seconds; any output for None."""
         if condition is not None and not callable(condition):
             raise TypeError(f"Expected 'condition' to be callable but got '{condition!r}'")
         answer = Answer()
@@ -65,17 +65,17 @@ class ProcessProxy:
 
     @property
     def stderr(self) -> str:
-        """What it has written to its standard error."""
+        """Its standard error output."""
         return self._text(lambda event: event.from_stderr)
 
     @property
     def stdout(self) -> str:
-        """What it has written to its standard output."""
+        """Its standard output."""
         return self._text(lambda event: event.from_stdout)
 
     @property
     def output(self) -> str:
-        """All that it has written, in its order."""
+        """All its output, in order."""
         return self._text(lambda event: True)
 
     def _text(self, counts: Callable[[Any], bool]) -> str:
@@ -95,7 +95,7 @@ class ProcessProxy:
 
     @property
     def exit_code(self) -> int:
-        """How it has ended."""
+        """Its exit code."""
         return int(self._proc_info[self._action].returncode)
 
     def _last_event(self) -> Any:
@@ -103,7 +103,7 @@ class ProcessProxy:
 
 
 class Answer:
-    """True or false, and shows the text it is about in a failed assertion."""
+    """True or false, and shows the examined text in a failed assertion."""
 
     so = False
     text: str | None = None
@@ -123,7 +123,7 @@ def launch_process(
     proc_output: ActiveIoHandler,
     **kwargs: Any,
 ) -> Iterator[ProcessProxy]:
-    """Start a process in a launch that runs, give its proxy, and end it afterwards if it has not ended itself."""
+    """Start a process in a running launch, yield its proxy, and end it afterwards if it is still running."""
     ensure_argument_type(process_action, ExecuteProcess, "process_action")
     launch_service.emit_event(event=IncludeLaunchDescription(LaunchDescription([process_action])))
     proxy = ProcessProxy(process_action, proc_info, proc_output, **kwargs)

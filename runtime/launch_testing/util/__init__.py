@@ -1,4 +1,4 @@
-"""Which processes are meant, and a process that only stays."""
+"""Selection of processes, and a process that only keeps the launch running."""
 
 import sys
 
@@ -18,5 +18,5 @@ except KeyboardInterrupt:
 
 
 def KeepAliveProc() -> ExecuteProcess:
-    """A process that stays until the launch ends, for tests whose own processes may all end before them."""
+    """Return a process that runs until the launch ends, for tests whose own processes may all end earlier."""
     return ExecuteProcess(cmd=[sys.executable, "-c", _STAY])

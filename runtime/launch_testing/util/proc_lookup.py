@@ -1,4 +1,4 @@
-"""Which processes a test means: by the action, or by a part of the name and words of the command."""
+"""Selects processes: by the action, or by a part of the name and arguments of the command."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ from launch.actions import ExecuteLocal
 from launch.substitutions import TextSubstitution
 
 NO_CMD_ARGS = object()
-"""Stands for a command without arguments."""
+"""Represents a command without arguments."""
 
 
 class NoMatchingProcessException(Exception):
-    """No known process is the one that is meant."""
+    """No known process matches."""
 
 
 def resolveProcesses(
     info_obj: Any, *, process: Any = None, cmd_args: Any = None, strict_proc_matching: bool = True
 ) -> list[Any]:
-    """The actions that are meant, of those a handler knows; all for None.
+    """Return the matching actions known to a handler; all for None.
 
-    Raises `NoMatchingProcessException` for none, `Exception` for several where one is wanted, `TypeError` for what is
-    neither an action nor a text.
+    Raises `NoMatchingProcessException` for none, `Exception` for several if one is required, `TypeError` for anything
+    but an action or a text.
     """
     known = list(info_obj.processes())
     if process is None:
@@ -43,20 +43,20 @@ def resolveProcesses(
             f"Did not find any processes matching name '{process}' and args '{cmd_args}'. Procs: {names}"
         )
     if strict_proc_matching and len(found) > 1:
-        raise Exception(  # its class is upstream's: not caught where a process that is missing is waited for
+        raise Exception(  # the class is upstream's: code that waits for a missing process does not catch it
             f"Found multiple processes matching name '{process}' and cmd_args '{cmd_args}'. Procs: {names}"
         )
     return found
 
 
 def name_of(action: Any) -> str:
-    """The name of a process, as launch gives it; empty before it was prepared."""
+    """Return the name of a process as assigned by launch; empty before it was prepared."""
     details = action.process_details
     return str(details["name"]) if details else ""
 
 
 def described(action: Any) -> str:
-    """Name and arguments of a process; of one that was not launched its command, where that is plain text."""
+    """Return name and arguments of a process; before its launch the command, if that is plain text."""
     details = action.process_details
     if details:
         return " ".join([details["name"], *details["cmd"][1:]])

@@ -1,4 +1,4 @@
-"""Actions of tests of ROS systems."""
+"""Actions for tests of ROS systems."""
 
 from launch_testing_ros.actions.enable_rmw_isolation import EnableRmwIsolation
 

@@ -1,4 +1,4 @@
-"""`EnableRmwIsolation`: a domain of its own for a test."""
+"""`EnableRmwIsolation`: a separate domain for a test."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from launch.action import Action
 
 
 class EnableRmwIsolation(Action):
-    """Does nothing here: what a test launches runs in the domain of its process, which meets nobody by itself."""
+    """Does nothing here: a test's launch runs in the domain of its process, which is isolated by default."""
 
     def execute(self, context: Any) -> None:
-        """Nothing."""
+        """Do nothing."""

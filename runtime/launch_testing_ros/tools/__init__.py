@@ -1,4 +1,4 @@
-"""Checks of what processes of ROS write."""
+"""Checks of the output of ROS processes."""
 
 from launch_testing_ros.tools.output import basic_output_filter
 
