@@ -48,13 +48,13 @@ def add(folder: Path) -> dict[str, list[str]]:
     from bot_console.runtime.rosidl.texts import standard_packages
 
     if not folder.is_dir():
-        raise NotAdded(f"{folder} is no folder; name a package, or a checkout with packages, that define interfaces")
+        raise NotAdded(f"{folder} is not a folder; name a package, or a checkout with packages, that define interfaces")
     found = dict(_packages(folder.resolve()))
     if not found:
         raise NotAdded(f"{folder} has no package with definitions: a package.xml with msg/, srv/ or action/ beside it")
     shared = sorted(set(found) & (set(standard_packages()) - EXAMPLES))
     if shared:
-        raise NotAdded(f"{', '.join(shared)} comes along and is used by everything; it cannot be replaced")
+        raise NotAdded(f"{', '.join(shared)} is included and used by everything; it cannot be replaced")
     names = {name: _checked(name, place) for name, place in found.items()}
     for name, place in found.items():
         target = _kept() / name

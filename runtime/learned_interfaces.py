@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 KINDS = ("msg", "srv", "action")
 TYPE_NAME = rf"[a-z][a-z0-9_]*/(?:{'|'.join(KINDS)})/[A-Z][A-Za-z0-9]*"
 """The pattern, compiled when needed, of valid names of folders and files: they come from another program or machine."""
-FALSE = "tells of it what does not have the hash"
-UNREADABLE = "describes it in a way that cannot be read"
+FALSE = "describes it by a definition that does not have the hash"
+UNREADABLE = "sent a description of it that is invalid"
 
 _folders: dict[str, Path] = {}
 
@@ -42,14 +42,14 @@ def learn(type_name: str, type_hash: str, reported: Any) -> str:
     texts = {each.type_name: each.raw_file_contents for each in reported.type_sources if each.encoding in KINDS}
     try:
         if not all(re.fullmatch(TYPE_NAME, each) for each in (type_name, *texts)):
-            raise DefinitionError("a name that no type has")
+            raise DefinitionError("an invalid type name")
         if not _has_hash(type_name, type_hash, texts):
             return f"{FALSE} {type_hash}"
         _keep(texts)
         here = _hash_here(type_name)
     except (DefinitionError, ImportError, AttributeError, RecursionError) as error:
         return f"{UNREADABLE}: {error}"
-    return "" if here == type_hash else "has other definitions of the types in it than there are here"
+    return "" if here == type_hash else "has definitions of its nested types that differ from those here"
 
 
 def refusal(reported: Any) -> str:

@@ -118,17 +118,17 @@ def _replace(path: Path, content: bytes) -> None:
 
 
 def _check(address: str) -> None:
-    wrong = f"{address} is no address; write for instance https://host/robot.yaml"
+    wrong = f"{address} is not a valid address; write for instance https://host/robot.yaml"
     try:
         parts = urllib.parse.urlsplit(address)
         fits = bool(parts.hostname) and parts.port != 0
     except ValueError:
         raise RemoteError(wrong) from None
     if parts.username or parts.password:
-        raise RemoteError("a password in an address would stand in logs and process lists; it is not taken")
+        raise RemoteError("a password in an address would appear in logs and process lists; it is not accepted")
     if not address.lower().startswith(SCHEME) and not _is_here(address):
         raise RemoteError(
-            f"{address}: anybody on the way could change what comes by http; give an https:// address "
+            f"{address}: anyone on the network could change a file sent by http; give an https:// address "
             "(http:// is for a server on this machine: 127.0.0.1, [::1] or localhost)"
         )
     if not fits or not address.isascii() or any(character <= " " for character in address):
@@ -152,7 +152,7 @@ class _SafePlaces(urllib.request.HTTPRedirectHandler):
         self, req: urllib.request.Request, fp: IO[bytes], code: int, msg: str, headers: Message, newurl: str
     ) -> urllib.request.Request | None:
         if not newurl.lower().startswith(SCHEME) and not (_is_here(req.full_url) and _is_here(newurl)):
-            raise RemoteError(f"{req.full_url} leads to {newurl}, which is not https: not followed")
+            raise RemoteError(f"{req.full_url} redirects to {newurl}, which is not https: not followed")
         return super().redirect_request(req, fp, code, msg, headers, newurl)  # type: ignore[arg-type] -- as typeshed has it in some versions
 
 
@@ -212,7 +212,7 @@ def _check_yaml(address: str, content: bytes) -> None:
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         line = getattr(getattr(error, "problem_mark", None), "line", None)
         where = f", line {line + 1}" if line is not None else ""
-        raise RemoteError(f"{address} is no YAML{where}; the copy of before was kept") from None
+        raise RemoteError(f"{address} is not valid YAML{where}; the previous copy was kept") from None
 
 
 def _words(why: object) -> str:

@@ -171,7 +171,7 @@ def parameter_dict_from_yaml_file(
             LookupError,
             OverflowError,
         ):  # raised by the library's constructors of tagged values
-            raise RuntimeError(f"{parameter_file}: a value is not what its tag says") from None
+            raise RuntimeError(f"{parameter_file}: a value does not match its tag") from None
     keys = ["/**"] if use_wildcard and "/**" in content else []
     if target_nodes:
         for node in target_nodes:

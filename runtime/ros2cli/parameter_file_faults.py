@@ -30,17 +30,17 @@ def fault_of(path: str, error: Exception) -> str:
     if isinstance(error, yaml.YAMLError):
         return f"{path}: {_not_yaml(path, error)}"
     if isinstance(error, RecursionError):
-        return f"{path}: it is nested too deeply, or holds itself"
+        return f"{path}: it is nested too deeply, or contains itself"
     if isinstance(error, UnicodeDecodeError):
-        return f"{path}: it is no text in UTF-8"
+        return f"{path}: it is not UTF-8 text"
     if isinstance(error, (ValueError, LookupError, OverflowError)):
-        return f"{path}: a value is not what its tag says, or an endless number"
-    return f"{path}: it is no parameter file: 'NODE:', below it 'ros__parameters:', below that 'name: value'"
+        return f"{path}: a value does not match its tag, or a number has too many digits"
+    return f"{path}: it is not a parameter file: 'NODE:', below it 'ros__parameters:', below that 'name: value'"
 
 
 def _not_yaml(path: str, error: Any) -> str:
     mark = getattr(error, "problem_mark", None)
     problem = getattr(error, "problem", None) or getattr(error, "reason", None) or "it cannot be read"
     if path not in (getattr(mark, "name", None), getattr(error, "name", None)):
-        return f"a text in it, which ROS reads as YAML once more, is none: {problem}"
+        return f"a string in it, which ROS parses as YAML again, is invalid: {problem}"
     return f"not YAML: line {mark.line + 1}: {problem}" if mark else f"not YAML: {problem}"

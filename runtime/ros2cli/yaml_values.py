@@ -35,7 +35,7 @@ def report_yaml_errors() -> Generator[None]:
         why = "a tag has a value that it does not allow, or a number is endless"
     except RecursionError:
         why = "it is nested too deeply"
-    raise RuntimeError(f"The passed value is no YAML: {why}")
+    raise RuntimeError(f"The passed value is not valid YAML: {why}")
 
 
 def _refuse_endless(value: Any, seen: set[int]) -> None:

@@ -26,7 +26,9 @@ def parse(text: str, package: str, kind: str, name: str, file: str = "") -> Inte
     names = PARTS[kind]
     where = file or f"{package}/{kind}/{name}"
     if not NAME.match(name):
-        raise DefinitionError(f"{where}: '{name}' is no interface name (a capital letter, then letters and digits)")
+        raise DefinitionError(
+            f"{where}: '{name}' is not a valid interface name (a capital letter, then letters and digits)"
+        )
     sections: list[list[tuple[int, str]]] = [[]]
     for number, line in enumerate(text.splitlines(), 1):
         if line.strip() == "---":
@@ -57,7 +59,7 @@ def _part(name: str, rows: list[tuple[int, str]], package: str, where: str) -> D
     seen: set[str] = set()
     for each in [*fields, *constants]:
         if each.name in seen:
-            raise DefinitionError(f"{where}: '{each.name}' stands twice in {name}")
+            raise DefinitionError(f"{where}: '{each.name}' is defined twice in {name}")
         seen.add(each.name)
     return Definition(name, fields, constants)
 

@@ -120,7 +120,7 @@ def _package_folders(folder: str, depth: int, budget: list[int]) -> Iterator[str
 
 def _warn_of_size(folder: str) -> None:
     print(
-        f"[WARN] [bot-console]: more than {FOLDERS} folders; packages are not looked for from {folder} on. "
+        f"[WARN] [bot-console]: more than {FOLDERS} folders: the search for packages stopped at {folder}. "
         "Start in the workspace itself, or name it with --workspace",
         file=sys.stderr,
     )

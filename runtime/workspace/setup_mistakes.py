@@ -28,7 +28,7 @@ def _missing_commas(tree: ast.Module) -> Iterator[tuple[int, str]]:
     for each in ast.walk(tree):
         if isinstance(each, ast.Call) and isinstance(each.func, NEVER_CALLED):
             line = each.func.end_lineno or each.lineno
-            yield line, f"a comma is missing behind {ast.unparse(each.func)}"
+            yield line, f"a comma is missing after {ast.unparse(each.func)}"
 
 
 def _undefined(tree: ast.Module) -> Iterator[tuple[int, str]]:

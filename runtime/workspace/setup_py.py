@@ -141,7 +141,7 @@ class _Reader:
         try:
             return self._values.of(self._keywords["entry_points"]), ""
         except Unreadable as error:
-            return {}, f"{self._path}: entry_points cannot be made out, {error}. {WRITTEN_OUT}"
+            return {}, f"{self._path}: entry_points cannot be evaluated, {error}. {WRITTEN_OUT}"
 
     def _modules(self) -> dict[str, Path]:
         places = {str(key): str(value) for key, value in self._keyword("package_dir", {}).items()}

@@ -68,7 +68,10 @@ def test_learned_message_has_constants_and_package_can_grow() -> None:
 def test_another_hash_is_refused_and_leaves_nothing(forgotten: Path) -> None:
     spots = {"learned_b/msg/Spot": SPOT}
     wanted = hash_of("learned_b/msg/Spot", {"learned_b/msg/Spot": "float64 x\n"})
-    assert learn("learned_b/msg/Spot", wanted, reported(spots)) == f"tells of it what does not have the hash {wanted}"
+    assert (
+        learn("learned_b/msg/Spot", wanted, reported(spots))
+        == f"describes it by a definition that does not have the hash {wanted}"
+    )
     assert importlib.util.find_spec("learned_b") is None and not forgotten.exists()
 
 
@@ -76,7 +79,7 @@ def test_another_hash_is_refused_and_leaves_nothing(forgotten: Path) -> None:
 def test_invalid_type_names_are_not_used_as_paths(name: str, forgotten: Path) -> None:
     texts = {"learned_c/msg/Spot": SPOT}
     answer = learn("learned_c/msg/Spot", hash_of("learned_c/msg/Spot", texts), reported({**texts, name: SPOT}))
-    assert answer == "describes it in a way that cannot be read: a name that no type has"
+    assert answer == "sent a description of it that is invalid: an invalid type name"
     assert not forgotten.exists()
 
 
@@ -85,12 +88,12 @@ def test_invalid_type_names_are_not_used_as_paths(name: str, forgotten: Path) ->
     [
         (None, "has not described it"),
         (reported({}, successful=False, failure_reason="not in use"), "does not describe it: not in use"),
-        (reported({}), "describes it in a way that cannot be read: the definition of learned_d/msg/Spot is missing"),
+        (reported({}), "sent a description of it that is invalid: the definition of learned_d/msg/Spot is missing"),
         (
             reported({"learned_d/msg/Spot": "float64\n"}),
-            "describes it in a way that cannot be read: learned_d/msg/Spot:1",
+            "sent a description of it that is invalid: learned_d/msg/Spot:1",
         ),
-        (reported({"learned_d/msg/Spot": "Spot spot\n"}), "tells of it what does not have the hash"),
+        (reported({"learned_d/msg/Spot": "Spot spot\n"}), "describes it by a definition that does not have the hash"),
     ],
     ids=["nothing", "failed", "missing", "unreadable", "within itself"],
 )
@@ -101,5 +104,5 @@ def test_useless_answers_are_reported(answer: Any, why: str) -> None:
 def test_existing_package_stays_as_it_is(forgotten: Path) -> None:
     texts = {"std_msgs/msg/String": "float64 data\n"}
     problem = learn("std_msgs/msg/String", hash_of("std_msgs/msg/String", texts), reported(texts))
-    assert problem == "has other definitions of the types in it than there are here"
+    assert problem == "has definitions of its nested types that differ from those here"
     assert not forgotten.exists()

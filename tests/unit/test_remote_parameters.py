@@ -174,7 +174,7 @@ def test_truncated_file_is_not_used(server: Server) -> None:
 def test_missing_file_or_invalid_yaml_is_an_error(server: Server) -> None:
     path = local_copy(server.address)
     server.content, server.tag = b"a: [", '"2"'
-    with pytest.raises(RemoteError, match="is no YAML, line"):
+    with pytest.raises(RemoteError, match="is not valid YAML, line"):
         local_copy(server.address)
     server.status = 404
     with pytest.raises(RemoteError, match="answers 404"):
@@ -223,9 +223,9 @@ def test_untrusted_certificate_is_refused_despite_a_copy(server: Server, monkeyp
         ("http://0.0.0.0/a.yaml", "give an https:// address"),
         ("http:///a.yaml", "give an https:// address"),
         ("http://me:secret@example.org/a.yaml", "a password in an address"),
-        ("https:///a.yaml", "is no address"),
-        ("https://host:port/a.yaml", "is no address"),
-        ("https://host/a b.yaml", "is no address"),
+        ("https:///a.yaml", "is not a valid address"),
+        ("https://host:port/a.yaml", "is not a valid address"),
+        ("https://host/a b.yaml", "is not a valid address"),
         ("https://me:secret@host/a.yaml", "a password in an address"),
     ],
 )

@@ -69,7 +69,10 @@ def test_part_with_another_hash_is_refused(node: Any) -> None:
             response.type_description.type_description.fields[1].name = "backfeed"
         return response
 
-    assert outcome(inquiry(NAME, HASHES), answer) == f"tells of it what does not have the hash {HASHES[last]}"
+    assert (
+        outcome(inquiry(NAME, HASHES), answer)
+        == f"describes it by a definition that does not have the hash {HASHES[last]}"
+    )
 
 
 def test_useless_answers_are_reported(node: Any) -> None:
@@ -79,9 +82,7 @@ def test_useless_answers_are_reported(node: Any) -> None:
     # True to their hashes, but from another action.
     other = {name.replace("Fibonacci", "Other"): hashed for name, hashed in HASHES.items()}
     elsewhere = outcome(inquiry(NAME.replace("Fibonacci", "Other"), other), lambda name, each: reported(node, each))
-    assert elsewhere.startswith(
-        "describes it in a way that cannot be read: the definition of example_interfaces/action"
-    )
+    assert elsewhere.startswith("sent a description of it that is invalid: the definition of example_interfaces/action")
 
 
 @pytest.mark.parametrize(

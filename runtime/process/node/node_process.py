@@ -251,7 +251,7 @@ class NodeProcess:
             if state.thread.is_alive() and not state.waiting:
                 self.state = ProcessState.ABANDONED
                 line = frames.thread_line(state.ident)
-                notify(self, f"did not end when it was told to, so it is abandoned. It hangs in {line}")
+                notify(self, f"did not end when asked to, so it is abandoned. It hangs in {line}")
 
     def finish(self, code: int) -> None:
         """Record the end of the process, once, and notify all."""

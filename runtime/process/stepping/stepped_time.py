@@ -27,7 +27,7 @@ FREE_READS = 10_000
 """Clock readings at one instant that are free; each further one costs `READ_NS`, for loops that busy-wait."""
 READ_NS = 1_000
 _SO = "so that others run beside it and the run is not deterministic"
-BLOCKS = f"waits for what the stepped run does not see, {_SO}. Wait with time.sleep, rclpy or threading instead"
+BLOCKS = f"waits for something outside the stepped run, {_SO}. Wait with time.sleep, rclpy or threading instead"
 COMPUTES = f"has computed for long without waiting, {_SO}. Let it spin, sleep or wait in its loop"
 
 

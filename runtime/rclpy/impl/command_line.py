@@ -15,7 +15,7 @@ from rclpy.impl.log_routing import state
 from rclpy.impl.rcutils_logger import RcutilsLogger
 
 DEPRECATED = "Found remap rule '{0}'. This syntax is deprecated. Use '--ros-args --remap {0}' instead."
-NOT_OBEYED = "'{0}' stands outside of --ros-args and is left to the program. A parameter is set by --ros-args -p {0}"
+NOT_OBEYED = "'{0}' is outside of --ros-args and is left to the program. A parameter is set by --ros-args -p {0}"
 """rcl says nothing of it: `-p speed:=2.5` without the flag is a word like any other."""
 ASSIGNED = r"[A-Za-z_][\w./]*:=."
 NO_LOG_CONFIG = "spdlog logging backend doesn't currently support external configuration"

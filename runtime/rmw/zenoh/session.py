@@ -81,7 +81,7 @@ class Session(Lifetime):
             for path, value in (*(leaves(settings) if file else ()), *last):
                 config.insert_json5(path, value)
         except (zenoh.ZError, OSError) as error:
-            raise SettingsError(f"Zenoh does not take these settings: {_first_line(error)}") from None
+            raise SettingsError(f"Zenoh rejects these settings: {_first_line(error)}") from None
         try:
             self._zenoh = zenoh.open(config)
         except zenoh.ZError as error:

@@ -47,7 +47,7 @@ class WholeGraph:
         """Report the first graph entry that is no valid token."""
         if not self._has_refused:
             self._has_refused = True
-            text = f"what stands in the graph as {key[:120]!r} is not of the format of rmw_zenoh, and is ignored"
+            text = f"the graph contains {key[:120]!r}, which is not in the format of rmw_zenoh and is ignored"
             notify(self._process, f"{text}: `bot-console doctor` counts and lists such tokens")
 
     def _saw(self, token: Token, came: bool) -> None:

@@ -109,7 +109,7 @@ def test_a_verb_reads_messages_by_what_their_node_reports_unless_it_has_another_
     untrue = typed(elsewhere, "topic", "echo", "--once", "/false_spots")
     assert untrue.returncode == 1 and untrue.stdout == ""
     assert "'false_shapes/msg/Spot' of topic '/false_spots' is not installed here" in untrue.stderr
-    assert "/painter tells of it what does not have the hash RIHS01_" in untrue.stderr
+    assert "/painter describes it by a definition that does not have the hash RIHS01_" in untrue.stderr
 
 
 def test_a_verb_sends_goals_and_requests_and_messages_of_types_that_are_elsewhere(elsewhere: Path) -> None:
@@ -135,7 +135,7 @@ def test_a_verb_sends_goals_and_requests_and_messages_of_types_that_are_elsewher
     assert (wrong.stdout, wrong.stderr.strip(), wrong.returncode) == ("", "The passed action type is invalid", 1)
     untrue = typed(elsewhere, "action", "send_goal", "/draw_falsely", "false_shapes/action/Draw")
     assert untrue.stdout == "" and untrue.returncode == 1
-    assert "/painter tells of it what does not have the hash RIHS01_" in untrue.stderr
+    assert "/painter describes it by a definition that does not have the hash RIHS01_" in untrue.stderr
 
 
 def test_panes_show_plot_fill_in_and_call_what_a_node_reports_of(
@@ -176,7 +176,9 @@ def test_panes_show_plot_fill_in_and_call_what_a_node_reports_of(
         assert "2.5" in str(goal.result)
 
         traffic.listen("/false_spots")
-        hashed = "the type false_shapes/msg/Spot is not known here: /painter tells of it what does not have the hash"
+        hashed = (
+            "the type false_shapes/msg/Spot is not known here: /painter describes it by a definition that does not have"
+        )
         until(lambda: traffic.heard().problem.startswith(hashed), "why the other is not read")
     finally:
         console.close()

@@ -330,4 +330,4 @@ def test_parameter_before_ros_args_is_reported_at_a_terminal(capfd, monkeypatch)
     context.shutdown()
     reported = [line for line in capfd.readouterr().err.splitlines() if "[rcl]" in line]
     assert len(reported) == 1
-    assert "'speed:=2.5' stands outside of --ros-args" in reported[0] and "--ros-args -p speed:=2.5" in reported[0]
+    assert "'speed:=2.5' is outside of --ros-args" in reported[0] and "--ros-args -p speed:=2.5" in reported[0]

@@ -35,7 +35,7 @@ def test_added_interfaces_stay_after_their_folder_is_deleted(ros, tmp_path: Path
 @pytest.mark.parametrize(
     ("name", "files", "refusal"),
     [
-        ("std_msgs", {"msg_Num": "int32 a\n"}, "std_msgs comes along and is used by everything"),
+        ("std_msgs", {"msg_Num": "int32 a\n"}, "std_msgs is included and used by everything"),
         ("broken_msgs", {"msg_Good": "int32 a\n", "srv_Bad": "int32 badName\n---\n"}, "Bad.srv"),
         ("empty", {}, "has no package with definitions"),
     ],
@@ -50,7 +50,7 @@ def test_invalid_packages_are_refused(ros, tmp_path: Path, name: str, files: dic
 
 
 def test_missing_folder_is_reported(ros, tmp_path: Path) -> None:
-    assert "is no folder" in ros.ask("interface", "add", str(tmp_path / "nowhere")).stderr
+    assert "is not a folder" in ros.ask("interface", "add", str(tmp_path / "nowhere")).stderr
 
 
 def test_workspace_definition_takes_precedence(ros, tmp_path: Path) -> None:

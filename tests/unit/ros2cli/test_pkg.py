@@ -95,7 +95,7 @@ def package(src: Path, name: str, **modules: str) -> None:
 
 def test_run_passes_arguments_and_exit_code(ros, src: Path) -> None:
     package(src, "p", report="import sys\ndef main():\n    print(sys.argv[1:])\n    return 3\n")
-    reported = ros.ask("run", "p", "tell", "a", "--ros-args", "-p", "x:=1")
+    reported = ros.ask("run", "p", "report", "a", "--ros-args", "-p", "x:=1")
     assert reported.stdout == "['a', '--ros-args', '-p', 'x:=1']\n[ros2run]: Process exited with failure 3\n"
     assert reported.exit == 3
 
@@ -142,7 +142,7 @@ def test_ctrl_c_ends_the_node(ros, src: Path) -> None:
 @pytest.mark.skipif(sys.platform == "win32", reason="a script of the system's shell")
 def test_prefix_runs_a_separate_process(ros, src: Path) -> None:
     package(src, "p", report="def main():\n    pass\n")
-    assert ros.ask("run", "--prefix", "echo prefixed", "p", "tell").stdout.startswith("prefixed ")
+    assert ros.ask("run", "--prefix", "echo prefixed", "p", "report").stdout.startswith("prefixed ")
 
 
 @pytest.mark.parametrize("program", ["rqt_plot", "rqt_reconfigure", "rqt_graph", "rqt_console"])

@@ -9,7 +9,7 @@ from ros2cli.yaml_values import read_values
 
 @pytest.mark.parametrize("source", ["!!int", "!!float", "!!timestamp x", "[" * 1000])
 def test_yaml_library_errors_are_reported_on_one_line(source):
-    with pytest.raises((RuntimeError, ValueError), match="no YAML"):
+    with pytest.raises((RuntimeError, ValueError), match="not valid YAML"):
         read_values(source)
 
 

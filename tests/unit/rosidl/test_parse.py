@@ -59,7 +59,7 @@ def test_services_and_actions_have_parts() -> None:
         ("int32 a__b", "'a__b' is no field name"),
         ("int32 a_", "'a_' is no field name"),
         ("int32 lower=1", "a constant has a primitive type and a NAME in capitals"),
-        ("int32 a\nint32 a", "'a' stands twice in X"),
+        ("int32 a\nint32 a", "'a' is defined twice in X"),
         ("bool a maybe", "'maybe' is neither true nor false"),
         ("int32 a x", "invalid literal"),
         ("int32[] a 5", "the default of an array is a list such as [1, 2]"),
@@ -74,5 +74,5 @@ def test_invalid_definitions_are_rejected(text: str, words: str) -> None:
 
 
 def test_interface_name_is_checked() -> None:
-    with pytest.raises(DefinitionError, match="'my_num' is no interface name"):
+    with pytest.raises(DefinitionError, match="'my_num' is not a valid interface name"):
         parse("int32 a", "my_msgs", "msg", "my_num")

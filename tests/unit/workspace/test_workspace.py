@@ -89,7 +89,7 @@ def test_malformed_entry_point_is_reported_and_others_are_kept(tmp_path: Path) -
 def test_entry_points_with_syntax_error_are_reported_with_line(tmp_path: Path) -> None:
     setup = SETUP.replace('"console_scripts": [', '"console_scripts" [')
     problem = read_package(make(tmp_path / "demo", setup=setup)).problem
-    assert "setup.py: entry_points cannot be made out, line 18" in problem
+    assert "setup.py: entry_points cannot be evaluated, line 18" in problem
 
 
 def test_packages_are_found_as_colcon_finds_them(tmp_path: Path) -> None:

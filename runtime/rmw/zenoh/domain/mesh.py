@@ -62,7 +62,7 @@ class MeshSession(Session):
         """Join without Unix sockets, trying another port if somebody takes the one just found."""
         if self._serving:
             raise SessionError(
-                f"other machines are let in only where there are Unix sockets, and not by {loopback.VARIABLE}"
+                f"other machines can join only on systems with Unix sockets, and not with {loopback.VARIABLE}"
             )
         self.socket = own_socket(folder, self.zid)
         for tries_left in reversed(range(PORTS)):

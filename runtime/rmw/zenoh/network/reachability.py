@@ -61,7 +61,7 @@ class Tls:
             try:
                 with open(path, "rb") as file:
                     if b"-----BEGIN " not in file.read():
-                        return f"{path} is no PEM file"
+                        return f"{path} is not a PEM file"
             except OSError as error:
                 return f"cannot read {path}: {error.strerror}"
         if bool(self.certificate) != bool(self.key):

@@ -55,7 +55,7 @@ def unpack(data: bytes | None, payload: bytes | None = None) -> Attachment:
         number, time_ns, gid_size, gid, mark, seal = _SEALED_LAYOUT.unpack(data)
         if gid_size == GID_SIZE and mark == _SEAL:
             if payload is not None and seal != _hash(payload):
-                raise FormatError("it is not what was sent: the link to its sender was cut while it was written")
+                raise FormatError("it is not what was sent: the link to its sender broke during transmission")
             return number, time_ns, gid
     if size != _LAYOUT.size or data[16] != GID_SIZE:
         if data.startswith(_OLD):

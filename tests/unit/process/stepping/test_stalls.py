@@ -81,7 +81,7 @@ def test_time_stops_until_a_slow_start_reaches_its_first_wait(notices):
         real.later(STALL, lambda: release_after(clock, lock))
         clock.run_for(1.0)
     assert trace == [("other", 0), ("up", 0), ("slept", 50_000_000)]
-    assert "waits for what the stepped run does not see" in notices[0]
+    assert "waits for something outside the stepped run" in notices[0]
 
 
 def release_after(clock, lock):

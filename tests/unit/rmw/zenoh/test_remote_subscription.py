@@ -82,7 +82,7 @@ def test_corrupted_message_is_dropped_reported_and_counted(received, notices):
     remote_subscription.received(whole[:-8] + b"foreign\0", pack(2, 5, GID, whole))
     assert len(queue) == 1
     assert notices == [
-        "a message on '/t' was dropped: it is not what was sent: the link to its sender was cut while it was written"
+        "a message on '/t' was dropped: it is not what was sent: the link to its sender broke during transmission"
     ]
     remote_subscription.received(whole, pack(3, 5, GID, whole))
     assert own(queue[-1][0]).data == "forward, slowly"

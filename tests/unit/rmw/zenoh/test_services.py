@@ -14,7 +14,7 @@ from rclpy.serialization import serialize_message
 
 GID = bytes(range(16))
 NAME, TYPE = "/add", "example_interfaces/srv/AddTwoInts"
-REPORTED = "it is not what was sent: the link to its sender was cut while it was written"
+REPORTED = "it is not what was sent: the link to its sender broke during transmission"
 SESSION = SimpleNamespace(declare_queryable=lambda key, asked: None)
 
 
