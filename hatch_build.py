@@ -1,8 +1,8 @@
 """Build hook: generates the message modules, and links the folders for an editable install.
 
-The folders stand at the top of the repository but are imported as ``bot_console.<folder>``. A wheel maps them by
-``sources``; hatchling cannot map an editable install, so for that this hook fills the git-ignored
-``build/editable/bot_console`` with links to the folders.
+The folders are at the top of the repository but are imported as ``bot_console.<folder>``. A wheel maps them with
+``sources``; hatchling cannot map an editable install, so this hook fills the git-ignored
+``build/editable/bot_console`` with links to the folders instead.
 """
 
 import os
@@ -28,14 +28,14 @@ class CustomBuildHook(BuildHookInterface):
             links.mkdir(parents=True, exist_ok=True)
             for folder in FOLDERS:
                 link(root / folder, links / folder)
-            # The type checker's way to the package names that the importer serves.
+            # For the type checker: the package names that the importer serves.
             (root / "build" / "types").mkdir(parents=True, exist_ok=True)
             link(root / "nodes", root / "build" / "types" / "bot_console_robot")
             link(root / "nodes" / "demos", root / "build" / "types" / "bot_console_demos")
 
 
 def link(target: Path, place: Path) -> None:
-    """Make ``place`` lead to the folder ``target``: a symlink, on Windows a directory junction."""
+    """Link ``place`` to the folder ``target``: a symlink, or a directory junction on Windows."""
     if place.is_symlink() or place.exists():
         return
     if os.name == "nt":

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `safety_monitor`: the only one that commands the robot. It selects a source of commands, slows and stops it."""
+"""Node `safety_monitor`: the only one that commands the robot. Selects a source of commands, limits speed and stops."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ from sensor_msgs.msg import LaserScan
 
 TELEOP, NAVIGATION = "cmd_vel_teleop", "cmd_vel_nav"
 MAX_AGE_NS = 500_000_000
-"""A command or scan older than this is dead."""
+"""Age after which a command or scan no longer counts."""
 LATE_NS = MAX_AGE_NS // 4
-"""A scan older than this is late for one of ten in a second: from then on a simulator is asked for its time."""
+"""Age after which a scan counts as late at ten scans a second: from then on, a simulator's time is followed."""
 WATCH_PERIOD_S = 0.1
-"""Seconds between two looks at what has died."""
+"""Seconds between two checks for commands and scans that are too old."""
 ZEROS = 10
-"""Zero commands that are sent when the last source has died, before silence."""
+"""Number of zero commands sent after the last source has expired, before silence."""
 NO_COMMAND = "no fresh command"
 NO_SCAN = "no fresh scan"
 LOCKED = "emergency stop"
@@ -40,7 +40,7 @@ STEERED = "the person who steers"
 
 
 class SafetyMonitor(Node):
-    """Publishes `cmd_vel`, and `diagnostics` about what was requested, what limited it and the result.
+    """Publishes `cmd_vel`, and `diagnostics` with the requested command, its limit and the result.
 
     While the emergency stop is locked it keeps publishing zero. While a person holds the steering only that person's
     commands count.
@@ -117,7 +117,7 @@ class SafetyMonitor(Node):
         return self._arbiter.choose(*((NAVIGATION,) if self._stop.steered_by else ()))
 
     def _watch(self) -> None:
-        if LATE_NS < self._scan.age < math.inf:  # before the first scan nothing is late, and nothing drives
+        if LATE_NS < self._scan.age < math.inf:  # Before the first scan nothing is late, and the robot does not drive.
             self._robot_time.follow(self._scan.stamp)
         if self._stop.lock.held or self._choose() is None or self._verdict.limited_by == NO_SCAN:
             self._decide()

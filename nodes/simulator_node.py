@@ -38,7 +38,7 @@ from visualization_msgs.msg import MarkerArray
 CATCH_UP = 25
 """Maximum number of steps made at once; any further lag is dropped, so that a stall does not cause a burst."""
 QUIET_NS = 60_000_000_000
-"""After this long without a lag, the next one is reported again."""
+"""Nanoseconds without a lag after which the next one is reported again."""
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -100,7 +100,7 @@ class Simulator(Node):
         self._routes = self.create_publisher(Path, "route", LATCHED)
 
     def _make(self) -> Simulation:
-        """Return a new run with the current parameters; raises `WorldError`."""
+        """A new run with the present parameters; raises `WorldError`."""
         world = find_world(str(self.get_parameter("world").value))
         return Simulation(world, int(self.get_parameter("seed").value), settings(self))
 
@@ -237,7 +237,7 @@ class Simulator(Node):
         return (WARN, f"{left_out:.2f} s left out", values) if left_out else (OK, "in real time", values)
 
     def _report_lag(self, missing: float) -> None:
-        """Report a lag once; report again only after a while without lag."""
+        """Report a lag once; report again only after a while without one."""
         self._left_out += missing
         now = self._steady.now().nanoseconds
         if now - self._lagged > QUIET_NS:

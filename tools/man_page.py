@@ -2,7 +2,7 @@
 
     python tools/man_page.py
 
-A test compares the page with the code, so a change of an option or a command asks for this script.
+A test compares the page with the code; run this script after changing an option or a command.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _COMMAND_ROW = re.compile(r"^\| (.+) \| (.+) \|$", re.MULTILINE)
 
 
 def manual_page() -> str:
-    """Return the page in the `man` macros of roff."""
+    """The page in the `man` macros of roff."""
     parser = option_parser()
     sections = [
         '.TH BOT\\-CONSOLE 1 "" "bot\\-console" "User Commands"',
@@ -64,7 +64,7 @@ def _option(action: argparse.Action) -> str:
 
 
 def _roff(text: object) -> str:
-    """Escape text for roff; a line must not begin with a control character."""
+    """Escape text for roff, in which a line must not begin with a control character."""
     escaped = str(text).replace("\\", "\\e").replace("-", "\\-")
     return re.sub(r"^(?=[.'])", r"\\&", escaped, flags=re.MULTILINE)
 

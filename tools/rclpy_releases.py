@@ -1,8 +1,8 @@
-"""Puts together what differed when the recorded programs ran on the live rclpy of PyPI.
+"""Collects the differences found when the recorded programs ran on the real rclpy of PyPI.
 
     BOT_CONSOLE_TESTS_RECORD=FOLDER .ci/on_rclpy && python tools/rclpy_releases.py FOLDER
 
-Writes `tests/contract/live/DISTRO.json`; `python tools/what_runs.py` makes the table of the documentation from that.
+Writes `tests/contract/live/DISTRO.json`; `python tools/what_runs.py` makes the table in the documentation from it.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ LIVE = Path(__file__).resolve().parents[1] / "tests" / "contract" / "live"
 
 
 def main(folder: Path) -> None:
-    """Write one file for each distribution of which there is anything in the folder."""
+    """Write one file for each distribution that has results in the folder."""
     for distro in ("jazzy", "kilted"):
         areas = sorted(folder.glob(f"{distro}-*.json"))
         if areas:

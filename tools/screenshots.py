@@ -30,7 +30,7 @@ LARGE, SMALL = (120, 40), (80, 24)
 DRIVING = 25.0
 """Seconds of driving before the first change, and again before the first picture."""
 BEGINNER = Path(tempfile.gettempdir()) / "beginner"
-"""The folder of a user who has no settings and no history yet; its name is seen in the pictures."""
+"""The home folder of a user without settings or history; its name is visible in the pictures."""
 GENTLE = """# Gentle: near people
 /robot_navigator:
   ros__parameters: {max_speed: 0.6, safety_distance: 0.8}
@@ -42,12 +42,12 @@ GENTLE = """# Gentle: near people
   ros__parameters: {kp_angular: 50.0}
 """
 RESPONSE = 3.0
-"""Seconds of driving with each of two sets."""
+"""Seconds of driving with each of two sets of values."""
 TIMEOUT_S = 30.0
 FONTS = "'DejaVu Sans Mono', 'Fira Code', Menlo, Consolas, monospace"
 FONT_FACE = re.compile(r"@font-face \{.*?\}", re.DOTALL)
 UNIQUE = re.compile(r"terminal-\d+-")
-"""What Rich puts before each class name, for pages that hold several pictures inline."""
+"""The prefix that Rich puts before each class name, for pages that contain several pictures inline."""
 
 
 class Photographer:
@@ -57,16 +57,16 @@ class Photographer:
         self._session, self._pilot, self._folder = session, pilot, folder
 
     async def drive(self, seconds: float) -> None:
-        """Let the robot drive for so many s."""
+        """Let the robot drive for so many seconds."""
         await self._pilot.pause(seconds)
 
     async def until(self, condition: Callable[[], object]) -> None:
-        """Wait until something is so."""
+        """Wait until a condition holds."""
         for _ in range(int(TIMEOUT_S / 0.05)):
             if condition():
                 return
             await self._pilot.pause(0.05)
-        raise TimeoutError("the system does not do what the picture is to show")
+        raise TimeoutError("the system does not reach the state that the picture is to show")
 
     async def press(self, *keys: str) -> None:
         """Press keys one after the other."""
@@ -76,7 +76,7 @@ class Photographer:
 
     async def select(self, name: str) -> None:
         """Move the cursor down to a parameter."""
-        await self.until(lambda: self._session.app.query(ParameterRows))  # the panes come after the first frame
+        await self.until(lambda: self._session.app.query(ParameterRows))  # The panes appear after the first frame.
         rows = self._session.app.query_one(ParameterRows)
         await self.until(lambda: any(each.name == name for each in rows.rows))
         for _ in rows.rows:
@@ -94,7 +94,7 @@ class Photographer:
         await self.press("1", "slash", *["backspace"] * 20, *_keys(name), "enter")
 
     async def steer_until_limited(self) -> None:
-        """Drive on, with a key now and then as the dead-man wants it, until something stands ahead."""
+        """Drive forward, pressing a key often enough for the dead-man switch, until an obstacle is ahead."""
         for _ in range(int(TIMEOUT_S)):
             if self._session.console.snapshot().drive.limited_by == "warning_distance":
                 return
@@ -102,18 +102,18 @@ class Photographer:
             await self._pilot.pause(0.9)
 
     async def resize(self, size: tuple[int, int]) -> None:
-        """Give the terminal other columns and lines."""
+        """Change the size of the terminal (columns, lines)."""
         await self._pilot.resize_terminal(*size)
         await self._pilot.pause(0.5)
 
     def keep_profile(self, name: str, text: str) -> None:
-        """Write a profile of the user's, which the console finds by itself."""
+        """Write a user's profile, which the console finds by itself."""
         folder = config_folder() / "profiles"
         folder.mkdir(parents=True, exist_ok=True)
         (folder / f"{name}.yaml").write_text(text, encoding="utf-8")
 
     def take(self, name: str) -> None:
-        """Save what is on the screen; fonts are those of the reader, none is fetched."""
+        """Save the screen as an SVG; it uses the reader's fonts, and loads none."""
         svg = self._session.app.export_screenshot(title="bot-console")
         svg = FONT_FACE.sub("", svg).replace("font-family: Fira Code, monospace", f"font-family: {FONTS}")
         svg = UNIQUE.sub("", svg)
@@ -128,7 +128,7 @@ def _keys(text: str) -> list[str]:
 
 
 async def tune(at: Photographer) -> None:
-    """Two values are marked, sent as set B and swapped; then the history, and a profile before it is applied."""
+    """Mark two values, send them as set B and swap; then the history, and a profile before it is applied."""
     await at.find("max_speed")
     await at.press("m")
     await at.enter("1.2")
@@ -173,7 +173,7 @@ async def take_all(at: Photographer) -> None:
 
 
 async def main(folder: Path) -> None:
-    """Start the robot's own system, photograph it as somebody sees it who begins, end it."""
+    """Start the robot's own system, photograph it as a new user sees it, end it."""
     folder.mkdir(parents=True, exist_ok=True)
     os.environ["BOT_CONSOLE_USER_DIR"] = str(BEGINNER)
     session = Session(Options(seed=1))

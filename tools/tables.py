@@ -3,7 +3,7 @@
     python tools/tables.py          # rewrites docs/*.md between <!-- table: NAME --> and <!-- end -->
     python tools/tables.py measure  # runs the four profiles as well and prints the rows of the environment guide
 
-A test compares the documents with the code, so a change of a key or a parameter asks for this script.
+A test compares the documents with the code; run this script after changing a key or a parameter.
 """
 
 from __future__ import annotations
@@ -196,17 +196,17 @@ TABLES: dict[str, Callable[[], str]] = {
 
 
 def filled(text: str) -> str:
-    """A document with its tables made anew; raises `KeyError` for a table that there is not."""
+    """A document with its tables regenerated; raises `KeyError` for an unknown table."""
     return BLOCK.sub(lambda found: f"{found[1]}{TABLES[found[2]]()}{found[3]}", text)
 
 
 def named(text: str) -> list[str]:
-    """The tables that a document has."""
+    """The names of the tables in a document."""
     return [found[2] for found in BLOCK.finditer(text)]
 
 
 def measure() -> str:
-    """What the four profiles do, over three seeds; takes a minute."""
+    """The figures of the four profiles, over three seeds; takes a minute."""
     rows: list[tuple[str, ...]] = []
     for profile in PROFILES:
         for seed in SEEDS:
@@ -222,7 +222,7 @@ def measure() -> str:
 
 
 def main() -> None:
-    """Rewrite what has changed."""
+    """Rewrite the documents that have changed."""
     if sys.argv[1:] == ["measure"]:
         print(measure())
         return

@@ -1,8 +1,8 @@
-"""Writes `docs/what-runs.md`: the packages that public rclpy programs import, and how much of each is here.
+"""Writes `docs/what-runs.md`: the packages that public rclpy programs import, and how much of each is supported.
 
     python tools/what_runs.py
 
-A package counts as here where the runtime serves it; what is known to be missing of it is in the table below.
+A package counts as supported if the runtime serves it; the table below lists what is known to be missing.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ ROS 2. `python tools/what_runs.py` generates the page from what the runtime prov
 | --- | --- | --- |
 """
 RELEASES = {"jazzy": "7.1.5", "kilted": "9.1.2"}
-"""The rclpy that PyPI has of each distribution."""
+"""The release of rclpy on PyPI for each distribution."""
 LIVE = Path(__file__).resolve().parents[1] / "tests" / "contract" / "live"
 FOLLOWED = f"""
 ## Which releases are followed
@@ -64,7 +64,7 @@ PARTS = {
     "turtlebot3_msgs": "`Patrol` as used by examples since 2025; `bot-console interface add FOLDER` adds a checkout",
     "tf_transformations": "`Arcball`, `clip_matrix`, `orthogonalization_matrix`",
 }
-"""What is missing of packages that are here."""
+"""What is missing in supported packages."""
 UNVERIFIED = "fields are known, the type hash was not compared with ROS 2"
 BY_FREQUENCY = (
     *("rclpy", "std_msgs", "geometry_msgs", "sensor_msgs", "launch", "launch_ros", "ament_index_python", "nav_msgs"),
@@ -108,7 +108,7 @@ def row(package: str) -> str:
 
 
 def decisions() -> list[tuple[dict[str, str], dict[str, list[str]]]]:
-    """What was decided where a live rclpy differs, each with the cases that differ, by distribution."""
+    """The decisions about differences from a live rclpy, each with the cases that differ, by distribution."""
     found = {each: json.loads((LIVE / f"{each}.json").read_text("utf-8")) for each in RELEASES}
     rows: list[tuple[dict[str, str], dict[str, list[str]]]] = []
     for row in yaml.safe_load((LIVE / "decisions.yaml").read_text("utf-8")):
@@ -146,7 +146,7 @@ def page() -> str:
 
 
 def main() -> None:
-    """Write it."""
+    """Write the page."""
     text = page()
     PAGE.write_text(text, encoding="utf-8")
     print(f"{PAGE}: {text.count('| yes |')} here, {text.count('| partly |')} partly", file=sys.stderr)

@@ -11,13 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 FRONT = math.radians(60.0)
-"""Half the angle ahead, in rad, in which things stand in the way of driving on."""
+"""Half the angle ahead, in rad, in which obstacles count for driving forward."""
 WITNESSES = 2
-"""Beams that must see a thing; a single one may be dust."""
+"""Beams that must see an obstacle; a single one may be dust."""
 MIN_SOURCES, MAX_SOURCES = 1e-6, 4 * math.pi
-"""Angles (rad) between and of beams that a sensor can mean."""
+"""Limits (rad) for the angle between beams and of the whole scan; a sensor cannot mean others."""
 EDGE = 1e-6
-"""Radians that float32 angles may be off."""
+"""Rounding error (rad) of float32 angles."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,11 +69,11 @@ class Arbiter:
 
 
 def nearest_ahead(ranges: npt.NDArray[np.float32], first: float, increment: float) -> float | None:
-    """The distance in m to what stands ahead, seen by two beams at least; `inf` when nothing does.
+    """The distance in m to the obstacle ahead, seen by at least two beams; `inf` if there is none.
 
     `first` and `increment` are the angles (rad) of the first beam and between two; beams may turn either way and begin
-    anywhere. A return of `-inf` (nearer than the sensor can measure) is distance 0. None for a scan that cannot tell:
-    angles that are none, or fewer than two beams ahead that measured anything.
+    anywhere. A return of `-inf` (nearer than the sensor can measure) is distance 0. None for an unusable scan: invalid
+    angles, or fewer than two beams ahead with a measurement.
     """
     if (
         not (math.isfinite(first) and math.isfinite(increment))
@@ -84,13 +84,15 @@ def nearest_ahead(ranges: npt.NDArray[np.float32], first: float, increment: floa
     front = ranges[_beams_ahead(len(ranges), first, increment)]
     if len(front) < WITNESSES:
         return None
-    seen = float(np.partition(front, WITNESSES - 1)[WITNESSES - 1])  # what is not a number comes last
+    seen = float(np.partition(front, WITNESSES - 1)[WITNESSES - 1])  # NaN is sorted last.
     return None if math.isnan(seen) else max(0.0, seen)
 
 
 @lru_cache(maxsize=4)
 def _beams_ahead(count: int, first: float, increment: float) -> npt.NDArray[np.int64] | slice:
-    """The indices of the beams ahead, as a slice if they are consecutive; a sensor's geometry hardly changes."""
+    """The indices of the beams ahead, as a slice if they are consecutive; cached, as a sensor's geometry hardly
+    changes.
+    """
     angles = first + increment * np.arange(count)
     ahead = np.flatnonzero(np.abs(np.remainder(angles + math.pi, 2 * math.pi) - math.pi) <= FRONT + EDGE)
     if len(ahead) and ahead[-1] - ahead[0] == len(ahead) - 1:

@@ -31,17 +31,17 @@ STOP_FILE = "stop_file"
 STOP_FILE_VARIABLE = "BOT_CONSOLE_STOP_FILE"
 """The environment variable with the default of that parameter."""
 SERVICE = "service"
-"""The key of stops that were asked for by a service call, which does not tell who calls."""
+"""The key of stops requested by a service call, which does not identify its caller."""
 WATCH_PERIOD_S = 0.1
-"""Between two looks at who has fallen silent."""
+"""Seconds between two checks for requesters and nodes that have fallen silent."""
 GONE = 3
-"""Looks in which the arbiter is not there before the base locks; all end together when a system ends."""
+"""Checks without the arbiter after which the base locks; not one, since all nodes of a system end together."""
 REPORT_POLLS = 10
-"""Looks between two reports of an unchanged state, so that no recorded report stands for it longer."""
+"""Checks between two reports of an unchanged state, so that no replayed report stands for it longer."""
 MAX_INSTANCES = 100
-"""Starts of the other node that are told apart."""
+"""Starts of the other node that are distinguished."""
 REFUSAL_LOG_PERIOD_S = 1.0
-"""Between two log lines about releases that are ignored."""
+"""Seconds between two log lines about releases that are ignored."""
 
 
 def declare_stop_file(node: Node) -> None:
@@ -67,7 +67,7 @@ class EmergencyStop:
         locked: str = "",
         stop_file: str = "",
     ) -> None:
-        """`locked` is the reason to begin locked; empty: begin released, unless a stop is kept in `stop_file`."""
+        """`locked` is the reason to start locked; empty: start released, unless a stop is kept in `stop_file`."""
         self._node = node
         self._steady = steady
         self._changed = changed
@@ -122,13 +122,14 @@ class EmergencyStop:
         self._settle(changed)
         question = specification_of(message)
         if question or (not changed and request.verb in (STOP, RELEASE)):
-            self._publish(question)  # who asks again has not heard the answer, or has heard a recorded one since
+            # A requester that asks again has not received the answer, or has received a replayed one since.
+            self._publish(question)
 
     def _on_state(self, message: DiagnosticStatus) -> None:
         state = state_of(message)
         self._other_challenge = state.challenge
         if state.instance not in self._other_instances:
-            # One that was there before is an old message that somebody has played again.
+            # An instance that was there before is an old message that somebody has replayed.
             restarted = bool(self._other_instances)
             self._other_instances = [*self._other_instances[-MAX_INSTANCES:], state.instance]
             if restarted and self._other == ARBITER:
@@ -136,7 +137,7 @@ class EmergencyStop:
         self._settle(self._latch.follow(state.lock))
 
     def _on_matched(self, matched: QoSSubscriptionMatchedInfo) -> None:
-        # To ask the graph for it would make this process follow all of the graph, in which there may be much going on.
+        # Querying the graph would make this process follow all of it, which may be expensive.
         self._others = matched.current_count
 
     def _on_stop(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
@@ -181,7 +182,8 @@ class EmergencyStop:
     def _settle(self, changed: bool) -> None:
         """Act on a change before it is published, so that what is published is true.
 
-        A stop holds before it is kept in the file, which may take long; a release counts only once it is kept.
+        A stop takes effect before it is written to the file, which may take long; a release counts only once it is
+        written.
         """
         if not changed:
             return
@@ -198,9 +200,9 @@ class EmergencyStop:
         self._log()
 
     def _keep(self) -> bool:
-        """Bring the file up to date, and adopt what it knows; returns whether that has changed the lock.
+        """Update the file, and adopt what it contains; returns whether that has changed the lock.
 
-        A file that cannot be used locks: nobody would know of a stop after the next start.
+        A file that cannot be used locks the robot, since no stop would be known after the next start.
         """
         if self._file is None or self.lock.kept == self._filed:
             return False
@@ -228,7 +230,7 @@ class EmergencyStop:
 
 
 def _remedy(error: StopFileError, unreadable: bool) -> str:
-    """What is wrong with the stop file, and how to go on."""
+    """What is wrong with the stop file, and what to do about it."""
     if unreadable:
-        return f"which stops are kept is unknown: {error}; a release moves that file aside"
-    return f"stops cannot be kept: {error}; make room for it or give its folder write permission, then release"
+        return f"the kept stops are unknown: {error}; a release moves that file aside"
+    return f"stops cannot be kept: {error}; free some space or make its folder writable, then release"

@@ -1,7 +1,8 @@
 """The state of the emergency stop: anybody's first request locks it, only a person's request releases it. Pure.
 
-It remembers everybody who has stopped the robot, and stays locked until the last of these stops is released.
-Several nodes of a robot hold one each (who commands it, and the base itself); `follow` keeps them together.
+It remembers everybody who has stopped the robot, and stays locked until the last of these stops is released. The nodes
+of a robot that can be locked (the arbiter of commands, and the base itself) hold one each; `follow` keeps them in
+agreement.
 """
 
 from __future__ import annotations
@@ -12,17 +13,18 @@ from dataclasses import dataclass
 from bot_console_robot.safety.lock import MAX_STOPS, NODE, OTHERS, UNNAMED, Lock, Stop, new_id
 
 SILENCE_TIMEOUT_NS = 1_000_000_000
-"""A console that holds the steering is gone when it has not been heard for so long."""
+"""Nanoseconds without a message after which a console that holds the steering counts as gone."""
 STOP, RELEASE, STEER, HAND_BACK = "stop", "release", "steer", "hand_back"
 SILENT = "held the steering and fell silent"
 
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What somebody wants: one of the four verbs. `key` tells two of the same name apart.
+    """A request: one of the four verbs. `key` distinguishes requesters of the same name.
 
-    `id` is the stop's, with `steer` that of the stop if this was the requester's last word. A release has the `ids` of
-    the stops to release and quotes `challenges`; None stands for the older form, in which `of` are keys of requesters.
+    `id` identifies the stop; with `steer`, it is the stop to make if this was the requester's last message. A release
+    has the `ids` of the stops to release and quotes `challenges`; None stands for the older form, in which `of` are
+    keys of requesters.
     """
 
     verb: str
@@ -51,7 +53,7 @@ class Latch:
 
     @property
     def challenge(self) -> str:
-        """What a release has to quote; another one whenever the stops have changed."""
+        """What a release has to quote; changes whenever the stops change."""
         return self._challenge
 
     @property
@@ -72,7 +74,7 @@ class Latch:
         return "it quotes no challenge, so it releases only stops that the same program has requested without an id"
 
     def request(self, request: Request, now: int) -> bool:
-        """Carry out a request, unless there is a `refusal`; one that cannot be understood is a stop."""
+        """Carry out a request, unless there is a `refusal`; an invalid one is a stop."""
         if request.verb == RELEASE:
             if self.refusal(request):
                 return False
@@ -95,7 +97,9 @@ class Latch:
         return [each.id for each in self._lock.stops if each.unnamed and each.key == request.key]
 
     def stop(self, holder: str, reason: str) -> bool:
-        """Lock for a reason of the node's own, if it does not hold already; until a release, or the node's end."""
+        """Lock for one of the node's own reasons, if it does not hold already; lasts until a release, or the node's
+        end.
+        """
         if any(each.key == NODE and each.holder == holder for each in self._lock.stops):
             return False
         return self._stop(holder, reason, NODE, new_id(), kept=False)
@@ -126,6 +130,7 @@ class Latch:
         silent = [key for key, (_, heard, _) in self._steering.items() if now - heard > SILENCE_TIMEOUT_NS]
         for key in silent:
             holder, _, id = self._steering.pop(key)
-            # Two locks that have heard the same last word make the same stop. Was it released, this is another silence.
+            # Two locks that have received the same last message make the same stop. If it was released, this is another
+            # silence.
             self._stop(holder, SILENT, key, new_id() if self._lock.has_released(id) else id)
         return bool(silent)

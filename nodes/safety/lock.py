@@ -1,4 +1,4 @@
-"""Who holds a robot and which stops were released, as one lock knows it; two locks merge what they know. Pure."""
+"""Who holds a robot and which stops were released, as one lock knows it; two locks merge their knowledge. Pure."""
 
 from __future__ import annotations
 
@@ -7,14 +7,16 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 
 NODE = "node"
-"""The key of stops that a node of the robot made, not a person; every release of a program's own covers these."""
+"""The key of stops made by a node of the robot, not a person; every release that a program makes covers these too."""
 MAX_STOPS = 50
-"""Stops that are told apart; those beyond share one place, whose key is `CROWD`."""
+"""Stops that are distinguished; any beyond share one entry, whose key is `CROWD`."""
 OTHERS = "others"
 MAX_RELEASES = 100
-"""Releases that are remembered, the latest; a copy of a stop released before those locks the robot again."""
+"""The number of latest releases that are remembered; a late copy of a stop released before those locks the robot
+again.
+"""
 UNNAMED = "unnamed-"
-"""How the id begins that a lock gives to a stop whose requester sent none, as older consoles do."""
+"""Prefix of the id that a lock gives to a stop whose requester sent none, as older consoles do."""
 
 
 def new_id(prefix: str = "") -> str:
@@ -24,7 +26,7 @@ def new_id(prefix: str = "") -> str:
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """One stop: its id, which no other stop ever has, who requested it, why, and at which turn of the lock.
+    """One stop: its unique id, who requested it, why, and at which turn of the lock.
 
     `key` is the requester's, the same for all its stops. A stop that is not `kept` ends with the robot's nodes.
     """
@@ -81,7 +83,7 @@ class Lock:
 
     @property
     def kept(self) -> Lock:
-        """What of it outlives the robot's nodes."""
+        """The part of it that outlives the robot's nodes."""
         return replace(self, stops=tuple(each for each in self.stops if each.kept), turn=0)
 
     def has_released(self, id: str) -> bool:
@@ -89,14 +91,14 @@ class Lock:
         return any(each.id == id for each in self.released)
 
     def with_stop(self, stop: Stop) -> Lock:
-        """The lock as one more stop makes it; the same if it knows that stop, held or released."""
+        """The lock with one more stop; the same lock if it knows that stop, held or released."""
         if stop.id in self.ids or self.has_released(stop.id):
             return self
         turn = self.turn + 1
         return Lock(_limited((*self.stops, replace(stop, turn=turn))), turn, self.released)
 
     def without(self, ids: Collection[str], by: str) -> Lock:
-        """The lock after a release; ids that it has not heard of are remembered, for their stops may come late."""
+        """The lock after a release; unknown ids are remembered, since their stops may arrive late."""
         news = [id for id in ids if not self.has_released(id)]
         if not news:
             return self
@@ -105,9 +107,9 @@ class Lock:
         return Lock(stops, turn, _latest((*self.released, *(Release(id, by, turn) for id in news))))
 
     def merged(self, other: Lock) -> Lock:
-        """What both know: a stop that either has, unless either knows that it was released.
+        """What both know together: a stop that either holds, unless either knows that it was released.
 
-        The order of merging makes no difference, so that locks that hear of each other agree.
+        The order of merging makes no difference, so that locks that receive each other's states agree.
         """
         releases: dict[str, Release] = {}
         for each in (*self.released, *other.released):
@@ -132,7 +134,7 @@ def _latest(releases: Iterable[Release]) -> tuple[Release, ...]:
 
 
 def _limited(stops: Iterable[Stop]) -> tuple[Stop, ...]:
-    """The stops in order, those beyond all measure as one that no single requester releases."""
+    """The stops in order; those beyond `MAX_STOPS` are merged into one that no single requester can release."""
     ordered = sorted(stops, key=_order_of_stop)
     named = [each for each in ordered if each.key != OTHERS]
     crowd = [each for each in ordered if each.key == OTHERS][:1]

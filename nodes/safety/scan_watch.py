@@ -11,7 +11,7 @@ from sensor_msgs.msg import LaserScan
 
 
 class ScanWatch:
-    """Takes scans; any field may hold anything, and what cannot be used counts as not seen."""
+    """Takes scans, whose fields may contain anything; an unusable scan counts as not received."""
 
     def __init__(self, clock: Callable[[], int], lifetime_ns: int) -> None:
         self._clock = clock
@@ -23,10 +23,10 @@ class ScanWatch:
         """Distance in m to what was ahead in the last usable scan."""
 
     def take(self, scan: LaserScan) -> bool:
-        """Take a scan; whether it was of use.
+        """Take a scan; returns whether it was usable.
 
-        One that is no newer than the one before is not: it was late, or sent twice. Its time counts for the next, since
-        a simulation that is reset begins again from zero.
+        A scan that is no newer than the one before is not usable: it was late, or sent twice. Its time counts for the
+        next one, since a simulation that is reset starts again from zero.
         """
         stamp = scan.header.stamp.sec * 1_000_000_000 + scan.header.stamp.nanosec
         before, self.stamp = self.stamp, stamp

@@ -1,4 +1,4 @@
-"""The file in which the stops of a domain's robots outlive their nodes, and which stops were released. POSIX and NT."""
+"""The stop file, in which the stops of a domain's robots, and their releases, outlive the nodes. POSIX and Windows."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ VERSION = 1
 MAX_FILE_BYTES = 4_000_000
 """Larger than any file that a lock writes."""
 TURN_TIMEOUT_S = 1.0
-"""How long another lock that uses the file is waited for."""
+"""Seconds to wait for another lock that uses the file."""
 TURN_POLL_S = 0.01
 
 
@@ -27,11 +27,13 @@ class StopFileError(Exception):
 
 
 class UnreadableStopFileError(StopFileError):
-    """It contains something else, or cannot be read; only a person may have it replaced."""
+    """It cannot be read or has other content; only a person may have it replaced."""
 
 
 class StopFile:
-    """What the locks of one robot keep in a file. Both locks of a robot, and several robots, may use the same one."""
+    """The stops that the locks of one robot keep in a file. Both locks of a robot, and several robots, may share one
+    file.
+    """
 
     def __init__(self, path: str, robot: str) -> None:
         """`robot` is the namespace of the robot's nodes."""
@@ -39,9 +41,9 @@ class StopFile:
         self._robot = robot
 
     def merge(self, lock: Lock, *, replace_unreadable: bool = False) -> Lock:
-        """Add what a lock knows to the file, and return what both know; raises `StopFileError`.
+        """Add what a lock knows to the file, and return the merged lock; raises `StopFileError`.
 
-        Stops that end with the robot's nodes stay out of it. With `replace_unreadable` a file that cannot be read is
+        Stops that end with the robot's nodes are not written. With `replace_unreadable`, a file that cannot be read is
         moved aside.
         """
         try:
@@ -60,7 +62,7 @@ class StopFile:
 
     @contextlib.contextmanager
     def _taken(self) -> Generator[None, None, None]:
-        """Keep other locks from the file; raises `OSError` where one of them does not let go."""
+        """Keep other locks from the file; raises `OSError` if one of them does not release it in time."""
         self._path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         handle = os.open(f"{self._path}.lock", os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o600)
         try:
@@ -101,7 +103,7 @@ class StopFile:
 
     def _write(self, robots: dict[str, Any]) -> None:
         temporary = self._path.with_name(f"{self._path.name}.new")
-        temporary.unlink(missing_ok=True)  # of a process that was killed while it wrote
+        temporary.unlink(missing_ok=True)  # Left by a process that was killed while it wrote.
         handle = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
         with open(handle, "w", encoding="utf-8") as file:
             json.dump({"version": VERSION, "robots": robots}, file)
@@ -117,7 +119,7 @@ class StopFile:
 
 
 def _lock_of(section: Any) -> Lock:
-    """The lock in a robot's section; raises `ValueError` where something else is there: nothing is guessed."""
+    """The lock in a robot's section; raises `ValueError` for any invalid content: nothing is guessed."""
     if section is None:
         return Lock()
     try:
@@ -128,12 +130,12 @@ def _lock_of(section: Any) -> Lock:
         raise ValueError("it contains no stops") from None
     lock = Lock(stops_of(json.dumps(stops)), turn, releases_of(json.dumps(released)))
     if len(lock.stops) != len(cast("list[Any]", stops)) or len(lock.released) != len(cast("list[Any]", released)):
-        raise ValueError("it contains something that is no stop")
+        raise ValueError("it contains something that is not a stop")
     return lock
 
 
 def _try_lock(handle: int) -> bool:
-    """Lock an open file until it is closed; False if another one has it."""
+    """Lock an open file until it is closed; False if another process has locked it."""
     try:
         import fcntl
     except ImportError:

@@ -13,7 +13,7 @@ from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 RELEASED = "released"
 MAX_TEXT_CHARS = 200
-"""Characters of an id, a name or a reason; the rest is left out."""
+"""Characters of an id, a name or a reason; the rest is cut off."""
 MAX_IDS = 2 * MAX_STOPS
 """Stops that one release may name."""
 
@@ -69,7 +69,7 @@ def request_of(message: DiagnosticStatus) -> Request:
 
 
 def specification_of(message: DiagnosticStatus) -> str:
-    """The text in a request that the answer is to quote; empty if there is none."""
+    """The text in a request that the answer must quote; empty if there is none."""
     return _short(_values(message).get("question", ""))
 
 
@@ -91,13 +91,13 @@ def state_message(state: State, node: str) -> DiagnosticStatus:
 
 
 def state_of(message: DiagnosticStatus) -> State:
-    """The state in a message; what cannot be read counts as a lock."""
+    """The state in a message; one that cannot be read counts as locked."""
     values = _values(message)
     turn, instance = _number(values.get("turn")), _short(values.get("instance", ""))
     stops = stops_of(values.get("stops"), instance)
     if values.get("locked") == "false":
         stops = ()
-    elif not stops:  # of a node that reports only that it is locked
+    elif not stops:  # From a node that reports only that it is locked.
         holder, reason = _short(values.get("holder", "")), _short(values.get("reason", ""))
         stops = (Stop(_older_id(OTHERS, turn, instance), OTHERS, holder, reason, turn),)
     lock = Lock(stops, turn, releases_of(values.get("released")))
@@ -163,5 +163,5 @@ def _values(message: DiagnosticStatus) -> dict[str, str]:
 
 
 def _short(text: str) -> str:
-    """The beginning of a text, encodable: else no state that contains it could be published."""
+    """The beginning of a text, encodable: otherwise no state that contains it could be published."""
     return text[:MAX_TEXT_CHARS].encode("utf-8", "replace").decode()

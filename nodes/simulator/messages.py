@@ -1,4 +1,4 @@
-"""What the simulator knows, as ROS messages. Frames: `map` is the truth, `odom` drifts."""
+"""The state of the simulation as ROS messages. Frames: `map` is the truth, `odom` drifts."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 MAP, ODOM = "map", "odom"
 FULL_TURN = 6.2
-"""Fields of view (rad) from which on a scan is taken for a full turn."""
+"""Fields of view (rad) of at least this size are taken for a full turn."""
 PERSON_HEIGHT = 1.7
 
 
@@ -43,7 +43,7 @@ def heading_of(q: Quaternion) -> float:
 
 
 def scan_message(scan: Scan, settings: LidarSettings, period: float, stamp: Time, model: Model) -> LaserScan:
-    """A scan, `period` s after the one before."""
+    """A scan, taken `period` s after the one before."""
     first, ranges, intensities = settings.first_angle, scan.ranges, scan.intensities
     if model.scan_from_front and settings.field_of_view > FULL_TURN:
         ahead = settings.beams // 2
@@ -65,7 +65,7 @@ def scan_message(scan: Scan, settings: LidarSettings, period: float, stamp: Time
 class Odometer:
     """Messages of a pose in the first of two frames and a velocity in the second, the robot's own.
 
-    It is the same message each time, with other numbers: what is published is copied, and making it costs more.
+    Reuses one message with new numbers: what is published is copied, and creating it would cost more.
     """
 
     def __init__(self, frame: str, child_frame: str) -> None:
@@ -86,7 +86,7 @@ class Odometer:
 
 
 def map_message(world: World, corner: Pose, resolution: float, stamp: Time) -> OccupancyGrid:
-    """What stands still, as a grid with cells of `resolution` m; `corner` is the world's own in the map."""
+    """The static obstacles as a grid with cells of `resolution` m; `corner` is the world's origin in the map."""
     grid = occupancy_grid(world, resolution)
     message = OccupancyGrid()
     message.header.stamp = stamp

@@ -1,4 +1,4 @@
-"""Makes of robot whose names for frames and joints the simulator can take, so that programs written for them fit."""
+"""Robot models whose names for frames and joints the simulator can use, so that programs written for them work."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Model:
     scan_height: float = 0.17
     wheel_radius: float = 0.033
     scan_from_front: bool = False
-    """Whether beam 0 of a full turn looks straight ahead, not to the back."""
+    """Whether beam 0 of a full turn points forward, not backward."""
 
 
 MODELS = {

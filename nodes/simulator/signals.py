@@ -1,6 +1,6 @@
-"""What programs written for other robots look for beside scans and odometry: frames, wheels, inertia and battery.
+"""What programs written for other robots expect beside scans and odometry: frames, wheels, inertia and battery.
 
-All but the fixed frames is made only while somebody subscribes to it.
+Everything but the fixed frames is published only while somebody subscribes to it.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ GRAVITY = 9.81
 FULL_VOLTAGE, EMPTY_VOLTAGE, CAPACITY = 12.6, 11.0, 1.8
 """V, V, Ah: three lithium cells."""
 LASTS = 9000.0
-"""Seconds until the battery is empty; simulated time, so that a run repeats."""
+"""Seconds until the battery is empty, in simulated time, so that a run is reproducible."""
 POSES_PER_BATTERY_STATE = 20
-"""Poses between two states of the battery: one a second at 20 Hz."""
+"""Poses between two battery states: one a second at 20 Hz."""
 
 
 class Signals:
@@ -46,7 +46,7 @@ class Signals:
         self._count = 0
 
     def begin(self, simulation: Simulation, frames: Frames, stamp: Time) -> None:
-        """Tell the frames that stay where they are; a run begins."""
+        """Publish the fixed frames; a run begins."""
         self._frames = frames
         model, half = self._model, 0.5 * simulation.drive.limits.wheel_separation
         wheel = Quaternion(x=-math.sin(math.pi / 4), w=math.cos(math.pi / 4))
@@ -66,7 +66,7 @@ class Signals:
         self._static.publish(TFMessage(transforms=fixed))
 
     def publish(self, simulation: Simulation, stamp: Time) -> None:
-        """Tell what has changed since the last time."""
+        """Publish what has changed since the last call."""
         passed = (simulation.time_ns - self._stamp) * 1e-9
         self._stamp = simulation.time_ns
         self._count += 1
@@ -87,7 +87,7 @@ class Signals:
             self._battery.publish(self._charge(simulation, stamp))
 
     def _moving(self, simulation: Simulation, stamp: Time) -> list[TransformStamped]:
-        """Where odometry has the robot, and how far it is off: `map` to `odom` puts it right."""
+        """The robot's pose by odometry, and the transform from `map` to `odom` that corrects it."""
         reported, true = self._frames.in_odom(simulation.odometry.pose), self._frames.in_map(simulation.pose)
         turn = math.remainder(true.heading - reported.heading, 2.0 * math.pi)
         cosine, sine = math.cos(turn), math.sin(turn)

@@ -13,7 +13,7 @@ PACKAGE = "bot_console_robot"
 
 
 def find_world(name: str) -> World:
-    """The world of that name or path; raises `WorldError` with the names that there are."""
+    """The world of that name or path; raises `WorldError`, which lists the available names."""
     path = Path(name)
     if path.suffix in {".yaml", ".yml"} or len(path.parts) > 1:
         return load_world(path.expanduser())
@@ -21,7 +21,7 @@ def find_world(name: str) -> World:
     if folder is None:
         raise WorldError(f"no world '{name}': the share folder of {PACKAGE} is not found; give the path of a file")
     found = folder / f"{name}.yaml"
-    if not os.path.isfile(found):  # `Path` raises where the name is too long for a file
+    if not os.path.isfile(found):  # `Path` raises if the name is too long for a file.
         known = ", ".join(sorted(each.stem for each in folder.glob("*.yaml"))) or "none"
         raise WorldError(f"no world '{name}' in {folder}; there are: {known}")
     return load_world(found)

@@ -46,7 +46,7 @@ _SHOWN: tuple[tuple[str, Iterable[int]], ...] = (
     (STEERED, (208, 209, 210)),
     (MENU, range(212, 217)),
     (OWN_PLUGIN, (*range(218, 222), 353, 390)),
-    ("tests/unit/nodes/test_presets.py::test_the_modes_of_the_pages_robot_are_presets", (350,)),
+    ("tests/unit/nodes/test_presets.py::test_modes_of_the_course_robot_are_presets", (350,)),
     ("tests/pilot/panes/test_history_pane.py::test_all_changes_are_listed_the_newest_first_with_who_and_why", (352,)),
     (f"{SECOND_TERMINAL}::test_verbs_of_a_second_terminal_reach_the_robot", (386,)),
     (f"{SECOND_TERMINAL}::test_a_second_console_is_asked_for_and_does_not_take_the_robot_along", (387,)),

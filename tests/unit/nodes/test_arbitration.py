@@ -15,7 +15,7 @@ def scan(**at: float) -> np.ndarray:
 
 
 class Clock:
-    """A clock that is set."""
+    """A clock that is set by hand."""
 
     def __init__(self) -> None:
         self.now = 0
@@ -24,7 +24,7 @@ class Clock:
         return self.now
 
 
-def test_the_first_source_with_a_fresh_command_drives() -> None:
+def test_first_source_with_a_fresh_command_drives() -> None:
     clock = Clock()
     arbiter = Arbiter({"teleop": clock, "navigation": clock}, 500)
     assert arbiter.choose() is None
@@ -54,7 +54,7 @@ def test_each_source_ages_by_its_own_clock() -> None:
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf])
-def test_what_is_no_number_is_a_stop(value: float) -> None:
+def test_command_that_is_not_finite_is_a_stop(value: float) -> None:
     arbiter = Arbiter({"a": Clock()}, 500)
     arbiter.offer("a", value, 1.0)
     command = arbiter.choose()
@@ -62,33 +62,33 @@ def test_what_is_no_number_is_a_stop(value: float) -> None:
     assert (command.linear, command.angular) == (0.0, 0.0)
 
 
-def test_one_beam_is_no_obstacle_and_two_are() -> None:
+def test_two_beams_make_an_obstacle_and_one_does_not() -> None:
     assert nearest_ahead(scan(b180=0.3), FIRST, STEP) == math.inf
     assert nearest_ahead(scan(b180=0.3, b181=0.31), FIRST, STEP) == pytest.approx(0.31)
 
 
-def test_things_beside_the_robot_are_not_ahead() -> None:
+def test_obstacles_beside_the_robot_are_not_ahead() -> None:
     assert nearest_ahead(scan(b0=0.2, b1=0.2, b358=0.2, b359=0.2), FIRST, STEP) == math.inf
     assert nearest_ahead(scan(b61=0.2, b62=0.2), FIRST, STEP) == pytest.approx(0.2)
 
 
-def test_too_near_to_measure_is_zero_and_nan_is_nothing() -> None:
+def test_too_near_to_measure_is_zero_and_nan_is_ignored() -> None:
     assert nearest_ahead(scan(b180=-math.inf, b181=-math.inf), FIRST, STEP) == 0.0
     assert nearest_ahead(scan(b180=math.nan, b181=math.nan), FIRST, STEP) == math.inf
 
 
 @pytest.mark.parametrize("increment", [0.0, math.nan, math.inf, -math.inf, 1e30])
-def test_angles_that_are_none_report_nothing(increment: float) -> None:
+def test_scan_with_invalid_angles_is_unusable(increment: float) -> None:
     assert nearest_ahead(scan(b180=0.1, b181=0.1), FIRST, increment) is None
     assert nearest_ahead(scan(b180=0.1, b181=0.1), math.nan if math.isfinite(increment) else increment, STEP) is None
 
 
-def test_a_scan_that_measured_nothing_ahead_reports_nothing() -> None:
+def test_scan_without_measurements_ahead_is_unusable() -> None:
     assert nearest_ahead(np.empty(0, np.float32), FIRST, STEP) is None
     assert nearest_ahead(np.full(360, math.nan, np.float32), FIRST, STEP) is None
 
 
-def test_beams_may_turn_the_other_way_and_begin_anywhere() -> None:
+def test_beams_may_turn_either_way_and_start_anywhere() -> None:
     assert nearest_ahead(scan(b180=0.2, b181=0.2), -FIRST, -STEP) == pytest.approx(0.2)
     ahead = np.full(360, math.inf, np.float32)
     ahead[[359, 0, 180]] = 0.4, 0.3, 0.1
@@ -108,7 +108,7 @@ def test_beams_may_turn_the_other_way_and_begin_anywhere() -> None:
         (1.0, math.inf, 1.0, ""),
     ],
 )
-def test_distances_limit_driving_forward_only(linear: float, nearest: float, final: float, why: str) -> None:
+def test_distances_limit_only_forward_driving(linear: float, nearest: float, final: float, why: str) -> None:
     verdict = limit(Command("nav", linear, 0.7, 0), nearest, 0.3, 0.7)
     assert verdict.final == pytest.approx((final, 0.7))
     assert verdict.asked == (linear, 0.7)

@@ -1,4 +1,4 @@
-"""Adjusting while driving: only while a safety monitor watches, within the descriptor; back when it is silent."""
+"""Tuning while driving: only while a safety monitor is alive, within the descriptor; reverted when it falls silent."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Bench:
-    """A navigator that drives as fast as it may, a safety monitor that can fall silent, and the tuner; stepped."""
+    """A navigator that drives at full speed, a safety monitor that can fall silent, and the tuner; stepped."""
 
     def __init__(self, clock: object, monitor: bool = True) -> None:
         from bot_console_robot.autotune_node import AutoTune
@@ -55,7 +55,7 @@ class Bench:
             self.diagnostics.publish(status("safety_monitor: velocity", OK, "free", values, stamp))
 
     def drive(self, seconds: float) -> list[float]:
-        """The values of the parameter, twice a second."""
+        """The values of the parameter, sampled twice a second."""
         seen = []
         for _ in range(round(seconds * 2)):
             end = self.clock.steady_ns() + 500_000_000
@@ -74,17 +74,17 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> Iterator[object]:
         rclpy.try_shutdown()
 
 
-def test_it_goes_to_the_better_value_and_never_beyond_the_descriptor(clock: object) -> None:
+def test_tuner_approaches_the_better_value_within_the_descriptor(clock: object) -> None:
     seen = Bench(clock).drive(400)
     assert max(seen) > 1.7
     assert max(seen) <= 2.0
 
 
-def test_without_a_safety_monitor_nothing_changes(clock: object) -> None:
+def test_nothing_changes_without_a_safety_monitor(clock: object) -> None:
     assert set(Bench(clock, monitor=False).drive(60)) == {1.0}
 
 
-def test_when_the_monitor_falls_silent_the_value_of_before_is_put_back(clock: object) -> None:
+def test_value_is_reverted_when_the_monitor_falls_silent(clock: object) -> None:
     bench = Bench(clock)
     bench.drive(60)
     assert bench.speed > 1.0
@@ -96,13 +96,13 @@ def test_when_the_monitor_falls_silent_the_value_of_before_is_put_back(clock: ob
     assert bench.speed > 1.0
 
 
-def test_while_the_robot_is_stopped_nothing_is_adjusted(clock: object) -> None:
+def test_nothing_is_tuned_while_the_robot_is_stopped(clock: object) -> None:
     bench = Bench(clock)
     bench.limited_by = "emergency stop"
     assert set(bench.drive(60)) == {1.0}
 
 
-def test_a_collision_is_a_ceiling(clock: object) -> None:
+def test_collision_limits_the_range(clock: object) -> None:
     bench = Bench(clock)
     while bench.speed < 1.15:
         bench.drive(1)
@@ -112,14 +112,14 @@ def test_a_collision_is_a_ceiling(clock: object) -> None:
     assert max(bench.drive(200)) < high
 
 
-def test_what_a_person_sets_is_where_it_goes_on(clock: object) -> None:
+def test_tuner_continues_from_a_value_set_by_a_person(clock: object) -> None:
     bench = Bench(clock)
     bench.drive(30)
     bench.robot.set_parameters([Parameter("max_speed", value=0.5)])
     assert max(bench.drive(15)) < 0.7
 
 
-def test_the_safety_monitor_is_out_of_reach(clock: object, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_safety_monitor_cannot_be_tuned(clock: object, monkeypatch: pytest.MonkeyPatch) -> None:
     from bot_console_robot.autotune_node import AutoTune
 
     rclpy.shutdown()

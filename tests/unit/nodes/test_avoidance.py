@@ -27,7 +27,7 @@ def decide(ranges: np.ndarray, rules: Rules = RULES, intensity: float = 200.0) -
     return Avoidance().decide(ranges.astype(np.float32), intensities, FIRST, STEP, rules)
 
 
-def test_free_way_is_driven_at_full_speed() -> None:
+def test_robot_drives_at_full_speed_without_obstacles() -> None:
     decision = decide(np.full(BEAMS, math.inf))
     assert decision.linear == pytest.approx(1.0)
     assert not decision.blocked
@@ -35,11 +35,11 @@ def test_free_way_is_driven_at_full_speed() -> None:
 
 
 @pytest.mark.parametrize("speed", [0.5, 1.0, 3.0])
-def test_max_speed_is_the_top(speed: float) -> None:
+def test_max_speed_limits_the_command(speed: float) -> None:
     assert decide(np.full(BEAMS, math.inf), replace(RULES, max_speed=speed)).linear == pytest.approx(speed)
 
 
-def test_it_slows_down_before_a_wall_and_stops_at_the_safety_distance() -> None:
+def test_robot_slows_down_before_a_wall_and_stops_at_safety_distance() -> None:
     fast = replace(RULES, max_speed=3.0)
     speeds = [decide(wall_ahead(d), fast).linear for d in (3.0, 1.5, 0.8, 0.55, 0.49)]
     assert speeds == sorted(speeds, reverse=True)
@@ -47,19 +47,19 @@ def test_it_slows_down_before_a_wall_and_stops_at_the_safety_distance() -> None:
     assert decide(wall_ahead(0.49), fast).blocked
 
 
-def test_a_greater_safety_distance_stops_earlier() -> None:
+def test_greater_safety_distance_stops_earlier() -> None:
     assert not decide(wall_ahead(0.8)).blocked
     assert decide(wall_ahead(0.8), replace(RULES, safety_distance=0.9)).blocked
 
 
-def test_without_safety_it_drives_on() -> None:
+def test_robot_drives_on_if_safety_is_disabled() -> None:
     decision = decide(wall_ahead(0.3), replace(RULES, enable_safety=False))
     assert decision.linear == 1.0
     assert not decision.blocked
 
 
 @pytest.mark.parametrize("rate", [0.3, 2.0])
-def test_turn_rate_is_the_top_in_both_ways_of_turning(rate: float) -> None:
+def test_turn_rate_limits_turning_both_ways(rate: float) -> None:
     rules = replace(RULES, turn_rate=rate)
     assert abs(decide(wall_ahead(0.3), rules).angular) == rate
     corridor = np.where(np.abs(ANGLES - math.pi / 2) < 0.6, math.inf, 0.7)
@@ -67,23 +67,23 @@ def test_turn_rate_is_the_top_in_both_ways_of_turning(rate: float) -> None:
 
 
 @pytest.mark.parametrize(("angle", "sign"), [(0.3, -1), (-0.3, 1)])
-def test_it_steers_away_from_a_thing(angle: float, sign: int) -> None:
+def test_robot_steers_away_from_an_obstacle(angle: float, sign: int) -> None:
     assert math.copysign(1, decide(thing(angle, 1.2, 0.6)).angular) == sign
 
 
-def test_weak_returns_count_below_the_threshold_only() -> None:
+def test_weak_returns_count_only_below_the_threshold() -> None:
     blocked = wall_ahead(0.4)
     assert decide(blocked, replace(RULES, detection_threshold=100), intensity=100.0).blocked
     assert not decide(blocked, replace(RULES, detection_threshold=101), intensity=100.0).blocked
     assert decide(blocked, replace(RULES, detection_threshold=101), intensity=100.0).nearest == math.inf
 
 
-def test_a_scan_without_intensities_counts_in_full() -> None:
+def test_scan_without_intensities_counts_fully() -> None:
     decision = Avoidance().decide(wall_ahead(0.4), np.empty(0, np.float32), FIRST, STEP, RULES)
     assert decision.blocked
 
 
-def test_the_side_of_turning_is_kept_until_the_way_is_free() -> None:
+def test_turning_side_is_kept_until_the_way_is_free() -> None:
     avoidance = Avoidance()
     full = np.full(BEAMS, 200.0, np.float32)
     left_free = np.where(ANGLES > 0.8, 3.0, 0.4).astype(np.float32)
@@ -98,7 +98,7 @@ def test_the_side_of_turning_is_kept_until_the_way_is_free() -> None:
 
 
 @pytest.mark.parametrize("ranges", [[], [math.nan] * 5, [0.0, -math.inf, math.inf, math.nan, 0.0]])
-def test_nothing_to_be_seen_is_a_free_way(ranges: list[float]) -> None:
+def test_empty_scan_is_a_free_way(ranges: list[float]) -> None:
     decision = decide(np.array(ranges, np.float32))
     assert not decision.blocked
     assert math.isfinite(decision.linear)

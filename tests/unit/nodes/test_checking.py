@@ -1,4 +1,4 @@
-"""A node's own rules are asked without anything being set."""
+"""A node's own rules are checked without setting anything."""
 
 from __future__ import annotations
 
@@ -32,7 +32,9 @@ def monitor(monkeypatch: pytest.MonkeyPatch) -> Iterator[SafetyMonitor]:
         ({"distance": 0.2}, "undeclared"),
     ],
 )
-def test_the_rule_answers_and_nothing_is_set(monitor: SafetyMonitor, values: dict[str, object], refused: str) -> None:
+def test_rule_answers_without_setting_the_value(
+    monitor: SafetyMonitor, values: dict[str, object], refused: str
+) -> None:
     requester = rclpy.create_node("asker")
     executor = SingleThreadedExecutor()
     executor.add_node(monitor)

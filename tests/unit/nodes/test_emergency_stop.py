@@ -1,4 +1,4 @@
-"""The emergency stop of a node on the graph: what it watches, and what it leaves alone."""
+"""The emergency stop of a node on the graph: what it observes, and what it does not."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Rig:
         return EmergencyStop(node, Clock(clock_type=ClockType.STEADY_TIME), own, other, lambda: None)
 
     def settle(self, polls: int = 0) -> EmergencyStop:
-        """The base, after so many of its looks at who is there."""
+        """The base, after `polls` of its checks for the monitor."""
         for _ in range(polls):
             self.stops[0]._watch()
         for _ in range(30):
@@ -52,7 +52,7 @@ def rig() -> Iterator[Rig]:
     made.context.try_shutdown()
 
 
-def test_a_base_whose_monitor_has_gone_locks_after_some_looks(rig: Rig) -> None:
+def test_base_locks_some_checks_after_its_monitor_has_gone(rig: Rig) -> None:
     assert not rig.settle().lock.held
     assert not rig.settle(polls=2 * GONE).lock.held
     rig.executor.remove_node(rig.monitor)
@@ -62,9 +62,7 @@ def test_a_base_whose_monitor_has_gone_locks_after_some_looks(rig: Rig) -> None:
     assert rig.stops[0].lock.reason == "the safety monitor has gone"
 
 
-def test_it_does_not_follow_the_graph_in_which_others_may_make_hundreds_of_nodes(
-    rig: Rig, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_lock_does_not_follow_the_graph(rig: Rig, monkeypatch: pytest.MonkeyPatch) -> None:
     def never(self: LocalBus) -> None:
         raise AssertionError("the graph was asked for")
 

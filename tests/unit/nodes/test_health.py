@@ -1,4 +1,4 @@
-"""A node tells its health once a second, in the names and types that every robot monitor knows."""
+"""A node reports its health once a second, in the names and types that every robot monitor knows."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class FakeNode:
         return SimpleNamespace(now=lambda: SimpleNamespace(to_msg=lambda: Time(sec=7)))
 
 
-def test_a_status_a_second_with_values_as_text() -> None:
+def test_status_is_published_each_second_with_values_as_text() -> None:
     node, health = FakeNode(), [(OK, "fine", {"rate": 10.0, "on": True}), (ERROR, "dead", {})]
     HealthReport(node, "motor", lambda: health.pop(0))
     [(period, report)] = node.timers
@@ -44,7 +44,7 @@ def test_a_status_a_second_with_values_as_text() -> None:
     assert (second.level, second.message) == (ERROR, "dead")
 
 
-def test_what_nobody_gets_is_not_made_but_inspected() -> None:
+def test_status_without_subscribers_is_checked_but_not_built() -> None:
     node, polls = FakeNode(), [(OK, "fine", {"never shown": object()})] * 2
     node.listeners = 0
     HealthReport(node, "motor", polls.pop)

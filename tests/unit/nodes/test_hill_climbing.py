@@ -1,4 +1,4 @@
-"""Climbing: it finds a hill, stays within its range, and never goes back to what was dangerous."""
+"""Hill climbing: it finds a hill, stays within its range, and never returns to dangerous values."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ def climbed(top: float, begin: float, periods: int = 60) -> HillClimber:
 
 
 @given(st.floats(0, 10), st.floats(0, 10))
-def test_it_comes_near_to_the_top_from_anywhere(top: float, begin: float) -> None:
+def test_climbing_approaches_the_top_from_anywhere(top: float, begin: float) -> None:
     assert abs(climbed(top, begin).best - top) <= 0.6
 
 
 @given(st.lists(st.tuples(st.floats(-5, 5), st.booleans()), max_size=40), st.floats(0, 10))
-def test_it_keeps_to_its_range_and_leaves_out_what_was_dangerous(steps: list[tuple[float, bool]], begin: float) -> None:
+def test_climbing_stays_in_range_and_avoids_dangerous_values(steps: list[tuple[float, bool]], begin: float) -> None:
     climber = HillClimber(0.0, 10.0, begin, 1.0)
     for score, dangerous in steps:
         value = climber.danger() if dangerous else climber.evaluated(score)
@@ -28,7 +28,7 @@ def test_it_keeps_to_its_range_and_leaves_out_what_was_dangerous(steps: list[tup
         assert 0.0 <= climber.low <= value <= climber.high <= 10.0
 
 
-def test_a_collision_on_the_way_up_is_a_ceiling() -> None:
+def test_collision_on_the_way_up_limits_the_range() -> None:
     climber = HillClimber(0.0, 10.0, 5.0, 1.0)
     assert climber.evaluated(1.0) == 6.0
     assert climber.danger() == 5.0
@@ -37,7 +37,7 @@ def test_a_collision_on_the_way_up_is_a_ceiling() -> None:
         assert climber.evaluated(climber.value) <= 5.0
 
 
-def test_a_place_that_has_become_slow_is_not_held_against_the_value() -> None:
+def test_value_is_not_blamed_for_a_place_that_became_slow() -> None:
     climber = HillClimber(0.0, 10.0, 5.0, 1.0)
     climber.evaluated(3.0)
     climber.evaluated(2.0)

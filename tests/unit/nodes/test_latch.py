@@ -15,18 +15,18 @@ BEN = Request(STOP, "ben", "me too", "b", "b1")
 
 
 def release(latch: Latch, *ids: str, by: str = "ben") -> bool:
-    """A release that answers the lock's present challenge."""
+    """A release that quotes the lock's present challenge."""
     return latch.request(Request(RELEASE, by, key=by, ids=ids, challenges=(latch.challenge,)), 0)
 
 
-def test_it_begins_released_and_the_first_request_locks_it() -> None:
+def test_latch_starts_released_and_first_request_locks_it() -> None:
     latch = Latch()
     assert not latch.lock.held
     assert latch.request(ANNA, 0)
     assert latch.lock == Lock((Stop("a1", "a", "anna", "the arm swings", 1),), 1)
 
 
-def test_it_is_held_until_the_last_of_those_who_stopped_it_has_released_it() -> None:
+def test_latch_is_held_until_last_requester_releases() -> None:
     latch = Latch()
     latch.request(ANNA, 0)
     assert latch.request(BEN, 0)
@@ -37,7 +37,7 @@ def test_it_is_held_until_the_last_of_those_who_stopped_it_has_released_it() -> 
     assert release(latch, "b1") and not latch.lock.held
 
 
-def test_a_release_covers_only_the_stops_that_it_names() -> None:
+def test_release_covers_only_the_stops_it_names() -> None:
     latch = Latch()
     latch.request(ANNA, 0)
     release(latch, "c1")
@@ -46,7 +46,7 @@ def test_a_release_covers_only_the_stops_that_it_names() -> None:
     assert release(latch, "a1") and not latch.lock.held
 
 
-def test_a_stop_that_was_released_never_returns_however_late_a_copy_comes() -> None:
+def test_released_stop_never_returns_from_a_late_copy() -> None:
     latch = Latch()
     latch.request(ANNA, 0)
     held = latch.lock
@@ -55,13 +55,13 @@ def test_a_stop_that_was_released_never_returns_however_late_a_copy_comes() -> N
     assert latch.request(Request(STOP, "anna", "again", "a", "a2"), 0) and latch.lock.held
 
 
-def test_a_release_that_overtakes_its_stop_counts() -> None:
+def test_release_that_overtakes_its_stop_counts() -> None:
     latch = Latch()
     release(latch, "a1")
     assert not latch.request(ANNA, 0) and not latch.lock.held
 
 
-def test_a_release_quotes_the_challenge_of_the_stops_that_it_releases() -> None:
+def test_release_must_quote_the_challenge_of_its_stops() -> None:
     latch = Latch()
     latch.request(ANNA, 0)
     recorded = Request(RELEASE, "ben", key="b", ids=("a1", "b1"), challenges=(latch.challenge, "another"))
@@ -83,8 +83,10 @@ def test_no_two_states_of_a_lock_have_the_same_challenge() -> None:
     assert len(set(seen)) == 6 and Latch().challenge not in seen
 
 
-def test_an_older_console_stops_and_releases_what_it_has_stopped_and_nothing_else() -> None:
-    """Its stops have no ids and its releases no challenges, so that a copy of one cannot be told from it."""
+def test_older_console_can_stop_and_release_only_its_own_stops() -> None:
+    """Its stops have no ids and its releases no challenges, so that a copy cannot be distinguished from the
+    original.
+    """
     latch = Latch()
     old = Request(STOP, "old", "now", "o")
     for _ in range(2):
@@ -99,7 +101,7 @@ def test_an_older_console_stops_and_releases_what_it_has_stopped_and_nothing_els
     assert [each.key for each in latch.lock.stops] == ["a", NODE]
 
 
-def test_stops_beyond_all_measure_are_one_and_are_released_by_its_id() -> None:
+def test_stops_beyond_the_limit_are_merged_and_released_by_one_id() -> None:
     latch = Latch()
     for number in range(10_000):
         latch.request(Request(STOP, f"n{number}", key=str(number), id=str(number)), 0)
@@ -118,13 +120,13 @@ def test_only_the_latest_releases_are_remembered() -> None:
 
 
 @pytest.mark.parametrize("verb", ["", "STOP", "halt", "release "])
-def test_a_request_that_nobody_understands_is_a_stop(verb: str) -> None:
+def test_request_with_unknown_verb_is_a_stop(verb: str) -> None:
     latch = Latch()
     assert latch.request(Request(verb, "anna"), 0)
     assert latch.lock.held
 
 
-def test_a_console_that_holds_the_steering_and_falls_silent_locks_it() -> None:
+def test_silence_of_a_console_with_the_steering_locks() -> None:
     latch = Latch()
     steer = Request(STEER, "anna", key="a")
     assert latch.request(steer, 0) and latch.steered_by == "anna"
@@ -134,7 +136,7 @@ def test_a_console_that_holds_the_steering_and_falls_silent_locks_it() -> None:
     assert latch.lock.held and latch.lock.holder == "anna" and not latch.steered_by
 
 
-def test_two_locks_make_the_same_stop_of_the_same_silence_and_another_of_the_next() -> None:
+def test_two_locks_make_the_same_stop_of_one_silence_and_another_of_the_next() -> None:
     here, there = Latch(), Latch()
     steer = Request(STEER, "anna", key="a", id="s1")
     for latch in (here, there):
@@ -147,7 +149,7 @@ def test_two_locks_make_the_same_stop_of_the_same_silence_and_another_of_the_nex
     assert here.lock.held, "a recorded claim of the steering is no way around the silence"
 
 
-def test_steering_that_is_handed_back_needs_no_heartbeat() -> None:
+def test_returned_steering_needs_no_heartbeat() -> None:
     latch = Latch()
     latch.request(Request(STEER, "anna", key="a"), 0)
     assert latch.request(Request(HAND_BACK, "anna", key="a"), 1)
@@ -155,8 +157,8 @@ def test_steering_that_is_handed_back_needs_no_heartbeat() -> None:
 
 
 @pytest.mark.parametrize("order", list(itertools.permutations(range(4))))
-def test_two_latches_agree_in_any_order_of_delivery_once_all_has_come(order: tuple[int, ...]) -> None:
-    """One hears all requests, the other only of its states, at any time."""
+def test_two_latches_agree_in_any_order_of_delivery(order: tuple[int, ...]) -> None:
+    """One receives all requests, the other only its states, at any time."""
     here, there = Latch(), Latch()
     states: list[Lock] = []
     for id in ("a1", "a2"):
@@ -169,7 +171,7 @@ def test_two_latches_agree_in_any_order_of_delivery_once_all_has_come(order: tup
     assert not here.lock.held and here.lock.released == there.lock.released
 
 
-def test_a_stop_and_a_release_that_only_one_of_two_has_heard_reach_the_other() -> None:
+def test_stop_and_release_known_to_one_lock_reach_the_other() -> None:
     here, there = Latch(), Latch()
     here.request(ANNA, 0)
     there.request(BEN, 0)
@@ -180,18 +182,18 @@ def test_a_stop_and_a_release_that_only_one_of_two_has_heard_reach_the_other() -
     assert there.lock.released == (Release("a1", "ben", 2),)
 
 
-def test_a_lock_that_has_restarted_brings_back_no_released_stop() -> None:
+def test_restarted_lock_does_not_bring_back_released_stops() -> None:
     here, there = Latch(), Latch()
     here.request(ANNA, 0)
     there.follow(here.lock)
     release(here, "a1")
-    again = Latch(there.lock)  # which had not heard of the release
+    again = Latch(there.lock)  # It had not received the release.
     assert again.lock.held
     assert not here.follow(again.lock) and not here.lock.held
     assert again.follow(here.lock) and not again.lock.held
 
 
-def test_messages_return_what_was_published() -> None:
+def test_messages_survive_a_round_trip() -> None:
     assert request_of(request_message(ANNA)) == ANNA
     asked = Request(RELEASE, "ben", "", "b", ids=("a1", "b1"), challenges=("c1", "c2"), of=("a", "b"))
     assert request_of(request_message(asked)) == asked
@@ -202,7 +204,7 @@ def test_messages_return_what_was_published() -> None:
     assert state_of(state_message(state, "simulator")) == state
 
 
-def test_the_report_of_an_older_lock_is_read_and_each_of_its_stops_distinguished() -> None:
+def test_report_of_an_older_lock_is_read_with_distinct_stops() -> None:
     def report(turn: int) -> DiagnosticStatus:
         values = {"locked": "true", "turn": str(turn), "stops": f'[["a", "anna", "now", {turn}]]', "instance": "1"}
         return DiagnosticStatus(values=[KeyValue(key=key, value=value) for key, value in values.items()])
@@ -214,8 +216,8 @@ def test_the_report_of_an_older_lock_is_read_and_each_of_its_stops_distinguished
 
 
 @pytest.mark.parametrize("text", ["x" * 1000, "\ud800" * 1000, "[" * 1000, "9" * 1000])
-def test_a_lock_reports_what_another_reads_however_long_the_texts_that_it_was_sent(text: str) -> None:
-    """Otherwise a release of the stop as one reports it would not be one of the stop that the other holds."""
+def test_lock_report_is_read_by_another_lock_whatever_texts_it_was_sent(text: str) -> None:
+    """Otherwise a release of the stop as one lock reports it would not match the stop that the other holds."""
     keys = ("request", "id", "stops", "turn", "instance", "holder")
     message = DiagnosticStatus(
         name=text, message=text, hardware_id=text, values=[KeyValue(key=key, value=text) for key in keys]
@@ -227,13 +229,13 @@ def test_a_lock_reports_what_another_reads_however_long_the_texts_that_it_was_se
     assert state_of(state_message(State(latch.lock, "1"), "node")).lock == latch.lock
 
 
-def test_a_state_that_cannot_be_read_is_a_lock() -> None:
+def test_unreadable_state_counts_as_locked() -> None:
     assert state_of(DiagnosticStatus()).lock.held
     assert request_of(DiagnosticStatus()).verb == ""
 
 
 @pytest.mark.parametrize("text", ["", "[", "{}", "[[]]", "[1, 2]", "[[1, 2, 3, 4], null]", '["*"]', "[" * 100_000])
-def test_stops_that_cannot_be_read_are_one_and_an_unreadable_release_releases_nothing(text: str) -> None:
+def test_unreadable_stops_are_one_stop_and_unreadable_release_releases_nothing(text: str) -> None:
     state = DiagnosticStatus(values=[KeyValue(key="locked", value="true"), KeyValue(key="stops", value=text)])
     assert len(state_of(state).lock.stops) == 1
     values = [KeyValue(key="request", value="release"), KeyValue(key="ids", value=text)]

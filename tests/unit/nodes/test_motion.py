@@ -7,7 +7,7 @@ from bot_console_robot.motion import CRUISE, DETOUR, Gains, VelocityController, 
 GAINS = Gains(3.0, 6.0, 1.0)
 
 
-def test_speeding_up_keeps_to_the_acceleration_and_arrives() -> None:
+def test_speeding_up_respects_acceleration_and_reaches_target() -> None:
     controller = VelocityController()
     speeds = [controller.step(2.0, 0.0, 0.05, GAINS)[0] for _ in range(120)]
     assert speeds[0] == pytest.approx(0.05)
@@ -16,7 +16,7 @@ def test_speeding_up_keeps_to_the_acceleration_and_arrives() -> None:
     assert max(speeds) <= 2.0
 
 
-def test_slowing_down_is_at_once() -> None:
+def test_slowing_down_is_immediate() -> None:
     controller = VelocityController()
     for _ in range(100):
         controller.step(1.0, 0.0, 0.05, GAINS)
@@ -24,14 +24,14 @@ def test_slowing_down_is_at_once() -> None:
     assert controller.step(0.0, 0.0, 0.05, GAINS)[0] == 0.0
 
 
-def test_turning_back_goes_through_the_ramp() -> None:
+def test_reversing_goes_through_the_ramp() -> None:
     controller = VelocityController()
     for _ in range(100):
         controller.step(1.0, 0.0, 0.05, GAINS)
     assert controller.step(-1.0, 0.0, 0.05, GAINS)[0] == pytest.approx(0.95, abs=0.01)
 
 
-def test_a_greater_gain_is_faster() -> None:
+def test_greater_gain_is_faster() -> None:
     slow, fast = VelocityController(), VelocityController()
     for _ in range(5):
         slow.step(0.1, 1.0, 0.05, Gains(1.0, 1.0, 10.0))
@@ -41,7 +41,7 @@ def test_a_greater_gain_is_faster() -> None:
 
 
 @pytest.mark.parametrize("gain", [0.1, 20.0])
-def test_no_gain_overshoots_the_turn_rate(gain: float) -> None:
+def test_no_gain_exceeds_the_turn_rate(gain: float) -> None:
     controller = VelocityController()
     for _ in range(400):
         assert controller.step(0.0, 1.0, 0.05, Gains(1.0, gain, 1.0))[1] <= 1.0
@@ -70,7 +70,7 @@ def test_waypoints_are_reached_in_order() -> None:
     assert nearest == sorted(nearest)
 
 
-def test_a_loop_starts_again() -> None:
+def test_loop_starts_again_at_the_first_waypoint() -> None:
     follower = WaypointFollower()
     follower.follow([(1.0, 0.0), (0.0, 0.0)], loop=True)
     drive(follower, GAINS, 30.0)
@@ -79,7 +79,7 @@ def test_a_loop_starts_again() -> None:
     assert follower.target is None
 
 
-def test_it_is_no_faster_than_allowed() -> None:
+def test_speed_stays_within_its_limit() -> None:
     follower = WaypointFollower()
     follower.follow([(5.0, 0.0)])
     assert follower.steer((0, 0, 0), None, 0.05, GAINS)[0] == CRUISE
@@ -87,7 +87,7 @@ def test_it_is_no_faster_than_allowed() -> None:
     assert follower.steer((4.9, 0, 0), (2.0, 0.0), 0.05, GAINS)[0] == pytest.approx(0.3)
 
 
-def test_a_blocked_way_is_left_to_the_navigator_for_a_while() -> None:
+def test_blocked_way_is_left_to_the_navigator_for_a_while() -> None:
     follower = WaypointFollower()
     follower.follow([(5.0, 0.0)])
     assert follower.steer((0, 0, 0), (0.0, 1.0), 0.05, GAINS) == (0.0, 1.0)

@@ -1,4 +1,4 @@
-"""Odometry messages of the simulator: one message, told anew each time."""
+"""Odometry messages of the simulator: one message object that is reused."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from bot_console_robot.simulation.geometry import Pose
 from bot_console_robot.simulator.messages import Odometer, heading_of, time_of
 
 
-def test_all_of_a_message_is_what_was_reported_last() -> None:
+def test_reused_message_contains_only_the_latest_report() -> None:
     odometer = Odometer("odom", "base_footprint")
     odometer.report(Pose(1.0, 2.0, 3.0), (0.5, -0.25), time_of(1))
     message = odometer.report(Pose(-4.0, 5.0, -0.5 * math.pi), (-1.0, 0.75), time_of(7_000_000_009))

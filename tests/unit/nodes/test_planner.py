@@ -1,4 +1,4 @@
-"""Ways over a map."""
+"""Paths over a map."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CLEARANCE = 0.25
 
 
 def room(*walls: tuple[slice, slice]) -> Grid:
-    """A room of 6 by 4 m with walls of cells of 5 cm."""
+    """A room of 6 by 4 m with walls, in cells of 5 cm."""
     cells = np.zeros((80, 120), np.int8)
     for rows, columns in walls:
         cells[rows, columns] = 100
@@ -29,7 +29,7 @@ WALL = (slice(0, 60), slice(58, 62))
 
 
 def clear(grid: Grid, points: list[tuple[float, float]]) -> float:
-    """How near (m) a way comes to a taken cell."""
+    """The smallest distance (m) of a path to an occupied cell."""
     rows, columns = np.nonzero(grid.cells)
     taken = np.stack([columns + 0.5, rows + 0.5], axis=1) * grid.resolution + grid.origin
     nearest = math.inf
@@ -40,11 +40,11 @@ def clear(grid: Grid, points: list[tuple[float, float]]) -> float:
     return nearest
 
 
-def test_with_nothing_between_the_way_is_straight() -> None:
+def test_path_without_obstacles_is_straight() -> None:
     assert Planner(room(), CLEARANCE).way((0.0, 0.0), (4.0, 1.5)) == [(4.0, 1.5)]
 
 
-def test_a_way_goes_round_a_wall_and_keeps_clear() -> None:
+def test_path_goes_around_a_wall_with_clearance() -> None:
     grid = room(WALL)
     start, goal = (0.0, 0.0), (4.0, 0.0)
     way = Planner(grid, CLEARANCE).way(start, goal)
@@ -54,7 +54,7 @@ def test_a_way_goes_round_a_wall_and_keeps_clear() -> None:
 
 
 @given(st.tuples(st.floats(-0.6, 1.6), st.floats(-0.6, 2.6)), st.tuples(st.floats(2.5, 4.6), st.floats(-0.6, 2.6)))
-def test_every_way_reaches_its_goal_and_hits_nothing(start: tuple[float, float], goal: tuple[float, float]) -> None:
+def test_every_path_reaches_its_goal_without_collision(start: tuple[float, float], goal: tuple[float, float]) -> None:
     grid = room(WALL)
     way = Planner(grid, CLEARANCE).way(start, goal)
     assert way[-1] == goal
@@ -70,7 +70,7 @@ def test_every_way_reaches_its_goal_and_hits_nothing(start: tuple[float, float],
         ((4.0, 0.0), "is enclosed by walls"),
     ],
 )
-def test_where_there_is_no_way_it_is_reported_why(goal: tuple[float, float], why: str) -> None:
+def test_reason_is_reported_if_there_is_no_path(goal: tuple[float, float], why: str) -> None:
     closed = room((slice(0, 80), slice(50, 70)))
     with pytest.raises(NoWay, match=why):
         Planner(closed, CLEARANCE).way((0.0, 0.0), goal)
@@ -88,7 +88,7 @@ def drive(task: Way | Spin | Straight, pose: tuple[float, float, float], ahead: 
     return pose
 
 
-def test_a_way_is_followed_to_its_end_and_heading() -> None:
+def test_path_is_followed_to_its_end_and_heading() -> None:
     task = Way([(1.0, 0.0), (1.0, 1.0)], math.pi, Limits())
     x, y, heading = drive(task, (0.0, 0.0, 0.0))
     assert (x, y) == pytest.approx((1.0, 1.0), abs=0.15)
@@ -96,26 +96,26 @@ def test_a_way_is_followed_to_its_end_and_heading() -> None:
     assert task.error_code == 0
 
 
-def test_what_stands_ahead_holds_the_robot_until_it_is_given_up() -> None:
+def test_obstacle_ahead_holds_the_robot_until_the_task_is_given_up() -> None:
     task = Way([(3.0, 0.0)], 0.0, Limits())
     pose = drive(task, (0.0, 0.0, 0.0), ahead=0.2)
     assert pose == (0.0, 0.0, 0.0)
     assert task.error_code == FAILED_TO_MAKE_PROGRESS
 
 
-def test_a_spin_may_be_more_than_a_turn() -> None:
+def test_spin_may_exceed_a_full_turn() -> None:
     task = Spin(7.0, Limits())
     assert drive(task, (0.0, 0.0, 0.0))[2] == pytest.approx(7.0, abs=0.1)
 
 
-def test_straight_back_and_no_farther_than_is_free() -> None:
+def test_backing_up_is_straight_and_ends_where_space_ends() -> None:
     assert drive(Straight(-0.5, 0.2, 0.0, Limits()), (0.0, 0.0, 0.0))[0] == pytest.approx(-0.5, abs=0.1)
     blocked = Straight(0.5, 0.2, 0.0, Limits())
     assert drive(blocked, (0.0, 0.0, 0.0), ahead=0.2)[0] == 0.0
     assert blocked.error_code == COLLISION_AHEAD
 
 
-def test_points_on_the_way_are_passed_and_not_driven_to() -> None:
+def test_intermediate_points_are_passed_without_stopping() -> None:
     follower = WayFollower([(0.1, 0.0), (0.2, 0.0), (2.0, 0.0)], 0.0, Limits())
     assert follower.velocity((0.0, 0.0, 0.0), 9.0) == (0.4, 0.0)
     assert follower.points == [(2.0, 0.0)]

@@ -1,4 +1,4 @@
-"""Presets as a service: saved, listed, applied all or nothing, deleted; the modes of the page's robot."""
+"""Presets as a service: saved, listed, applied all or nothing, deleted; the modes of the course page's robot."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ MODES = {"normal": (1.0, 50), "aggressive": (3.0, 30), "cautious": (0.5, 80), "e
 
 
 class Bench:
-    """A robot with modes, an arm, the presets, and a client of theirs."""
+    """A robot with modes, an arm, the preset node, and a client of it."""
 
     def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         from bot_console_robot.preset_node import Presets
@@ -77,7 +77,7 @@ def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
     made.close()
 
 
-def test_the_modes_of_the_pages_robot_are_presets(bench: Bench) -> None:
+def test_modes_of_the_course_robot_are_presets(bench: Bench) -> None:
     for name, (speed, sensitivity) in MODES.items():
         bench.robot.set_parameters([Parameter("speed", value=speed), Parameter("sensitivity", value=sensitivity)])
         done, text = bench.ask("save", name)
@@ -92,7 +92,7 @@ def test_the_modes_of_the_pages_robot_are_presets(bench: Bench) -> None:
     assert bench.ask("apply", "eco") == (False, "there is no preset 'eco'; there are: aggressive, cautious, normal")
 
 
-def test_where_one_node_refuses_no_node_is_changed(bench: Bench, tmp_path: Path) -> None:
+def test_refusal_by_one_node_changes_no_node(bench: Bench, tmp_path: Path) -> None:
     folder = tmp_path / "config" / "profiles"
     write(folder, "wild", {"/arm": {"reach": [9.0]}, "/dynamic_robot": {"speed": 9.0}})
     done, text = bench.ask("apply", "wild")
@@ -105,16 +105,14 @@ def test_where_one_node_refuses_no_node_is_changed(bench: Bench, tmp_path: Path)
     assert list(bench.arm.get_parameter("reach").value) == [1.0, 2.0]
 
 
-def test_a_client_that_is_still_searching_for_its_services_is_given_time(
-    bench: Bench, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_client_gets_time_to_discover_the_services(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
     polls = itertools.count()
     monkeypatch.setattr(AsyncParameterClient, "services_are_ready", lambda client: next(polls) > 2)
     assert bench.ask("save", "normal")[0] and next(polls) > 4
 
 
 @pytest.mark.parametrize("name", ["", "../x", "a/b", ".hidden"])
-def test_a_name_cannot_leave_the_folder(bench: Bench, name: str) -> None:
+def test_preset_name_cannot_leave_the_folder(bench: Bench, name: str) -> None:
     if name:
         assert not bench.ask("save", name)[0]
     with pytest.raises(PresetError, match="not a valid preset name"):
@@ -122,7 +120,7 @@ def test_a_name_cannot_leave_the_folder(bench: Bench, name: str) -> None:
 
 
 @pytest.mark.parametrize("value", ["!!int", "!!timestamp x", "&a {b: *a}"])
-def test_a_file_that_yaml_cannot_make_values_of_is_reported(tmp_path: Path, value: str) -> None:
+def test_invalid_preset_file_is_reported(tmp_path: Path, value: str) -> None:
     (tmp_path / "odd.yaml").write_text(f"/arm: {{ros__parameters: {{reach: {value}}}}}")
     with pytest.raises(PresetError, match="cannot be read"):
         read(tmp_path, "odd")

@@ -16,7 +16,7 @@ SECOND = 1_000_000_000
 
 
 class Rig:
-    """A node on a graph with a simulator's clock, or none, and a steady clock that is set."""
+    """A node on a graph with or without a simulator's clock, and a steady clock that is set by hand."""
 
     def __init__(self) -> None:
         self.wall = 50 * SECOND
@@ -30,7 +30,7 @@ class Rig:
         return object()
 
     def clocks(self, count: int) -> None:
-        """So many publishers of a clock are there now."""
+        """Set the number of clock publishers."""
         self.events.matched(SimpleNamespace(current_count=count))
 
     def clock(self, seconds: float) -> None:
@@ -44,13 +44,13 @@ def rig() -> Rig:
     return Rig()
 
 
-def test_it_is_steady_time_until_it_is_asked_to_follow(rig: Rig) -> None:
+def test_robot_time_is_steady_until_asked_to_follow_a_clock(rig: Rig) -> None:
     began = rig.time.now()
     rig.wall += SECOND
     assert rig.time.now() - began == SECOND
 
 
-def test_then_only_the_simulations_seconds_count(rig: Rig) -> None:
+def test_followed_clock_counts_only_simulated_seconds(rig: Rig) -> None:
     rig.time.follow(7 * SECOND)
     rig.clock(7.0)
     began = rig.time.now()
@@ -59,7 +59,7 @@ def test_then_only_the_simulations_seconds_count(rig: Rig) -> None:
     assert rig.time.now() - began == 0.3 * SECOND
 
 
-def test_a_reset_and_the_end_of_a_simulation_do_not_turn_it_back(rig: Rig) -> None:
+def test_reset_or_end_of_a_simulation_does_not_turn_time_back(rig: Rig) -> None:
     rig.time.follow(7 * SECOND)
     seen = []
     for seconds in (7.0, 7.5, 0.0, 0.2):
@@ -73,7 +73,7 @@ def test_a_reset_and_the_end_of_a_simulation_do_not_turn_it_back(rig: Rig) -> No
     assert [b - a for a, b in itertools.pairwise(seen)] == [0.5 * SECOND, 0, 0.2 * SECOND, 0, SECOND]
 
 
-def test_a_clock_that_is_not_the_robots_is_not_followed(rig: Rig) -> None:
+def test_clock_that_is_not_the_robots_is_not_followed(rig: Rig) -> None:
     rig.time.follow(7 * SECOND + 2 * FAR_NS)
     rig.clock(7.0)
     began = rig.time.now()
@@ -81,7 +81,7 @@ def test_a_clock_that_is_not_the_robots_is_not_followed(rig: Rig) -> None:
     assert rig.time.now() - began == SECOND
 
 
-def test_without_a_simulation_a_scan_dies_by_the_clock_on_the_wall() -> None:
+def test_without_simulation_scans_expire_by_steady_time() -> None:
     rig = Rig()
     watch = ScanWatch(rig.time.now, SECOND // 2)
     assert watch.take(LaserScan(angle_min=-1.0, angle_increment=0.1, ranges=[2.0] * 20)) and watch.fresh
@@ -90,7 +90,7 @@ def test_without_a_simulation_a_scan_dies_by_the_clock_on_the_wall() -> None:
     assert not watch.fresh
 
 
-def test_a_scan_of_a_simulation_that_lags_stays_fresh_in_its_time(rig: Rig) -> None:
+def test_scan_of_a_lagging_simulation_stays_fresh_in_its_time(rig: Rig) -> None:
     watch = ScanWatch(rig.time.now, SECOND // 2)
     watch.take(LaserScan(angle_min=-1.0, angle_increment=0.1, ranges=[2.0] * 20))
     rig.wall += SECOND // 4
@@ -103,7 +103,7 @@ def test_a_scan_of_a_simulation_that_lags_stays_fresh_in_its_time(rig: Rig) -> N
     assert not watch.fresh
 
 
-def test_a_clock_is_followed_on_while_scans_go_on(rig: Rig) -> None:
+def test_clock_is_followed_while_scans_continue(rig: Rig) -> None:
     rig.time.follow(0)
     rig.clock(0.0)
     began = rig.time.now()
@@ -114,9 +114,10 @@ def test_a_clock_is_followed_on_while_scans_go_on(rig: Rig) -> None:
     assert rig.time.now() - began == 12 * SECOND, "a clock is compared with the newest scan, not with the first"
 
 
-def test_it_asks_the_graph_for_nothing_when_the_machine_is_busy(rig: Rig) -> None:
+def test_robot_time_does_not_query_the_graph_under_load(rig: Rig) -> None:
     rig.time.follow(7 * SECOND)
-    rig.time.follow(8 * SECOND)  # the rig's node knows no questions about the graph, as one would open all of it
+    # The rig's node has no methods for the graph, which would have to be followed as a whole.
+    rig.time.follow(8 * SECOND)
     rig.clock(8.0)
     began = rig.time.now()
     rig.clocks(2)

@@ -1,4 +1,4 @@
-"""The life of a node of the package, beside signals that come more than once."""
+"""The life of a node of the package when signals arrive more than once."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
 
 class Impatient(Node):
-    """Gets Ctrl-C once while it runs, and again while it ends."""
+    """Receives Ctrl-C once while it runs, and again while it ends."""
 
     ended = 0
 
@@ -38,15 +38,15 @@ class Impatient(Node):
         super().destroy_node()
 
 
-def test_a_second_interrupt_does_not_break_into_the_end() -> None:
+def test_second_interrupt_does_not_break_the_end() -> None:
     Impatient.ended = 0
     run(Impatient, [])
     assert Impatient.ended == 1
     assert not rclpy.ok()
-    signal.raise_signal(signal.SIGINT)  # until the interpreter has gone
+    signal.raise_signal(signal.SIGINT)  # Until the interpreter has gone.
 
 
-def test_an_interrupt_while_the_node_is_made_is_a_clean_end() -> None:
+def test_interrupt_during_construction_is_a_clean_end() -> None:
     def make() -> Node:
         signal.raise_signal(signal.SIGINT)
         raise AssertionError
@@ -55,7 +55,7 @@ def test_an_interrupt_while_the_node_is_made_is_a_clean_end() -> None:
     assert not rclpy.ok()
 
 
-def test_an_interrupt_that_comes_while_an_error_is_inspected_is_a_clean_end(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_interrupt_during_error_handling_is_a_clean_end(monkeypatch: pytest.MonkeyPatch) -> None:
     asked = rclpy.ok
 
     def ok() -> bool:
@@ -71,12 +71,12 @@ def test_an_interrupt_that_comes_while_an_error_is_inspected_is_a_clean_end(monk
     assert not rclpy.ok()
 
 
-def test_the_next_run_can_be_interrupted_again() -> None:
+def test_next_run_can_be_interrupted_again() -> None:
     for _ in range(2):
         run(Impatient, [])
 
 
-def test_what_cannot_start_reports_why(capfd: pytest.CaptureFixture[str]) -> None:
+def test_node_that_cannot_start_reports_why(capfd: pytest.CaptureFixture[str]) -> None:
     def make() -> Node:
         raise CannotStart("no world")
 

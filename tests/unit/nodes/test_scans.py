@@ -1,4 +1,4 @@
-"""Scans of a real LIDAR, whose driver offers best effort, come to every node that listens for them."""
+"""Scans of a real LIDAR, whose driver offers best effort, reach every node that subscribes to them."""
 
 import itertools
 from collections.abc import Callable, Iterator
@@ -24,7 +24,7 @@ def ros() -> Iterator[None]:
 
 
 @pytest.mark.parametrize("kind", [Navigator, RobotNavigator, SafetyMonitor, SensorHandler, TelemetryPublisher])
-def test_best_effort_is_enough(kind: Callable[[], Node]) -> None:
+def test_best_effort_scans_are_received(kind: Callable[[], Node]) -> None:
     node = kind()
     asked = [each.qos_profile for each in node.subscriptions if each.topic_name == "/scan"]
     offered = (qos_profile_sensor_data, qos_profile_system_default)

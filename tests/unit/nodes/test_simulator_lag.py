@@ -1,4 +1,4 @@
-"""A machine that is too busy to simulate in real time: told once, in words that do not blame the robot."""
+"""A machine too busy to simulate in real time: reported once, without blaming the robot."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bot_console_robot.simulator_node import QUIET_NS, Simulator
 SECOND = 1_000_000_000
 
 
-def test_a_lag_is_reported_once_and_again_only_after_a_quiet_while(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_lag_is_reported_once_and_again_after_a_quiet_period(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", "7901")
     rclpy.init()
     try:

@@ -1,4 +1,4 @@
-"""What programs for other robots look for is made only while somebody subscribes to it."""
+"""What programs for other robots expect is published only while somebody subscribes to it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bot_console_robot.simulator.signals import Signals
 
 
 class Recorder:
-    """A publisher that keeps what is published; `listeners` is how many subscriptions it tells of."""
+    """A publisher that keeps what is published; `listeners` is its number of subscriptions."""
 
     def __init__(self) -> None:
         self.listeners = 0
@@ -26,7 +26,7 @@ class Recorder:
 
 
 class Graph:
-    """What a node is asked for here: publishers, by topic."""
+    """The part of a node that is used here: its publishers, by topic."""
 
     def __init__(self) -> None:
         self.topics: dict[str, Recorder] = {}
@@ -36,7 +36,7 @@ class Graph:
 
 
 @pytest.mark.parametrize("topic", ["/tf", "joint_states", "imu", "battery_state"])
-def test_published_only_while_subscribed(topic: str) -> None:
+def test_signals_are_published_only_while_subscribed(topic: str) -> None:
     graph: Any = Graph()
     signals = Signals(graph, MODELS["plain"])
     simulation = Simulation(parse_world("w", {"size": [4, 4], "start": [2, 2, 0]}), 1)

@@ -1,4 +1,4 @@
-"""The file in which stops outlive their nodes: what it keeps, who may use it, and what locks when it cannot be used."""
+"""The file in which stops outlive their nodes: its content, its users, and locking if it cannot be used."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def at(folder: Path, robot: str = "/") -> StopFile:
     return StopFile(str(folder / "state" / "stops.json"), robot)
 
 
-def test_a_stop_is_there_after_a_restart_and_so_is_its_release(tmp_path: Path) -> None:
+def test_stop_and_its_release_survive_a_restart(tmp_path: Path) -> None:
     at(tmp_path).merge(Lock((ANNA, NODES_OWN), 3))
     again = at(tmp_path).merge(Lock())
     assert again.stops == (ANNA,), "what a node found in its present run ends with it"
@@ -30,7 +30,7 @@ def test_a_stop_is_there_after_a_restart_and_so_is_its_release(tmp_path: Path) -
     assert at(tmp_path).merge(Lock()) == Lock((), 4, (Release("a1", "ben", 4),))
 
 
-def test_two_locks_that_write_by_turns_lose_nothing_and_bring_nothing_back(tmp_path: Path) -> None:
+def test_two_locks_writing_in_turn_lose_nothing_and_revive_nothing(tmp_path: Path) -> None:
     at(tmp_path).merge(Lock((ANNA,), 1))
     both = at(tmp_path).merge(Lock((BEN,), 2))
     assert both.ids == {"a1", "b1"}
@@ -45,7 +45,7 @@ def test_robots_of_one_domain_do_not_lock_each_other(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such permissions")
-def test_only_its_owner_reads_it(tmp_path: Path) -> None:
+def test_only_owner_may_read_the_file(tmp_path: Path) -> None:
     before = os.umask(0)
     try:
         at(tmp_path).merge(Lock((ANNA,), 1))
@@ -74,9 +74,7 @@ VALID = {"version": 1, "robots": {"/": {"turn": 1, "stops": [["a", "anna", "now"
         json.dumps(VALID).replace('"released": []', '"released": [["b1"]]').encode(),
     ],
 )
-def test_a_file_that_contains_something_else_is_not_guessed_at_and_replaced_only_when_asked_for(
-    content: bytes, tmp_path: Path
-) -> None:
+def test_file_with_other_content_is_replaced_only_on_request(content: bytes, tmp_path: Path) -> None:
     path = tmp_path / "state" / "stops.json"
     path.parent.mkdir()
     path.write_bytes(content)
@@ -88,22 +86,20 @@ def test_a_file_that_contains_something_else_is_not_guessed_at_and_replaced_only
     assert at(tmp_path).merge(Lock()).ids == {"b1"}
 
 
-def test_a_valid_file_is_read(tmp_path: Path) -> None:
+def test_valid_file_is_read(tmp_path: Path) -> None:
     path = tmp_path / "state" / "stops.json"
     path.parent.mkdir()
     path.write_text(json.dumps(VALID))
     assert at(tmp_path).merge(Lock()).ids == {"a1"}
 
 
-def test_a_place_that_cannot_be_written_is_an_error(tmp_path: Path) -> None:
+def test_unwritable_place_is_an_error(tmp_path: Path) -> None:
     (tmp_path / "state").write_text("a file where the folder should be")
     with pytest.raises(StopFileError, match="cannot be written"):
         at(tmp_path).merge(Lock())
 
 
-def test_a_disk_without_room_is_an_error_and_what_was_kept_stays(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_full_disk_is_an_error_and_keeps_the_old_content(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def full(handle: int) -> None:
         raise OSError(28, "No space left on device")
 
@@ -115,9 +111,7 @@ def test_a_disk_without_room_is_an_error_and_what_was_kept_stays(
     assert at(tmp_path).merge(Lock()).ids == {"a1"}
 
 
-def test_a_lock_that_keeps_the_file_to_itself_is_not_waited_for_without_end(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_wait_for_a_locked_file_ends_at_its_timeout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stop_file, "TURN_TIMEOUT_S", 0.0)
     monkeypatch.setattr(stop_file, "TURN_POLL_S", 0.0)
     with at(tmp_path)._taken(), pytest.raises(StopFileError, match="another process has locked it"):
@@ -135,7 +129,7 @@ for number in range(20):
 """
 
 
-def test_processes_that_write_at_the_same_time_lose_nothing(tmp_path: Path) -> None:
+def test_concurrent_writers_lose_nothing(tmp_path: Path) -> None:
     path = str(tmp_path / "stops.json")
     writers = [subprocess.Popen([sys.executable, "-c", WRITER, path, name]) for name in "ab"]
     assert [each.wait() for each in writers] == [0, 0]

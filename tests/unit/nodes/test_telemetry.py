@@ -1,4 +1,4 @@
-"""Telemetry: what is told is of the newest messages."""
+"""Telemetry is computed from the newest messages."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def scan(*ranges: float) -> LaserScan:
     return LaserScan(range_min=0.1, range_max=8.0, ranges=array("f", ranges))
 
 
-def test_the_nearest_obstacle_is_that_of_the_newest_scan_and_stays_without_one(
+def test_nearest_obstacle_is_that_of_the_newest_scan(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", "7902")

@@ -2,7 +2,7 @@ import pytest
 from bot_console_robot.trip import Trip
 
 
-def test_way_and_stops() -> None:
+def test_distance_and_stops_are_counted() -> None:
     trip = Trip()
     for i, speed in enumerate([0.0, 1.0, 1.0, 0.0, 0.0, -1.0, 0.0]):
         trip.update(i * 0.1, speed)
@@ -11,7 +11,7 @@ def test_way_and_stops() -> None:
     assert trip.speed == 0.0
 
 
-def test_a_long_silence_is_no_way() -> None:
+def test_long_silence_adds_no_distance() -> None:
     trip = Trip()
     trip.update(0.0, 1.0)
     trip.update(10.0, 1.0)

@@ -1,4 +1,4 @@
-"""Worlds by name, where there is none of that name."""
+"""Worlds by name, if there is none of that name."""
 
 import pytest
 from bot_console_robot.simulation.world import WorldError
@@ -6,6 +6,6 @@ from bot_console_robot.simulator.worlds import find_world
 
 
 @pytest.mark.parametrize("name", ["nowhere", "a" * 300], ids=["unknown", "too long for a file"])
-def test_the_worlds_that_there_are_are_named(name: str) -> None:
+def test_unknown_world_lists_the_available_ones(name: str) -> None:
     with pytest.raises(WorldError, match=r"no world .* there are: .*warehouse"):
         find_world(name)

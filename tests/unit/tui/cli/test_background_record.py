@@ -1,4 +1,4 @@
-"""A system in the background is written down where it is found again, whatever happens to temporary files."""
+"""The record of a background system is found again, whatever happens to temporary files."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a system without process sessions")
-def test_down_ends_a_system_whose_domain_folder_was_cleaned_away(
+def test_down_ends_system_whose_domain_folder_was_deleted(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(background, "take_part", lambda: "")
@@ -43,7 +43,7 @@ def test_down_ends_a_system_whose_domain_folder_was_cleaned_away(
     assert background.down([]) == 1
 
 
-def test_a_system_that_can_be_written_down_in_one_place_is_known(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_system_recorded_in_one_of_two_places_is_known(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Background, "runs", lambda self: True)
     folder.write_text("in the way")
     assert background._kept(Background(7, (), "the log")) == ""
@@ -53,7 +53,7 @@ def test_a_system_that_can_be_written_down_in_one_place_is_known(folder: Path, m
     assert background._known() is None
 
 
-def test_a_system_that_cannot_be_written_down_anywhere_is_not_kept(folder: Path) -> None:
+def test_failure_to_record_a_system_names_the_file(folder: Path) -> None:
     for each in (folder, folder.with_name("user")):
         each.write_text("in the way")
     assert str(folder) in background._kept(Background(7, (), "the log"))

@@ -1,4 +1,4 @@
-"""`up --serve`: the router that lets others in keeps a log of its own, which goes when the system's goes."""
+"""`up --serve`: the router for other machines has its own log, which is deleted with the system's."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from bot_console.tui.cli.system import system_log
 from bot_console.tui.cli.verbs import background
 
 
-def test_the_router_writes_into_no_log_that_takes_turns(
+def test_router_does_not_write_to_a_rotating_log(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     there = iter([[], ["/simulator"]])

@@ -1,4 +1,4 @@
-"""Commands are imported when they are named: each name leads to a function."""
+"""Commands are imported when they are used: each name leads to a function."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from bot_console.tui.cli import screen
 
 
 @pytest.mark.parametrize("place", sorted({*program._COMMANDS.values(), *program._ROS2.values()}))
-def test_what_a_command_names_is_there(place: str) -> None:
+def test_every_command_has_its_function(place: str) -> None:
     assert callable(program._imported(place))
 
 
@@ -21,9 +21,7 @@ def test_what_a_command_names_is_there(place: str) -> None:
         ("rqt_plot /a/b outdoor", False),
     ],
 )
-def test_a_program_of_rqt_brings_no_robot_unless_it_is_asked_for(
-    line: str, attached: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_rqt_program_starts_no_robot_unless_asked(line: str, attached: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     shown: list[str] = []
     monkeypatch.setattr(program, "others_take_part", lambda: False)
     monkeypatch.setattr(program, "_attach", lambda words: shown.append("attached") or 0)

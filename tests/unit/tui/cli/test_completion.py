@@ -1,4 +1,4 @@
-"""Completion of names that a running system has: asked over a real domain of another process."""
+"""Completion of names in a running system, queried over a real domain of another process."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def complete(*words: str) -> list[str]:
     return subprocess.run(line, capture_output=True, text=True, timeout=60, check=True).stdout.split()
 
 
-def test_nodes_topics_services_and_parameters_of_what_runs(socket_folder: str) -> None:
+def test_running_nodes_topics_services_and_parameters_are_completed(socket_folder: str) -> None:
     with two_processes(Path(socket_folder)) as (here, _):
         name = here.node.get_node_names()
         assert "here" in name and len(name) == 2
@@ -33,7 +33,7 @@ def test_nodes_topics_services_and_parameters_of_what_runs(socket_folder: str) -
         assert complete("topic", "pub", "/new", "std_msgs/msg/Strin") == ["std_msgs/msg/String"]
 
 
-def test_where_nothing_runs_there_is_nothing_to_offer_but_commands() -> None:
+def test_empty_domain_completes_only_commands() -> None:
     assert complete("node", "info", "") == []
     assert {"attach", "up", "down", "topic"} <= set(complete(""))
     assert complete("up", "in") == ["indoor"]

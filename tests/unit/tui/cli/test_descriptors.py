@@ -1,4 +1,4 @@
-"""What is written past Python to descriptors 1 and 2 comes as lines; the screen has duplicates."""
+"""What is written to descriptors 1 and 2, bypassing Python, becomes log lines; the screen has duplicates."""
 
 import os
 import subprocess
@@ -21,7 +21,7 @@ print(reported)
 """
 
 
-def test_lines_are_reported_and_only_the_screens_words_go_to_the_screen() -> None:
+def test_lines_are_reported_and_only_the_screen_writes_to_the_screen() -> None:
     done = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, timeout=60, check=True)
     assert done.stderr == "<screen><after>"
     out, reported = done.stdout.split("\n", 1)
@@ -31,7 +31,7 @@ def test_lines_are_reported_and_only_the_screens_words_go_to_the_screen() -> Non
     assert {label for label, _ in eval(reported)} == {"stderr"}
 
 
-def test_a_notice_of_the_runtime_does_not_go_to_the_screen() -> None:
+def test_notice_of_the_runtime_does_not_go_to_the_screen() -> None:
     imports = "from bot_console.runtime.process import MAIN\nfrom bot_console.runtime.process.notices import notify\n"
     program = imports + PROGRAM.replace('os.system("echo from a child")', 'notify(MAIN, "a message was dropped")')
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
@@ -39,13 +39,13 @@ def test_a_notice_of_the_runtime_does_not_go_to_the_screen() -> None:
     assert "[WARN] [main]: a message was dropped" in done.stdout
 
 
-def test_a_child_that_outlives_the_console_does_not_keep_it() -> None:
+def test_child_that_outlives_the_console_does_not_block_its_end() -> None:
     program = PROGRAM.replace('"echo from a child"', '"sleep 30 &"')
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, timeout=25, check=True)
     assert b"half a line" in done.stdout
 
 
-def test_the_descriptors_are_as_before_afterwards() -> None:
+def test_descriptors_are_restored() -> None:
     from bot_console.tui.cli.foreground.descriptors import captured_descriptors
 
     before = [os.fstat(number)[:3] for number in (1, 2)], sys.__stdout__, sys.__stderr__

@@ -1,4 +1,4 @@
-"""Commands that Ctrl-C or SIGTERM ends: no traceback, the exit code that a shell gives, and a word where it matters."""
+"""Commands ended by Ctrl-C or SIGTERM: no traceback, the shell's usual exit code, and a message if it matters."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def domain(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize(("end", "code"), [(terminated, 143), (interrupted, 130)])
 @pytest.mark.parametrize("verb", ["stop", "release"])
-def test_one_that_searches_for_a_robot_reports_that_none_has_answered(
+def test_interrupted_stop_reports_that_no_robot_answered(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], verb: str, end: Callable[[], None], code: int
 ) -> None:
     monkeypatch.setattr(reached_stop.ReachedStop, "follow", end)
@@ -42,7 +42,7 @@ def test_one_that_searches_for_a_robot_reports_that_none_has_answered(
 
 
 @pytest.mark.parametrize("step", ["get_topic_names_and_types", "create_subscription", "create_publisher"])
-def test_what_sigterm_ends_ends_as_such_wherever_it_was(monkeypatch: pytest.MonkeyPatch, step: str) -> None:
+def test_sigterm_raises_external_shutdown_wherever_it_arrives(monkeypatch: pytest.MonkeyPatch, step: str) -> None:
     def ended(node: Node, *words: object) -> None:
         terminated()
         raise RuntimeError("the context is invalid")
@@ -53,7 +53,7 @@ def test_what_sigterm_ends_ends_as_such_wherever_it_was(monkeypatch: pytest.Monk
 
 
 @pytest.mark.parametrize(("end", "code"), [(terminated, 143), (interrupted, 130)])
-def test_status_ends_without_a_word(
+def test_interrupted_status_prints_nothing(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], end: Callable[[], None], code: int
 ) -> None:
     monkeypatch.setattr(background, "take_part", lambda: "")

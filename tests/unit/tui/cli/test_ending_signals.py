@@ -1,4 +1,4 @@
-"""Signals end a console whatever the thread that takes them holds at that moment."""
+"""Signals end a console whatever the interrupted thread holds at that moment."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.tui.cli.foreground.ending_signals import ended_by_signals
 TIMEOUT_S = 20.0
 
 
-def test_a_signal_amid_what_ending_needs_does_not_hang_and_another_one_neither() -> None:
+def test_signals_do_not_deadlock_on_locks_that_ending_needs() -> None:
     lock, ended, both = threading.Lock(), list[int](), threading.Event()
 
     def end(number: int) -> None:
@@ -29,14 +29,14 @@ def test_a_signal_amid_what_ending_needs_does_not_hang_and_another_one_neither()
     assert ended == [signal.SIGTERM, signal.SIGHUP]
 
 
-def test_the_signals_are_given_back() -> None:
+def test_signal_handlers_are_restored() -> None:
     before = signal.getsignal(signal.SIGTERM)
     with ended_by_signals(lambda number: None):
         assert signal.getsignal(signal.SIGTERM) != before
     assert signal.getsignal(signal.SIGTERM) == before
 
 
-def test_one_that_comes_after_the_app_has_ended_does_no_harm() -> None:
+def test_signal_after_the_app_has_ended_is_ignored() -> None:
     def end(number: int) -> None:
         raise RuntimeError("Event loop is closed")
 

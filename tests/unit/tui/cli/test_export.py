@@ -1,4 +1,4 @@
-"""`bot-console export`: a package for colcon, and nothing lost in a folder that is there."""
+"""`bot-console export`: a package for colcon; nothing is lost in an existing folder."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def answering(monkeypatch: pytest.MonkeyPatch, answer: str) -> None:
     monkeypatch.setattr(builtins, "input", lambda _: answer)
 
 
-def test_over_a_folder_that_is_there_it_asks_and_deletes_nothing(
+def test_export_asks_before_writing_into_existing_folder_and_deletes_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run([str(tmp_path)]) == 0
@@ -52,7 +52,7 @@ def test_over_a_folder_that_is_there_it_asks_and_deletes_nothing(
     assert contents(place) == fresh | {"notes.txt": b"mine", "setup.py~": b"# mine\n"}
 
 
-def test_each_profile_is_there_once(tmp_path: Path) -> None:
+def test_each_profile_is_exported_once(tmp_path: Path) -> None:
     run([str(tmp_path)])
     names = sorted(each.stem for each in (tmp_path / NAME / "config").iterdir())
     assert names == [f"{each}_config" for each in ("competition", "indoor", "outdoor", "warehouse")]
@@ -60,7 +60,7 @@ def test_each_profile_is_there_once(tmp_path: Path) -> None:
     assert "| parameter | competition | indoor | outdoor | warehouse |" in readme and "config |" not in readme
 
 
-def test_a_word_that_is_no_navigator_is_refused_and_not_taken_for_ours(tmp_path: Path) -> None:
+def test_invalid_navigator_argument_is_refused(tmp_path: Path) -> None:
     run([str(tmp_path)])
     description = get_launch_description_from_python_launch_file(str(tmp_path / NAME / "launch/robot_system.launch.py"))
     context = LaunchContext()
@@ -75,9 +75,7 @@ def test_a_word_that_is_no_navigator_is_refused_and_not_taken_for_ours(tmp_path:
     ("launch_file", "words"),
     [("robot_system.launch.py", {"navigator": "my_node.py"}), ("program.launch.py", {"program": "my_node.py"})],
 )
-def test_where_ros_starts_it_a_file_of_the_users_need_not_be_executable(
-    tmp_path: Path, launch_file: str, words: dict[str, str]
-) -> None:
+def test_user_file_need_not_be_executable_on_real_ros(tmp_path: Path, launch_file: str, words: dict[str, str]) -> None:
     run([str(tmp_path)])
     file = tmp_path / NAME / "launch" / launch_file
     description = get_launch_description_from_python_launch_file(str(file))
@@ -100,9 +98,7 @@ def _performed(context: LaunchContext, text: Any) -> str:
     return perform_substitutions(context, normalize_to_list_of_substitutions(text))
 
 
-def test_where_nothing_can_be_written_it_reports_it_in_one_line(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_unwritable_place_is_reported_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "file").write_text("mine")
     for folder, why in ((str(tmp_path / "file"), "not a directory"), ("", "give a file name")):
         with pytest.raises(SystemExit):

@@ -1,4 +1,4 @@
-"""Where the threads of a console are is written when its screen hangs, and when a signal asks for it."""
+"""The stacks of a console's threads are written when its screen hangs, and on a signal."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def kept(tmp_path: Path) -> Iterator[tuple[HangWatch, Clock, list[str], Path]]:
         watch.rest()
 
 
-def test_a_signal_has_them_written_with_how_the_screen_is(tmp_path: Path) -> None:
+def test_signal_writes_stacks_and_state_of_the_screen(tmp_path: Path) -> None:
     before = signal.getsignal(signal.SIGUSR1)
     with hang_watch(tmp_path / "new", lambda: "one screen", print):
         os.kill(os.getpid(), signal.SIGUSR1)
@@ -42,7 +42,7 @@ def test_a_signal_has_them_written_with_how_the_screen_is(tmp_path: Path) -> Non
     assert signal.getsignal(signal.SIGUSR1) == before
 
 
-def test_who_does_nothing_for_long_is_found_in_the_file_once(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
+def test_hung_thread_is_written_once(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
     watch, clock, _, path = kept
     watch.heartbeat()
     clock.now += HANG_AFTER_S - 1
@@ -58,7 +58,7 @@ def test_who_does_nothing_for_long_is_found_in_the_file_once(kept: tuple[HangWat
     assert path.read_text().count("Current thread") == 2
 
 
-def test_a_signal_that_ends_the_process_has_them_written_where_no_thread_may_run(tmp_path: Path) -> None:
+def test_fatal_signal_writes_stacks_even_if_no_thread_can_run(tmp_path: Path) -> None:
     program = f"""
 from pathlib import Path
 import ctypes, os
@@ -75,7 +75,7 @@ with hang_watch(Path({str(tmp_path)!r}), str, print):
     assert process.returncode == -signal.SIGABRT and "Fatal Python error" in text and 'File "<string>"' in text
 
 
-def test_that_it_stood_is_reported_when_it_goes_on(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
+def test_end_of_a_hang_is_reported(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
     watch, clock, reported, path = kept
     watch.heartbeat()
     clock.now += HANG_AFTER_S - 1
@@ -88,7 +88,7 @@ def test_that_it_stood_is_reported_when_it_goes_on(kept: tuple[HangWatch, Clock,
     assert "hung for 15 s" in path.read_text()
 
 
-def test_a_rest_is_no_standstill(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
+def test_rest_is_not_a_hang(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
     watch, clock, reported, _ = kept
     watch.heartbeat()
     watch.rest()
@@ -97,14 +97,14 @@ def test_a_rest_is_no_standstill(kept: tuple[HangWatch, Clock, list[str], Path])
     assert reported == []
 
 
-def test_a_place_that_cannot_be_written_is_no_reason_to_have_no_console(tmp_path: Path) -> None:
+def test_unwritable_folder_does_not_keep_the_console_from_starting(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with hang_watch(tmp_path / "file", lambda: "", print) as watch:
         assert watch is None
 
 
 class App:
-    """An app that keeps the messages it is sent until it is told to deal with them."""
+    """An app that keeps its messages until it is asked to handle them."""
 
     def __init__(self) -> None:
         self.messages: list[Callable[[], object]] = []
@@ -126,7 +126,7 @@ class App:
 
 
 @pytest.mark.parametrize("held", [False, True])
-def test_an_app_that_stands_while_its_loop_runs_is_found_with_what_it_waits_for(
+def test_app_that_hangs_while_its_loop_runs_is_written_with_its_tasks(
     kept: tuple[HangWatch, Clock, list[str], Path], held: bool
 ) -> None:
     watch, _, reported, path = kept

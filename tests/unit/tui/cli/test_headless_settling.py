@@ -1,4 +1,4 @@
-"""What is waited for until it stands still: the first look that lasts, or the last one in time."""
+"""Waiting until a value is stable: the first value that lasts, or the last one in time."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from bot_console.tui.cli.system.reached_console import POLL_S, settled
 
 @pytest.fixture
 def passed(monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    """The seconds that were slept; time goes on by nothing else."""
+    """The seconds that were slept; time advances by nothing else."""
     slept: list[float] = []
     clock = SimpleNamespace(monotonic=lambda: sum(slept), sleep=slept.append)
     monkeypatch.setattr(reached_console, "time", clock)
     return slept
 
 
-def test_what_changes_is_waited_for_until_it_stands_still(passed):
+def test_changing_value_is_awaited_until_it_is_stable(passed):
     polls = iter([0, 1, 2, 3])
     assert settled(lambda: next(polls, 3), bool, 0.5, 10.0) == 3
     assert sum(passed) == pytest.approx(3 * POLL_S + 0.5)
 
 
-def test_what_never_comes_is_waited_for_for_the_whole_timeout(passed):
+def test_missing_value_is_awaited_for_the_whole_timeout(passed):
     assert settled(lambda: 0, bool, 0.5, 2.0) == 0
     assert sum(passed) == pytest.approx(2.0, abs=POLL_S)

@@ -1,4 +1,4 @@
-"""Who holds a robot, as `bot-console status` tells it."""
+"""Who holds a robot, as printed by `bot-console status`."""
 
 from collections.abc import Iterator
 
@@ -13,7 +13,7 @@ from rclpy.publisher import Publisher
 
 @pytest.fixture
 def word(monkeypatch: pytest.MonkeyPatch) -> Iterator[Publisher]:
-    """The word of a robot's emergency stop, of which nothing has been said yet."""
+    """The publisher of a robot's emergency stop, which has published nothing yet."""
     monkeypatch.setenv("ROS_DOMAIN_ID", "48")
     context = Context()
     context.init([], domain_id=48)
@@ -23,13 +23,13 @@ def word(monkeypatch: pytest.MonkeyPatch) -> Iterator[Publisher]:
     context.try_shutdown()
 
 
-def test_a_robot_that_reports_nothing_is_not_taken_for_one_that_nobody_holds(word: Publisher) -> None:
+def test_silent_lock_does_not_count_as_free(word: Publisher) -> None:
     assert stop.holders(to_hear=0.0) is None
     word.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="false")]))
     assert stop.holders() == []
 
 
-def test_it_is_reported_when_the_robot_does_not_answer(
+def test_status_reports_robot_that_does_not_answer(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(stop, "holders", lambda: None)
@@ -37,6 +37,6 @@ def test_it_is_reported_when_the_robot_does_not_answer(
     assert capsys.readouterr().out == "whether somebody holds it is not known: its emergency stop did not answer\n"
 
 
-def test_there_may_be_no_robot_that_can_be_held(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nobody_holds_a_robot_that_does_not_exist(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", "49")
     assert stop.holders(to_find=0.0) == []

@@ -1,4 +1,4 @@
-"""How the interpreter is set while a screen is made and shown."""
+"""Interpreter settings while a screen is made and shown."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from bot_console.tui.cli.interpreter import (
 )
 
 
-def test_no_garbage_is_searched_for_until_all_is_there_and_none_among_that() -> None:
+def test_garbage_is_not_collected_until_start_is_complete() -> None:
     class There:
         pass
 
@@ -30,7 +30,7 @@ def test_no_garbage_is_searched_for_until_all_is_there_and_none_among_that() -> 
         gc.unfreeze()
 
 
-def test_an_end_before_all_is_there_does_not_look_through_what_was_made() -> None:
+def test_early_end_does_not_traverse_what_was_made() -> None:
     class There:
         pass
 
@@ -43,13 +43,13 @@ def test_an_end_before_all_is_there_does_not_look_through_what_was_made() -> Non
         gc.unfreeze()
 
 
-def test_a_start_that_fails_leaves_the_collector_at_work() -> None:
+def test_failed_start_leaves_collector_enabled() -> None:
     with pytest.raises(ZeroDivisionError), without_collector():
         raise ZeroDivisionError
     assert gc.isenabled()
 
 
-def test_a_console_is_started_without_the_collector(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_console_starts_without_the_collector(monkeypatch: pytest.MonkeyPatch) -> None:
     seen: list[bool] = []
 
     def run(options: object) -> int:
@@ -60,7 +60,7 @@ def test_a_console_is_started_without_the_collector(monkeypatch: pytest.MonkeyPa
     assert main.main([]) == 0 and seen == [False] and gc.isenabled()
 
 
-def test_threads_are_switched_eagerly_only_while_there_is_a_screen() -> None:
+def test_threads_switch_eagerly_only_while_a_screen_is_shown() -> None:
     before = sys.getswitchinterval()
     with eager_switching():
         assert sys.getswitchinterval() == pytest.approx(SWITCH_INTERVAL)

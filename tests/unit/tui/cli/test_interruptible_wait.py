@@ -1,4 +1,4 @@
-"""A main thread that waits runs the handlers of signals, also of those that another thread was given."""
+"""A waiting main thread runs the handlers of signals, including those delivered to another thread."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ TIMEOUT_S = 20.0
 
 @pytest.fixture
 def elsewhere() -> Iterator[None]:
-    """The main thread is given no SIGUSR1, as one that was frozen when it came may not be."""
+    """Keeps SIGUSR1 from the main thread, as can happen to a process that was frozen when the signal came."""
     signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGUSR1])
     yield
     signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGUSR1])
 
 
 class Waited(threading.Event):
-    """An event during whose waiting another thread gets a signal."""
+    """An event during whose wait another thread receives a signal."""
 
     def wait(self, timeout: float | None = None) -> bool:
         if not hasattr(self, "_sending"):
@@ -37,11 +37,11 @@ class Waited(threading.Event):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGUSR1])
         while not self._cond._waiters:  # pyright: ignore -- whether the main thread waits already
             threading.Event().wait(0.001)
-        threading.Event().wait(0.001)  # which gives it the interpreter, for its last steps before it sleeps
+        threading.Event().wait(0.001)  # Gives it the interpreter for its last steps before it sleeps.
         os.kill(os.getpid(), signal.SIGUSR1)
 
 
-def test_a_signal_that_another_thread_got_ends_the_waiting(elsewhere: None) -> None:
+def test_signal_received_by_another_thread_ends_the_wait(elsewhere: None) -> None:
     over = Waited()
     before = signal.signal(signal.SIGUSR1, lambda number, frame: over.set())
     try:
@@ -50,6 +50,6 @@ def test_a_signal_that_another_thread_got_ends_the_waiting(elsewhere: None) -> N
         signal.signal(signal.SIGUSR1, before)
 
 
-def test_it_waits_no_longer_than_the_timeout() -> None:
+def test_wait_ends_at_its_timeout() -> None:
     assert not wait_interruptibly(threading.Event(), 0.0)
     assert not wait_interruptibly(threading.Event(), 0.01)

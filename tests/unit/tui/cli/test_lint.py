@@ -1,4 +1,4 @@
-"""Lint finds what parameters leave unsaid, in the line where it is mended, and nothing in what is well said."""
+"""Lint finds what parameter declarations lack, in the line to be changed, and nothing in complete ones."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def generate_launch_description():
 """
 
 
-def test_what_a_launch_file_gives_to_a_node_of_its_package_is_declared_there(package: Path) -> None:
+def test_launch_file_parameters_are_compared_with_declarations_of_its_package(package: Path) -> None:
     (package / "launch").mkdir()
     (package / "launch" / "all.launch.py").write_text(LAUNCH)
 
@@ -98,13 +98,13 @@ def test_what_a_launch_file_gives_to_a_node_of_its_package_is_declared_there(pac
     assert dead() == [(3, "spead"), (4, "pid.kp")]
 
 
-def test_a_callback_that_can_refuse_is_no_fault(tmp_path: Path) -> None:
+def test_callback_that_can_refuse_is_not_a_fault(tmp_path: Path) -> None:
     text = NODE.replace("successful=True", "successful=parameters[0].value > 0")
     (tmp_path / "robot.py").write_text(text)
     assert "accepts anything" not in {each.fault for each in lint_files([tmp_path / "robot.py"])}
 
 
-def test_words_json_and_exit_codes(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_text_json_and_exit_codes(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run([str(package / "robot.py")]) == 1
     message = capsys.readouterr()
     assert "robot.py:7: speed: float as int; write the default with a point" in message.out and "7 found" in message.err
@@ -125,7 +125,7 @@ def test_words_json_and_exit_codes(package: Path, capsys: pytest.CaptureFixture[
         ("robot:\n  ros__parameters:\n    list: [1, two]\n", 3, "Sequence should be of same type", "does not start"),
     ],
 )
-def test_a_file_that_ros_refuses_is_found_with_the_reason(
+def test_file_that_ros_rejects_is_found_with_the_reason(
     tmp_path: Path, text: str, line: int, subject: str, hint: str
 ) -> None:
     path = tmp_path / "params.yaml"
@@ -135,14 +135,16 @@ def test_a_file_that_ros_refuses_is_found_with_the_reason(
     assert subject in found.subject and hint in found.hint
 
 
-def test_a_file_of_something_else_is_no_parameter_file_unless_a_person_names_it(tmp_path: Path) -> None:
+def test_other_yaml_is_checked_only_if_named(tmp_path: Path) -> None:
     path = tmp_path / "map.yaml"
     path.write_text("image: map.pgm\n")
     assert lint_files([path]) == []
     assert [each.fault for each in lint_files([path], path)] == ["refused"]
 
 
-def test_one_file_is_held_to_what_its_package_declares(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_single_file_is_compared_with_declarations_of_its_package(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     (package / "package.xml").write_text("<package><name>mine</name></package>")
     assert run([str(package / "params.yaml")]) == 1
     text = capsys.readouterr().out
@@ -150,16 +152,16 @@ def test_one_file_is_held_to_what_its_package_declares(package: Path, capsys: py
 
 
 @pytest.mark.parametrize("unit", ["(m)", "[m]", "(at most 3, m)"])
-def test_a_unit_stands_in_either_brackets(tmp_path: Path, unit: str) -> None:
+def test_unit_may_be_in_either_kind_of_brackets(tmp_path: Path, unit: str) -> None:
     path = tmp_path / "node.py"
     path.write_text(NODE.replace("How far it sees", f"How far it sees {unit}"))
     assert [each.subject for each in lint_files([path]) if each.fault == "no unit"] == []
     assert unit_in_description(f"How far it sees {unit}") == "m"
 
 
-def test_a_ratio_needs_no_unit_in_source_nor_in_what_runs(tmp_path: Path) -> None:
+def test_ratio_needs_no_unit_in_source_or_running_nodes(tmp_path: Path) -> None:
     path = tmp_path / "node.py"
-    path.write_text(NODE.replace("How far it sees", "Share of beams that get lost"))
+    path.write_text(NODE.replace("How far it sees", "Share of beams without a return"))
     assert [each.subject for each in lint_files([path]) if each.fault == "no unit"] == []
     running = ParameterInfo("/lidar", "beams", Kind.DOUBLE, 0.1, description="Ratio of lost beams")
     assert "no unit" not in faults(running)

@@ -1,4 +1,4 @@
-"""`--launch` takes a path, or a package and one of its launch files, and refuses with the words of `launch`."""
+"""`--launch` takes a path, or a package and one of its launch files; errors are worded as `launch` does."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ PACKAGE = "<package format='3'><name>mine</name><version>0.0.0</version></packag
 
 @pytest.fixture
 def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    """A workspace with a package that has a launch file; its share folder."""
+    """A workspace with a package that has a launch file; returns its share folder."""
     before = workspace()
     folder = tmp_path / "ws" / "src" / "mine"
     (folder / "launch").mkdir(parents=True)
@@ -32,21 +32,21 @@ def found(*words: str) -> tuple[str, str]:
     return options.launch, problem
 
 
-def test_a_package_and_a_launch_file_mean_its_path_with_arguments_behind(package: Path, tmp_path: Path) -> None:
+def test_package_and_launch_file_resolve_to_a_path_and_arguments(package: Path, tmp_path: Path) -> None:
     words = ["--workspace", str(tmp_path / "ws"), "--launch", "mine", "x.launch.py", "a:=1"]
     path, problem = found(*words)
     assert problem == "" and Path(path).samefile(package / "launch" / "x.launch.py") and Path(path).is_absolute()
     assert parse(words).launch_arguments == {"a": "1"}
 
 
-def test_a_path_stays_a_path(package: Path) -> None:
+def test_path_is_kept(package: Path) -> None:
     path = str(package / "launch" / "x.launch.py")
     assert found("--launch", path, "a:=1") == (path, "")
     assert found("indoor") == ("", "")
 
 
 @pytest.mark.parametrize("words", [["nopkg", "x.launch.py"], ["mine", "y.launch.py"], ["mine"], ["./no", "x"]])
-def test_what_is_not_there_is_reported_as_by_launch(
+def test_missing_launch_file_is_reported_as_by_launch(
     package: Path, tmp_path: Path, words: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     problem = found("--workspace", str(tmp_path / "ws"), "--launch", *words)[1]
@@ -54,6 +54,6 @@ def test_what_is_not_there_is_reported_as_by_launch(
     assert problem and capsys.readouterr().err.strip() == problem
 
 
-def test_a_path_that_is_not_there_is_no_package() -> None:
+def test_missing_path_is_not_taken_for_a_package() -> None:
     for path in ("nowhere.launch.py", "./nowhere"):
         assert found("--launch", path)[1] == f"there is no launch file {path}"

@@ -1,4 +1,4 @@
-"""How late timers are in a headless run, as its report tells it."""
+"""The lateness of timers in the report of a headless run."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ PERIOD = round(PROBE_PERIOD_S * 1e9)
 
 
 def observed(late):
-    """An observer whose timer was called each time by so many nanoseconds late."""
+    """An observer whose timer was called late by these numbers of nanoseconds."""
     observer = Observer(1.0)
     moments = iter((number + 1) * PERIOD + each for number, each in enumerate(late))
     observer._steady = SimpleNamespace(now=lambda: SimpleNamespace(nanoseconds=next(moments)))
@@ -19,14 +19,14 @@ def observed(late):
     return observer
 
 
-def test_the_lateness_of_a_timer_is_reported():
+def test_lateness_of_a_timer_is_reported():
     observer = observed([0] * 98 + [1_234_567, 5_000_000])
     for _ in range(100):
         observer._probe()
     assert observer.report()["timer_lateness_ms"] == {"median": 0.0, "p99": 5.0, "max": 5.0}
 
 
-def test_a_long_run_takes_no_more_memory_than_a_short_one():
+def test_long_run_uses_no_more_memory_than_a_short_one():
     observer = observed([0] * 20_000)
     observer._probe()
     tracemalloc.start()

@@ -1,4 +1,4 @@
-"""A hint is printed once in each terminal session, and every time where no person reads."""
+"""A hint is printed once per terminal session, and every time if stderr is not a terminal."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from bot_console.tui.cli.foreground.once_per_shell import FOLDER, report_once
 
 @pytest.fixture(autouse=True)
 def marks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The folder of the marks, in a terminal that a person reads."""
+    """The folder of the markers, in a terminal."""
     base = tmp_path / "sockets"
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", str(base))
     monkeypatch.setattr(exit_messages, "is_read", lambda: True)
@@ -27,11 +27,11 @@ def message(capsys: pytest.CaptureFixture[str], text: str) -> str:
     return capsys.readouterr().err
 
 
-def test_the_same_text_is_printed_once(capsys: pytest.CaptureFixture[str]) -> None:
+def test_same_text_is_printed_once(capsys: pytest.CaptureFixture[str]) -> None:
     assert [message(capsys, each) for each in ("one", "one", "two", "one")] == ["one\n", "", "two\n", ""]
 
 
-def test_another_session_is_reported_again_though_it_has_the_same_id(
+def test_new_session_with_a_reused_id_gets_the_hint(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert message(capsys, "one")
@@ -39,7 +39,7 @@ def test_another_session_is_reported_again_though_it_has_the_same_id(
     assert message(capsys, "one") == "one\n"
 
 
-def test_where_nobody_reads_it_is_printed_each_time_and_leaves_nothing(
+def test_without_terminal_hint_is_printed_each_time_and_leaves_no_marker(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, marks: Path
 ) -> None:
     monkeypatch.setattr(exit_messages, "is_read", lambda: False)
@@ -47,7 +47,7 @@ def test_where_nobody_reads_it_is_printed_each_time_and_leaves_nothing(
     assert not marks.exists()
 
 
-def test_marks_of_ended_shells_are_removed(capsys: pytest.CaptureFixture[str], marks: Path) -> None:
+def test_markers_of_ended_shells_are_removed(capsys: pytest.CaptureFixture[str], marks: Path) -> None:
     message(capsys, "one")
     ended = subprocess.Popen([sys.executable, "-c", ""])
     ended.wait()
@@ -56,7 +56,7 @@ def test_marks_of_ended_shells_are_removed(capsys: pytest.CaptureFixture[str], m
     assert {each.name.partition(".")[0] for each in marks.iterdir()} == {str(os.getsid(0))}
 
 
-def test_where_nothing_can_be_remembered_it_is_printed(capsys: pytest.CaptureFixture[str], marks: Path) -> None:
+def test_hint_is_printed_if_no_marker_can_be_saved(capsys: pytest.CaptureFixture[str], marks: Path) -> None:
     marks.parent.mkdir(mode=0o755)
-    marks.parent.chmod(0o755)  # open to others: refused
+    marks.parent.chmod(0o755)  # Accessible to others: refused.
     assert [message(capsys, "one") for _ in range(2)] == ["one\n"] * 2

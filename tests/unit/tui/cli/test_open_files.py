@@ -1,4 +1,4 @@
-"""A limit of open files that is too low for a console is raised, or told."""
+"""A limit of open files that is too low for a console is raised, or reported."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ print(resource.getrlimit(resource.RLIMIT_NOFILE)[0])
         (64, 200, "bot-console needs 256 open files, and at most 200 are allowed here: see `ulimit -Hn`", "64"),
     ],
 )
-def test_a_low_limit(soft: int, hard: int, message: str, now: str) -> None:
+def test_low_limit_is_raised_or_reported(soft: int, hard: int, message: str, now: str) -> None:
     program = PROGRAM.format(soft=soft, hard=hard)
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
     assert done.stdout.split("\n")[:2] == [message, now]

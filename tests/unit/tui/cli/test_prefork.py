@@ -1,4 +1,4 @@
-"""The fork server of a launch is started before the launch file is read, where the launch will want it."""
+"""The fork server of a launch is started before the launch file is read, if the launch needs it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,9 @@ from bot_console.tui.cli.system import own_processes
         (["{file}", "isolation:=thread"], False),
     ],
 )
-def test_it_starts_at_once(words: list[str], starts: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_fork_server_starts_early_only_if_launch_needs_it(
+    words: list[str], starts: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     file = tmp_path / "a.launch.py"
     file.write_text("")
     started: list[bool] = []

@@ -1,4 +1,4 @@
-"""`bot-console reset`: what is put back, in which order, and what is said of what cannot be."""
+"""`bot-console reset`: what is reset, in which order, and which failures are reported."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ TRIGGER = ("std_srvs/srv/Trigger",)
 
 
 class Robot(FakeConsole):
-    """The sample system, which knows how it has begun."""
+    """The sample system, which knows its start values."""
 
     def start_values(self) -> dict[tuple[str, str], Any]:
         return {(NAVIGATOR, "max_speed"): 2.0, (NAVIGATOR, "turn_rate"): 1.0, (SIMULATOR, "seed"): 9}
@@ -42,7 +42,7 @@ def robot(monkeypatch: pytest.MonkeyPatch) -> Robot:
     return made
 
 
-def test_the_robot_is_locked_first_then_parameters_then_the_simulator(robot: Robot, capsys: Any) -> None:
+def test_reset_locks_robot_first_then_sets_parameters_then_simulator(robot: Robot, capsys: Any) -> None:
     assert reset._reset(robot, dry=False) == 0
     assert robot.asked == [
         ("all_stop", True),
@@ -54,7 +54,7 @@ def test_the_robot_is_locked_first_then_parameters_then_the_simulator(robot: Rob
     assert "/robot_navigator max_speed: 1.0 -> 2.0" in message and "bot-console release releases it" in message
 
 
-def test_a_refusal_leaves_all_parameters_and_is_an_exit_code(robot: Robot, capsys: Any) -> None:
+def test_refusal_leaves_all_parameters_and_sets_exit_code(robot: Robot, capsys: Any) -> None:
     robot.refusals[NAVIGATOR, "max_speed"] = "not while driving"
     assert reset._reset(robot, dry=False) == 1
     message = capsys.readouterr().err
@@ -62,12 +62,12 @@ def test_a_refusal_leaves_all_parameters_and_is_an_exit_code(robot: Robot, capsy
     assert robot.current.drive.stopped
 
 
-def test_a_dry_run_changes_nothing(robot: Robot, capsys: Any) -> None:
+def test_dry_run_changes_nothing(robot: Robot, capsys: Any) -> None:
     assert reset._reset(robot, dry=True) == 0
     assert robot.asked == [] and "max_speed: 1.0 -> 2.0" in capsys.readouterr().out
 
 
-def test_nodes_that_have_not_reported_how_they_began_are_named() -> None:
+def test_nodes_with_unknown_start_values_are_named() -> None:
     snapshot = live()[0].current
     moved, untold = reset.differing(snapshot, {(NAVIGATOR, "max_speed"): 1.0})
     assert (moved, untold) == ({}, [SIMULATOR])

@@ -1,4 +1,4 @@
-"""Of programs that start at the same moment only one brings a robot."""
+"""If several programs start at the same moment, only one starts a robot."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def at_once(monkeypatch):
     monkeypatch.setattr(robot_claim, "POLL", 0.0)
 
 
-def test_the_second_waits_until_the_robot_of_the_first_is_seen(tmp_path):
+def test_second_program_waits_for_the_robot_of_the_first(tmp_path):
     first, second = RobotClaim(tmp_path), RobotClaim(tmp_path)
     assert first.held and not second.held
     polls, reported = iter([[], [], ["/simulator"]]), []
@@ -31,7 +31,7 @@ def test_the_second_waits_until_the_robot_of_the_first_is_seen(tmp_path):
     first.release(), first.release(), second.release()
 
 
-def test_what_the_first_gives_up_the_second_has(tmp_path):
+def test_released_claim_can_be_taken(tmp_path):
     first, second = RobotClaim(tmp_path), RobotClaim(tmp_path)
     polls = []
 
@@ -45,14 +45,14 @@ def test_what_the_first_gives_up_the_second_has(tmp_path):
     assert not RobotClaim(tmp_path).held
 
 
-def test_a_claim_without_a_robot_is_not_waited_for_without_end(tmp_path, monkeypatch):
+def test_wait_for_claimed_robot_ends_at_its_timeout(tmp_path, monkeypatch):
     monkeypatch.setattr(robot_claim, "ROBOT_START_TIMEOUT_S", 0.0)
     first, second = RobotClaim(tmp_path), RobotClaim(tmp_path)
     assert second.seen(lambda: [], list) == [] and not second.held
     first.release()
 
 
-def test_a_claim_that_is_given_up_leaves_no_file(tmp_path):
+def test_released_claim_leaves_no_file(tmp_path):
     first, second = RobotClaim(tmp_path), RobotClaim(tmp_path)
     second.release()
     assert (tmp_path / NAME).exists(), "it is not theirs"
@@ -61,7 +61,7 @@ def test_a_claim_that_is_given_up_leaves_no_file(tmp_path):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="an open file cannot be removed there")
-def test_a_file_that_its_holder_removes_while_it_is_being_locked_is_no_claim(tmp_path, monkeypatch):
+def test_file_removed_while_it_is_being_locked_is_not_a_claim(tmp_path, monkeypatch):
     first, got = RobotClaim(tmp_path), []
 
     def lock(handle):
@@ -76,7 +76,7 @@ def test_a_file_that_its_holder_removes_while_it_is_being_locked_is_no_claim(tmp
     second.release()
 
 
-def test_a_folder_that_takes_no_lock_keeps_nobody_from_starting(tmp_path):
+def test_folder_without_lock_support_does_not_prevent_a_start(tmp_path):
     (tmp_path / NAME).mkdir()
     claim = RobotClaim(tmp_path)
     assert claim.held and claim.descriptors == () and claim.seen(lambda: [], list) == []
@@ -84,7 +84,7 @@ def test_a_folder_that_takes_no_lock_keeps_nobody_from_starting(tmp_path):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="descriptors are inherited on POSIX only")
-def test_a_process_that_has_inherited_the_claim_holds_it_until_it_ends(tmp_path):
+def test_process_that_inherited_the_claim_holds_it_until_it_ends(tmp_path):
     claim = RobotClaim(tmp_path)
     line = [sys.executable, "-c", "input()"]
     with subprocess.Popen(line, stdin=subprocess.PIPE, pass_fds=claim.descriptors) as system:
@@ -96,7 +96,7 @@ def test_a_process_that_has_inherited_the_claim_holds_it_until_it_ends(tmp_path)
 
 @pytest.fixture
 def up(monkeypatch, tmp_path):
-    """What `up` starts: nothing real, by the options of the process."""
+    """What `up` starts: nothing real; returns the options of the process."""
     calls = []
 
     def start(words, **options):
@@ -118,7 +118,7 @@ def test_up_hands_its_claim_to_the_system(up):
     assert len(up[0]["pass_fds"]) == 1
 
 
-def test_up_beside_a_console_that_starts_a_robot_starts_none(up, tmp_path, monkeypatch, capsys):
+def test_up_starts_no_robot_beside_a_console_that_is_starting_one(up, tmp_path, monkeypatch, capsys):
     first, polls = RobotClaim(tmp_path), iter([[], ["/simulator"]])
     monkeypatch.setattr(background, "robot_there", lambda: next(polls))
     assert background.up([]) == 1 and not up
@@ -132,7 +132,7 @@ def test_up_beside_a_console_that_starts_a_robot_starts_none(up, tmp_path, monke
 
 
 @pytest.mark.parametrize("program", ["up", "--headless"])
-def test_nodes_that_only_have_our_names_are_not_called_a_robot(program, up, tmp_path, monkeypatch, capsys):
+def test_nodes_with_our_names_alone_are_not_a_robot(program, up, tmp_path, monkeypatch, capsys):
     apart = []
     for name, value in {
         "take_part": lambda: "", "robot_claim": lambda: RobotClaim(tmp_path), "robot_there": list,
@@ -146,7 +146,7 @@ def test_nodes_that_only_have_our_names_are_not_called_a_robot(program, up, tmp_
     assert bool(apart) == (program == "--headless") and RobotClaim(tmp_path).held
 
 
-def test_a_headless_robot_beside_a_console_that_starts_one_runs_apart(tmp_path, monkeypatch, capsys):
+def test_headless_runs_in_isolation_beside_a_console_that_is_starting_a_robot(tmp_path, monkeypatch, capsys):
     first, polls, apart = RobotClaim(tmp_path), iter([[], ["/simulator"]]), []
     for name, value in {
         "take_part": lambda: "", "robot_claim": lambda: RobotClaim(tmp_path), "robot_there": lambda: next(polls),
@@ -158,7 +158,7 @@ def test_a_headless_robot_beside_a_console_that_starts_one_runs_apart(tmp_path, 
     first.release()
 
 
-def test_a_console_that_starts_beside_another_shows_the_robot_of_that_one(tmp_path, monkeypatch, capsys):
+def test_console_started_beside_another_shows_its_robot(tmp_path, monkeypatch, capsys):
     first, shown = RobotClaim(tmp_path), []
     polls = iter([[], ["/simulator"]])
 

@@ -1,4 +1,4 @@
-"""What counts as a robot that is there already: whoever gives scans or obeys velocities, and no console."""
+"""What counts as a running robot: nodes that publish scans or obey velocities, but not consoles."""
 
 import os
 import re
@@ -19,7 +19,7 @@ from sensor_msgs.msg import LaserScan
 
 @pytest.fixture
 def made(monkeypatch):
-    """Makes nodes of a domain in which another process seems to be."""
+    """Makes nodes in a domain in which there seems to be another process."""
     monkeypatch.setenv("ROS_DOMAIN_ID", "47")
     monkeypatch.setattr(domain, "others_take_part", lambda: True)
     context = Context()
@@ -36,26 +36,26 @@ def made(monkeypatch):
     context.try_shutdown()
 
 
-def test_a_console_that_watches_the_velocities_is_none(made):
+def test_console_that_watches_velocities_is_not_a_robot(made):
     made("_bot_console_drive").create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
     made("talker")
     assert domain.robot_there() == []
 
 
-def test_who_gives_scans_and_who_obeys_velocities_are(made):
+def test_scan_publisher_and_velocity_subscriber_are_a_robot(made):
     made("lidar").create_publisher(LaserScan, "/scan", 10)
     made("base").create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
     assert domain.robot_there() == ["/base", "/lidar"]
 
 
-def test_nodes_named_as_ours_are_named_however_they_talk(made):
+def test_nodes_with_our_names_are_found_whatever_their_topics(made):
     made("robot_navigator"), made("sensor_handler"), made("chatter"), made("_safety_monitor")
     assert domain.nodes_there() == ["/chatter", "/robot_navigator", "/sensor_handler"]
     assert domain.same_names_there({}) == ["/robot_navigator", "/sensor_handler"]
     assert domain.same_names_there({"navigator": "mine.py"}) == ["/sensor_handler"]
 
 
-def test_those_names_are_the_ones_of_our_launch_file():
+def test_names_are_those_of_our_launch_file():
     from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH, SYSTEM_NODES
 
     names = re.findall(r'(?:robot_node\("\w+", |name=)"(\w+)"', Path(SYSTEM_LAUNCH).read_text())
@@ -64,7 +64,7 @@ def test_those_names_are_the_ones_of_our_launch_file():
 
 
 @pytest.mark.parametrize(("typed", "attached"), [("", True), ("n", False)])
-def test_the_question_before_a_second_node_of_one_name(monkeypatch, capsys, typed, attached):
+def test_console_asks_before_it_adds_a_second_node_of_one_name(monkeypatch, capsys, typed, attached):
     from bot_console.tui.cli import screen
 
     asked = []
@@ -79,7 +79,7 @@ def test_the_question_before_a_second_node_of_one_name(monkeypatch, capsys, type
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="states of processes are read from /proc")
-def test_a_process_that_is_stopped_is_reported_by_status(monkeypatch, capsys):
+def test_status_reports_a_stopped_process(monkeypatch, capsys):
     with subprocess.Popen([sys.executable, "-c", "import time; time.sleep(600)"]) as child:
         there = [sockets.Socket("/a", os.getpid(), "0" * 8), sockets.Socket("/b", child.pid, "1" * 8)]
         monkeypatch.setattr(sockets, "sockets", lambda folder: there)

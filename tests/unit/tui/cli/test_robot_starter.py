@@ -1,4 +1,4 @@
-"""When a launch is up, so that a robot which its nodes lack may be started: nodes of other programs do not count."""
+"""When a launch counts as up, so that a missing robot may be started: nodes of other programs do not count."""
 
 import pytest
 import rclpy
@@ -7,7 +7,7 @@ from geometry_msgs.msg import Twist
 from rclpy.context import Context
 
 POLLS = int(SETTLED_S / GRAPH_POLL_S) + 2
-"""Looks at a graph that rests until its nodes count as up."""
+"""Polls of an unchanged graph until its nodes count as up."""
 
 
 @pytest.fixture
@@ -35,13 +35,13 @@ def polled(beside, node):
 
 @pytest.fixture
 def beside():
-    """Makes one for a launch of so many processes, with so many nodes of others before it."""
+    """Makes a starter for a launch of so many processes, with so many nodes of other programs before it."""
     return lambda processes, others: RobotStarter(
         System(lambda: (processes, 0), lambda text: None, lambda arguments: None, others), {}
     )
 
 
-def test_a_node_of_another_program_does_not_stand_for_a_process_that_has_made_none_yet(make, beside):
+def test_node_of_another_program_does_not_stand_in_for_a_starting_process(make, beside):
     make("driver").create_publisher(Twist, "/cmd_vel", 10)
     looker = make("_looker")
     launched = beside(1, 1)
@@ -50,11 +50,11 @@ def test_a_node_of_another_program_does_not_stand_for_a_process_that_has_made_no
     assert polled(launched, looker)
 
 
-def test_before_the_first_process_runs_nothing_is_decided(make, beside):
+def test_nothing_is_decided_before_the_first_process_runs(make, beside):
     make("driver").create_publisher(Twist, "/cmd_vel", 10)
     assert not polled(beside(0, 1), make("_looker"))
 
 
-def test_its_own_nodes_get_a_robot(make, beside):
+def test_own_nodes_get_a_robot(make, beside):
     make("driver").create_publisher(Twist, "/cmd_vel", 10)
     assert polled(beside(1, 0), make("_looker"))

@@ -1,4 +1,4 @@
-"""Lines that are typed after the colon."""
+"""Lines typed after the colon."""
 
 from __future__ import annotations
 
@@ -21,22 +21,22 @@ TIMEOUT_S = 30.0
 
 
 @pytest.mark.parametrize("line", ["ros2 interface show std_msgs/msg/String", "interface show std_msgs/msg/String"])
-def test_a_line_gives_what_it_printed(line):
+def test_line_returns_its_output(line):
     assert "string data" in Ros2CommandLine().run(line).result(TIMEOUT_S)
 
 
-def test_a_refusal_is_printed_too():
+def test_refusal_is_printed():
     assert "invalid choice" in Ros2CommandLine().run("ros2 nosuch").result(TIMEOUT_S)
 
 
-def test_colcon_has_nothing_to_do_and_names_the_packages_that_are_not_there():
+def test_colcon_names_packages_that_do_not_exist():
     line = "colcon build --symlink-install --packages-select bot_console_robot typo --event-handlers log-"
     unknown, answer = Ros2CommandLine().run(line).result(TIMEOUT_S).splitlines()
     assert unknown == "ignoring unknown package 'typo' in --packages-select"
     assert answer.startswith("Nothing has to be built")
 
 
-def test_colcon_names_the_packages_that_could_not_be_built(tmp_path, monkeypatch):
+def test_colcon_names_packages_that_cannot_be_used(tmp_path, monkeypatch):
     for name, setup in (("good", "from setuptools import setup\n\nsetup()\n"), ("bad", "setup(\n")):
         (tmp_path / name).mkdir()
         (tmp_path / name / "package.xml").write_text(f"<package><name>{name}</name></package>")
@@ -47,13 +47,13 @@ def test_colcon_names_the_packages_that_could_not_be_built(tmp_path, monkeypatch
     assert answers(["build", "--packages-select", "good"])[0].startswith("Nothing has to be built")
 
 
-def test_a_quotation_mark_without_its_twin_is_reported():
+def test_unmatched_quotation_mark_is_reported():
     with pytest.raises(ValueError, match="quotation"):
         Ros2CommandLine().run("ros2 topic pub 'x").result(TIMEOUT_S)
 
 
 class Launches(ReadOnlyLauncher):
-    """Keeps what it is to launch."""
+    """Keeps what it is asked to launch."""
 
     def __init__(self, answer: Answer) -> None:
         self.launched: list[tuple[str, dict[str, str]]] = []
@@ -72,7 +72,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_what_is_run_or_launched_goes_to_the_launcher(folder: Path) -> None:
+def test_run_and_launch_lines_go_to_the_launcher(folder: Path) -> None:
     launches = Launches(Answer(True, ""))
     lines = Ros2CommandLine(launches)
     assert "is listed in the Launch pane" in lines.run("ros2 run node.py --ros-args -p 'a:=b c'").result(TIMEOUT_S)
@@ -96,7 +96,7 @@ def test_what_is_run_or_launched_goes_to_the_launcher(folder: Path) -> None:
         ("launch x.launch.py wrong", "malformed launch argument"),
     ],
 )
-def test_what_cannot_be_started_is_reported(folder: Path, line: str, problem: str) -> None:
+def test_line_that_cannot_start_is_reported(folder: Path, line: str, problem: str) -> None:
     launches = Launches(Answer(True, ""))
     with pytest.raises(ValueError, match=problem):
         Ros2CommandLine(launches).run(line).result(TIMEOUT_S)
@@ -104,7 +104,7 @@ def test_what_cannot_be_started_is_reported(folder: Path, line: str, problem: st
 
 
 @pytest.mark.parametrize("line", ["launch x.launch.py --show-args", "run", "run --help", "topic list", "launch"])
-def test_lines_that_start_nothing_are_run_as_ever(folder: Path, line: str) -> None:
+def test_lines_that_start_nothing_are_run_as_usual(folder: Path, line: str) -> None:
     assert launched_by(line.split()) is None
 
 
@@ -115,7 +115,7 @@ def until(condition: Any) -> None:
         threading.Event().wait(0.01)
 
 
-def test_a_line_that_goes_on_is_read_while_it_runs_and_ends_when_requested(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_continuous_line_can_be_read_and_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
     import rclpy
     from std_msgs.msg import String
 
@@ -139,5 +139,5 @@ def test_a_line_that_goes_on_is_read_while_it_runs_and_ends_when_requested(monke
 @pytest.mark.parametrize(
     "line", ["ros2 topic list", "topic echo", "topic echo --once /a", "topic hz --help", "topic echo 'a"]
 )
-def test_other_lines_are_no_streams(line: str) -> None:
+def test_other_lines_are_not_streams(line: str) -> None:
     assert Ros2CommandLine().stream(line) is None

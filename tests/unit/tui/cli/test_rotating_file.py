@@ -1,4 +1,4 @@
-"""Files that take turns: how large they get, and what else writes to them."""
+"""Rotating files: their size, and other writers."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def write(handler: logging.Handler, text: str) -> None:
     handler.handle(logging.LogRecord("n", logging.INFO, "", 0, text, None, None))
 
 
-def test_what_a_program_writes_past_its_log_goes_where_the_log_is(tmp_path: Path) -> None:
+def test_output_that_bypasses_the_log_follows_the_rotation(tmp_path: Path) -> None:
     path = tmp_path / "a.log"
     past_it = os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT)
     elsewhere = os.open(tmp_path / "other", os.O_WRONLY | os.O_APPEND | os.O_CREAT)
@@ -40,7 +40,7 @@ def launch_folder(tmp_path: Path) -> Iterator[Path]:
     launch_config.reset()
 
 
-def test_the_files_that_launch_keeps_of_a_process_are_bounded(launch_folder: Path) -> None:
+def test_files_that_launch_keeps_per_process_are_bounded(launch_folder: Path) -> None:
     rotate_launch_files()
     handler = launch_config.get_log_file_handler("flood-1-stdout.log")
     assert not list(launch_folder.iterdir())

@@ -1,4 +1,4 @@
-"""`bot-console setup`: after it a shell has the commands of a ROS installation."""
+"""`bot-console setup`: gives a shell the commands of a ROS installation."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def home(tmp_path: Path) -> Path:
 
 
 def shell(name: str, home: Path, text: str, extra: Mapping[str, str] | None = None) -> str:
-    """What a shell prints that has evaluated the setup, and nothing else."""
+    """The output of a shell that has evaluated the setup."""
     path = os.pathsep.join([str(home / "bin"), os.defpath])
     env = {"PATH": path, "HOME": str(home), "XDG_CONFIG_HOME": str(home / "config"), **(extra or {})}
     line = setup.evaluation(name)
@@ -54,7 +54,7 @@ def test_scripts_and_other_programs_find_ros2(name: str, home: Path):
 
 
 @pytest.mark.parametrize("name", SHELLS)
-def test_the_commands_of_the_page_are_there_and_the_distribution_is_reported(name: str, home: Path):
+def test_course_commands_and_distribution_are_available(name: str, home: Path):
     names = ["rqt", "rqt_console", "rqt_graph", "rqt_plot", "rqt_reconfigure", "rqt_robot_steering", "ros2", "colcon"]
     found = shell(name, home, "\n".join(f"command -v {each}" for each in names) + "\necho $ROS_DISTRO")
     assert [os.path.basename(line) for line in found.split()] == [*names, "jazzy"]
@@ -66,7 +66,7 @@ def test_colcon_reports_that_nothing_has_to_be_built(name: str, home: Path):
 
 
 @pytest.mark.parametrize("name", SHELLS)
-def test_a_ros2_that_is_there_stays(name: str, home: Path):
+def test_existing_ros2_is_kept(name: str, home: Path):
     real = home / "bin" / "ros2"
     real.write_text("#!/bin/sh\necho real\n", "utf-8")
     real.chmod(0o755)
@@ -75,7 +75,7 @@ def test_a_ros2_that_is_there_stays(name: str, home: Path):
 
 
 @pytest.mark.parametrize("name", SHELLS)
-def test_a_second_time_adds_nothing(name: str, home: Path):
+def test_second_evaluation_adds_nothing(name: str, home: Path):
     once = shell(name, home, "printenv PATH")
     assert shell(name, home, f"{setup.evaluation(name)}\nprintenv PATH") == once
 
@@ -106,13 +106,13 @@ def test_fish_completes(home: Path):
 
 
 @pytest.mark.skipif("fish" not in SHELLS, reason="fish is not installed")
-def test_fish_completes_files_where_there_are_no_names(home: Path):
+def test_fish_completes_files_if_there_are_no_names(home: Path):
     (home / "values.yaml").touch()
     line = f"ros2 run demo talker --ros-args --params-file {home}/val"
     assert shell("fish", home, f"complete -C '{line}'").split() == [f"{home}/values.yaml"]
 
 
-def test_no_shell_or_an_unknown_one_prints_what_to_type(capsys: pytest.CaptureFixture[str]):
+def test_setup_without_valid_shell_prints_what_to_type(capsys: pytest.CaptureFixture[str]):
     for words in (["setup"], ["setup", "tcsh"]):
         assert main(words) == 2
         assert setup.evaluation("bash") in capsys.readouterr().err

@@ -1,4 +1,4 @@
-"""A console that takes long to end says why, and one that does not says nothing."""
+"""A console that takes long to end says why; one that ends quickly says nothing."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.tui.cli.slow_exit import WAITING_TEXT, report_slow_exit
 
 
 class Terminal(io.StringIO):
-    """What is printed, and when the line is there."""
+    """Keeps what is printed, and signals when the line is there."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -31,13 +31,13 @@ def terminal(monkeypatch: pytest.MonkeyPatch) -> Terminal:
     return screen
 
 
-def test_a_slow_end_reports_what_it_waits_for(terminal: Terminal) -> None:
+def test_slow_end_reports_what_it_waits_for(terminal: Terminal) -> None:
     with report_slow_exit(0.0):
         assert terminal.has_line.wait(20.0)
     assert terminal.getvalue() == WAITING_TEXT + "\n"
 
 
-def test_an_end_at_once_reports_nothing(terminal: Terminal) -> None:
+def test_quick_end_prints_nothing(terminal: Terminal) -> None:
     with report_slow_exit(600.0):
         (timer,) = (each for each in threading.enumerate() if isinstance(each, threading.Timer))
     timer.join(20.0)

@@ -1,4 +1,4 @@
-"""`install/setup.bash` after `colcon build`: as the line that tutorials have next, and never over somebody else's."""
+"""`install/setup.bash` after `colcon build`, as tutorials source it; never written over another file."""
 
 from __future__ import annotations
 
@@ -34,9 +34,7 @@ def sourced(folder: Path, *, before: str = "") -> str:
     ).stdout
 
 
-def test_what_is_written_gives_a_shell_ros2_and_the_workspace_once(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_setup_file_adds_ros2_and_workspace_to_shell_once(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["build"]) == 0
     assert "install/setup.bash makes ros2 a command" in capsys.readouterr().out
     names, command = sourced(folder).splitlines()
@@ -45,7 +43,7 @@ def test_what_is_written_gives_a_shell_ros2_and_the_workspace_once(
     assert (folder / "install" / "COLCON_IGNORE").exists()
 
 
-def test_packages_of_a_sourced_workspace_are_found_everywhere_behind_those_that_are_here(
+def test_packages_of_sourced_workspace_are_found_after_local_ones(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(folder.parent / "empty")
@@ -55,7 +53,7 @@ def test_packages_of_a_sourced_workspace_are_found_everywhere_behind_those_that_
     assert discover.workspace().packages["mine"].folder == folder / "src" / "mine"
 
 
-def test_nothing_is_written_over_what_another_colcon_wrote_nor_where_no_packages_are(folder: Path) -> None:
+def test_files_of_another_colcon_are_kept_and_nothing_is_written_without_packages(folder: Path) -> None:
     (folder / "install").mkdir()
     other = folder / "install" / "setup.bash"
     other.write_text("# generated from colcon_bash/shell/template/prefix_chain.bash.em\n")
@@ -65,7 +63,7 @@ def test_nothing_is_written_over_what_another_colcon_wrote_nor_where_no_packages
     assert not (folder.parent / "empty" / "install").exists()
 
 
-def test_a_build_that_failed_or_another_verb_writes_nothing(folder: Path) -> None:
+def test_failed_build_or_another_verb_writes_nothing(folder: Path) -> None:
     assert run(["list"]) == 0
     (folder / "src" / "mine" / "setup.py").write_text("setup(\n")
     discover.use(discover.Workspace([folder]))

@@ -1,4 +1,4 @@
-"""`bot-console up` twice at one moment, and ended amid its start: one system at most, and none that nobody can end."""
+"""Two simultaneous `bot-console up`, and one ended during its start: at most one system, which can always be ended."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ if os.name == "nt":
 TIMEOUT_S = 20.0
 
 
-def test_the_second_start_waits_for_the_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_second_start_waits_for_the_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     waits, lock, seen = threading.Event(), tmp_path / "lock", list[str]()
     monkeypatch.setattr(module.time, "sleep", lambda seconds: waits.set())
-    monkeypatch.setattr(module, "SIGNALS", [])  # which only a main thread may hold back
+    monkeypatch.setattr(module, "SIGNALS", [])  # Only a main thread may hold these back.
 
     def second() -> None:
         with start_lock(lock, TIMEOUT_S) as got:
@@ -39,14 +39,14 @@ def test_the_second_start_waits_for_the_first(tmp_path: Path, monkeypatch: pytes
     assert seen == ["first True", "second True"]
 
 
-def test_one_that_never_ends_is_waited_for_no_longer_than_the_timeout(tmp_path: Path) -> None:
+def test_wait_for_another_start_ends_at_its_timeout(tmp_path: Path) -> None:
     with start_lock(tmp_path / "lock", 0.0), start_lock(tmp_path / "lock", 0.0) as got:
         assert not got
 
 
 @pytest.fixture
 def started(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[object]:
-    """What `up` starts: nothing real, by the number of this process."""
+    """What `up` starts: nothing real; recorded by the number of this process."""
     calls: list[object] = []
 
     def start(words: object, **_: object) -> SimpleNamespace:
@@ -63,7 +63,7 @@ def started(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[object]:
     return calls
 
 
-def test_one_that_began_during_the_search_is_not_doubled(
+def test_system_that_started_during_the_search_is_not_doubled(
     started: list[object], monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def begins_meanwhile() -> list[str]:
@@ -76,11 +76,11 @@ def test_one_that_began_during_the_search_is_not_doubled(
     assert "process 7 (outdoor)" in capsys.readouterr().err and not started
 
 
-def test_a_signal_amid_the_start_waits_until_the_system_is_written_down(
+def test_signal_during_start_waits_until_system_is_recorded(
     started: list[object], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     save = background.save_file
-    monkeypatch.setattr(module, "SIGNALS", [signal.SIGUSR1])  # as Ctrl-C may be ignored where tests run
+    monkeypatch.setattr(module, "SIGNALS", [signal.SIGUSR1])  # Not SIGINT, which may be ignored where tests run.
     before = signal.signal(signal.SIGUSR1, signal.default_int_handler)
 
     def interrupted(path: Path, text: str) -> None:
@@ -94,7 +94,7 @@ def test_a_signal_amid_the_start_waits_until_the_system_is_written_down(
     assert signal.signal(signal.SIGUSR1, before) is signal.default_int_handler
 
 
-def test_an_interrupt_while_it_starts_reports_how_to_end_it(
+def test_interrupt_during_start_reports_how_to_end_it(
     started: list[object], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def polls() -> list[str]:
@@ -109,7 +109,7 @@ def test_an_interrupt_while_it_starts_reports_how_to_end_it(
 
 
 @pytest.mark.parametrize(("words", "what"), [([], "no robot was found"), (["--launch", __file__], "nothing that it")])
-def test_one_that_does_not_come_up_in_time_is_not_called_running(
+def test_system_that_does_not_come_up_in_time_is_not_reported_as_running(
     started: list[object],
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
@@ -124,7 +124,7 @@ def test_one_that_does_not_come_up_in_time_is_not_called_running(
     assert message.err.startswith(what) and f"process {os.getpid()}" in message.err and not message.out
 
 
-def test_one_that_nobody_could_reach_is_not_started(
+def test_unreachable_system_is_not_started(
     started: list[object], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")

@@ -1,4 +1,4 @@
-"""The log of a system in the background: lines, files that take turns, and systems of which only the newest stay."""
+"""The log of a background system: lines in rotating files; only the logs of the newest systems are kept."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.tui.cli.system import system_log
 from bot_console.tui.cli.system.system_log import MAX_OLD_FILES, MAX_SYSTEMS, SystemLog, new_log
 
 
-def test_lines_of_loggers_and_prints_in_files_that_take_turns(tmp_path: Path) -> None:
+def test_log_lines_and_prints_go_to_rotating_files(tmp_path: Path) -> None:
     path = tmp_path / "a.log"
     log = SystemLog(path, max_bytes=200)
     log.logged(1_700_000_000_123_456_789, 30, "talker", "100 % \udcff", ("", "", 0))
@@ -30,7 +30,7 @@ def test_lines_of_loggers_and_prints_in_files_that_take_turns(tmp_path: Path) ->
     assert "line 99" in path.read_text(encoding="utf-8")
 
 
-def test_logs_of_old_systems_go_with_all_their_parts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_logs_of_old_systems_are_deleted_with_all_parts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(system_log, "state_folder", lambda: tmp_path)
     folder = new_log(1).parent
     for number in range(MAX_SYSTEMS + 2):
@@ -42,9 +42,7 @@ def test_logs_of_old_systems_go_with_all_their_parts(tmp_path: Path, monkeypatch
     assert kept == {f"{number}.log{part}" for number in range(3, MAX_SYSTEMS + 2) for part in ("", ".1")}
 
 
-def test_one_that_cannot_be_written_reports_it_once_and_never_by_itself(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_unwritable_log_is_reported_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     log, reported = SystemLog(tmp_path / "a.log"), list[str]()
     (tmp_path / "a.log").mkdir()
 

@@ -1,4 +1,4 @@
-"""Bytes on a command line that are not UTF-8 are refused on one line, unless they name a file."""
+"""Arguments with bytes that are not UTF-8 are refused in one line, unless they name a file."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ LINES = [
 
 
 @pytest.mark.parametrize("line", LINES)
-def test_names_and_values_that_are_not_utf_8_are_refused_on_one_line(
+def test_names_and_values_that_are_not_utf_8_are_refused_in_one_line(
     line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -46,14 +46,14 @@ def test_names_and_values_that_are_not_utf_8_are_refused_on_one_line(
         "run ./BAD --output-dir nBAD", "launch ä.launch.py name:=ä",
     ],
 )  # fmt: skip
-def test_paths_may_be_of_any_bytes(line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_paths_may_contain_any_bytes(line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path(os.fsdecode(b"\xff")).touch()
     assert undecodable(line.replace("BAD", BAD).split()) == ""
 
 
 @pytest.mark.parametrize("verb", ["stop", "release", "status", "down"])
-def test_what_stops_a_robot_is_never_refused_for_its_bytes(verb: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_stop_is_never_refused_for_its_bytes(verb: str, monkeypatch: pytest.MonkeyPatch) -> None:
     ran: list[list[str]] = []
     monkeypatch.setattr(program, "_imported", lambda place: lambda words: ran.append(words) or 0)
     assert program.main([verb, BAD]) == 0 and ran == [[BAD]]

@@ -1,4 +1,4 @@
-"""A home that cannot be written, a folder that was deleted, an empty name: told in one line each, where at all."""
+"""An unwritable home, a deleted folder, an empty name: each is reported in one line, if at all."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MOVED = "the folder you are in was deleted; go to another one (cd) and try again
 
 @pytest.fixture
 def no_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A place where no folder can be made, for whatever user."""
+    """A place where no user can create a folder."""
     (tmp_path / "file").touch()
     monkeypatch.setenv(OVERRIDE, str(tmp_path / "file" / "user"))
     return tmp_path / "file" / "user"
@@ -34,14 +34,14 @@ def deleted_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "gone").rmdir()
 
 
-def test_a_console_needs_no_home(no_home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_console_needs_no_home(no_home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     logs: list[Path] = []
     monkeypatch.setattr(screen, "start_host", lambda words, log: logs.append(log))
     screen._host(parse([]))
     assert logs == [Path(os.devnull)]
 
 
-def test_a_background_system_reports_where_its_log_would_go(
+def test_background_system_reports_where_its_log_would_go(
     no_home: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(background, "take_part", lambda: "")
@@ -57,7 +57,7 @@ def test_a_background_system_reports_where_its_log_would_go(
      ["node", "list"], ["--headless"], ["--headless", "--fast"], ["graph"], ["reset"], ["lint", "running"]],
     ids=" ".join,
 )  # fmt: skip
-def test_a_domain_that_is_no_number_is_reported_in_one_line(
+def test_invalid_domain_id_is_reported_in_one_line(
     words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", "x")
@@ -75,7 +75,7 @@ LONG = "a" * 300
      ["pkg", "create", LONG], ["launch_test", LONG]],
     ids=lambda words: " ".join(words[:-1]),
 )  # fmt: skip
-def test_a_name_too_long_for_a_file_is_reported_in_one_line(
+def test_too_long_file_name_is_reported_in_one_line(
     words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -84,25 +84,25 @@ def test_a_name_too_long_for_a_file_is_reported_in_one_line(
     assert "'" + "a" * 30 in line.replace("./", "") and len(line) < 200
 
 
-def test_a_launch_file_with_too_long_a_name_is_no_file() -> None:
+def test_too_long_launch_path_is_taken_for_a_package() -> None:
     assert parse(["--launch", LONG, "robot.launch.py"]).launch == LONG
 
 
 @pytest.mark.parametrize("words", [["--headless"], [], ["--launch", "x.launch.py"]])
-def test_a_run_in_a_deleted_folder_is_refused_in_one_line(
+def test_run_in_a_deleted_folder_is_refused_in_one_line(
     words: list[str], deleted_folder: None, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run_and_report(lambda: main(words)) == 1
     assert capsys.readouterr().err.endswith(MOVED)
 
 
-def test_an_export_from_a_deleted_folder_reports_it(deleted_folder: None, capsys: pytest.CaptureFixture[str]) -> None:
+def test_export_from_a_deleted_folder_is_reported(deleted_folder: None, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         main(["export", "x"])
     assert capsys.readouterr().err == f"not exported: {MOVED}"
 
 
-def test_an_empty_name_is_no_launch_file(capsys: pytest.CaptureFixture[str]) -> None:
+def test_empty_name_is_not_a_launch_file(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         parse(["--launch", ""])
     assert "--launch: give the name of a launch file" in capsys.readouterr().err
@@ -117,7 +117,7 @@ def test_an_empty_name_is_no_launch_file(capsys: pytest.CaptureFixture[str]) -> 
         (["--launch", "package", "x.launch.py", "--profile", "outdoor"], "give either a profile or --launch"),
     ],
 )
-def test_words_behind_launch_are_reported_as_unknown(
+def test_extra_words_after_launch_are_reported(
     capsys: pytest.CaptureFixture[str], words: list[str], reported: str
 ) -> None:
     with pytest.raises(SystemExit):
@@ -125,20 +125,20 @@ def test_words_behind_launch_are_reported_as_unknown(
     assert reported in capsys.readouterr().err
 
 
-def test_an_empty_name_is_no_profile(capsys: pytest.CaptureFixture[str]) -> None:
+def test_empty_name_is_not_a_profile(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         parse(["--profile", ""])
     assert "there is no profile and no command ''; profiles: " in capsys.readouterr().err
 
 
-def test_an_empty_name_is_no_script_of_a_check(capsys: pytest.CaptureFixture[str]) -> None:
+def test_empty_name_is_not_a_check_script(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         main(["check", ""])
     assert "name a script" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("words", [[], ["attach"], ["--profile", "indoor"]])
-def test_a_system_without_terminals_of_this_kind_is_reported_where_the_console_runs(
+def test_unsupported_system_is_reported_with_alternatives(
     words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setitem(sys.modules, "termios", None)
@@ -150,7 +150,7 @@ def test_a_system_without_terminals_of_this_kind_is_reported_where_the_console_r
 
 
 @pytest.mark.parametrize("words", [["info", ""], ["play", ""], ["open", ""], ["record", "-o", "", "-a"]])
-def test_an_empty_name_is_no_bag(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+def test_empty_name_is_not_a_bag(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         main(["bag", *words])
     assert ended.value.code == 2 and "the name of the bag is empty" in capsys.readouterr().err
@@ -166,9 +166,7 @@ def test_an_empty_name_is_no_bag(words: list[str], capsys: pytest.CaptureFixture
     ],
     ids=repr,
 )
-def test_a_limit_of_this_process_is_reported_in_one_line(
-    error: Exception, word: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_process_limit_is_reported_in_one_line(error: Exception, word: str, capsys: pytest.CaptureFixture[str]) -> None:
     def run() -> int:
         raise error
 
@@ -177,7 +175,7 @@ def test_a_limit_of_this_process_is_reported_in_one_line(
     assert word in line
 
 
-def test_other_errors_are_raised_as_they_are() -> None:
+def test_other_errors_are_raised_unchanged() -> None:
     def run() -> int:
         raise RuntimeError("a mistake")
 

@@ -1,4 +1,4 @@
-"""Commands of `ros2` that are answered in a way of our own."""
+"""Commands of `ros2` that are answered differently here."""
 
 from __future__ import annotations
 
@@ -11,24 +11,24 @@ from bot_console.tui.cli.main import main
 
 
 @pytest.mark.parametrize("verb", ["status", "stop"])
-def test_there_is_no_daemon_to_stop(capsys: pytest.CaptureFixture[str], verb: str) -> None:
+def test_daemon_stop_reports_that_there_is_none(capsys: pytest.CaptureFixture[str], verb: str) -> None:
     assert main(["ros2", "daemon", verb]) == 0
     assert capsys.readouterr().out == "The daemon is not running\n"
 
 
-def test_nor_one_to_start(capsys: pytest.CaptureFixture[str]) -> None:
+def test_daemon_start_reports_that_there_is_none(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["ros2", "daemon", "start"]) == 0
     assert "no daemon is started" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("words", [("doctor",), ("wtf",), ("doctor", "--report"), ("doctor", "-iw")])
-def test_doctor_looks_at_this_machine(capsys: pytest.CaptureFixture[str], words: tuple[str, ...]) -> None:
+def test_doctor_checks_this_machine(capsys: pytest.CaptureFixture[str], words: tuple[str, ...]) -> None:
     main(["ros2", *words])
     assert "python" in capsys.readouterr().out
 
 
-def test_a_command_before_the_executable() -> None:
-    """What `--prefix` names gets the executable and its arguments, in a process of its own."""
+def test_prefix_runs_before_the_executable() -> None:
+    """What `--prefix` names gets the executable and its arguments, in its own process."""
     words = ["--prefix", "echo 'with this'", "demo_nodes_py", "talker", "--ros-args", "-r", "__node:=t"]
     code = "import sys; from bot_console.tui.cli.main import main; sys.exit(main(sys.argv[1:]))"
     ended = subprocess.run(
@@ -39,12 +39,12 @@ def test_a_command_before_the_executable() -> None:
     assert ended.stdout.endswith(" demo_nodes_py talker --ros-args -r __node:=t\n")
 
 
-def test_nothing_stands_before_a_program_of_the_console(capsys: pytest.CaptureFixture[str]) -> None:
+def test_prefix_is_refused_for_a_program_of_the_console(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         main(["run", "--watch", "--prefix=echo", "demo_nodes_py", "talker"])
     assert "leave out --watch and --headless" in capsys.readouterr().err
 
 
-def test_they_are_completed() -> None:
+def test_upstream_commands_are_completed() -> None:
     assert {"bag", "daemon", "doctor"} <= set(candidates(["ros2", ""]))
     assert candidates(["ros2", "daemon", "st"]) == ["start", "status", "stop"]

@@ -17,7 +17,7 @@ print(json.dumps([code, sorted(each for each in set(sys.modules) - before if not
 """
 
 
-def test_the_version_is_reported_without_importing_anything_for_it() -> None:
+def test_version_is_printed_without_heavy_imports() -> None:
     reported = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, check=True).stdout
     line, modules = reported.splitlines()
     assert line == f"bot-console {version('bot-console')}"

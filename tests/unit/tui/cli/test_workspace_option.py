@@ -1,4 +1,4 @@
-"""`--workspace DIR` before and behind the name of a command."""
+"""`--workspace DIR` before and after the name of a command."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def used(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         ("launch x.launch.py --workspace", [""], ["launch", "x.launch.py"]),
     ],
 )
-def test_the_option_is_taken_where_it_is_meant(
+def test_option_is_taken_only_before_or_after_the_command_name(
     used: list[str], typed: str, folders: list[str], left: list[str]
 ) -> None:
     commands = ("launch", "run", "pkg", "up")
@@ -45,7 +45,7 @@ def test_the_option_is_taken_where_it_is_meant(
     assert used == folders
 
 
-def test_a_folder_that_does_not_exist_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_missing_folder_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     nowhere = str(tmp_path / "nowhere")
     with pytest.raises(NoWorkspaceError, match="there is no folder"):
         without_workspace(["--workspace", nowhere, "pkg", "list"], "pkg".__eq__)

@@ -1,4 +1,4 @@
-"""Whose package is run, where two have one name."""
+"""Whose package is run if two have the same name."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from bot_console.runtime.workspace.builtin_package import NAME
 from bot_console.tui.cli.system import workspaces
 
 
-def test_a_package_of_our_name_is_reported(monkeypatch, capsys, tmp_path):
+def test_workspace_package_with_our_name_is_reported(monkeypatch, capsys, tmp_path):
     own = SimpleNamespace(folder=tmp_path)
     monkeypatch.setattr(workspaces, "workspace", lambda: SimpleNamespace(packages={NAME: own}))
     monkeypatch.setattr(workspaces, "is_own", lambda found: False)
@@ -18,7 +18,7 @@ def test_a_package_of_our_name_is_reported(monkeypatch, capsys, tmp_path):
 
 
 @pytest.mark.parametrize("named", ["", "my_node.py", "my_package"])
-def test_for_another_name_no_folder_is_searched(named, monkeypatch):
+def test_no_folder_is_searched_for_another_name(named, monkeypatch):
     class Unsearched:
         @property
         def packages(self):
@@ -28,7 +28,7 @@ def test_for_another_name_no_folder_is_searched(named, monkeypatch):
     workspaces.report_workspace(named)
 
 
-def test_launch_files_of_ones_own_packages_stand_before_those_that_come_along(monkeypatch):
+def test_launch_files_of_own_packages_come_before_bundled_ones(monkeypatch):
     packages = {"demo": "tutorials", "mine": "mine", NAME: "ours"}
     monkeypatch.setattr(workspaces, "workspace", lambda: SimpleNamespace(packages=packages))
     monkeypatch.setattr(workspaces, "is_own", "ours".__eq__)

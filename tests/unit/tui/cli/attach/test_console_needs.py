@@ -1,4 +1,4 @@
-"""A machine whose ROS 2 is `rclpy` and little more: what is lent, and what is said to be missing."""
+"""A machine whose ROS 2 is little more than `rclpy`: which packages are provided, and which are reported as missing."""
 
 import sys
 from pathlib import Path
@@ -13,7 +13,7 @@ from bot_console.tui.cli.attach.console_needs import (
 )
 
 
-def test_plain_python_packages_are_lent_behind_the_machines_own_and_nothing_else_is(
+def test_bundled_packages_are_importable_only_if_machine_lacks_them(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(sys, "meta_path", [*sys.meta_path])
@@ -28,9 +28,7 @@ def test_plain_python_packages_are_lent_behind_the_machines_own_and_nothing_else
     assert [finder.find_spec(each, None) for each in ("rclpy", "std_msgs", "launch.actions")] == [None] * 3
 
 
-def test_message_packages_that_are_not_there_are_named_with_what_installs_them(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_missing_message_packages_are_named_with_install_hint(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_DISTRO", "jazzy")
     for each in MESSAGES:
         (tmp_path / each).mkdir()

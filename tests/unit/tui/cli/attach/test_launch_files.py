@@ -1,4 +1,4 @@
-"""The launch files of a robot's packages, in all spellings of ROS 2, without holding up who asks."""
+"""The launch files of a robot's packages, in all spellings of ROS 2, found without blocking the caller."""
 
 import threading
 from pathlib import Path
@@ -9,7 +9,7 @@ from bot_console.tui.cli.attach.launch_files import LaunchFiles, launch_files
 TIMEOUT_S = 10.0
 
 
-def test_all_spellings_are_found_and_nothing_else(tmp_path: Path, monkeypatch) -> None:
+def test_all_spellings_of_launch_files_are_found(tmp_path: Path, monkeypatch) -> None:
     share = tmp_path / "share"
     for name in ("launch/a.launch.py", "launch/bringup_launch.py", "b.launch.xml", "launch/deep/c.launch.yaml"):
         (share / "nav" / name).parent.mkdir(parents=True, exist_ok=True)
@@ -24,16 +24,16 @@ def test_all_spellings_are_found_and_nothing_else(tmp_path: Path, monkeypatch) -
     assert found == ["b.launch.xml", "a.launch.py", "bringup_launch.py", "c.launch.yaml"]
 
 
-def test_without_a_prefix_there_are_none(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_launch_files_without_a_prefix(monkeypatch: pytest.MonkeyPatch) -> None:
     def index() -> dict[str, str]:
-        raise OSError("Environment variable 'AMENT_PREFIX_PATH' is not set or empty")  # as that of ROS 2 does
+        raise OSError("Environment variable 'AMENT_PREFIX_PATH' is not set or empty")  # As ROS 2's does.
 
     monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
     monkeypatch.setattr("ament_index_python.packages.get_packages_with_prefixes", index)
     assert launch_files() == ()
 
 
-def test_who_asks_waits_for_the_first_look_alone() -> None:
+def test_only_first_caller_waits_for_the_search() -> None:
     go_on, polls = threading.Semaphore(1), []
 
     def poll() -> tuple[str, ...]:
@@ -42,7 +42,7 @@ def test_who_asks_waits_for_the_first_look_alone() -> None:
         return tuple(polls)
 
     files = LaunchFiles(poll)
-    assert files.now() == ("0",)  # and a second look begins, which has to wait
+    assert files.now() == ("0",)  # This starts a second search, which has to wait.
     assert files.now() == ("0",) == files.now()
     go_on.release()
     while files.now() == ("0",):

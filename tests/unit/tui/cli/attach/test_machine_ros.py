@@ -1,4 +1,4 @@
-"""A real ROS 2 is an `rclpy` that is none of ours; which system is meant is decided, asked, or refused."""
+"""A real ROS 2 is an `rclpy` that is not ours; which system to attach to is decided, asked, or refused."""
 
 import importlib.machinery
 import sys
@@ -27,11 +27,11 @@ def make_rclpy(folder: Path, extension: str = "") -> Path:
     return package
 
 
-def test_the_variable_alone_is_no_ros() -> None:
+def test_ros_distro_variable_alone_is_not_a_ros() -> None:
     assert find_machine_ros([]) is None
 
 
-def test_an_rclpy_on_the_path_is_found_whether_it_has_an_extension_for_this_python_or_none(tmp_path: Path) -> None:
+def test_rclpy_on_path_is_found_with_or_without_a_matching_extension(tmp_path: Path) -> None:
     one = make_rclpy(tmp_path / "a", importlib.machinery.EXTENSION_SUFFIXES[0])
     assert find_machine_ros([str(one.parent)]) == MachineRos(one)
     two = make_rclpy(tmp_path / "b")
@@ -45,7 +45,7 @@ def test_an_rclpy_on_the_path_is_found_whether_it_has_an_extension_for_this_pyth
         ("37m", "3.7", ("needs 3.10 or newer", "attach --connect")),
     ],
 )
-def test_one_for_another_python_reports_which_and_what_to_do(
+def test_rclpy_for_another_python_is_reported_with_a_hint(
     tmp_path: Path, tag: str, python: str, parts: Sequence[str]
 ) -> None:
     package = make_rclpy(tmp_path, f".cpython-{tag}-x86_64-linux-gnu.so")
@@ -56,15 +56,13 @@ def test_one_for_another_python_reports_which_and_what_to_do(
     assert all(part in text for part in (f"runs on {HERE}", *parts))
 
 
-def test_what_is_sourced_counts_though_this_python_does_not_see_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_sourced_ros_counts_though_this_python_does_not_see_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     package = make_rclpy(tmp_path / "lib/python3.7/site-packages")
     monkeypatch.setenv("AMENT_PREFIX_PATH", f"/nowhere:{tmp_path}")
     assert find_machine_ros([]) == MachineRos(package, "3.7")
 
 
-def test_neither_ours_nor_what_stands_in_for_it_in_processes_that_we_start_counts(tmp_path: Path) -> None:
+def test_our_rclpy_and_its_shims_do_not_count(tmp_path: Path) -> None:
     assert find_machine_ros([str(RUNTIME)]) is None
     (tmp_path / "rclpy.py").write_text("stands in")
     assert find_machine_ros([str(tmp_path)]) is None
@@ -88,19 +86,19 @@ THERE, OTHER = MachineRos(Path("/opt/rclpy")), MachineRos(Path("/opt/rclpy"), "3
         (False, True, True, THERE, False, 0),
     ],
 )
-def test_which_system_is_meant(ros, embedded, system_there, found, ros_chosen, code) -> None:
+def test_system_to_attach_to_is_chosen(ros, embedded, system_there, found, ros_chosen, code) -> None:
     kind = choose(ros=ros, embedded=embedded, system_there=system_there, find=lambda: found, interactive=lambda: False)
     assert (kind.ros is THERE, kind.code) == (ros_chosen, code)
     assert bool(kind.text) == bool(code)
 
 
-def test_without_a_terminal_both_are_listed_and_the_options_named() -> None:
+def test_without_terminal_both_systems_are_listed_with_their_options() -> None:
     kind = choose(ros=False, embedded=False, system_there=True, find=lambda: THERE, interactive=lambda: False)
     assert all(part in kind.text for part in ("/opt/rclpy", "a system of bot-console", "--ros", "--embedded"))
 
 
 @pytest.mark.parametrize(("answer", "ros_chosen", "code"), [("1", True, 0), ("2", False, 0), ("", False, 1)])
-def test_a_person_is_asked(answer: str, ros_chosen: bool, code: int) -> None:
+def test_person_is_asked_which_system(answer: str, ros_chosen: bool, code: int) -> None:
     asked: list[str] = []
 
     def ask(question: str) -> str:
@@ -112,5 +110,5 @@ def test_a_person_is_asked(answer: str, ros_chosen: bool, code: int) -> None:
     assert len(asked) == 1
 
 
-def test_no_ros_at_all_reports_what_to_source() -> None:
+def test_without_any_ros_message_says_what_to_source() -> None:
     assert choose(ros=True, embedded=False, system_there=False, find=lambda: None).text == NO_ROS

@@ -1,4 +1,4 @@
-"""`--read-only` holds whatever the console is attached to."""
+"""`--read-only` holds for every system that the console is attached to."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from bot_console.tui.console.connection.ros_console import RosConsole
 
 
 @pytest.mark.parametrize("words", [[], ["--pane", "logs"]])
-def test_the_option_reaches_the_session(words: list[str]) -> None:
+def test_read_only_option_reaches_the_session(words: list[str]) -> None:
     assert parse(["--read-only", *words]).appearance.read_only and not parse(words).appearance.read_only
 
 
 @pytest.mark.parametrize("read_only", [False, True])
-def test_the_panes_of_an_attached_session_are_given_what_refuses(read_only: bool) -> None:
+def test_panes_of_attached_session_get_read_only_wrappers(read_only: bool) -> None:
     console = RosConsole()
     app = AttachedSession(console, NoCommandLine(), Options(attach=True, read_only=read_only)).app
     assert isinstance(app.console_of_robot, ReadOnlyConsole) is read_only

@@ -1,4 +1,4 @@
-"""Steps on a system: what holds passes at once or in time, what does not says what is there instead."""
+"""Steps on a system: a true expectation passes at once or in time, a failed one reports what is true instead."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ NAVIGATOR = "/robot_navigator"
 
 
 class System:
-    """The sample system, on a clock that goes when somebody sleeps."""
+    """The sample system, on a clock that advances only when somebody sleeps."""
 
     def __init__(self) -> None:
         self.console: FakeConsole = live()[0]
@@ -57,7 +57,7 @@ def system() -> System:
         "stop",
     ],
 )
-def test_what_is_so_passes(system: System, line: str) -> None:
+def test_true_expectation_passes(system: System, line: str) -> None:
     assert system.why(line) == ""
 
 
@@ -83,11 +83,11 @@ def test_what_is_so_passes(system: System, line: str) -> None:
         ("expect-log re:( within 1 s", "regular expression"),
     ],
 )
-def test_what_is_not_so_reports_what_is(system: System, line: str, why: str) -> None:
+def test_failed_expectation_reports_actual_state(system: System, line: str, why: str) -> None:
     assert why in system.why(line)
 
 
-def test_what_comes_in_time_passes_and_what_comes_too_late_does_not(system: System) -> None:
+def test_step_passes_if_condition_holds_in_time_and_fails_otherwise(system: System) -> None:
     def come() -> None:
         system.console.series["/late/data"] = ([1.0], [5.0])
 
@@ -97,7 +97,7 @@ def test_what_comes_in_time_passes_and_what_comes_too_late_does_not(system: Syst
     assert ("unwatch", "/late/data") in system.console.asked
 
 
-def test_the_report_names_lines_and_reasons(system: System) -> None:
+def test_report_names_lines_and_reasons(system: System) -> None:
     steps = read(f"wait 1 s\nset {NAVIGATOR} max_speed 99\nwait 1 s")
     outcomes = [system.runner.run(each) for each in steps[:2]]
     assert step_line(outcomes[0]) == "ok      1  wait 1 s"

@@ -1,4 +1,4 @@
-"""Scripts are read as a whole; what is wrong names its line and how it should be."""
+"""Scripts are parsed as a whole; a mistake is reported with its line and the expected form."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 
-def test_lines_become_steps_with_their_numbers_words_and_times() -> None:
+def test_lines_become_steps_with_numbers_arguments_and_time_limits() -> None:
     steps = read(
         "# a comment\n\nset /n speed 0.5\nexpect-refused /n speed 9 must be\n  expect /odom.x > 1 within 500 ms\n"
         'assert-rate /scan >= 10 for 2 s\nwait 1 min\nexpect /n:name == "a b"\nexpect-log sev:>=warn hot within 3 s\n'
@@ -43,13 +43,13 @@ def test_lines_become_steps_with_their_numbers_words_and_times() -> None:
         ("call /reset", "write call"),
     ],
 )
-def test_what_is_wrong_names_its_line(text: str, why: str) -> None:
+def test_mistake_is_reported_with_its_line(text: str, why: str) -> None:
     with pytest.raises(ScriptError, match=why):
         read(text)
 
 
 @given(st.text("setxpcwai-/. \n:=><0123459\"'[]", max_size=60))
-def test_any_text_is_read_or_refused_in_words(text: str) -> None:
+def test_any_text_is_parsed_or_refused_with_a_message(text: str) -> None:
     try:
         assert read(text)
     except ScriptError as error:

@@ -1,4 +1,4 @@
-"""Each finding of the doctor says how a thing is and how to mend it; only what fails makes the exit code 1."""
+"""Each finding of the doctor reports a state and how to fix it; only failures make the exit code 1."""
 
 import itertools
 import json
@@ -60,18 +60,18 @@ def node(monkeypatch):
         (link_finding("tcp/robot:7447", None), Level.FAIL),
     ],
 )
-def test_what_is_wrong_has_a_hint(finding: DoctorFinding, level: Level) -> None:
+def test_faults_have_a_hint(finding: DoctorFinding, level: Level) -> None:
     assert finding.level is level
     assert bool(finding.hint) == (level in (Level.WARN, Level.FAIL))
     assert exit_code([finding]) == (level is Level.FAIL)
 
 
-def test_a_terminal_is_not_called_faster_than_can_be_reported() -> None:
+def test_terminal_speed_beyond_measurable_rate_is_reported_as_a_lower_bound() -> None:
     assert terminal_link(0.02, 1.5e6).text == "answers after 20 ms, takes 1,500 kB/s"
     assert terminal_link(0.02, 1.6e8).text == "answers after 20 ms, takes more than 3,000 kB/s"
 
 
-def test_sockets_left_over_are_counted(socket_folder: str) -> None:
+def test_leftover_sockets_are_counted(socket_folder: str) -> None:
     assert [each.level for each in sockets_findings()] == [Level.OK]
     for name in ("99999999.0123abcd", "99999999.0123abcd.lock"):
         open(os.path.join(socket_folder, "0", name), "w").close()
@@ -81,7 +81,7 @@ def test_sockets_left_over_are_counted(socket_folder: str) -> None:
     assert refused.level is Level.FAIL and "chmod 700" in refused.hint
 
 
-def test_a_base_without_a_time_out_is_warned_of_and_one_with_is_not(node) -> None:
+def test_base_without_time_out_is_a_warning(node) -> None:
     assert base_finding(node).level is Level.NOTE
     node.create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
     found = base_finding(node)
@@ -99,9 +99,7 @@ def test_a_base_without_a_time_out_is_warned_of_and_one_with_is_not(node) -> Non
         ("bond_timeout", 4.0, Level.WARN, "none was found in /base"),
     ],
 )
-def test_the_names_of_time_outs_are_known_and_their_values_reported(
-    node, monkeypatch, name, value, level, reported
-) -> None:
+def test_names_of_time_outs_are_recognised_and_values_reported(node, monkeypatch, name, value, level, reported) -> None:
     executor = SingleThreadedExecutor(context=node.context)
     executor.add_node(node)
 
@@ -116,7 +114,7 @@ def test_the_names_of_time_outs_are_known_and_their_values_reported(
     assert found.level is level and found.text.startswith(reported)
 
 
-def test_pairs_that_do_not_match_are_reported_and_types_are_known(node) -> None:
+def test_mismatched_pairs_and_unknown_types_are_reported(node) -> None:
     assert [each.level for each in pair_findings(node)] == [Level.OK]
     weak = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
     node.create_publisher(String, "/words", weak)
@@ -127,7 +125,7 @@ def test_pairs_that_do_not_match_are_reported_and_types_are_known(node) -> None:
     assert [each.level for each in type_findings(node)] == [Level.OK]
 
 
-def test_a_topic_of_two_types_is_reported_as_such_and_not_as_one_of_another_definition(node) -> None:
+def test_topic_with_two_types_is_reported_as_such(node) -> None:
     node.create_publisher(String, "/words", 1)
     node.create_subscription(Twist, "/words", lambda message: None, 1)
     (found,) = pair_findings(node)
@@ -140,7 +138,7 @@ def run(*words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(line, capture_output=True, text=True, timeout=100, check=False)
 
 
-def test_a_ros_that_does_not_start_reports_it(tmp_path, monkeypatch) -> None:
+def test_ros_that_does_not_start_is_reported(tmp_path, monkeypatch) -> None:
     (tmp_path / "rclpy").mkdir()
     (tmp_path / "rclpy" / "__init__.py").write_text("raise ImportError('librcl.so: cannot open shared object file')")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
@@ -149,7 +147,7 @@ def test_a_ros_that_does_not_start_reports_it(tmp_path, monkeypatch) -> None:
     assert "does not start: librcl.so" in done.stdout and "ros2 node list" in done.stdout
 
 
-def test_as_json_for_scripts() -> None:
+def test_findings_are_printed_as_json() -> None:
     done = run("--json")
     found = json.loads(done.stdout)
     assert done.returncode == 0 and not done.stderr
@@ -157,18 +155,18 @@ def test_as_json_for_scripts() -> None:
     assert set(found[0]) == {"level", "about", "text", "hint", "mend"}
 
 
-def test_a_robot_that_is_not_reached_fails_with_the_reason() -> None:
+def test_unreachable_robot_fails_with_the_reason() -> None:
     done = run("--connect", "tcp/127.0.0.1:1")
     assert done.returncode == 1
     assert "✗ link       FAIL: tcp/127.0.0.1:1: the host is there, but no router listens on port 1" in done.stdout
 
 
-def test_wrong_usage_is_2() -> None:
+def test_wrong_usage_exits_with_2() -> None:
     assert run("--connect", "robot").returncode == 2
     assert run("--connect", "tcp/a:1", "--ros").returncode == 2
 
 
-def test_a_pipe_that_nobody_reads_is_no_fault_of_the_capture(monkeypatch, capsys):
+def test_closed_pipe_is_not_blamed_on_the_capture(monkeypatch, capsys):
     monkeypatch.setattr("bot_console.tui.cli.system.domain.others_take_part", lambda: True)
     monkeypatch.setattr(
         "bot_console.tui.cli.doctor.system.examine", lambda *words: [DoctorFinding(Level.OK, "link", "is")]

@@ -1,4 +1,4 @@
-"""The doctor calls an emergency stop one that answers only if every lock has answered, and asks without harm."""
+"""The doctor says that an emergency stop answers only if every lock has answered, and changes nothing by asking."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from rclpy.node import Node
 
 _domains = itertools.count(3850)
 TURNS = 40
-"""Turns of the executor for each wait of the doctor, so that none of them measures time."""
+"""Turns of the executor for each wait of the doctor, so that no wall time is measured."""
 
 
 class Bench:
@@ -46,7 +46,7 @@ class Bench:
         return EmergencyStop(node, Clock(clock_type=ClockType.STEADY_TIME), own, other, lambda: None)
 
     def older_lock(self, node: Node) -> None:
-        """One that knows no questions; like those of before, it locks at a verb that it does not know."""
+        """A lock that does not quote requests; like those of earlier releases, it locks at an unknown verb."""
         states = node.create_publisher(DiagnosticStatus, BASE, LATCHED)
 
         def report(locked: str) -> None:
@@ -75,7 +75,7 @@ def bench(monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
     made.context.try_shutdown()
 
 
-def test_locks_that_answer_are_asked_without_harm(bench: Bench) -> None:
+def test_asking_locks_changes_nothing(bench: Bench) -> None:
     monitor = bench.lock(bench.node("safety_monitor"), ARBITER, BASE)
     base = bench.lock(bench.base, BASE, ARBITER)
     base.stop("base", "a reason")
@@ -88,7 +88,7 @@ def test_locks_that_answer_are_asked_without_harm(bench: Bench) -> None:
 
 
 @pytest.mark.parametrize("locked", [False, True])
-def test_a_lock_that_hangs_fails_though_its_last_report_is_still_there(bench: Bench, locked: bool) -> None:
+def test_hanging_lock_fails_though_its_last_report_is_latched(bench: Bench, locked: bool) -> None:
     bench.lock(bench.base, BASE, ARBITER)
     hangs = bench.lock(bench.node("safety_monitor", frozen=True), ARBITER, BASE)
     if locked:
@@ -98,19 +98,19 @@ def test_a_lock_that_hangs_fails_though_its_last_report_is_still_there(bench: Be
     assert "does not answer (/emergency_stop/arbiter of /safety_monitor)" in found.text
 
 
-def test_a_topic_that_nobody_publishes_is_no_emergency_stop(bench: Bench) -> None:
+def test_topic_without_publisher_is_not_an_emergency_stop(bench: Bench) -> None:
     bench.base.create_subscription(DiagnosticStatus, ARBITER, lambda message: None, LATCHED)
     bench.base.create_publisher(DiagnosticStatus, REQUESTS, 10)
     found = base_finding(bench.doctor)
     assert found.level is Level.WARN and "emergency stop that answers" not in found.text
 
 
-def test_a_publisher_that_has_never_reported_fails(bench: Bench) -> None:
+def test_publisher_that_never_reported_fails(bench: Bench) -> None:
     bench.base.create_publisher(DiagnosticStatus, BASE, LATCHED)
     assert base_finding(bench.doctor).level is Level.FAIL
 
 
-def test_an_older_lock_is_asked_through_its_node_and_left_as_it_is(bench: Bench) -> None:
+def test_older_lock_is_queried_through_its_node_and_left_unchanged(bench: Bench) -> None:
     bench.older_lock(bench.base)
     states: list[str] = []
     bench.doctor.create_subscription(
@@ -120,13 +120,13 @@ def test_an_older_lock_is_asked_through_its_node_and_left_as_it_is(bench: Bench)
     assert states == ["false"]
 
 
-def test_an_older_lock_whose_node_hangs_fails(bench: Bench) -> None:
+def test_older_lock_with_hanging_node_fails(bench: Bench) -> None:
     bench.older_lock(bench.node("old_base", frozen=True))
     found = base_finding(bench.doctor)
     assert found.level is Level.FAIL and "/emergency_stop/base of /old_base" in found.text
 
 
-def test_every_robot_is_asked(bench: Bench) -> None:
+def test_every_robot_is_queried(bench: Bench) -> None:
     for space in ("/robot1", "/robot2"):
         node = Node("base", context=bench.context, namespace=space)
         bench.nodes.append(node)

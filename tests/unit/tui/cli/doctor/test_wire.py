@@ -1,4 +1,6 @@
-"""What the doctor reads off the wire: tokens, attachments of old releases, clocks; and that a capture is a fixture."""
+"""What the doctor reads off the wire: tokens, attachments of old releases, clocks; a capture can be used as a
+fixture.
+"""
 
 import itertools
 import json
@@ -21,7 +23,7 @@ LATE_S = 20.0
 
 
 class Robot:
-    """A session that shows a node with one topic, and publishes on it with whatever attachment."""
+    """A session that declares a node with one topic, and publishes on it with any attachment."""
 
     def __init__(self, endpoint: str) -> None:
         self.session = open_network_session(0, Way((endpoint,)))
@@ -50,7 +52,7 @@ def robot(place):
 
 
 def watched(place, publishing=lambda: None):
-    """What the doctor sees while something is published again and again."""
+    """What the doctor sees while something is published repeatedly."""
     import threading
 
     session, ended = open_network_session(0, Way((place,))), threading.Event()
@@ -73,7 +75,7 @@ def levels(wire, about):
     return [(each.level, each.text) for each in wire_findings(wire, 0.0) if each.about == about]
 
 
-def test_a_robot_as_it_should_be_has_nothing_against_it_and_its_capture_fits_byte_by_byte(place, robot):
+def test_correct_robot_has_no_findings_and_its_capture_matches_byte_by_byte(place, robot):
     token, publisher = robot.topic("/words", 1)
     attachment = pack(7, time.time_ns(), gid_of(token))
     wire = watched(place, lambda: publisher.put(b"\x00\x01\x00\x00", pack(7, time.time_ns(), gid_of(token))))
@@ -85,14 +87,14 @@ def test_a_robot_as_it_should_be_has_nothing_against_it_and_its_capture_fits_byt
     assert (number, gid, sample["topic"], len(attachment)) == (7, gid_of(token), "/words", 33)
 
 
-def test_the_attachment_of_an_old_release_is_recognised_and_named(place, robot):
+def test_attachment_of_an_old_release_is_recognised(place, robot):
     _, publisher = robot.topic("/words", 1)
     wire = watched(place, lambda: publisher.put(b"\x00\x01\x00\x00", OLD))
     ((level, text),) = levels(wire, "messages")
     assert level is Level.FAIL and "/words" in text and "too old (before Jazzy 0.2.4" in text
 
 
-def test_a_clock_that_is_wrong_is_reported_with_its_sign(place, robot):
+def test_wrong_clock_is_reported_with_its_sign(place, robot):
     token, publisher = robot.topic("/words", 1)
 
     def late():
@@ -102,13 +104,13 @@ def test_a_clock_that_is_wrong_is_reported_with_its_sign(place, robot):
     assert level is Level.WARN and "20.0 s behind this one" in text
 
 
-def test_tokens_that_are_none_are_counted_and_shown(place, robot):
+def test_invalid_tokens_are_counted_and_shown(place, robot):
     robot.session.declare_token("@ros2_lv/0/zid/1/2/XX/%/%/robot")
     found = levels(watched(place), "graph")
     assert any(level is Level.WARN and text.startswith("1 tokens do not follow the format") for level, text in found)
 
 
-def test_what_comes_while_it_listens_counts(place, robot):
+def test_tokens_that_arrive_while_listening_count(place, robot):
     calls = itertools.count()
 
     def come():
@@ -119,6 +121,6 @@ def test_what_comes_while_it_listens_counts(place, robot):
     assert sorted(each.node.name for each in wire.parsed()[0]) == ["late", "robot"]
 
 
-def test_an_empty_domain_reports_where_to_look(place):
+def test_empty_domain_says_what_to_check(place):
     ((level, text),) = levels(watched(place), "graph")
     assert level is Level.WARN and "no node is visible" in text

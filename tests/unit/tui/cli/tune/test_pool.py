@@ -1,4 +1,4 @@
-"""Runs in processes of their own: a report is that of the same headless run, a refused value is a failed run."""
+"""Runs in their own processes: the report equals that of the same headless run; a refused value is a failed run."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def pool() -> Generator[Pool]:
     made.close()
 
 
-def test_a_run_is_the_one_that_headless_makes(pool: Pool, capsys: pytest.CaptureFixture[str]) -> None:
+def test_run_reports_the_same_as_headless(pool: Pool, capsys: pytest.CaptureFixture[str]) -> None:
     specification = TuningSpecification((), parse_score(f"greatest({SPEED})"), profile="outdoor", duration=2.0)
     begun = [pool.begin(specification, Trial((), "", seed)) for seed in (3, 4)]
     assert main(["--headless", "--fast", "--profile", "outdoor", "--duration", "2", "--seed", "3"]) == 0
@@ -35,7 +35,7 @@ def test_a_run_is_the_one_that_headless_makes(pool: Pool, capsys: pytest.Capture
     assert 0.1 < specification.score.of(first) == first["topics"][SPEED]["greatest"] < 3.0
 
 
-def test_a_value_that_a_node_refuses_fails_the_run_with_its_reason(pool: Pool) -> None:
+def test_refused_value_fails_the_run_with_its_reason(pool: Pool) -> None:
     specification = TuningSpecification(
         (), parse_score("swift"), duration=2.0, base={"/safety_monitor": {"warning_distance": 0.2}}
     )
@@ -44,7 +44,7 @@ def test_a_value_that_a_node_refuses_fails_the_run_with_its_reason(pool: Pool) -
     assert "warning_distance (0.2 m) must be greater than" in problem
 
 
-def test_a_probe_finds_what_can_be_tuned_with_ranges_and_values(pool: Pool) -> None:
+def test_probe_finds_tunables_with_ranges_and_values(pool: Pool) -> None:
     known = {each.label: each for each in tunables_of(pool.probe("outdoor", {}).result())}
     speed = known["/robot_navigator:max_speed"]
     assert (speed.kind, speed.low, speed.high, speed.now, speed.unit) == ("double", 0.1, 5.0, 2.0, "m/s")
@@ -63,7 +63,7 @@ def test_closing_leaves_no_process(pool: Pool) -> None:
         os.kill(server, 0)
 
 
-def test_the_text_of_a_profile_is_found_by_name_or_path(tmp_path) -> None:
+def test_profile_text_is_found_by_name_or_path(tmp_path) -> None:
     own = tmp_path / "mine.yaml"
     own.write_text("/a: {ros__parameters: {b: 1}}\n")
     assert profile_yaml(str(own)).startswith("/a")

@@ -1,4 +1,4 @@
-"""The command: wrong usage is told in one line, the best is saved as a profile, the result is for programs too."""
+"""The `tune` command: wrong usage in one line, saving the best as a profile, and the result as JSON."""
 
 from __future__ import annotations
 
@@ -41,13 +41,13 @@ def test_wrong_usage_ends_before_anything_runs(
     assert why in capsys.readouterr().err
 
 
-def test_a_line_for_each_setting() -> None:
+def test_each_setting_is_printed_on_a_line() -> None:
     assert result_line(QUESTION, BEST) == "   1.200  max_speed 2.5"
     assert result_line(QUESTION, BUMPED).endswith("3 collisions")
     assert result_line(QUESTION, WORST) == "  failed  max_speed 5.0  seed 1: robot_node ended"
 
 
-def test_the_result_reports_by_how_much_and_whether_it_holds_on_other_seeds() -> None:
+def test_result_reports_gain_and_whether_it_holds_on_other_seeds() -> None:
     worse = SettingResult((2.5,), 0.6, (0.6,))
     result = result_of(QUESTION, Progress((NOW, BEST, WORST), 9, 9, 3.0, 9, (NOW, worse), True))
     assert result["best"]["values"] == {"/robot_navigator:max_speed": 2.5}
@@ -60,7 +60,7 @@ def test_the_result_reports_by_how_much_and_whether_it_holds_on_other_seeds() ->
 
 
 @pytest.mark.parametrize(("name", "code"), [("swift one", 0), ("../up", 1)])
-def test_the_best_is_saved_as_a_profile_with_the_comments_of_the_one_that_was_tuned(
+def test_best_setting_is_saved_as_profile_with_original_comments(
     name: str, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path))
@@ -77,5 +77,5 @@ def test_the_best_is_saved_as_a_profile_with_the_comments_of_the_one_that_was_tu
 
 
 @pytest.mark.parametrize("progress", [Progress((WORST,), ended=True, problem="every setting failed"), Progress()])
-def test_without_a_result_the_exit_code_reports_it(progress: Progress) -> None:
+def test_exit_code_is_1_without_a_result(progress: Progress) -> None:
     assert tune._reported(QUESTION, progress, Namespace(json=True, save="")) == 1

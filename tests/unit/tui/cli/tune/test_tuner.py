@@ -1,4 +1,4 @@
-"""The tuner of a console: what it cannot work on, and that closing ends what goes on."""
+"""The tuner of a console: what it refuses, and that closing ends its runs."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bot_console.tui.tuning.tunable import Tunable
 SPEED = Tunable("/robot_navigator", "max_speed", "double", 0.1, 5.0, 1.0)
 
 
-def test_only_what_the_runs_have_can_be_tuned(tmp_path: Path) -> None:
+def test_only_parameters_of_simulated_nodes_can_be_tuned(tmp_path: Path) -> None:
     asked = tuner.LocalTuner(tmp_path)
     assert asked.problem(TuningSpecification((SPEED,), parse_score("swift"))) == ""
     mine = Tunable("/mine", "gain", "double", 0, 1, 0.5)
@@ -22,7 +22,7 @@ def test_only_what_the_runs_have_can_be_tuned(tmp_path: Path) -> None:
     assert "too few" in asked.problem(TuningSpecification((SPEED,), parse_score("swift"), runs=2))
 
 
-def test_a_journal_that_cannot_be_written_is_reported(tmp_path: Path) -> None:
+def test_unwritable_journal_is_reported(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     tuning = tuner.LocalTuning(TuningSpecification((SPEED,), parse_score("swift")), None, tmp_path / "file")  # type: ignore[arg-type]
     tuning.thread.join(5)
@@ -31,5 +31,5 @@ def test_a_journal_that_cannot_be_written_is_reported(tmp_path: Path) -> None:
     assert not tuning.save("x", (1.0,)).ok
 
 
-def test_nothing_was_begun_so_nothing_is_closed(tmp_path: Path) -> None:
+def test_closing_an_unused_tuner_does_nothing(tmp_path: Path) -> None:
     tuner.LocalTuner(tmp_path).close()

@@ -1,4 +1,4 @@
-"""Names and values of profiles: all of them where there is room, else cut with an ellipsis."""
+"""Names and values of profiles: in full if there is room, otherwise cut with an ellipsis."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ def profiles() -> ProfileRows:
     return rows
 
 
-def test_the_longest_profile_has_the_room_that_it_needs_and_titles_stand_below_each_other() -> None:
+def test_longest_profile_name_fits_and_titles_are_aligned() -> None:
     first, second = text(profiles(), 0, 120), text(profiles(), 1, 120)
     assert LONG in first and first.index("A title") == second.index("Office")
 
 
-def test_where_there_is_no_room_an_ellipsis_stands() -> None:
+def test_long_name_is_cut_with_an_ellipsis() -> None:
     assert "…" in text(profiles(), 0, 60) and "A title" in text(profiles(), 0, 60)
 
 
@@ -44,14 +44,14 @@ def differences(name: str, now: str, then: str) -> DifferenceRows:
     return rows
 
 
-def test_a_difference_reports_where_it_is_cut() -> None:
+def test_difference_is_marked_where_it_is_cut() -> None:
     name = "recovery.emergency_stop_distance_of_the_rear_bumper"
     assert name in text(differences(name, "a", "b"), 1, 120)
     narrow = text(differences(name, "a" * 40, "b" * 40), 1, 78)
     assert name not in narrow and narrow.count("…") == 3, narrow
 
 
-def test_a_reason_is_folded_to_the_width_and_nothing_of_it_is_lost() -> None:
+def test_reason_is_wrapped_without_loss() -> None:
     why = "Parameter max_speed out of range Min: 0.1, Max: 5.0, value: 10.0, which is more than the robot can take"
     found = entries([ProfileDifference("/node", "a", 1, 2, refusal=why)], {}, Asking(FakeConsole(), print, print), 60)
     rows = DifferenceRows()
@@ -76,6 +76,6 @@ def test_wide_characters_take_two_cells() -> None:
         ([], 0, "a: nothing to set"),
     ],
 )
-def test_what_became_of_a_profile_counts_what_was_left_out(verdicts: list[bool], unknown: int, text: str) -> None:
+def test_outcome_of_a_profile_counts_omitted_values(verdicts: list[bool], unknown: int, text: str) -> None:
     outcomes = [SetOutcome("/n", f"p{index}", 1, accepted) for index, accepted in enumerate(verdicts)]
     assert outcome_text("a", outcomes, unknown) == text
