@@ -1,7 +1,7 @@
-"""Imports that programs of stepped runs would do otherwise.
+"""Imports that programs of stepped runs would otherwise do.
 
-A program that computes for a second of wall time without waiting counts as busy, and time goes on without it; the first
-import of these takes as long on a loaded machine.
+A program that computes for a second of wall time without waiting counts as busy, and time goes on without it; on a
+loaded machine the first import of these modules takes that long.
 """
 
 import importlib

@@ -1,4 +1,4 @@
-"""A command in a bad place says so on one line: a full disk, a deleted folder, a home that cannot be written."""
+"""A command in a bad place says so in one line: a full disk, a deleted folder, an unwritable home."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def command(words: list[str], folder: Path, **options: object) -> subprocess.Com
     [["--help"], ["setup", "bash"], ["ros2", "pkg", "list"], ["ros2", "interface", "show", "std_msgs/msg/String"]],
     ids=" ".join,
 )
-def test_a_full_disk_is_reported_once(words: list[str], tmp_path: Path) -> None:
+def test_full_disk_is_reported_once(words: list[str], tmp_path: Path) -> None:
     with open("/dev/full", "w") as full:
         done = command(words, tmp_path, stdout=full)
     assert done.returncode == 1
@@ -49,7 +49,7 @@ def test_a_full_disk_is_reported_once(words: list[str], tmp_path: Path) -> None:
     assert len(done.stderr.strip().splitlines()) == 1, done.stderr
 
 
-def test_nobody_who_reads_on_is_no_fault(tmp_path: Path) -> None:
+def test_closed_pipe_is_not_an_error(tmp_path: Path) -> None:
     reader, writer = os.pipe()
     os.close(reader)
     with open(writer, "w") as closed:
@@ -59,7 +59,7 @@ def test_nobody_who_reads_on_is_no_fault(tmp_path: Path) -> None:
 
 @pytest.mark.skipif(os.name == "nt", reason="a POSIX shell closes the streams")
 @pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
-def test_streams_that_were_closed_are_no_fault(closed: str, tmp_path: Path) -> None:
+def test_closed_standard_streams_are_not_an_error(closed: str, tmp_path: Path) -> None:
     program = [sys.executable, "-c", "from bot_console.tui.cli.main import program; program()", "node", "list"]
     line = ["sh", "-c", f'exec "$0" "$@" {closed}', *program]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
@@ -70,7 +70,7 @@ def test_streams_that_were_closed_are_no_fault(closed: str, tmp_path: Path) -> N
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a POSIX shell closes the streams")
-def test_launched_nodes_have_their_streams_where_those_of_the_launch_were_closed(tmp_path: Path) -> None:
+def test_launched_nodes_have_streams_if_those_of_the_launch_were_closed(tmp_path: Path) -> None:
     (tmp_path / "node.py").write_text("import os\nos.fstat(0)\nprint('x')")
     text = "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
     text += "def generate_launch_description():\n    return LaunchDescription([Node(executable='./node.py')])\n"
@@ -86,13 +86,13 @@ def test_launched_nodes_have_their_streams_where_those_of_the_launch_were_closed
     assert done.returncode == 0 and "process has finished cleanly" in logs, (done.stderr, logs)
 
 
-def test_a_sign_that_the_terminal_does_not_have_is_no_fault(tmp_path: Path) -> None:
+def test_character_missing_in_terminal_encoding_is_not_an_error(tmp_path: Path) -> None:
     done = command(["doctor"], tmp_path, env={"PYTHONIOENCODING": "ascii"}, stdout=subprocess.PIPE)
     assert "? domain" in done.stdout and done.stderr == ""
 
 
 @pytest.mark.parametrize("words", [["run", "x.py"], ["ros2", "pkg", "list"], ["launch", "x.launch.py"]], ids=" ".join)
-def test_a_folder_that_was_deleted_is_reported(words: list[str], tmp_path: Path) -> None:
+def test_deleted_folder_is_reported(words: list[str], tmp_path: Path) -> None:
     there = tmp_path / "gone"
     there.mkdir()
     program = "import os, sys; os.rmdir(os.getcwd()); from bot_console.tui.cli.main import program; program()"
@@ -105,11 +105,11 @@ def test_a_folder_that_was_deleted_is_reported(words: list[str], tmp_path: Path)
     assert done.stderr.strip().endswith("the folder you are in was deleted; go to another one (cd) and try again")
 
 
-def test_an_import_that_fails_in_a_deleted_folder_is_reported_as_such(
+def test_failing_import_in_a_deleted_folder_is_reported_as_such(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def fails() -> int:
-        raise SystemError("error return without exception set")  # what Python 3.13.0 says
+        raise SystemError("error return without exception set")  # The message of Python 3.13.0.
 
     with pytest.raises(SystemError):
         run_and_report(fails)
@@ -123,7 +123,7 @@ def test_an_import_that_fails_in_a_deleted_folder_is_reported_as_such(
     assert capsys.readouterr().err.endswith("the folder you are in was deleted; go to another one (cd) and try again\n")
 
 
-def test_a_launch_goes_on_without_log_files_where_the_home_cannot_be_written(tmp_path: Path) -> None:
+def test_launch_runs_without_log_files_if_home_is_unwritable(tmp_path: Path) -> None:
     (tmp_path / "say.launch.py").write_text(
         "from launch import LaunchDescription\nfrom launch.actions import LogInfo\n"
         "def generate_launch_description():\n    return LaunchDescription([LogInfo(msg='here we are')])\n"
@@ -138,7 +138,7 @@ def test_a_launch_goes_on_without_log_files_where_the_home_cannot_be_written(tmp
 
 
 @pytest.mark.parametrize("isolation", ["process", "thread"])
-def test_files_of_the_working_folder_are_no_libraries_of_the_launch_host(
+def test_files_in_working_folder_do_not_shadow_libraries_of_launch_host(
     isolation: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name in ("queue", "tty", "yaml", "socket", "random", "launch", "bot_console"):
@@ -157,7 +157,7 @@ def test_files_of_the_working_folder_are_no_libraries_of_the_launch_host(
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="a system that has names of any bytes")
-def test_a_node_below_a_path_that_is_not_utf_8_logs_as_any_other(tmp_path: Path) -> None:
+def test_node_below_a_path_that_is_not_utf_8_logs_as_usual(tmp_path: Path) -> None:
     folder = tmp_path / os.fsdecode(b"\xff")
     folder.mkdir()
     node = folder / os.fsdecode(b"n\xe9.py")
@@ -170,7 +170,7 @@ def test_a_node_below_a_path_that_is_not_utf_8_logs_as_any_other(tmp_path: Path)
     assert done.returncode == 0 and len(lines) == 2 and lines[1].endswith("[a]: done"), done.stderr
 
 
-def test_a_character_that_the_c_locale_does_not_have_is_replaced(tmp_path: Path) -> None:
+def test_character_missing_in_the_c_locale_is_replaced(tmp_path: Path) -> None:
     program = (
         "from bot_console.runtime.exit_messages import run_and_report; "
         "run_and_report(lambda: print(chr(0xfffd), 'held') or 0)"
@@ -193,9 +193,7 @@ def test_a_character_that_the_c_locale_does_not_have_is_replaced(tmp_path: Path)
         ("-f 0", ["export", "there"], "not exported: "),
     ],
 )
-def test_a_limit_of_the_shell_is_reported_on_one_line(
-    limit: str, words: list[str], message: str, tmp_path: Path
-) -> None:
+def test_shell_limit_is_reported_in_one_line(limit: str, words: list[str], message: str, tmp_path: Path) -> None:
     program = [sys.executable, "-c", "import sys; sys.argv[0] = 'bot-console'\n"
                "from bot_console.tui.cli.main import program; program()", *words]  # fmt: skip
     line = ["sh", "-c", f'ulimit {limit}; exec "$0" "$@"', *program]

@@ -48,8 +48,8 @@ _SHOWN: tuple[tuple[str, Iterable[int]], ...] = (
     (OWN_PLUGIN, (*range(218, 222), 353, 390)),
     ("tests/unit/nodes/test_presets.py::test_modes_of_the_course_robot_are_presets", (350,)),
     ("tests/pilot/panes/test_history_pane.py::test_all_changes_are_listed_the_newest_first_with_who_and_why", (352,)),
-    (f"{SECOND_TERMINAL}::test_verbs_of_a_second_terminal_reach_the_robot", (386,)),
-    (f"{SECOND_TERMINAL}::test_a_second_console_is_asked_for_and_does_not_take_the_robot_along", (387,)),
+    (f"{SECOND_TERMINAL}::test_verbs_in_a_second_terminal_reach_the_robot", (386,)),
+    (f"{SECOND_TERMINAL}::test_second_console_asks_to_attach_and_leaves_the_robot_running", (387,)),
     (
         "tests/pilot/screen/test_opening.py::test_a_line_of_rqt_plot_replaces_the_curves_and_waits_for_what_is_not_there",
         (389,),

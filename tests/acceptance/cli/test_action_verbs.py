@@ -1,4 +1,4 @@
-"""`ros2 action`, asked of a running server."""
+"""`ros2 action` on a running server."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def running() -> Iterator[System]:
         ("info /nothing", "Action: /nothing\nAction clients: 0\nAction servers: 0\n"),
     ],
 )
-def test_shown(running: System, words: str, shown: str) -> None:
+def test_list_info_and_type_are_printed(running: System, words: str, shown: str) -> None:
     asked = running.ask("action", *words.split())
     assert (asked.stdout, asked.stderr, asked.exit) == (shown, "", 0)
 
@@ -54,18 +54,18 @@ def test_shown(running: System, words: str, shown: str) -> None:
         ),
     ],
 )
-def test_refused(running: System, words: tuple[str, ...], reported: str) -> None:
+def test_invalid_goals_are_refused(running: System, words: tuple[str, ...], reported: str) -> None:
     asked = running.ask("action", *words)
     assert (asked.stdout, asked.stderr, asked.exit) == ("", reported, 1)
 
 
-def test_a_name_that_is_none(running: System) -> None:
+def test_invalid_action_name_is_refused(running: System) -> None:
     asked = running.ask("action", "info", "a b")
     assert (asked.stdout, asked.exit) == ("", 1)
     assert asked.stderr.startswith("topic name 'a b' is invalid: ")
 
 
-def test_send_goal_with_feedback(running: System) -> None:
+def test_send_goal_prints_feedback(running: System) -> None:
     asked = running.ask("action", "send_goal", "-f", "/fibonacci", FIBONACCI, "{order: 3}")
     assert re.sub(r"[0-9a-f]{32}", "<id>", asked.stdout) == (
         "Waiting for an action server to become available...\n"
@@ -79,7 +79,7 @@ def test_send_goal_with_feedback(running: System) -> None:
     assert (asked.stderr, asked.exit) == ("", 0)
 
 
-def test_send_goal_that_is_rejected(running: System) -> None:
+def test_send_goal_reports_rejection(running: System) -> None:
     asked = running.ask("action", "send_goal", "/fibonacci", FIBONACCI, "{order: -1}")
     assert asked.stdout.endswith("\nGoal was rejected.\n")
     assert asked.exit == 0

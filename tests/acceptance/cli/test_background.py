@@ -1,4 +1,4 @@
-"""A robot in the background: started, found, not doubled, and ended, from terminals of their own."""
+"""A robot in the background: started, found, not doubled, and ended, from separate terminals."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     typed("down")
 
 
-def test_a_robot_in_the_background(state: Path) -> None:
+def test_background_robot_is_started_shown_and_ended(state: Path) -> None:
     assert typed("status").returncode == 1
     assert typed("down").returncode == 1
     started = typed("up", "warehouse", "--seed", "1")
@@ -72,7 +72,7 @@ def test_a_robot_in_the_background(state: Path) -> None:
     assert not kept["stops"] and "bot-console release of" in kept["released"][0][1]
 
 
-def test_one_that_is_frozen_or_was_killed_is_ended_and_leaves_nothing(state: Path) -> None:
+def test_frozen_or_killed_system_is_ended_without_leftovers(state: Path) -> None:
     started = typed("up")
     pid = int(re.search(r"process (\d+)", started.stdout)[1])  # pyright: ignore[reportOptionalSubscript] -- told
     assert typed("stop", "the arm swings").returncode == 0
@@ -107,7 +107,7 @@ def process(launcher: CombinedLauncher) -> ProcessInfo | None:
 
 
 def until(condition: Callable[[], Any], what: str) -> Any:
-    """Wait until something is so."""
+    """Wait until a condition holds."""
     deadline = time.monotonic() + TIMEOUT_S
     while not (found := condition()):
         assert time.monotonic() < deadline, f"waited in vain for {what}"
@@ -115,7 +115,7 @@ def until(condition: Callable[[], Any], what: str) -> Any:
     return found
 
 
-def test_its_processes_are_seen_and_steered_from_consoles_that_come_and_go(state: Path) -> None:
+def test_processes_are_visible_and_controllable_from_changing_consoles(state: Path) -> None:
     (state / "waiter.py").write_text(WAITS)
     file = state / "system.launch.py"
     file.write_text(LAUNCH.format(folder=state))
@@ -154,7 +154,7 @@ def never() -> tuple[str, HostedLauncher]:
     raise AssertionError
 
 
-def test_what_cannot_start_is_reported(state: Path) -> None:
+def test_system_that_cannot_start_is_reported(state: Path) -> None:
     failed = typed("up", "--launch", "nowhere.launch.py")
     assert failed.returncode == 1
     assert failed.stderr == "there is no launch file nowhere.launch.py\n"

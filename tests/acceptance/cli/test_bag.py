@@ -1,4 +1,4 @@
-"""`bot-console bag` over real processes: recorded from a robot, killed, read, played."""
+"""`bot-console bag` with real processes: recorded from a robot, killed, read, played."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ PROGRAM = [sys.executable, "-m", "bot_console.tui"]
 
 @pytest.fixture(scope="module")
 def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """A robot in a domain of its own, and a folder for bags."""
+    """A robot in its own domain, and a folder for bags."""
     folder = tmp_path_factory.mktemp("bags")
     os.environ["BOT_CONSOLE_SOCKET_DIR"] = sockets = f"/tmp/bc-bag-{os.getpid()}"
     line = [*PROGRAM, "--headless", "--duration", "1000"]
@@ -49,7 +49,7 @@ def typed(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(line, capture_output=True, text=True, timeout=90, check=False, cwd=folder)
 
 
-def test_recorded_and_played(robot: Path) -> None:
+def test_topics_are_recorded_and_played(robot: Path) -> None:
     done = typed(robot, "record", "/odom", "/scan", "-o", "mine", "--duration", "4")
     assert done.returncode == 0 and "Subscribed to topic '/odom'" in done.stderr, done.stderr
     reported = typed(robot, "info", "mine")
@@ -65,7 +65,7 @@ def test_recorded_and_played(robot: Path) -> None:
     assert "pose:" in out and played.returncode == 0, reported
 
 
-def test_a_killed_recorder_leaves_a_bag(robot: Path) -> None:
+def test_killed_recorder_leaves_a_readable_bag(robot: Path) -> None:
     recorder = subprocess.Popen([*PROGRAM, "bag", "record", "-a", "-o", "killed"], cwd=robot, stderr=subprocess.DEVNULL)
     file = robot / "killed" / "killed_0.mcap"
     end = time.monotonic() + 60
@@ -79,7 +79,7 @@ def test_a_killed_recorder_leaves_a_bag(robot: Path) -> None:
 
 
 @pytest.mark.parametrize("begun", [False, True], ids=["before its node", "before it spins"])
-def test_a_recorder_that_is_interrupted_as_it_starts_leaves_a_whole_bag_or_none(
+def test_recorder_interrupted_at_start_leaves_a_complete_bag_or_none(
     begun: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def interrupted(*given: object) -> None:
@@ -104,7 +104,7 @@ def test_a_recorder_that_is_interrupted_as_it_starts_leaves_a_whole_bag_or_none(
     assert [each.read_bytes().endswith(b"\x89MCAP0\r\n") for each in files] == [True] * begun
 
 
-def test_a_snapshot_needs_a_recorder_in_that_mode(robot: Path) -> None:
+def test_snapshot_needs_a_recorder_in_snapshot_mode(robot: Path) -> None:
     assert "snapshot mode" in typed(robot, "snapshot").stderr
 
 
@@ -117,6 +117,8 @@ def test_a_snapshot_needs_a_recorder_in_that_mode(robot: Path) -> None:
         (["record", "-e", "(", "-o", "x"], 1, "unterminated subpattern"),
     ],
 )
-def test_wrong_words(words: list[str], code: int, reported: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_wrong_arguments_are_refused(
+    words: list[str], code: int, reported: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert run(words) == code
     assert reported in capsys.readouterr().err

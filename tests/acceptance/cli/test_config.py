@@ -23,7 +23,7 @@ def typed(*words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(line, capture_output=True, text=True, timeout=60, check=False, env={**os.environ})
 
 
-def test_shown_made_edited_and_checked(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_settings_are_shown_created_edited_and_checked(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shown = typed()
     assert shown.returncode == 0 and "not there yet" in shown.stdout and "theme: dark" in shown.stdout
     assert not home.exists(), "showing writes nothing"

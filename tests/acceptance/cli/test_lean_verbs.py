@@ -1,4 +1,4 @@
-"""What a verb imports when it is asked in a second terminal: each of these modules costs a twentieth of its time."""
+"""What a verb imports in a second terminal: each of these modules costs a twentieth of its time."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ HEAVY = {
         ("topic echo --once /poor", set[str]()),
     ],
 )
-def test_a_verb_imports_nothing_heavy(tmp_path: Path, words: str, more: set[str]) -> None:
+def test_verb_imports_nothing_heavy(tmp_path: Path, words: str, more: set[str]) -> None:
     with two_processes(tmp_path / "s"):
         asked = subprocess.run(
             [sys.executable, "-X", "importtime", "-c", PROGRAM, *words.split()],

@@ -1,4 +1,4 @@
-"""`ros2 lifecycle`, asked of a running managed node."""
+"""`ros2 lifecycle` on a running managed node."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def running() -> Iterator[System]:
         ("set /lc_talker 1", "Transitioning successful\n"),
     ],
 )
-def test_shown(running: System, words: str, shown: str) -> None:
+def test_nodes_states_and_transitions_are_printed(running: System, words: str, shown: str) -> None:
     asked = running.ask("lifecycle", *words.split())
     assert (asked.stdout, asked.stderr, asked.exit) == (shown, "", 0)
 
@@ -53,12 +53,12 @@ def test_shown(running: System, words: str, shown: str) -> None:
         ),
     ],
 )
-def test_refused(running: System, words: str, reported: str) -> None:
+def test_invalid_transitions_are_refused(running: System, words: str, reported: str) -> None:
     asked = running.ask("lifecycle", *words.split())
     assert (asked.stdout, asked.stderr, asked.exit) == ("", reported, 1)
 
 
-def test_all_transitions(running: System) -> None:
+def test_all_transitions_are_listed(running: System) -> None:
     lines = running.ask("lifecycle", "list", "-a", "/lc_talker").stdout.splitlines()
     assert len(lines) == 3 * 25
     assert lines[:6] == [
@@ -71,7 +71,7 @@ def test_all_transitions(running: System) -> None:
     ]
 
 
-def test_through_all_states(running: System) -> None:
+def test_node_goes_through_all_states(running: System) -> None:
     seen = []
     for step in ("configure", "activate", "deactivate", "cleanup", "shutdown"):
         assert running.ask("lifecycle", "set", "/lc_talker", step).stdout == "Transitioning successful\n"
@@ -79,7 +79,7 @@ def test_through_all_states(running: System) -> None:
     assert seen == ["inactive [2]\n", "active [3]\n", "inactive [2]\n", "unconfigured [1]\n", "finalized [4]\n"]
 
 
-def test_a_transition_that_fails() -> None:
+def test_failing_transition_is_reported() -> None:
     refuses = (
         "import rclpy; from rclpy.lifecycle import Node, TransitionCallbackReturn\n"
         "class Refuses(Node):\n"
@@ -94,7 +94,7 @@ def test_a_transition_that_fails() -> None:
     assert (asked.stdout, asked.stderr, asked.exit) == ("", "Transitioning failed\n", 0)
 
 
-def test_nothing_managed() -> None:
+def test_list_is_empty_without_managed_nodes() -> None:
     with system() as running:
         asked = running.ask("lifecycle", "nodes")
     assert (asked.stdout, asked.stderr, asked.exit) == ("", "", 0)

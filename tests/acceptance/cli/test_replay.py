@@ -1,4 +1,4 @@
-"""Every command recorded on real ROS 2 gives the same output and exit code here, asked of the same system."""
+"""Every command recorded on real ROS 2 gives the same output and exit code here, run on the same system."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from helpers.recorded.commands import COURSE, Row, filled, normal, rows, usage_o
 from systems import Program, System, system
 
 SETTLE = 1.0
-"""How long (s) the programs of a system run before the first command."""
+"""Seconds that the programs of a system run before the first command."""
 
 
 def play(row: Row, running: System, folder: Path) -> Program:
-    """Start the row's system, ask what was asked before, then ask the row itself."""
+    """Start the row's system, run the commands before the row, then the row's own."""
     for name, text in row["files"].items():
         (folder / name).write_text(text, "utf-8")
     for words in row["system"]:
@@ -29,12 +29,12 @@ def play(row: Row, running: System, folder: Path) -> Program:
 
 
 def start(running: System, words: Sequence[str]) -> Program:
-    """Start a program, or a command, by its words."""
+    """Start a program or a command by its words."""
     return running.python(*words[1:]) if words[0] == "python" else running.ros2(*words[1:])
 
 
 @pytest.mark.parametrize("row", rows(), ids=lambda row: row["id"])
-def test_command(row: Row, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_command_output_equals_recording(row: Row, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     if usage_of_other_interpreter(row):
         pytest.skip("recorded with the argparse of Python 3.11")
     monkeypatch.chdir(COURSE)
@@ -46,5 +46,5 @@ def test_command(row: Row, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 @pytest.mark.skipif(bool(rows()), reason="there are records")
-def test_records_are_there() -> None:
+def test_recordings_exist() -> None:
     pytest.skip("BOT_CONSOLE_ORACLE and BOT_CONSOLE_COURSE name no records")

@@ -1,4 +1,4 @@
-"""Every command recorded on real ROS 2, typed in a second terminal: what it is asked of runs in other processes."""
+"""Every command recorded on real ROS 2, typed in a second terminal while the system runs in other processes."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Words = Sequence[str]
 
 
 def systems() -> list[Any]:
-    """The recorded systems that have programs of their own; those asked much are for the long run."""
+    """The recorded systems that have programs; those with many commands are left to the soak run."""
     names = {row["id"].partition("/")[0]: row["system"] for row in rows() if row["system"]}
     return [
         pytest.param(programs, id=name, marks=() if name in ("duplicates", "step2_overrides") else pytest.mark.soak)
@@ -31,24 +31,24 @@ def systems() -> list[Any]:
 
 
 class Terminals:
-    """A system, each of its programs in a terminal of its own, and a terminal more to ask from."""
+    """A system with each program in its own terminal, and one more terminal for commands."""
 
     def __init__(self, programs: Sequence[Words], folder: Path) -> None:
         self._folder = folder
         self.history: list[Words] = []
-        """What was asked that may have changed the system."""
+        """The commands so far that may have changed the system."""
         self._programs = [self._start(words, subprocess.DEVNULL) for words in programs]
         if not eventually(lambda: len(self._run(["ros2", "node", "list", "--all"], None)[0].split()) > len(programs)):
             self.close()
             raise AssertionError("the programs have not come up")
 
     def ask(self, row: Row) -> tuple[str, str, int]:
-        """Ask a command: what it printed, in the form of the records, and its exit code."""
+        """Run a command; returns its output in the form of the recordings, and its exit code."""
         out, err, code = self._run(row["argv"], row["stop_after_s"])
         return normal(out, self._folder), normal(err, self._folder), code
 
     def change(self, words: Words) -> None:
-        """Ask a command for its effect."""
+        """Run a command for its effect."""
         self._run(words, 20.0)
         self.history.append(words)
 
@@ -85,14 +85,14 @@ class Terminals:
 
 
 def in_order(of_system: Sequence[Row]) -> list[Row]:
-    """The rows so that each stands where its system is as it was: those that change it last of their kind."""
+    """The rows in an order that leaves the system as each needs it: those that change it come last of their kind."""
     changing = [words for row in of_system for words in row["before"]]
     return sorted(of_system, key=lambda row: (len(row["before"]), row["argv"] in changing))
 
 
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("programs", systems())
-def test_commands_of_a_second_terminal(programs: list[Words], tmp_path: Path):
+def test_commands_in_a_second_terminal_equal_recordings(programs: list[Words], tmp_path: Path):
     of_system = [row for row in rows() if row["system"] == programs and not usage_of_other_interpreter(row)]
     changing = [words for row in of_system for words in row["before"]]
     terminals = Terminals(programs, tmp_path)
@@ -118,5 +118,5 @@ def test_commands_of_a_second_terminal(programs: list[Words], tmp_path: Path):
 
 
 @pytest.mark.skipif(bool(rows()), reason="there are records")
-def test_records_are_there() -> None:
+def test_recordings_exist() -> None:
     pytest.skip("BOT_CONSOLE_ORACLE and BOT_CONSOLE_COURSE name no records")

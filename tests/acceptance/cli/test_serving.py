@@ -1,4 +1,4 @@
-"""`up --serve` lets clients of a router in, and tells what that means; `router` carries messages, or says why not."""
+"""`up --serve` lets clients of a router in, and warns of the risk; `router` routes messages, or says why not."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def run(*words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(line, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
 
 
-def test_a_robot_in_the_background_is_reached_by_its_way_in_and_by_certificate_alone(
+def test_background_robot_is_reached_through_router_with_certificate_only(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
@@ -34,7 +34,7 @@ def test_a_robot_in_the_background_is_reached_by_its_way_in_and_by_certificate_a
     started = run("up", "--serve", place, "--tls-ca", files.ca, *shown)
     try:
         assert started.returncode == 0, started.stderr
-        assert "WARNING" not in started.stderr  # it is on loopback
+        assert "WARNING" not in started.stderr  # It listens on loopback.
         monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"{os.environ['BOT_CONSOLE_SOCKET_DIR']}x")
         capture = tmp_path / "robot.json"
         way = ("--connect", place, "--tls-ca", files.ca)
@@ -71,12 +71,12 @@ def test_a_robot_in_the_background_is_reached_by_its_way_in_and_by_certificate_a
         (["--listen", "tcp/192.0.2.1:7447"], 1, "whoever reaches tcp/192.0.2.1:7447 can drive this robot"),
     ],
 )
-def test_what_cannot_be_is_refused_and_what_is_open_is_warned_of(words: list[str], code: int, reported: str) -> None:
+def test_invalid_endpoint_is_refused_and_open_one_warned_of(words: list[str], code: int, reported: str) -> None:
     done = run("router", *words)
     assert done.returncode == code and reported in done.stderr
 
 
-def test_a_router_ends_by_a_signal() -> None:
+def test_router_ends_on_a_signal() -> None:
     line = [sys.executable, "-m", "bot_console.tui", "router", "--listen", f"tcp/127.0.0.1:{free_port()}"]
     with subprocess.Popen(line, stdout=subprocess.PIPE, text=True) as process:
         try:

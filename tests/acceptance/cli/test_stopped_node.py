@@ -1,4 +1,4 @@
-"""A verb that asks a frozen process through a router ends, and names who does not answer."""
+"""A verb that queries a frozen process through a router ends, and names the process that does not answer."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ TIMEOUT_S = 60
     ],
     ids=" ".join,
 )
-def test_a_request_to_a_frozen_process_ends_and_names_it(tmp_path: Path, words: tuple[str, ...]) -> None:
+def test_request_to_a_frozen_process_ends_and_names_it(tmp_path: Path, words: tuple[str, ...]) -> None:
     with two_processes(tmp_path / "s") as (_, (peer,)):
         place = f"tcp/127.0.0.1:{free_port()}"
         router = MeshSession(DOMAIN, Serving((place,)))

@@ -1,4 +1,4 @@
-"""Types that only another terminal's workspace has: asked from the node there, and held against their hashes."""
+"""Types that only another terminal's workspace has: requested from the node there, and compared with their hashes."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ DEFINITIONS = {
 
 @pytest.fixture
 def elsewhere(tmp_path: Path) -> Iterator[Path]:
-    """A folder beside the workspace that has the packages, where a node runs that uses them."""
+    """A folder beside the workspace with the packages, in which a node runs that uses them."""
     source = tmp_path / "here" / "src"
     for name, text in DEFINITIONS.items():
         place = source / name
@@ -93,14 +93,14 @@ def typed(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
 
 
 def form_of(traffic: Traffic, payload: Payload, type_name: str) -> Sequence[Slot]:
-    """The form of a type, empty as long as it was not told."""
+    """The form of a type, empty until its definition is known."""
     try:
         return traffic.slots(payload, type_name, {})
     except ValueError:
         return ()
 
 
-def test_a_verb_reads_messages_by_what_their_node_reports_unless_it_has_another_hash(elsewhere: Path) -> None:
+def test_verb_reads_messages_by_definition_from_their_node_unless_hash_differs(elsewhere: Path) -> None:
     while "/spots" not in typed(elsewhere, "topic", "list").stdout:
         pass
     echo = typed(elsewhere, "topic", "echo", "--once", "/spots")
@@ -112,7 +112,7 @@ def test_a_verb_reads_messages_by_what_their_node_reports_unless_it_has_another_
     assert "/painter describes it by a definition that does not have the hash RIHS01_" in untrue.stderr
 
 
-def test_a_verb_sends_goals_and_requests_and_messages_of_types_that_are_elsewhere(elsewhere: Path) -> None:
+def test_verbs_send_goals_requests_and_messages_of_foreign_types(elsewhere: Path) -> None:
     while "/draw" not in typed(elsewhere, "action", "list").stdout:
         pass
     assert "/draw [told_shapes/action/Draw]\n" in typed(elsewhere, "action", "list", "-t").stdout
@@ -138,9 +138,7 @@ def test_a_verb_sends_goals_and_requests_and_messages_of_types_that_are_elsewher
     assert "/painter describes it by a definition that does not have the hash RIHS01_" in untrue.stderr
 
 
-def test_panes_show_plot_fill_in_and_call_what_a_node_reports_of(
-    elsewhere: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_panes_show_plot_fill_in_and_call_foreign_types(elsewhere: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(elsewhere)
     assert take_part() == ""
     console = RosConsole(types=DomainTypes())

@@ -22,7 +22,7 @@ from bot_console.tui.files.folders import state_folder
 TIMEOUT_S = 60.0
 """Seconds after which a test gives up; nothing is measured by it."""
 STACKS = 5.0
-"""Seconds that a console may take to write where its threads stand."""
+"""Seconds that a console may take to write the stacks of its threads."""
 
 
 class Terminal:
@@ -45,7 +45,7 @@ class Terminal:
         self._stacks_before = self._stacks.stat().st_size if self._stacks.exists() else 0
 
     def read_until(self, condition: Callable[[], bool], what: str) -> None:
-        """Take the program's output until a condition holds."""
+        """Read the program's output until a condition holds."""
         deadline = time.monotonic() + TIMEOUT_S
         while not condition():
             if time.monotonic() >= deadline:
@@ -59,13 +59,13 @@ class Terminal:
                 self.output += os.read(self.master, 65536)
 
     def stacks(self) -> str:
-        """How a console's screen is and where each of its threads stands, as it writes them when it is asked to."""
+        """The state of a console's screen and the stacks of its threads, as it writes them on request."""
         if self.process.poll() is not None or not self._stacks.exists():
             return "it keeps no stacks"
         self.process.send_signal(signal.SIGUSR1)
         deadline = time.monotonic() + STACKS
         while f"process {self.process.pid}:" not in (text := self._written()):
-            if time.monotonic() >= deadline:  # the thread that draws stands
+            if time.monotonic() >= deadline:  # The drawing thread hangs.
                 self.process.send_signal(signal.SIGABRT)
                 self.process.wait()
                 return self._written()
@@ -76,7 +76,7 @@ class Terminal:
         return self._stacks.read_bytes()[self._stacks_before :].decode(errors="replace")
 
     def drain(self, seconds: float) -> None:
-        """Take the program's output for a while."""
+        """Read the program's output for a while."""
         end = time.monotonic() + seconds
         while (left := end - time.monotonic()) > 0:
             self._read(left)
@@ -92,24 +92,24 @@ class Terminal:
         return self.process.returncode
 
     def is_usable(self) -> bool:
-        """Whether the program has left the alternate screen, shows the cursor and has given the line back."""
+        """Whether the program has left the alternate screen, shows the cursor and has restored the line settings."""
         left = self.output.rfind(b"\x1b[?1049l") > self.output.rfind(b"\x1b[?1049h")
         shown = self.output.rfind(b"\x1b[?25h") > self.output.rfind(b"\x1b[?25l")
         return left and shown and self.modes() == self.settings[3]
 
     def modes(self) -> int:
-        """How the line is set (`c_lflag`)."""
+        """The line settings (`c_lflag`)."""
         return termios.tcgetattr(self._slave)[3]
 
     def set_as_a_shell_does(self) -> int:
-        """Set the line for editing by somebody else, who has taken the terminal over; gives `modes`."""
+        """Set the line for editing, as a shell that has taken the terminal over does; returns `modes`."""
         settings = termios.tcgetattr(self._slave)
         settings[3] = (settings[3] | termios.ISIG) & ~(termios.ICANON | termios.ECHO)
         termios.tcsetattr(self._slave, termios.TCSANOW, settings)
         return self.modes()
 
     def processes(self) -> list[str]:
-        """The command lines of all processes that have come from this program, itself included."""
+        """The command lines of all processes that descend from this program, itself included."""
         found: list[str] = []
         for each in Path("/proc").glob("[0-9]*"):
             with contextlib.suppress(OSError):
@@ -118,7 +118,7 @@ class Terminal:
         return found
 
     def hang_up(self) -> None:
-        """Let the terminal vanish, without a signal."""
+        """Make the terminal vanish without a signal."""
         os.close(self.master)
         os.close(self._slave)
         self.master = -1

@@ -1,4 +1,4 @@
-"""The console on a ROS 2 that is not ours, by its public interfaces alone: see `helpers/fakes/standin_ros.py`."""
+"""The console on a foreign ROS 2, through public interfaces alone: see `helpers/fakes/standin_ros.py`."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if os.name == "nt":
 
 CONSOLE = ["-m", "bot_console.tui"]
 FRAME_END = b"\x1b[6n"
-"""The question to the terminal behind each frame."""
+"""The query to the terminal after each frame."""
 ROBOT = """
 import rclpy
 from geometry_msgs.msg import Twist
@@ -72,7 +72,7 @@ def sourced(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 
 @pytest.fixture
 def program() -> str:
-    """What the robot runs."""
+    """The program of the robot."""
     return ROBOT.format(name="rover")
 
 
@@ -80,7 +80,7 @@ def program() -> str:
 def robot(
     sourced: dict[str, str], program: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[subprocess.Popen[bytes]]:
-    """A robot of that ROS 2, in a process of its own."""
+    """A robot of that ROS 2, in its own process."""
     for name in ("PYTHONPATH", "ROS_DISTRO", "RMW_IMPLEMENTATION"):
         monkeypatch.setenv(name, sourced[name])
     process = subprocess.Popen([sys.executable, "-c", program])
@@ -89,7 +89,7 @@ def robot(
     process.wait()
 
 
-def test_the_console_shows_it_launches_beside_it_and_leaves_it_alone(
+def test_attached_console_shows_robot_launches_beside_it_and_leaves_it_alone(
     robot: subprocess.Popen[bytes], tmp_path: Path
 ) -> None:
     program, file = tmp_path / "second.py", tmp_path / "second.launch.py"
@@ -97,7 +97,7 @@ def test_the_console_shows_it_launches_beside_it_and_leaves_it_alone(
     file.write_text(LAUNCH.format(program=str(program)))
     terminal = Terminal([*CONSOLE, "attach", "--ros"], tmp_path)
     terminal.read_until(lambda: b"top_speed" in terminal.output, "the robot")
-    terminal.type("2")  # a smaller terminal shows one pane at a time
+    terminal.type("2")  # A smaller terminal shows one pane at a time.
     terminal.read_until(lambda: b"rover is up" in terminal.output, "its line in the log")
     assert b"ROS 2 standin" in terminal.output
     terminal.type("8o")
@@ -115,7 +115,7 @@ def test_the_console_shows_it_launches_beside_it_and_leaves_it_alone(
 
 @pytest.mark.soak
 @pytest.mark.parametrize("program", [pytest.param(CROWD, id="crowd")])
-def test_a_robot_of_fifty_nodes_and_a_hundred_topics(robot: subprocess.Popen[bytes], tmp_path: Path) -> None:
+def test_robot_of_fifty_nodes_and_a_hundred_topics_is_shown(robot: subprocess.Popen[bytes], tmp_path: Path) -> None:
     terminal = Terminal([*CONSOLE, "attach", "--ros"], tmp_path)
     screen, fed = Emulator(120, 40), 0
 
@@ -137,10 +137,10 @@ def test_a_robot_of_fifty_nodes_and_a_hundred_topics(robot: subprocess.Popen[byt
     terminal.close()
 
 
-def test_beside_a_system_of_ours_it_is_asked_which(robot: subprocess.Popen[bytes], tmp_path: Path) -> None:
+def test_console_asks_which_system_if_one_of_ours_runs_too(robot: subprocess.Popen[bytes], tmp_path: Path) -> None:
     line = [sys.executable, *CONSOLE, "attach"]
     seen = ""
-    for _ in range(100):  # until the robot has a socket in the domain
+    for _ in range(100):  # Until the robot has a socket in the domain.
         done = subprocess.run(line, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
         seen = done.stderr
         if done.returncode == 2:

@@ -1,4 +1,4 @@
-"""All that is marked `ros` on an rclpy that is not ours: the stand-in, by the way that a machine with ROS 2 takes."""
+"""Everything marked `ros` on an rclpy that is not ours: a stand-in, used in the way that a machine with ROS 2 is."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
 ROOT = Path(__file__).resolve().parents[3]
-RECORDINGS_OF_RCLPY = "tests/contract/test_live_recordings.py"  # the stand-in is ours, which replays them elsewhere
+# The stand-in is ours, which replays them in another test.
+RECORDINGS_OF_RCLPY = "tests/contract/test_live_recordings.py"
 SOME = "refusal or commands or series_is_read"
 
 
@@ -29,10 +30,10 @@ def on_the_stand_in(folder: Path, *words: str, **variables: str) -> None:
 
 
 @pytest.mark.parametrize("which", [SOME, pytest.param("", marks=pytest.mark.soak)], ids=["some", "all"])
-def test_the_contracts_hold(tmp_path: Path, which: str) -> None:
+def test_contract_suites_pass_on_foreign_rclpy(tmp_path: Path, which: str) -> None:
     on_the_stand_in(tmp_path, "-k", which, "tests/contract", "--ignore", RECORDINGS_OF_RCLPY)
 
 
 @pytest.mark.soak
-def test_the_soak_runs(tmp_path: Path) -> None:
+def test_soak_passes_on_foreign_rclpy(tmp_path: Path) -> None:
     on_the_stand_in(tmp_path, "tests/soak", BOT_CONSOLE_SOAK_MINUTES="0.5")

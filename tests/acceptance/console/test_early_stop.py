@@ -1,7 +1,7 @@
-"""A stop key is seen by the thread that reads the terminal, whatever comes before it and even if the screen hangs.
+"""The thread that reads the terminal notices a stop key, whatever comes before it and even if the screen hangs.
 
-A console over a made-up robot, in a process and a pseudo-terminal of its own. The thread that draws hangs from the
-first frame on, so that whatever holds the robot is not that thread.
+A console on a scripted robot, in its own process and pseudo-terminal. The drawing thread hangs from the first frame
+on, so that whatever holds the robot is not that thread.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ BEFORE = {
 
 
 class Console:
-    """The console in its terminal, and what was asked of the robot."""
+    """The console in its terminal, and what was requested of the robot."""
 
     def __init__(self, folder: Path) -> None:
         (folder / "program.py").write_text(PROGRAM)
@@ -79,11 +79,11 @@ class Console:
         return path.read_text().splitlines() if path.exists() else []
 
     def until(self, note: str) -> None:
-        """Wait for something."""
+        """Wait for a note."""
         self.terminal.read_until(lambda: any(each.startswith(note) for each in self.notes()), note)
 
     def type(self, text: str) -> None:
-        """Type, and read what the console writes meanwhile, so that neither waits for the other."""
+        """Type, and read what the console writes meanwhile, so that neither blocks the other."""
         for at in range(0, len(text), 1000):
             self.terminal.type(text[at : at + 1000])
             self.terminal.drain(0.0)

@@ -97,11 +97,11 @@ CODES = {"q": 0, "ctrl-c": 0, "SIGTERM": 143, "SIGHUP": 129, "SIGINT": 130, "SIG
 
 
 OFTEN = ("crash",)
-"""What the default run tries, beside `q` (below) and SIGHUP (a terminal that vanishes); each takes a console."""
+"""What the default run tries, besides `q` (below) and SIGHUP (a terminal that vanishes); each takes a console."""
 
 
 def some(values, often):
-    """All of them as parameters, those that are not tried often for `-m soak`."""
+    """All of them as parameters; those that are not in `often` are marked for `-m soak`."""
     return [pytest.param(each, marks=() if each in often else pytest.mark.soak) for each in values]
 
 
@@ -116,7 +116,7 @@ def test_robot_is_stopped_and_terminal_usable(console, how):
 
 
 @pytest.mark.soak
-def test_a_second_signal_does_not_break_the_end(console):
+def test_second_signal_does_not_break_the_end(console):
     console.process.send_signal(signal.SIGTERM)
     os.kill(console.process.pid, signal.SIGHUP)
     assert console.wait() in (143, 129)
@@ -124,7 +124,7 @@ def test_a_second_signal_does_not_break_the_end(console):
     assert console.is_usable()
 
 
-def test_a_console_that_was_frozen_and_written_to_takes_keys_and_ends_in_order(console):
+def test_console_frozen_during_input_takes_keys_and_ends_in_order(console):
     for _ in range(2):
         os.kill(console.process.pid, signal.SIGSTOP)
         os.waitpid(console.process.pid, os.WUNTRACED)
@@ -143,14 +143,14 @@ def test_a_console_that_was_frozen_and_written_to_takes_keys_and_ends_in_order(c
     assert console.is_usable()
 
 
-def test_a_terminal_that_vanishes_ends_the_console(console):
+def test_vanished_terminal_ends_the_console(console):
     console.hang_up()
     assert console.process.wait(TIMEOUT_S) == 129
     assert (console.folder / "received").read_text().splitlines()[-1] == "0.0"
 
 
 @pytest.mark.parametrize("number", some((signal.SIGKILL, signal.SIGSEGV, signal.SIGABRT), (signal.SIGKILL,)))
-def test_killed_it_leaves_a_usable_terminal_and_no_process(console, number):
+def test_killed_console_leaves_usable_terminal_and_no_process(console, number):
     assert console.modes() != console.settings[3], "the console has set it"
     console.process.send_signal(number)
     assert console.wait() == -number
@@ -159,7 +159,7 @@ def test_killed_it_leaves_a_usable_terminal_and_no_process(console, number):
 
 
 @pytest.mark.soak
-def test_a_terminal_that_a_shell_has_set_meanwhile_is_left_as_it_is(console):
+def test_terminal_settings_changed_by_a_shell_meanwhile_are_kept(console):
     console.process.send_signal(signal.SIGSTOP)
     theirs = console.set_as_a_shell_does()
     console.process.kill()

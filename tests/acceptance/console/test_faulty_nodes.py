@@ -1,4 +1,4 @@
-"""Each kind of faulty node in a process of its own, beside a robot: all others go on, and what happened is told.
+"""Each kind of faulty node in its own process, beside a robot: all others go on, and the fault is reported.
 
 One launch host with our robot system and a good node for all tests of this file, as a console has it.
 """
@@ -43,14 +43,14 @@ print("up", flush=True)
 
 @dataclass
 class System:
-    """A host, what it was heard to print, and a folder for programs."""
+    """A host, the lines it has reported, and a folder for programs."""
 
     launcher: HostedLauncher
     printed: list[tuple[str, str]]
     folder: Path
 
     def start(self, programs: Mapping[str, str]) -> None:
-        """Run programs, by name and text, as nodes, until each has said that it is up."""
+        """Run programs, by name and text, as nodes, until each has reported that it is up."""
         for name, text in programs.items():
             file = self.folder / f"{name}.py"
             file.write_text(text)
@@ -59,15 +59,15 @@ class System:
             self.until(lambda name=name: self.heard(name, "up"), f"{name} is up")
 
     def named(self, name: str) -> ProcessInfo:
-        """The process of a name; the last one, where a test has begun anew."""
+        """The process of a name; the newest, if a test has restarted it."""
         return next(each for each in reversed(self.launcher.info().processes) if each.label.startswith(name))
 
     def heard(self, name: str, text: str) -> Any:
-        """Whether a process's line has this in it."""
+        """Whether a line of a process contains a text."""
         return [line for label, line in self.printed if label.startswith(name) and text in line]
 
     def until(self, condition: Callable[[], Any], what: str) -> Any:
-        """Wait until something is so."""
+        """Wait until a condition holds."""
         deadline = time.monotonic() + TIMEOUT_S
         while not (found := condition()):
             assert time.monotonic() < deadline, (what, self.launcher.info().processes, self.printed[-5:])
@@ -75,20 +75,20 @@ class System:
         return found
 
     def kill(self, names: Iterable[str]) -> None:
-        """Kill those of these names."""
+        """Kill the processes of these names."""
         for name in names:
             assert self.launcher.kill(self.named(name).key).result(TIMEOUT_S).ok
             assert self.named(name).exit_code == -9
 
     def all_others_go_on(self) -> None:
-        """The robot gives its odometry, nothing had to be started again, and the good node runs."""
+        """The robot publishes odometry, no process was restarted, and the good node runs."""
         assert typed("topic", "echo", "--once", "/odom", "--field", "header.stamp").returncode == 0
         assert self.named("good").state is ProcessState.RUNNING
         assert self.named("safety_node").restarts == 0
 
 
 def typed(*words: str) -> subprocess.CompletedProcess[str]:
-    """A command line of another terminal."""
+    """Run a command line in another terminal."""
     line = [sys.executable, "-m", "bot_console.tui", *words]
     return subprocess.run(line, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
 
@@ -116,7 +116,7 @@ def system(tmp_path_factory: pytest.TempPathFactory) -> Iterator[System]:
 
 @pytest.fixture(autouse=True)
 def same_folder(system: System, monkeypatch: pytest.MonkeyPatch, socket_folder: str) -> None:
-    """Verbs meet the system of this file."""
+    """Make verbs use the system of this file."""
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"/tmp/bcf-{os.getpid()}")
 
 
@@ -133,10 +133,10 @@ ENDS: Mapping[str, tuple[str, ProcessState, int, str]] = {
         "MemoryError",
     ),
 }
-"""What a node does to itself, and what is shown of it then: its state, its exit code and words of its problem."""
+"""What a node does to itself, and what is shown then: its state, its exit code and a part of its problem."""
 
 
-def test_those_that_end_end_alone(system: System) -> None:
+def test_ending_node_ends_alone(system: System) -> None:
     system.start({name: HEAD + fault + "\n" for name, (fault, *_) in ENDS.items()})
     for name, (_, state, code, problem) in ENDS.items():
         system.until(lambda name=name, state=state: system.named(name).state is state, f"the end of {name}")
@@ -145,7 +145,7 @@ def test_those_that_end_end_alone(system: System) -> None:
     system.all_others_go_on()
 
 
-def test_one_that_is_frozen_is_shown_as_such_until_it_goes_on(system: System) -> None:
+def test_frozen_node_is_shown_as_such_until_it_continues(system: System) -> None:
     system.start({"sleeps": HEAD + "time.sleep(1000)\n"})
     process = system.named("sleeps")
     assert process.pid
@@ -158,18 +158,18 @@ def test_one_that_is_frozen_is_shown_as_such_until_it_goes_on(system: System) ->
 
 
 BUSY = {"loops": "while True:\n    pass\n", "computes": "sum(iter(int, 1))\n"}
-"""What a node does that computes without ever waiting: in Python, and in C with the interpreter's lock held."""
+"""Nodes that compute without ever waiting: in Python, and in C while holding the interpreter lock."""
 ENDLESS = {
     "floods": "while True:\n    print('flood ' * 20)\n",
     "holds": "held = bytearray(b'x' * 300_000_000)\ntime.sleep(1000)\n",
     "closes": "os.closerange(0, 256)\ntime.sleep(1000)\n",
     "deaf": "import signal\nfor each in (2, 15):\n    signal.signal(each, signal.SIG_IGN)\ntime.sleep(1000)\n",
 }
-"""What else a node does that never ends by itself."""
+"""Other things that never end by themselves."""
 
 
 @pytest.mark.parametrize("name", ["loops", pytest.param("computes", marks=pytest.mark.soak)])
-def test_one_that_computes_is_named_with_its_figures(system: System, name: str) -> None:
+def test_computing_node_is_named_with_its_figures(system: System, name: str) -> None:
     system.start({name: HEAD + BUSY[name]})
     timeline = lambda: " ".join(each.text for each in system.launcher.info().timeline)  # noqa: E731
     system.until(lambda: f"{name}.py-1 has been computing for 6 s without a pause" in timeline(), "a busy one")
@@ -181,7 +181,7 @@ def test_one_that_computes_is_named_with_its_figures(system: System, name: str) 
 
 
 @pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="a system that cannot tell it")
-def test_one_whose_code_in_c_holds_the_interpreters_lock_is_named_with_its_line(system: System) -> None:
+def test_node_holding_interpreter_lock_in_c_is_named_with_its_line(system: System) -> None:
     system.start({"hangs": HEAD + "ctypes.PyDLL(None).sleep(100000)\n"})
     system.until(lambda: "hangs.py:7, in <module>" in system.named("hangs").problem, "the line in which it hangs")
     assert "holds the interpreter's lock" in system.named("hangs").problem
@@ -192,7 +192,7 @@ def test_one_whose_code_in_c_holds_the_interpreters_lock_is_named_with_its_line(
 
 
 @pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="a system that cannot tell it")
-def test_a_host_with_a_thread_that_holds_the_interpreters_lock_is_named_and_ended(tmp_path: Path) -> None:
+def test_host_with_thread_holding_interpreter_lock_is_named_and_ended(tmp_path: Path) -> None:
     host = start_host(log=tmp_path / "host.log")
     message: list[str] = []
     launcher = HostedLauncher(
@@ -214,12 +214,12 @@ def test_a_host_with_a_thread_that_holds_the_interpreters_lock_is_named_and_ende
     assert host.process.returncode == -9
 
 
-def test_the_robot_is_stopped_beside_those_that_never_end(system: System) -> None:
+def test_robot_can_be_stopped_beside_nodes_that_never_end(system: System) -> None:
     system.start({name: HEAD + fault for name, fault in ENDLESS.items() if name != "floods"})
     system.until(lambda: (system.named("holds").memory or 0) > 250, "its memory")
     system.start({"floods": HEAD + ENDLESS["floods"]})
     assert typed("stop", "a test").returncode == 0
-    system.kill(["floods"])  # it takes a whole processor
+    system.kill(["floods"])  # It takes a whole processor.
     assert typed("param", "get", "/waiter", "use_sim_time").stdout == "Boolean value is: False\n"
     assert typed("release").returncode == 0
     system.kill(ENDLESS.keys() - {"floods"})

@@ -1,4 +1,4 @@
-"""A launch host in a process of its own: what it starts, tells and ends, and what becomes of that when it dies."""
+"""A launch host in its own process: what it starts, reports and ends, and the consequences of its death."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ CRASHES = "import ctypes\nprint('up', flush=True)\nctypes.string_at(0)\n"
 
 
 class Hosted:
-    """A host, its stand-in, and a folder for programs."""
+    """A host, its proxy, and a folder for programs."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -40,7 +40,7 @@ class Hosted:
         )
 
     def launch(self, *actions: str, **programs: str) -> Any:
-        """Launch these programs, by name, and actions; the answer."""
+        """Launch these programs, by name, and actions; returns the answer."""
         nodes: list[str] = []
         for name, text in programs.items():
             path = self.folder / f"{name}.py"
@@ -51,7 +51,7 @@ class Hosted:
         return self.launcher.launch(str(file), {}).result(TIMEOUT_S)
 
     def until(self, condition: Callable[[], Any]) -> Any:
-        """Wait until something is so."""
+        """Wait until a condition holds."""
         deadline = time.monotonic() + TIMEOUT_S
         while not (found := condition()):
             assert time.monotonic() < deadline, (self.launcher.info(), self.printed, self.log.read_text())
@@ -65,7 +65,7 @@ class Hosted:
         )
 
     def up(self, name: str) -> Any:
-        """Wait for the first line of a program; its process."""
+        """Wait for the first line of a program; returns its process."""
         self.until(lambda: any(label.startswith(name) and text == "up" for _, label, text in self.printed))
         return self.named(name)
 
@@ -80,7 +80,7 @@ def hosted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Hosted]:
 
 
 def is_running(pid: int) -> bool:
-    """Whether there is such a process that is no zombie."""
+    """Whether the process exists and is not a zombie."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
     except OSError:
@@ -88,7 +88,7 @@ def is_running(pid: int) -> bool:
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
-def test_a_node_has_a_process_and_a_crash_takes_nothing_else_along(hosted: Hosted) -> None:
+def test_node_has_its_own_process_and_its_crash_ends_nothing_else(hosted: Hosted) -> None:
     assert hosted.launch(waiter=WAITS, crasher=CRASHES).ok
     waiter = hosted.up("waiter")
     assert is_running(waiter.pid) and waiter.pid != hosted.process.pid
@@ -103,7 +103,7 @@ def test_a_node_has_a_process_and_a_crash_takes_nothing_else_along(hosted: Hoste
     assert hosted.named("waiter").state is ProcessState.EXITED
 
 
-def test_a_host_reports_how_many_starts_are_put_off(hosted: Hosted) -> None:
+def test_host_reports_number_of_delayed_starts(hosted: Hosted) -> None:
     late = "TimerAction(period={}, actions=[ExecuteProcess(cmd=['true'])])"
     assert hosted.launch(late.format("3600.0"), late.format("0.01"), waiter=WAITS).ok
     hosted.until(lambda: len(hosted.launcher.info().processes) == 2)
@@ -122,7 +122,7 @@ bytearray(100_000_000)
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
-def test_who_uses_much_is_named_with_it_and_the_others_go_on(hosted: Hosted) -> None:
+def test_busy_process_is_named_and_others_go_on(hosted: Hosted) -> None:
     assert hosted.launch(waiter=WAITS, fills=FILLS, full=FULL).ok
     waiter = hosted.up("waiter")
     hosted.until(lambda: (hosted.named("fills").memory or 0) >= 300)
@@ -137,7 +137,7 @@ def test_who_uses_much_is_named_with_it_and_the_others_go_on(hosted: Hosted) -> 
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
-def test_a_killed_host_takes_its_processes_along_and_the_console_reports_it(hosted: Hosted) -> None:
+def test_killed_host_takes_its_processes_along_and_console_reports_it(hosted: Hosted) -> None:
     assert hosted.launch(waiter=WAITS).ok
     pid = hosted.up("waiter").pid
     hosted.process.kill()
@@ -153,7 +153,7 @@ STARTS_OTHERS = "sleep 600 & echo $!; (trap '' TERM; echo $BASHPID; sleep 600; s
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
 @pytest.mark.parametrize("end", ["close", "kill"])
-def test_what_programs_have_started_themselves_ends_with_the_host(hosted: Hosted, end: str) -> None:
+def test_grandchildren_end_with_the_host(hosted: Hosted, end: str) -> None:
     assert hosted.launch(f"ExecuteProcess(cmd=['bash', '-c', {STARTS_OTHERS!r}])").ok
     lines = hosted.until(lambda: len(found := [text for *_, text in hosted.printed if text.isdecimal()]) == 2 and found)
     pids = [hosted.named("bash").pid, *map(int, lines)]
@@ -165,7 +165,7 @@ def test_what_programs_have_started_themselves_ends_with_the_host(hosted: Hosted
     hosted.until(lambda: not any(map(is_running, pids)))
 
 
-def test_a_frozen_host_ends_what_it_started_and_itself(hosted: Hosted) -> None:
+def test_frozen_host_ends_its_processes_and_itself(hosted: Hosted) -> None:
     assert hosted.launch(waiter=WAITS).ok
     hosted.up("waiter")
     hosted.process.send_signal(signal.SIGSTOP)
@@ -175,7 +175,7 @@ def test_a_frozen_host_ends_what_it_started_and_itself(hosted: Hosted) -> None:
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
-def test_what_an_owner_started_ends_with_it(tmp_path: Path) -> None:
+def test_processes_end_with_their_owner(tmp_path: Path) -> None:
     program = tmp_path / "waiter.py"
     program.write_text(WAITS)
     file = tmp_path / "x.launch.py"

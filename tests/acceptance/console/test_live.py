@@ -59,7 +59,7 @@ class Live:
         self.session, self.pilot, self.console = session, pilot, session.console
 
     async def until(self, condition: Callable[[], object], what: str):
-        """Let the app run until something is so."""
+        """Let the app run until a condition holds."""
         deadline = time.monotonic() + TIMEOUT_S
         while not (found := condition()):
             assert time.monotonic() < deadline, f"waited in vain for {what}"
@@ -103,7 +103,7 @@ def crashing(tmp_path):
     return Options(launch=str(path))
 
 
-def test_a_node_that_raises_dies_alone(crashing, tmp_path):
+def test_raising_node_dies_alone(crashing, tmp_path):
     async def run():
         async with live(crashing) as it:
             await it.until(lambda: it.state("crashes") is ProcessState.CRASHED, "the crash")
@@ -117,7 +117,7 @@ def test_a_node_that_raises_dies_alone(crashing, tmp_path):
     asyncio.run(run())
 
 
-def test_what_a_node_prints_is_in_the_log_and_not_on_the_screen(crashing, capfd):
+def test_output_of_a_node_is_in_the_log_and_not_on_the_screen(crashing, capfd):
     async def run():
         async with live(crashing) as it:
             assert await it.until(lambda: "printed by the node" in it.log(), "the printed line")
@@ -126,7 +126,7 @@ def test_what_a_node_prints_is_in_the_log_and_not_on_the_screen(crashing, capfd)
     assert "printed by the node" not in capfd.readouterr().out
 
 
-def test_hostile_text_is_kept_and_does_nothing(crashing):
+def test_hostile_text_is_kept_and_has_no_effect(crashing):
     async def run():
         async with live(crashing) as it:
             found = await it.until(lambda: [each for each in it.log() if each.startswith("hostile")], "the log line")
@@ -138,7 +138,7 @@ def test_hostile_text_is_kept_and_does_nothing(crashing):
     asyncio.run(run())
 
 
-def test_max_speed_is_refused_with_its_reason_then_taken(tmp_path):
+def test_max_speed_is_refused_with_its_reason_then_accepted(tmp_path):
     async def run():
         async with live(Options()) as it:
             await it.until(lambda: it.parameter("/robot_navigator", "max_speed"), "the navigator's parameters")
@@ -154,7 +154,7 @@ def test_max_speed_is_refused_with_its_reason_then_taken(tmp_path):
     asyncio.run(run())
 
 
-def test_without_its_safety_node_the_robot_stops_and_the_console_reports_why():
+def test_without_safety_node_robot_stops_and_console_says_why():
     async def run():
         async with live(Options()) as it:
             await it.until(lambda: (it.console.snapshot().world.speed or 0.0) > 0.3, "the driving robot")

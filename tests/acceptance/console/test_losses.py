@@ -1,4 +1,4 @@
-"""A robot that loses the person who drives it stands until a person hands it back; a witness judges by its odometry."""
+"""A robot that loses its operator stands until a person hands it back; judged by the odometry that a witness sees."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from processes.losses import PERSONS, STOPS, killed_console
 
 @pytest.fixture(scope="module")
 def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveRobot]:
-    """A live robot, driving; each loss hands it on as it was."""
+    """A live robot, driving; each loss leaves it as it was."""
     sockets = Path(tempfile.mkdtemp(prefix="bcs"))
     with live_robot(tmp_path_factory.mktemp("robot"), sockets) as made:
         yield made
@@ -27,10 +27,12 @@ def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveRobot]:
 
 
 OFTEN = (killed_console,)
-"""What the default run tries; each takes consoles of its own. Stops that are kept: `robot/test_emergency_stop.py`."""
+"""What the default run tries; each takes consoles. Stops that are kept: `robot/test_emergency_stop.py`."""
 LOSSES = [pytest.param(each, marks=() if each in OFTEN else pytest.mark.soak) for each in (*PERSONS, *STOPS)]
 
 
 @pytest.mark.parametrize("loss", LOSSES, ids=lambda each: each.__name__)
-def test_it_stands_until_a_person_hands_it_back(robot: LiveRobot, loss: Callable[[LiveRobot], float]) -> None:
+def test_robot_that_lost_its_operator_stands_until_handed_back(
+    robot: LiveRobot, loss: Callable[[LiveRobot], float]
+) -> None:
     loss(robot)

@@ -1,4 +1,4 @@
-"""A console at the end of a bad link: nothing of the robot waits for it, motion ends, and the state is told."""
+"""A console behind a bad link: the robot never waits for it, motion ends, and the state of the link is reported."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ PERIOD = 0.1
 
 
 class FarRig(RosRig):
-    """The robot at its router, the console behind a link that can be spoilt."""
+    """The robot at its router, the console behind a link that tests can disturb."""
 
     def __init__(self, folder: Path) -> None:
         self.place = Serving((f"tcp/127.0.0.1:{free_port()}",))
@@ -57,7 +57,7 @@ class FarRig(RosRig):
             self.console.drive(0.5, 0.0)
 
     def publish_long(self) -> Publisher:
-        """A publisher of the robot whose messages may be long."""
+        """A publisher of the robot for long messages."""
         return self._node.create_publisher(String, "/long", QoSProfile(depth=10))
 
     def close(self) -> None:
@@ -79,7 +79,7 @@ def far(tmp_path: Path) -> Iterator[FarRig]:
 
 @pytest.fixture
 def key(far: FarRig) -> Iterator[threading.Event]:
-    """A key that is held until the event is set, by a thread of its own."""
+    """A key that is held until the event is set, by a separate thread."""
     ended = threading.Event()
     thread = threading.Thread(target=far.driving, args=(ended,))
     thread.start()
@@ -90,7 +90,7 @@ def key(far: FarRig) -> Iterator[threading.Event]:
 
 
 @pytest.mark.parametrize("seconds", [2, pytest.param(30, marks=pytest.mark.soak)])
-def test_a_cut_link_is_reported_and_its_end_brings_no_motion_back(
+def test_cut_link_is_reported_and_its_return_brings_no_motion_back(
     far: FarRig, key: threading.Event, seconds: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("rigs.TIMEOUT_S", seconds + 20.0)
@@ -102,12 +102,12 @@ def test_a_cut_link_is_reported_and_its_end_brings_no_motion_back(
         reported.append(far.console.snapshot().link.silent_s)
         assert reported[-1] >= reported[-2], (
             "an answer over a link that is cut"
-        )  # as when Zenoh gives it up, after 10 s
+        )  # As when Zenoh gives up on it, after 10 s.
         return reported[-1] >= seconds
 
     until(silent, "the silence")
-    sent_at_most = 3.5 / PERIOD  # a command is refused 1 s after the last answer, which is asked for every 1.3 s
-    far.publish(1.0)  # the robot waits for nobody
+    sent_at_most = 3.5 / PERIOD  # A command is refused 1 s after the last answer, which is requested every 1.3 s.
+    far.publish(1.0)  # The robot waits for nobody.
     before = len(far.received)
     far.wire.hint()
     until(lambda: (0.0, 0.0) in far.received[before:], "the zero at the end of what had waited")
@@ -119,33 +119,33 @@ def test_a_cut_link_is_reported_and_its_end_brings_no_motion_back(
 
 
 @pytest.mark.soak
-def test_a_robot_that_was_driven_when_a_link_was_lost_for_long_gets_a_zero_when_it_is_back(
+def test_robot_driven_before_a_long_loss_gets_a_zero_when_the_link_returns(
     far: FarRig, key: threading.Event, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("rigs.TIMEOUT_S", 40.0)
     far.wire.cut()
     until(lambda: far.console.snapshot().link.silent_s >= 15, "that Zenoh has given the link up, and what waited in it")
-    key.set()  # as the pane does, which is disarmed
+    key.set()  # As the disarmed pane does.
     before = len(far.received)
     far.wire.hint()
     until(lambda: far.console.snapshot() and len(far.received) > before, "a command")
     assert set(far.received[before:]) == {(0.0, 0.0)}
 
 
-def test_a_robot_does_not_wait_for_a_console_whose_link_is_cut(far: FarRig) -> None:
+def test_robot_does_not_wait_for_a_console_with_a_cut_link(far: FarRig) -> None:
     publisher, heard = far.publish_long(), far.console.traffic
     heard.listen("/long")
     until(lambda: publisher.get_subscription_count() > 0, "the subscription")
     far.wire.cut()
     text, longest = String(data="x" * 10_000), 0.0
-    for _ in range(3000):  # more than fits into the ways there
+    for _ in range(3000):  # More than the buffers of the link hold.
         began = time.monotonic()
         publisher.publish(text)
         longest = max(longest, time.monotonic() - began)
-    assert longest < 1.0  # s; to wait for a full link takes 2 s
+    assert longest < 1.0  # Waiting for a full link would take 2 s.
 
 
-def test_the_router_is_killed_and_comes_back(far: FarRig) -> None:
+def test_console_reconnects_after_the_router_was_killed(far: FarRig) -> None:
     far.router.close()
     until(lambda: ROBOT not in far.console.snapshot().parameters, "that the robot is gone")
     until(lambda: far.console.snapshot().link.silent_s >= 1, "that it is told")
@@ -157,7 +157,7 @@ def test_the_router_is_killed_and_comes_back(far: FarRig) -> None:
     assert outcome.accepted
 
 
-def test_with_300_ms_and_held_segments_all_works_and_nothing_is_called_silent(far: FarRig) -> None:
+def test_everything_works_with_300_ms_delay_and_held_segments(far: FarRig) -> None:
     far.wire.delay, far.wire.hold, far.wire.held_share = 0.15, 0.5, 0.02
     until(lambda: (far.console.snapshot().link.delay_ms or 0) >= 290, "the delay to be told")
     (outcome,) = far.console.set_parameters(ROBOT, {"speed": 0.25}).result(20)
@@ -171,16 +171,16 @@ def test_with_300_ms_and_held_segments_all_works_and_nothing_is_called_silent(fa
     far.console.all_stop(True)
     stopped, count = time.monotonic(), len(far.received)
     until(lambda: far.received[-1] == (0.0, 0.0) and len(far.received) > count, "the stop")
-    assert time.monotonic() - stopped < 3.0  # a way there, a held segment, and what a busy machine takes
+    assert time.monotonic() - stopped < 3.0  # One way, a held segment, and what a busy machine takes.
     far.show_text(Severity.WARN, "still here")
     until(lambda: far.console.snapshot().logs.counts.get(Severity.WARN, 0) >= 1, "the log")
 
 
-def test_over_a_slow_link_the_robot_stands_after_the_dead_man_time_and_a_round_trip(far: FarRig) -> None:
+def test_over_a_slow_link_robot_stands_after_dead_man_time_and_a_round_trip(far: FarRig) -> None:
     far.wire.delay, far.wire.hold, far.wire.held_share = 0.15, 0.5, 0.02
     steering, tick = Steering(deadman=1.0), threading.Event()
     steering.arm(time.monotonic())
-    steering.steer(1, 0, 10, time.monotonic())  # the last key that anybody presses
+    steering.steer(1, 0, 10, time.monotonic())  # The last key that is pressed.
 
     def stands() -> bool:
         """Send as the pane does, ten times a second."""
@@ -193,10 +193,10 @@ def test_over_a_slow_link_the_robot_stands_after_the_dead_man_time_and_a_round_t
     until(stands, "the zero")
     took = time.monotonic() - steering.last_key
     assert (0.5, 0.0) in far.received
-    assert took < steering.deadman + 0.3 + 2 * 0.5 + 1.0  # the delay both ways, held segments, a busy machine
+    assert took < steering.deadman + 0.3 + 2 * 0.5 + 1.0  # The delay both ways, held segments, a busy machine.
 
 
-def test_spoilt_frames_end_the_connection_and_a_clean_one_takes_its_place(far: FarRig) -> None:
+def test_corrupted_frames_end_the_connection_and_a_new_one_replaces_it(far: FarRig) -> None:
     far.wire.spoil = lambda data: bytes(each ^ 0x5A for each in data)
     far.show_text(Severity.WARN, "garbled")
     until(lambda: far.console.snapshot().link.silent_s >= 1, "that nothing comes through")

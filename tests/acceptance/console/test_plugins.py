@@ -1,4 +1,4 @@
-"""Panes that other packages bring: found in a workspace and where they are installed, driven, and ended alone."""
+"""Panes of other packages: found in a workspace and where they are installed, used, and isolated from each other."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ BAD = {
 
 @pytest.fixture
 def source(tmp_path: Path):
-    """The folder of a workspace, which is the one that counts."""
+    """The folder of the workspace in use."""
     before = workspace()
     (tmp_path / "src").mkdir()
     path = list(sys.path)
@@ -50,7 +50,7 @@ def drive(play) -> None:
     asyncio.run(main())
 
 
-def test_the_example_lies_in_a_workspace_and_starts_and_stops_the_robot(source: Path) -> None:
+def test_example_in_a_workspace_starts_and_stops_the_robot(source: Path) -> None:
     shutil.copytree(EXAMPLE, source / "my_robot_control")
     use(Workspace(default_folders(source.parent)))
 
@@ -74,7 +74,7 @@ def test_the_example_lies_in_a_workspace_and_starts_and_stops_the_robot(source: 
     drive(play)
 
 
-def test_the_example_is_built_installed_and_found(tmp_path: Path) -> None:
+def test_example_is_built_installed_and_found(tmp_path: Path) -> None:
     copy = tmp_path / "my_robot_control"
     shutil.copytree(EXAMPLE, copy)
     words = [sys.executable, "-m", "pip", "install", "-q", "--no-deps", "--no-build-isolation", "--target"]
@@ -91,7 +91,7 @@ def test_the_example_is_built_installed_and_found(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("fault", BAD)
-def test_a_plug_in_with_a_fault_ends_alone(source: Path, fault: str) -> None:
+def test_faulty_plugin_ends_alone(source: Path, fault: str) -> None:
     package = source / f"bad_{fault}"
     shutil.copytree(EXAMPLE, package)
     setup = (
@@ -122,7 +122,7 @@ def test_a_plug_in_with_a_fault_ends_alone(source: Path, fault: str) -> None:
     drive(play)
 
 
-def test_own_names_are_not_taken(source: Path) -> None:
+def test_plugins_cannot_take_built_in_names(source: Path) -> None:
     shutil.copytree(EXAMPLE, source / "my_robot_control")
     setup = source / "my_robot_control" / "setup.py"
     setup.write_text(setup.read_text().replace("my_robot_control = ", "logs = "))

@@ -1,4 +1,4 @@
-"""Files in the structure of five public packages: seen, applied to nodes that declare what is in them, saved."""
+"""Parameter files structured like those of five public packages: shown, applied to nodes that declare them, saved."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ Values = Mapping[str, Mapping[str, Value]]
 
 
 def values_of(path: Path) -> dict[str, dict[str, Value]]:
-    """What a file gives each of its nodes."""
+    """The values in a file, by node."""
     found: dict[str, dict[str, Value]] = {}
     for section in sections(path.read_text()):
         node = SPACE_TAKER if "*" in section.key else section.key
         found.setdefault(node, {}).update({name: value_at(name, at) for name, at in section.places.items()})
-        found[node].pop("use_sim_time", None)  # every node has it already
+        found[node].pop("use_sim_time", None)  # Every node already has it.
     return found
 
 
@@ -50,7 +50,7 @@ def plain(value: object) -> object:
 
 
 class Package:
-    """Nodes that declare what a file has, each with another value, beside a console."""
+    """Nodes that declare the parameters of a file with other values, and a console."""
 
     def __init__(self, values: Values, domain: int) -> None:
         self._context = Context()
@@ -71,7 +71,7 @@ class Package:
             self._executor.spin()
 
     def values(self) -> dict[tuple[str, str], object]:
-        """What the nodes have, of all that they declare themselves."""
+        """The values of all parameters that the nodes declare themselves."""
         given = ("use_sim_time", "start_type_description_service")
         return {
             (full, name): plain(each.value)
@@ -106,7 +106,7 @@ def console(domain: int, tmp_path: Path) -> Iterator[RosConsole]:
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_it_is_seen_applied_and_saved_with_one_line_changed(
+def test_file_is_shown_applied_and_saved_with_one_line_changed(
     path: Path, tmp_path: Path, console: RosConsole, domain: int
 ) -> None:
     values = values_of(path)
@@ -134,7 +134,7 @@ def _all_read(console: RosConsole, values: Values) -> Mapping[str, object]:
 def _saved_with_one_line_changed(path: Path, copy: Path, console: RosConsole, values: Values) -> None:
     node = next(iter(values))
     if node == SPACE_TAKER:
-        return  # saved, it gets a section of its own: the wildcard is meant for others, too
+        return  # It is saved in its own section, since the wildcard applies to other nodes too.
     name, value = next((name, value) for name, value in values[node].items() if isinstance(value, (int, float)))
     copy.write_text(path.read_text())
     assert all(each.accepted for each in console.set_parameters(node, {name: other(value)}).result(TIMEOUT_S))

@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[3]
 
 
 @pytest.mark.timeout(60)
-def test_the_robot_is_not_driven_until_its_safety_monitor_is_back_and_released(
+def test_robot_is_not_driven_until_its_safety_monitor_is_back_and_released(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", "9700")
@@ -24,7 +24,7 @@ def test_the_robot_is_not_driven_until_its_safety_monitor_is_back_and_released(
     assert console.wait_ready(TIMEOUT_S)
 
     def speed() -> float:
-        """How fast it goes, in m/s, while the person goes on to ask for 0.8."""
+        """The robot's speed in m/s, while the person keeps requesting 0.8."""
         console.drive(0.8, 0.0)
         actual = console.snapshot().drive.actual
         return actual[0] if actual else 0.0

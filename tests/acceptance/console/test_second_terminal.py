@@ -1,4 +1,4 @@
-"""A console that runs, and what a second and a third terminal see of it and do to it: over real processes."""
+"""A running console, and what a second and a third terminal see and change: with real processes."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ SOCKETS = f"/tmp/bct-{os.getpid()}"
 
 
 def typed(*words: str) -> subprocess.CompletedProcess[str]:
-    """A command line of another terminal, to its end."""
+    """Run a command line in another terminal to its end."""
     line = [sys.executable, *CONSOLE, *words]
     return subprocess.run(line, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
 
 
 def eventually(terminal: Terminal, condition, what: str) -> None:
-    """Ask another terminal again and again while the console's output is read."""
+    """Run a command in another terminal again and again while the console's output is read."""
     terminal.read_until(condition, what)
 
 
 @pytest.fixture(scope="module")
 def console(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
-    """One console with its robot; each test leaves it as it was."""
+    """One console with its robot; each test leaves it unchanged."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("BOT_CONSOLE_SOCKET_DIR", SOCKETS)
         terminal = Terminal([*CONSOLE, "--seed", "1"], tmp_path_factory.mktemp("console"))
@@ -46,7 +46,7 @@ def console(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
 
 @pytest.fixture(autouse=True)
 def same_folder(console: Terminal, monkeypatch: pytest.MonkeyPatch, socket_folder: str) -> None:
-    """Verbs meet the console of this file."""
+    """Make verbs use the console of this file."""
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", SOCKETS)
 
 
@@ -54,7 +54,7 @@ def speed() -> float:
     return float(typed("topic", "echo", "--once", "/odom", "--field", "twist.twist.linear.x").stdout.split()[0])
 
 
-def test_verbs_of_a_second_terminal_reach_the_robot(console: Terminal) -> None:
+def test_verbs_in_a_second_terminal_reach_the_robot(console: Terminal) -> None:
     refused = typed("param", "set", "/robot_navigator", "max_speed", "10.0")
     assert "out of range" in refused.stderr + refused.stdout
     assert typed("param", "set", "/robot_navigator", "max_speed", "2.0").stdout == "Set parameter successful\n"
@@ -67,7 +67,7 @@ def test_verbs_of_a_second_terminal_reach_the_robot(console: Terminal) -> None:
     eventually(console, lambda: speed() > 0.1, "the robot that drives again")
 
 
-def test_a_second_console_is_asked_for_and_does_not_take_the_robot_along(console: Terminal, tmp_path: Path) -> None:
+def test_second_console_asks_to_attach_and_leaves_the_robot_running(console: Terminal, tmp_path: Path) -> None:
     asking = Terminal(CONSOLE, tmp_path)
     asking.read_until(lambda: b"Attach the console" in asking.output, "the question")
     assert b"/simulator" in asking.output
@@ -89,7 +89,7 @@ def test_a_second_console_is_asked_for_and_does_not_take_the_robot_along(console
     eventually(console, lambda: speed() > 0.1, "the robot that drives on")
 
 
-def test_asked_by_a_signal_it_keeps_where_its_threads_stand_and_goes_on(console: Terminal) -> None:
+def test_signal_makes_console_write_its_stacks_and_continue(console: Terminal) -> None:
     stacks = console.stacks()
     assert "Current thread" in stacks and "_writer_thread.py" in stacks
     assert f"process {console.process.pid}: screens 1" in stacks

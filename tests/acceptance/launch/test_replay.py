@@ -21,12 +21,12 @@ OFTEN = (
     "course_step5_given", "course_robot_system_long_missing_file", "course_environment_outdoor",
     "course_args_step5_with_arguments", "course_run_step4", "course_run_step5_integer_speed", "course_run_robot_system",
 )  # fmt: skip
-"""Of each kind that is compared: what is resolved, the command line, a whole run; each replay starts `ros2 launch`."""
+"""One area for each kind of comparison: resolution, command line, a whole run; each replay starts `ros2 launch`."""
 AREAS = (
     "arguments", "command_line", "conditions", "course", "events", "front_ends", "parameters", "ros_names",
     "substitutions",
 )  # fmt: skip
-"""All that there are; `test_every_area_is_replayed` compares them with the recordings."""
+"""All areas; `test_every_area_is_replayed` compares them with the recordings."""
 
 pytestmark = pytest.mark.skipif(not GIVEN, reason=NOT_GIVEN)
 
@@ -34,7 +34,7 @@ pytestmark = pytest.mark.skipif(not GIVEN, reason=NOT_GIVEN)
 @pytest.mark.recorded
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("area", AREAS)
-def test_area(area: str, tmp_path: Path) -> None:
+def test_area_equals_recording(area: str, tmp_path: Path) -> None:
     expected = {row["id"] for row in recorded() if row["area"] == area}
     assert replayed(tmp_path, "--area", area) == expected
 
@@ -46,7 +46,7 @@ def test_every_area_is_replayed() -> None:
 
 
 @pytest.mark.skipif(not COURSE, reason="BOT_CONSOLE_COURSE names no course")
-def test_some_of_the_course(tmp_path: Path) -> None:
+def test_some_course_cases_equal_recording(tmp_path: Path) -> None:
     assert replayed(tmp_path, *(word for each in OFTEN for word in ("--only", each))) == set(OFTEN)
 
 
@@ -57,7 +57,7 @@ def recorded() -> list[dict[str, Any]]:
 
 
 def replayed(tmp_path: Path, *which: str) -> set[str]:
-    """The ids of the cases that were replayed as they should, or need the course, which is not there."""
+    """The ids of the cases whose replay equals the recording, or that need the course if it is missing."""
     report = tmp_path / "report.json"
     words = ["--command", COMMAND, *which, "--jobs", "2", "--json", str(report), "--timeout", "90"]
     words += ["--course", COURSE] if COURSE else []

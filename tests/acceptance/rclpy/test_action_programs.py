@@ -16,7 +16,7 @@ def message(program: Program) -> list[tuple[int, str]]:
     return [(int(seconds) - 1_700_000_000, text) for seconds, text in lines]
 
 
-def test_feedback_and_result() -> None:
+def test_client_receives_feedback_and_result() -> None:
     with system() as running:
         server = running.python(str(PROGRAMS / "fibonacci_server.py"))
         client = running.finish(running.python(str(PROGRAMS / "fibonacci_client.py"), "4", "0"))
@@ -31,7 +31,7 @@ def test_feedback_and_result() -> None:
     assert message(server) == [(0, "goal of order 4")]
 
 
-def test_cancel() -> None:
+def test_goal_can_be_canceled() -> None:
     with system() as running:
         server = running.python(str(PROGRAMS / "fibonacci_server.py"))
         client = running.finish(running.python(str(PROGRAMS / "fibonacci_client.py"), "40", "2.5"))
@@ -39,7 +39,7 @@ def test_cancel() -> None:
     assert message(server) == [(0, "goal of order 40"), (2, "asked to cancel"), (3, "canceled")]
 
 
-def test_reject() -> None:
+def test_goal_can_be_rejected() -> None:
     with system() as running:
         running.python(str(PROGRAMS / "fibonacci_server.py"))
         client = running.finish(running.python(str(PROGRAMS / "fibonacci_client.py"), "-1", "0"))
@@ -56,7 +56,7 @@ def test_client_waits_for_its_server() -> None:
     assert message(client) == [(5, "accepted"), (5, "succeeded [0, 1]")]
 
 
-def test_two_clients_are_served_at_once() -> None:
+def test_two_clients_are_served_concurrently() -> None:
     with system() as running:
         running.python(str(PROGRAMS / "fibonacci_server.py"))
         clients = [running.python(str(PROGRAMS / "fibonacci_client.py"), order, "0") for order in ("3", "5")]
@@ -68,7 +68,7 @@ def test_two_clients_are_served_at_once() -> None:
     ]
 
 
-def test_single_goal_server() -> None:
+def test_single_goal_server_aborts_previous_goal() -> None:
     with system() as running:
         server = running.python(str(PROGRAMS / "single_goal_server.py"))
         words = ("action", "send_goal", "/fibonacci", "example_interfaces/action/Fibonacci")

@@ -10,7 +10,7 @@ from systems import system
 PROGRAMS = Path(__file__).parent / "programs"
 
 
-def test_talker_led_by_a_program() -> None:
+def test_talker_is_led_through_its_states_by_a_program() -> None:
     with system() as running:
         talker = running.python(str(PROGRAMS / "lifecycle_talker.py"))
         listener = running.python(str(PROGRAMS / "lifecycle_listener.py"))
@@ -50,7 +50,7 @@ def test_talker_led_by_a_program() -> None:
     ]
 
 
-def test_an_id_that_does_not_fit_ends_the_node() -> None:
+def test_transition_id_out_of_range_ends_the_node() -> None:
     wrong = (
         "import rclpy; from lifecycle_msgs.srv import ChangeState; from lifecycle_msgs.msg import Transition; "
         "rclpy.init(); n = rclpy.create_node('n'); c = n.create_client(ChangeState, '/lc_talker/change_state'); "

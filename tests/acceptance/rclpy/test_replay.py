@@ -16,7 +16,7 @@ SETUP = "from bot_console.runtime.importer import install; install()"
 
 
 @pytest.mark.parametrize("area", recorded_areas())
-def test_area(area: str, tmp_path: Path) -> None:
+def test_area_equals_recording(area: str, tmp_path: Path) -> None:
     report = tmp_path / "report.json"
     words = [area, "--setup", SETUP, "--report", str(report)]
     subprocess.run([sys.executable, str(RECORDINGS / "replay.py"), *words], check=False, capture_output=True)

@@ -1,4 +1,4 @@
-"""Programs in the style of the public tutorials: what they say, and when."""
+"""Programs in the style of the public tutorials: what they print, and when."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def when(program: Program) -> list[tuple[float, str]]:
     return [(int(seconds) - START + int(tenths) / 10, text) for seconds, tenths, text in lines]
 
 
-def test_talker_and_listener() -> None:
+def test_listener_hears_talker() -> None:
     with system() as running:
         talker, listener = start(running, "talker"), start(running, "listener")
         running.run(3.5)
@@ -40,7 +40,7 @@ def test_talker_and_listener() -> None:
     assert (talker.exit, listener.exit) == (0, 0)
 
 
-def test_remapped_on_the_command_line() -> None:
+def test_command_line_remaps_topic_and_node() -> None:
     with system() as running:
         start(running, "talker", "--ros-args", "-r", "chatter:=news", "-r", "__node:=speaker")
         deaf, listener = (
@@ -55,7 +55,7 @@ def test_remapped_on_the_command_line() -> None:
 
 
 @pytest.mark.parametrize("way", ["async", "sync"])
-def test_service_and_client(way: str) -> None:
+def test_client_gets_response_of_service(way: str) -> None:
     with system() as running:
         server = start(running, "add_server")
         running.run(0.1)
@@ -65,7 +65,7 @@ def test_service_and_client(way: str) -> None:
     assert client.exit == 0
 
 
-def test_a_client_waits_for_its_service() -> None:
+def test_client_waits_for_its_service() -> None:
     with system() as running:
         client = start(running, "add_client", "async", "1", "1")
         running.run(2.5)
@@ -78,7 +78,7 @@ def test_a_client_waits_for_its_service() -> None:
     ]
 
 
-def test_a_client_awaited_in_a_callback() -> None:
+def test_client_can_be_awaited_in_a_callback() -> None:
     with system() as running:
         start(running, "add_server")
         client = running.finish(start(running, "client_in_callback"))
@@ -86,14 +86,14 @@ def test_a_client_awaited_in_a_callback() -> None:
     assert client.exit == 0
 
 
-def test_rates() -> None:
+def test_rate_and_timer_periods_are_kept() -> None:
     with system() as running:
         program = running.finish(start(running, "rates"))
     assert when(program) == [(0.0, "tick 0"), (0.5, "tick 1"), (1.0, "tick 2"), (1.5, "tick 3")]
     assert program.exit == 0
 
 
-def test_parameter_event_handler() -> None:
+def test_parameter_event_handler_reports_changes() -> None:
     with system() as running:
         start(running, "tunable")
         watcher = start(running, "parameter_watcher")
@@ -116,7 +116,7 @@ def test_parameter_event_handler() -> None:
         ("reentrant", [(1.0, "a begins"), (1.0, "b begins"), (1.4, "a ends"), (1.4, "b ends")]),
     ],
 )
-def test_callback_groups(groups: str, lines: list[tuple[float, str]]) -> None:
+def test_callback_groups_allow_or_prevent_overlap(groups: str, lines: list[tuple[float, str]]) -> None:
     with system() as running:
         program = start(running, "callback_groups", groups)
         running.run(1.9)
@@ -132,7 +132,7 @@ def test_callback_groups(groups: str, lines: list[tuple[float, str]]) -> None:
         ("reliable volatile", "reliable volatile", []),
     ],
 )
-def test_late_joiners(offered: str, requested: str, heard: list[str]) -> None:
+def test_late_joiner_receives_latched_message(offered: str, requested: str, heard: list[str]) -> None:
     with system() as running:
         start(running, "latched", "talker", *offered.split())
         running.run(1.0)
@@ -148,7 +148,7 @@ def test_late_joiners(offered: str, requested: str, heard: list[str]) -> None:
         ("reliable volatile", "reliable transient_local", "DURABILITY"),
     ],
 )
-def test_profiles_that_do_not_fit(offered: str, requested: str, policy: str) -> None:
+def test_incompatible_qos_is_reported(offered: str, requested: str, policy: str) -> None:
     with system() as running:
         talker = start(running, "latched", "talker", *offered.split())
         late = start(running, "latched", "listener", *requested.split())
@@ -163,7 +163,7 @@ def test_profiles_that_do_not_fit(offered: str, requested: str, policy: str) -> 
     ]
 
 
-def test_composed_nodes() -> None:
+def test_composed_nodes_run_in_one_process() -> None:
     with system() as running:
         program = start(running, "composed")
         running.run(2.5)
@@ -179,13 +179,13 @@ def test_composed_nodes() -> None:
     ]
 
 
-def test_guard_conditions() -> None:
+def test_guard_condition_wakes_the_executor() -> None:
     with system() as running:
         program = running.finish(start(running, "guarded"))
     assert when(program) == [(0.5, "nothing yet"), (1.0, "guard condition callback called")]
 
 
-def test_wait_for_message() -> None:
+def test_wait_for_message_returns_message_or_times_out() -> None:
     with system() as running:
         start(running, "talker")
         program = running.finish(start(running, "waits_for_message"))
@@ -193,7 +193,7 @@ def test_wait_for_message() -> None:
 
 
 @pytest.mark.parametrize(("factor", "spoken"), [("1.0", 3), ("10.0", 39), ("0.1", 0)])
-def test_simulated_time(factor: str, spoken: int) -> None:
+def test_simulated_clock_drives_timers(factor: str, spoken: int) -> None:
     with system() as running:
         start(running, "sim_clock", factor)
         talker = start(running, "talker", "--ros-args", "-p", "use_sim_time:=true")
@@ -201,7 +201,7 @@ def test_simulated_time(factor: str, spoken: int) -> None:
     assert len(message(talker)) == pytest.approx(spoken, abs=1)
 
 
-def test_two_executors_and_a_shutdown_in_a_callback() -> None:
+def test_two_executors_end_on_shutdown_in_a_callback() -> None:
     with system() as running:
         program = running.finish(start(running, "spins_in_threads"))
     assert message(program) == ["got [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]"]
@@ -229,7 +229,7 @@ finally:
 """
 
 
-def test_a_callbacks_exception_ends_the_program() -> None:
+def test_exception_in_a_callback_ends_the_program() -> None:
     with system() as running:
         program = running.finish(running.python("-c", RAISES))
     assert program.exit == 1

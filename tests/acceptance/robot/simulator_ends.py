@@ -1,4 +1,4 @@
-"""Simulated robots started, reset and ended in every way in one program; it survives all of them or dies of a fault.
+"""Starts, resets and ends simulated robots in every way in one program, which survives all of them or crashes.
 
 Usage: python simulator_ends.py ROUNDS SEED. Prints how many of each kind there were, as JSON, and ends while the last
 robots still drive, as a console that is quit does.
@@ -37,7 +37,7 @@ KINDS = ("interrupt", "terminate", "kill", "stop", "reset", "world", "kill while
 
 
 class Person:
-    """Drives a robot into walls and asks for resets, in a domain of its own."""
+    """Drives a robot into walls and requests resets, in its own domain."""
 
     def __init__(self, domain: int) -> None:
         self._context = Context()
@@ -50,17 +50,17 @@ class Person:
         self._setter = self._node.create_client(SetParameters, "simulator/set_parameters")
 
     def drive(self) -> None:
-        """Full speed ahead."""
+        """Drive forward at full speed."""
         command = Twist()
         command.linear.x, command.angular.z = 2.0, 0.3
         self._commands.publish(command)
 
     def wait(self) -> None:
-        """Until the simulator serves."""
+        """Wait until the simulator serves."""
         assert self._resets.wait_for_service(TIMEOUT_S), "the simulator has not come up"
 
     def reset(self, *, wait: bool = True) -> None:
-        """Ask for a reset."""
+        """Request a reset."""
         future = self._resets.call_async(Trigger.Request())
         if wait:
             self._executor.spin_until_future_complete(future, TIMEOUT_S)
@@ -68,7 +68,7 @@ class Person:
             assert answer and answer.success
 
     def world(self, name: str) -> None:
-        """Another world from the next reset on."""
+        """Use another world from the next reset on."""
         value = Parameter("world", value=name).to_parameter_msg()
         future = self._setter.call_async(SetParameters.Request(parameters=[value]))
         self._executor.spin_until_future_complete(future, TIMEOUT_S)
@@ -76,13 +76,13 @@ class Person:
         assert answer and answer.results[0].successful
 
     def close(self) -> None:
-        """Leave."""
+        """Leave the domain."""
         self._node.destroy_node()
         self._context.try_shutdown()
 
 
 class Kept:
-    """Holds a simulation in a cycle, as a node does, so that only the collector lets it go."""
+    """Holds a simulation in a reference cycle, as a node does, so that only the collector frees it."""
 
     def __init__(self, simulation: Simulation) -> None:
         self.simulation = simulation
@@ -105,7 +105,7 @@ def play_churn(chance: random.Random) -> None:
         process.start(churn, stdout=_drop, stderr=_drop)
         threading.Event().wait(chance.uniform(0.03, 0.06))
         for _ in range(100):
-            process.interrupt()  # the interpreter drops one that comes while it finalizes an object
+            process.interrupt()  # The interpreter drops an interrupt that comes while it finalizes an object.
             if process.wait(0.3) is not None:
                 break
         assert not process.is_alive, process.line()
@@ -146,7 +146,9 @@ def play(kind: str, domain: int, chance: random.Random) -> None:
 
 
 def main(rounds: int, seed: int) -> None:
-    """Play, four at a time, while every thread collects garbage all the time, so that ends meet collections."""
+    """Play, four at a time, while every thread collects garbage all the time, so that ends coincide with
+    collections.
+    """
     gc.set_threshold(30, 2, 2)
     done: Counter[str] = Counter()
     rest = list(range(rounds))

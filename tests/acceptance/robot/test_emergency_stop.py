@@ -1,4 +1,4 @@
-"""ALL STOP holds the robot, whoever publishes velocities and whoever has gone. A witness's odometry is the judge."""
+"""ALL STOP holds the robot, whoever publishes velocities and whichever node ended; judged by a witness's odometry."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ class Bench:
         self.run(3.0)
 
     def run(self, seconds: float) -> list[float]:
-        """Let time go by; the speeds that the witness saw in it."""
+        """Let time pass; returns the speeds that the witness saw."""
         seen = len(self._witness.stdout)
         self._running.run(seconds)
         return [abs(float(each)) for each in self._witness.stdout[seen:].split()]
@@ -130,16 +130,16 @@ class Bench:
         return max(self.run(seconds)) < STANDING
 
     def call(self, service: str) -> str:
-        """What a service answers."""
+        """The answer of a service."""
         return self._running.ask("service", "call", service, "std_srvs/srv/Trigger").stdout
 
     def command(self, verb: str, *words: str) -> Program:
-        """`bot-console stop` or `release`, to its end."""
+        """Run `bot-console stop` or `release` to its end."""
         started = self._running.start(verb, lambda: sys.exit(run(verb, list(words))), [verb, *words])
         return self._running.finish(started)
 
     def python(self, text: str, *words: str) -> Program:
-        """One more program."""
+        """Run another program."""
         return self._running.python("-c", text, *words)
 
     def kill(self, name: str) -> None:
@@ -161,7 +161,7 @@ def bench() -> Iterator[Bench]:
 @pytest.mark.parametrize(
     "topic", ["cmd_vel", *(pytest.param(each, marks=pytest.mark.soak) for each in ("cmd_vel_nav", "cmd_vel_teleop"))]
 )
-def test_a_locked_robot_obeys_no_publisher_until_it_is_released(bench: Bench, topic: str) -> None:
+def test_locked_robot_obeys_no_publisher_until_released(bench: Bench, topic: str) -> None:
     bench.python(DRIVER, topic)
     assert bench.drives()
     assert "locked" in bench.call("/safety_monitor/stop")
@@ -170,7 +170,7 @@ def test_a_locked_robot_obeys_no_publisher_until_it_is_released(bench: Bench, to
     assert bench.drives()
 
 
-def test_a_killed_monitor_is_started_again_and_the_robot_stands_until_a_person_releases_it(bench: Bench) -> None:
+def test_killed_monitor_is_restarted_and_robot_stands_until_a_person_releases_it(bench: Bench) -> None:
     bench.python(DRIVER, "cmd_vel")
     bench.kill("safety_node")
     bench.run(0.6)
@@ -181,7 +181,7 @@ def test_a_killed_monitor_is_started_again_and_the_robot_stands_until_a_person_r
     assert bench.drives()
 
 
-def test_steering_holds_the_program_back_and_its_silence_locks(bench: Bench) -> None:
+def test_steering_blocks_the_program_and_silence_locks(bench: Bench) -> None:
     person = bench.python(STEERS)
     assert bench.stands(3.0), "the program may not drive while a person steers"
     person.process.kill()
@@ -193,7 +193,7 @@ def test_steering_holds_the_program_back_and_its_silence_locks(bench: Bench) -> 
     assert bench.drives()
 
 
-def test_a_person_releases_nobody_elses_stop(bench: Bench) -> None:
+def test_release_of_a_person_covers_only_their_own_stops(bench: Bench) -> None:
     bench.call("/safety_monitor/stop")
     assert bench.command("stop", "the arm swings").exit == 0
     kept = bench.command("release")
@@ -210,7 +210,7 @@ def test_a_person_releases_nobody_elses_stop(bench: Bench) -> None:
     assert bench.drives()
 
 
-def test_scans_that_cannot_be_used_do_not_end_the_monitor(bench: Bench) -> None:
+def test_unusable_scans_do_not_end_the_monitor(bench: Bench) -> None:
     blind = bench.python(BLIND)
     bench.run(2.0)
     blind.process.kill()
@@ -219,7 +219,7 @@ def test_scans_that_cannot_be_used_do_not_end_the_monitor(bench: Bench) -> None:
     assert "process has died" not in bench.launch.stdout
 
 
-def test_a_base_without_an_arbiter_locks_itself() -> None:
+def test_base_without_an_arbiter_locks_itself() -> None:
     with system() as running:
         bench = Bench(running, "single_robot.launch.py")
         assert bench.drives()
@@ -231,7 +231,7 @@ def test_a_base_without_an_arbiter_locks_itself() -> None:
         assert bench.drives()
 
 
-def test_stop_and_release_without_a_screen(bench: Bench) -> None:
+def test_stop_and_release_work_without_a_screen(bench: Bench) -> None:
     bench.python(DRIVER, "cmd_vel")
     stopped = bench.command("stop", "the arm swings")
     assert (stopped.exit, stopped.stdout) == (0, "held: the robot is locked until a person releases it\n")
@@ -241,7 +241,7 @@ def test_stop_and_release_without_a_screen(bench: Bench) -> None:
     assert bench.drives()
 
 
-def test_a_stop_that_nobody_acknowledges_reports_it() -> None:
+def test_stop_without_acknowledgement_is_reported() -> None:
     with system() as running:
         alone = running.finish(running.start("stop", lambda: sys.exit(run("stop", [])), ["stop"]))
     assert alone.exit == 1
@@ -251,7 +251,7 @@ def test_a_stop_that_nobody_acknowledges_reports_it() -> None:
 @pytest.mark.parametrize(
     ("late", "deaf", "slow"), [(0.0, 60, 0.0), (8.0, 0, 0.1)], ids=["one that answers late", "on a busy machine"]
 )
-def test_a_stop_goes_on_until_a_slow_robot_has_acknowledged_it(
+def test_stop_is_repeated_until_a_slow_robot_acknowledges(
     late: float, deaf: int, slow: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     program, spin_once = tmp_path / "slow_lock.py", rclpy.spin_once

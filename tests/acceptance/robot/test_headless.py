@@ -1,4 +1,4 @@
-"""Headless runs: repeatable to the bit, and plain about what they cannot do."""
+"""Headless runs: bit-for-bit reproducible, and clear about what they cannot do."""
 
 import json
 import signal
@@ -21,7 +21,7 @@ def runs(tmp_path_factory):
     return [headless(folder, "--duration", "12", "--seed", seed) for seed in ("5", "5", "6")]
 
 
-def test_one_seed_gives_one_digest(runs):
+def test_same_seed_gives_same_digest(runs):
     assert runs[0]["digest"] == runs[1]["digest"]
     assert runs[0]["deterministic"] and runs[1]["deterministic"]
 
@@ -30,12 +30,12 @@ def test_another_seed_gives_another_digest(runs):
     assert runs[0]["digest"] != runs[2]["digest"]
 
 
-def test_the_whole_report_is_repeatable(runs):
+def test_whole_report_is_reproducible(runs):
     first, second = ({key: value for key, value in run.items() if key not in ("log", "wall_time")} for run in runs[:2])
     assert first == second
 
 
-def test_the_report_reports_what_was_asked(runs):
+def test_report_contains_the_options(runs):
     report = runs[0]
     assert (report["world"], report["seed"], report["duration"]) == ("indoor", 5, 12.0)
     assert report["distance"] > 2.0
@@ -45,11 +45,11 @@ def test_the_report_reports_what_was_asked(runs):
     assert set(report) >= {"min_clearance", "stops", "collisions"}
 
 
-def test_logs_are_as_ros_prints_them(runs):
+def test_logs_are_formatted_as_in_ros(runs):
     assert "[simulator_node-1] [INFO] [1700000000.000000000] [simulator]: Office" in runs[0]["log"]
 
 
-def test_real_time_is_real(tmp_path):
+def test_real_time_run_takes_real_time(tmp_path):
     words = [sys.executable, "-m", "bot_console.tui", "--headless", "--duration", "1.5"]
     done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -62,7 +62,7 @@ def test_real_time_is_real(tmp_path):
     [(["--fast"], "SIGINT"), pytest.param(["--fast"], "SIGHUP", marks=pytest.mark.soak), ([], "SIGTERM")],
     ids=["fast, interrupted", "fast, hung up", "real time, terminated"],
 )
-def test_a_run_that_is_ended_early_still_reports(tmp_path, fast, name):
+def test_run_ended_early_still_reports(tmp_path, fast, name):
     words = [sys.executable, "-m", "bot_console.tui", "--headless", *fast, "--duration", "1e6"]
     with subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
         try:
@@ -88,7 +88,7 @@ def generate_launch_description():
 """
 
 
-def test_a_launch_that_ends_itself_is_reported_until_then(tmp_path):
+def test_launch_that_ends_itself_is_reported_until_then(tmp_path):
     text = ENDING.format(file=str(ROOT / "launch" / "simulator.launch.py"), seconds=3.0)
     (tmp_path / "ending.launch.py").write_text(text)
     report = headless(tmp_path, "--duration", "1000", "--launch", "ending.launch.py")
@@ -124,7 +124,7 @@ def generate_launch_description():
 """
 
 
-def test_a_program_that_never_ends_is_killed_by_its_launch(tmp_path):
+def test_program_that_never_ends_is_killed_by_its_launch(tmp_path):
     program = tmp_path / "never_ends.py"
     program.write_text(NEVER_ENDS)
     (tmp_path / "starts_it.launch.py").write_text(STARTS_IT.format(program=str(program)))
@@ -157,7 +157,7 @@ def test_parameters_that_end_the_simulator_end_the_run_at_once(tmp_path, content
         (["--headless", "--duration", "-1"], 2, "--duration must be positive"),
     ],
 )
-def test_wrong_words_get_one_clear_line(tmp_path, monkeypatch, capfd, words, code, text):
+def test_wrong_usage_gets_one_clear_line(tmp_path, monkeypatch, capfd, words, code, text):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(SystemExit) as end:
         sys.exit(main(words))
@@ -166,7 +166,7 @@ def test_wrong_words_get_one_clear_line(tmp_path, monkeypatch, capfd, words, cod
     assert text in reported and "Traceback" not in reported
 
 
-def test_a_world_that_is_not_there_ends_the_run(tmp_path):
+def test_unknown_world_ends_the_run(tmp_path):
     line = [sys.executable, "-m", "bot_console.tui", "--headless", "--fast", "--duration", "1", "world:=nowhere"]
     done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 1, done.stderr
@@ -184,7 +184,7 @@ program()
 """
 
 
-def test_garbage_is_collected_once_the_nodes_are_up_and_nothing_of_plots_is_imported(tmp_path):
+def test_garbage_is_collected_once_nodes_are_up_and_no_plots_are_imported(tmp_path):
     words = ("--headless", "--fast", "--duration", "1")
     run = [sys.executable, "-c", WATCHED, *words]
     done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=TIMEOUT_S, check=True)
@@ -205,7 +205,7 @@ rclpy.spin_once(node, timeout_sec=0.1)
 """
 
 
-def test_what_a_node_draws_is_the_same_again(tmp_path):
+def test_random_numbers_of_a_node_are_reproducible(tmp_path):
     (tmp_path / "draws.py").write_text(DRAWS)
 
     def drawn(seed: str) -> list[str]:

@@ -20,7 +20,7 @@ def running() -> Iterator[System]:
 
 
 def robot(running: System, *words: str) -> Program:
-    """The simulator, up for a while."""
+    """Start the simulator and let it run for a while."""
     program = running.executable(PACKAGE, "simulator_node", "--ros-args", *words)
     running.run(0.5)
     return program
@@ -56,7 +56,7 @@ def goal(running: System, name: str, kind: str, fields: str, *words: str) -> str
     return running.ask("action", "send_goal", f"/{name}", f"{NAV}/{kind}", fields, *words).stdout
 
 
-def test_frames_lead_from_the_map_to_every_sensor(running: System) -> None:
+def test_frames_lead_from_map_to_every_sensor(running: System) -> None:
     robot(running)
     echo = running.executable("tf2_ros", "tf2_echo", "map", "base_scan")
     wheel = running.executable("tf2_ros", "tf2_echo", "odom", "wheel_left_link")
@@ -74,7 +74,7 @@ def test_odometry_names_the_frame_that_tf_moves(running: System) -> None:
     assert "frame_id: odom\n  child_frame_id: base_footprint\n" in moved
 
 
-def test_the_correction_puts_drifted_odometry_right(running: System) -> None:
+def test_map_to_odom_corrects_drifted_odometry(running: System) -> None:
     robot(running, "-p", "odometry.heading_noise:=0.3", "-p", "odometry.distance_noise:=0.3")
     echo = running.executable("tf2_ros", "tf2_echo", "map", "base_footprint")
     running.ask(
@@ -98,7 +98,7 @@ def test_the_correction_puts_drifted_odometry_right(running: System) -> None:
     assert f"{x:.3f}" not in reported
 
 
-def test_wheels_inertia_and_battery(running: System) -> None:
+def test_joint_states_imu_and_battery_are_published(running: System) -> None:
     robot(running)
     running.ros2("topic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/msg/Twist", "{linear: {x: 0.33}}")
     running.run(3.0)
@@ -111,7 +111,7 @@ def test_wheels_inertia_and_battery(running: System) -> None:
     assert 0.99 < float(re.findall(r"percentage: ([\d.]+)", battery)[0]) < 1.0
 
 
-def test_the_right_wheel_is_the_faster_one_in_a_turn_to_the_left(running: System) -> None:
+def test_right_wheel_is_faster_in_a_left_turn(running: System) -> None:
     robot(running)
     twist = "{linear: {x: 0.2}, angular: {z: 1.0}}"
     running.ros2("topic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/msg/Twist", twist)
@@ -121,7 +121,7 @@ def test_the_right_wheel_is_the_faster_one_in_a_turn_to_the_left(running: System
     assert float(re.findall(r"angular_velocity:\n(?:.*\n){2}\s+z: ([-\d.]+)", once(running, "/imu"))[0]) > 0.9
 
 
-def test_map_and_odometry_begin_where_the_robot_does(running: System) -> None:
+def test_map_and_odometry_start_at_the_robot(running: System) -> None:
     robot(running, "-p", "origin:=start", "-p", "odometry.distance_noise:=0.0")
     navigator(running)
     assert place(running) == (0.0, 0.0)
@@ -141,13 +141,13 @@ def test_map_and_odometry_begin_where_the_robot_does(running: System) -> None:
     assert place(running) == (0.5, 0.25)
 
 
-def test_an_origin_that_there_is_not(running: System) -> None:
+def test_unknown_origin_is_refused(running: System) -> None:
     refused = running.finish(running.executable(PACKAGE, "simulator_node", "--ros-args", "-p", "origin:=middle"))
     assert refused.exit == 1
     assert "origin must be one of corner, start, not 'middle'" in refused.stderr
 
 
-def test_all_of_it_is_listed_and_comes_to_who_subscribes_late(running: System) -> None:
+def test_signals_are_listed_and_reach_late_subscribers(running: System) -> None:
     robot(running)
     running.run(1.0)
     listed = running.ask("topic", "list").stdout.split()
@@ -162,7 +162,7 @@ def test_all_of_it_is_listed_and_comes_to_who_subscribes_late(running: System) -
     assert running.finish(running.python("-c", text)).stdout == "1\n"
 
 
-def test_a_turtlebot_3_looks_ahead_with_beam_0(running: System) -> None:
+def test_first_beam_of_turtlebot_3_points_forward(running: System) -> None:
     robot(running, "-p", "model:=turtlebot3", "-p", "lidar.field_of_view:=6.265732014659643", "-p", "lidar.noise:=0.0")
     scan = once(running, "/scan")
     assert "angle_min: 0.0\n" in scan
@@ -174,18 +174,18 @@ def test_a_turtlebot_3_looks_ahead_with_beam_0(running: System) -> None:
 
 
 @pytest.mark.parametrize(("model", "frame"), [("turtlebot3", "base_scan"), ("turtlebot4", "rplidar_link")])
-def test_names_of_other_makes(running: System, model: str, frame: str) -> None:
+def test_names_of_other_models_are_used(running: System, model: str, frame: str) -> None:
     robot(running, "-p", f"model:={model}")
     assert f"frame_id: {frame}\n" in once(running, "/scan")
 
 
-def test_a_make_that_there_is_not(running: System) -> None:
+def test_unknown_model_is_refused(running: System) -> None:
     refused = running.finish(running.executable(PACKAGE, "simulator_node", "--ros-args", "-p", "model:=tank"))
     assert refused.exit == 1
     assert "model must be one of plain, turtlebot3, turtlebot4, not 'tank'" in refused.stderr
 
 
-def test_stamped_velocities_where_they_are_asked_for(running: System) -> None:
+def test_stamped_velocities_are_obeyed_if_enabled(running: System) -> None:
     robot(running, "-p", "enable_stamped_cmd_vel:=true")
     before = place(running)
     words = ("/cmd_vel", "geometry_msgs/msg/TwistStamped", "{twist: {linear: {x: 0.5}}}")
@@ -193,7 +193,7 @@ def test_stamped_velocities_where_they_are_asked_for(running: System) -> None:
     assert math.dist(before, place(running)) > 0.5
 
 
-def test_a_goal_is_driven_to(running: System) -> None:
+def test_robot_drives_to_a_goal(running: System) -> None:
     robot(running)
     navigator(running)
     x, y = place(running)
@@ -208,7 +208,7 @@ def test_a_goal_is_driven_to(running: System) -> None:
     )
 
 
-def test_a_goal_in_a_wall_is_aborted_with_the_reason(running: System) -> None:
+def test_goal_in_a_wall_is_aborted_with_the_reason(running: System) -> None:
     robot(running)
     nav = running.executable(PACKAGE, "navigation_node")
     running.run(1.0)
@@ -217,7 +217,7 @@ def test_a_goal_in_a_wall_is_aborted_with_the_reason(running: System) -> None:
     assert "Goal failed: the goal is inside a wall or outside the map" in nav.stderr
 
 
-def test_turning_backing_up_and_waiting(running: System) -> None:
+def test_spin_back_up_and_wait_succeed(running: System) -> None:
     robot(running)
     navigator(running)
     assert "SUCCEEDED" in goal(running, "spin", "Spin", "{target_yaw: 1.57}")
@@ -227,7 +227,7 @@ def test_turning_backing_up_and_waiting(running: System) -> None:
     assert "SUCCEEDED" in goal(running, "wait", "Wait", "{time: {sec: 2}}")
 
 
-def test_a_newer_goal_takes_the_place_of_the_older(running: System) -> None:
+def test_newer_goal_replaces_the_older(running: System) -> None:
     robot(running)
     navigator(running)
     x, y = place(running)
@@ -239,7 +239,7 @@ def test_a_newer_goal_takes_the_place_of_the_older(running: System) -> None:
     assert "ABORTED" in first.stdout
 
 
-def test_waypoints_and_those_that_are_missed(running: System) -> None:
+def test_waypoints_are_followed_and_missed_ones_reported(running: System) -> None:
     robot(running)
     navigator(running)
     x, y = place(running)
@@ -250,7 +250,7 @@ def test_waypoints_and_those_that_are_missed(running: System) -> None:
     assert re.findall(r"- index: (\d+)", done) == ["1"]
 
 
-def test_what_waits_for_nav2_need_not_wait(running: System) -> None:
+def test_waiting_for_nav2_returns_at_once(running: System) -> None:
     robot(running)
     navigator(running)
     for name in ("amcl", "bt_navigator"):
@@ -259,7 +259,7 @@ def test_what_waits_for_nav2_need_not_wait(running: System) -> None:
     assert "frame_id: map" in once(running, "/amcl_pose")
 
 
-def test_the_goal_topic_needs_no_answer(running: System) -> None:
+def test_goal_topic_needs_no_action_client(running: System) -> None:
     robot(running)
     program = navigator(running)
     x, y = place(running)
@@ -305,7 +305,7 @@ navigator.lifecycleShutdown()
 """
 
 
-def test_nav2_simple_commander(running: System) -> None:
+def test_nav2_simple_commander_drives_the_robot(running: System) -> None:
     robot(running)
     navigator(running)
     x, y = place(running)

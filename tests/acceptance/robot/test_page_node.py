@@ -20,14 +20,14 @@ pytestmark = [
 
 @pytest.mark.soak
 @pytest.mark.parametrize("world", ["indoor", "outdoor", "warehouse", "competition"])
-def test_ten_minutes_in_our_system(tmp_path, world):
+def test_page_navigator_drives_ten_minutes_in_our_system(tmp_path, world):
     report = headless(tmp_path, "--profile", world, "--duration", "600", f"navigator:={NODE}")
     assert report["longest_standstill"] < 20.0
     assert report["distance"] > 100.0
 
 
 @pytest.mark.parametrize("minutes", [1, pytest.param(10, marks=pytest.mark.soak)])
-def test_minutes_alone_with_the_simulator(tmp_path, minutes):
+def test_page_navigator_drives_minutes_alone_with_the_simulator(tmp_path, minutes):
     report = headless(tmp_path, "--duration", str(60 * minutes), str(NODE), command=("run",))
     assert report["longest_standstill"] < 20.0
     assert report["distance"] > 10.0 * minutes

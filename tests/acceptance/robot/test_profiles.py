@@ -1,4 +1,4 @@
-"""The four environments behave as their names say, over several seeds: a minute of processor time for each seed."""
+"""The four environments behave as their names suggest, over several seeds: a minute of CPU time per seed."""
 
 import re
 import sys
@@ -18,7 +18,7 @@ GUIDE = Path(__file__).resolve().parents[3] / "docs" / "environments.md"
 
 @pytest.fixture(scope="module")
 def runs(tmp_path_factory):
-    """Reports by profile, one for each seed, of two simulated minutes."""
+    """Reports by profile, one per seed, of two simulated minutes."""
     folder = tmp_path_factory.mktemp("profiles")
     return {
         name: [headless(folder, "--profile", name, "--duration", "120", "--seed", seed) for seed in SEEDS]
@@ -33,7 +33,7 @@ def figures(runs, name, key):
 @pytest.mark.parametrize(
     ("slower", "faster"), [("indoor", "warehouse"), ("warehouse", "outdoor"), ("outdoor", "competition")]
 )
-def test_mean_speed(runs, slower, faster):
+def test_mean_speeds_are_ordered(runs, slower, faster):
     assert max(figures(runs, slower, "mean_speed")) < min(figures(runs, faster, "mean_speed"))
 
 
@@ -52,7 +52,7 @@ def test_indoor_stops_more_than_competition(runs):
 
 
 @pytest.mark.parametrize("name", ["indoor", "outdoor", "warehouse"])
-def test_careful_profiles_touch_nothing(runs, name):
+def test_careful_profiles_have_no_collisions(runs, name):
     assert not any(figures(runs, name, "collisions"))
 
 
@@ -62,7 +62,7 @@ def test_runs_are_deterministic(runs, name):
     assert len(set(figures(runs, name, "digest"))) == len(runs[name])
 
 
-def test_the_environment_guide_has_these_figures(runs):
+def test_environment_guide_has_these_figures(runs):
     """Within what another processor's floating point may change in a chaotic run."""
     row = r"^\| (\w+) \| (\d) \| ([\d.]+) \| ([\d.]+) \| (\d+) \| (\d+) \|$"
     rows = re.findall(row, GUIDE.read_text(encoding="utf-8"), re.MULTILINE)

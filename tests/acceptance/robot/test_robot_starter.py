@@ -1,4 +1,4 @@
-"""A launch file whose nodes want a robot gets the simulated one beside it, and nothing else does."""
+"""A launch file whose nodes need a robot gets the simulated one beside it; no other launch file does."""
 
 import subprocess
 import sys
@@ -53,7 +53,7 @@ def run(folder, *words, seconds="6"):
     return subprocess.run(line, cwd=folder, capture_output=True, text=True, check=False)
 
 
-def test_nodes_that_want_a_robot_drive_ours_and_each_run_is_the_same(tmp_path):
+def test_nodes_that_need_a_robot_drive_ours_reproducibly(tmp_path):
     write(tmp_path, "driver", "watcher")
     words = ("--duration", "8", "--seed", "3", "--world", "warehouse", "--launch", "mine.launch.py")
     first, second = (headless(tmp_path, *words) for _ in range(2))
@@ -66,7 +66,7 @@ def test_nodes_that_want_a_robot_drive_ours_and_each_run_is_the_same(tmp_path):
     assert (first["digest"], first["duration"]) == (second["digest"], second["duration"])
 
 
-def test_a_node_that_drives_with_a_time_stamp_moves_it(tmp_path):
+def test_node_with_stamped_velocities_moves_the_robot(tmp_path):
     write(tmp_path, "driver")
     file = tmp_path / "driver.py"
     text = file.read_text().replace("import Twist\n", "import Twist, TwistStamped\n")
@@ -75,7 +75,7 @@ def test_a_node_that_drives_with_a_time_stamp_moves_it(tmp_path):
     assert headless(tmp_path, "--duration", "8", "--launch", "mine.launch.py")["distance"] > 0.5
 
 
-def test_a_node_that_starts_late_is_seen(tmp_path):
+def test_late_node_is_noticed(tmp_path):
     write(tmp_path, "TimerAction(period=5.0, actions=[Node(executable='driver.py')])")
     report = headless(tmp_path, "--duration", "12", "--launch", "mine.launch.py")
     assert report["distance"] > 0.2
@@ -98,7 +98,7 @@ WAITS = "waiting at most 30 s for what the launch file starts later, before a si
     ],
     ids=["timer", "timer of a function", "timer of a timer"],
 )
-def test_no_two_robots_when_the_launch_brings_one_later(tmp_path, bringing):
+def test_launch_that_brings_a_robot_later_gets_no_second_one(tmp_path, bringing):
     write(tmp_path, "driver", bringing)
     log = headless(tmp_path, "--duration", "9", "--launch", "mine.launch.py")["log"]
     assert BESIDE not in log
@@ -106,13 +106,13 @@ def test_no_two_robots_when_the_launch_brings_one_later(tmp_path, bringing):
 
 
 @pytest.mark.soak
-def test_what_starts_later_and_is_no_robot_holds_ours_up_for_its_time_only(tmp_path):
+def test_delayed_start_without_robot_delays_ours_only_until_then(tmp_path):
     write(tmp_path, "driver", later(4.0, "Node(executable='blind.py')"), later(900.0, "Shutdown()"))
     report = headless(tmp_path, "--duration", "10", "--launch", "mine.launch.py")
     assert report["log"].count(WAITS) == report["log"].count(BESIDE) == 1
 
 
-def test_what_starts_much_later_is_not_waited_for(tmp_path):
+def test_long_delayed_start_is_not_waited_for(tmp_path):
     write(tmp_path, "driver", later(900.0, "Node(executable='blind.py')"))
     report = headless(tmp_path, "--duration", "35", "--launch", "mine.launch.py")
     assert report["log"].count(WAITS) == report["log"].count(BESIDE) == 1
@@ -128,7 +128,7 @@ def test_what_starts_much_later_is_not_waited_for(tmp_path):
     ],
     ids=["somebody gives it", "nobody wants it", "in a namespace", "remapped"],
 )
-def test_no_robot_where_none_is_wanted(tmp_path, entities):
+def test_no_robot_is_started_if_none_is_needed(tmp_path, entities):
     write(tmp_path, *entities)
     done = run(tmp_path)
     assert done.returncode == 1
@@ -136,19 +136,19 @@ def test_no_robot_where_none_is_wanted(tmp_path, entities):
     assert "no simulator was started beside it, --simulator starts one" in done.stderr
 
 
-def test_no_simulator_where_it_is_turned_off(tmp_path):
+def test_no_simulator_option_is_respected(tmp_path):
     write(tmp_path, "driver")
     done = run(tmp_path, "--no-simulator")
     assert (done.returncode, BESIDE in done.stderr) == (1, False)
 
 
-def test_simulator_where_it_is_asked_for(tmp_path):
+def test_simulator_option_starts_one(tmp_path):
     write(tmp_path, "blind")
     report = headless(tmp_path, "--duration", "2", "--launch", "mine.launch.py", "--simulator")
     assert report["duration"] == 2.0
 
 
-def test_no_two_robots_when_the_launch_brings_one(tmp_path):
+def test_launch_that_brings_a_robot_gets_no_second_one(tmp_path):
     write(tmp_path, "driver", BRINGING)
     assert BESIDE not in headless(tmp_path, "--duration", "4", "--launch", "mine.launch.py")["log"]
 
@@ -176,7 +176,7 @@ print("given by", looks[-1], flush=True)
     ],
     ids=["run", "launch", "run --headless"],
 )
-def test_the_verbs_start_what_is_requested_and_no_robot(tmp_path, monkeypatch, words, givers):
+def test_run_and_launch_verbs_start_no_robot(tmp_path, monkeypatch, words, givers):
     monkeypatch.setenv("ROS_HOME", str(tmp_path))
     (tmp_path / "asks.py").write_text(ASKS)
     node = "Node(executable='./asks.py', output='screen')"

@@ -1,4 +1,4 @@
-"""A robot whose safety monitor is killed comes to rest by itself, whoever watches."""
+"""A robot whose safety monitor is killed comes to rest by itself, without any observer."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ rclpy.spin(node)
 
 
 def speeds(text: str) -> list[tuple[float, float]]:
-    """(time (s), speed (m/s)) of what was printed so far."""
+    """The (time (s), speed (m/s)) pairs printed so far."""
     return [(float(at), float(speed)) for at, speed in map(str.split, text.splitlines())]
 
 
@@ -44,7 +44,7 @@ def kill(running: System, launch_output: str, name: str) -> None:
 
 
 @pytest.mark.parametrize("seconds", [2.53, *(pytest.param(each, marks=pytest.mark.soak) for each in (2.0, 6.0, 7.17))])
-def test_it_stands_half_a_second_after_the_kill(seconds: float) -> None:
+def test_robot_stands_half_a_second_after_monitor_is_killed(seconds: float) -> None:
     with system() as running:
         launch = running.ros2("launch", str(ROOT / "launch" / "robot_system.launch.py"))
         watch = running.python("-c", SPEEDS)
@@ -58,7 +58,7 @@ def test_it_stands_half_a_second_after_the_kill(seconds: float) -> None:
         assert not [each for each in after if each[0] > 0.5 and abs(each[1]) > NOISE]
 
 
-def test_the_monitor_asks_for_the_simulations_time_once_a_scan_is_late() -> None:
+def test_monitor_follows_simulation_time_once_a_scan_is_late() -> None:
     def listeners(running: System) -> str:
         reported = running.finish(running.ros2("topic", "info", "/clock")).stdout
         return reported.partition("Subscription count: ")[2].strip()

@@ -1,4 +1,4 @@
-"""Whatever a workspace holds, our robot starts: packages of both its names lie in it, with one node each."""
+"""Our robot starts whatever a workspace contains: here, packages with both of its names, with one node each."""
 
 import subprocess
 import sys
@@ -33,7 +33,7 @@ if __name__ == '__main__':
 """
 NAMES = ("intelligent_robot", "bot_console_robot")
 OFTEN = [pytest.param(NAMES[0], marks=pytest.mark.soak), NAMES[1]]
-"""Those of runs of a system: our robot's own name is the one under which most could be mistaken."""
+"""Only our robot's own name runs in the default run, since it is the likelier source of mix-ups."""
 
 
 @pytest.fixture
@@ -55,21 +55,21 @@ def test_our_robot_drives(workspace):
 
 
 @pytest.mark.parametrize("name", OFTEN)
-def test_a_file_of_theirs_navigates(name, workspace):
+def test_users_file_navigates(name, workspace):
     report = headless(workspace, "--duration", "3", f"navigator:=src/{name}/{name}/robot_node.py")
     assert report["duration"] == 3.0
     assert "a scan" in report["log"]
 
 
 @pytest.mark.parametrize("name", OFTEN)
-def test_a_file_of_theirs_runs_beside_our_simulator(name, workspace):
+def test_users_file_runs_beside_our_simulator(name, workspace):
     report = headless(workspace, "--duration", "3", f"src/{name}/{name}/robot_node.py", command=("run",))
     assert f"theirs: {name}" in report["log"]
     assert "a scan" in report["log"]
 
 
 @pytest.mark.parametrize("name", OFTEN)
-def test_an_executable_of_theirs_runs_beside_our_simulator(name, workspace):
+def test_users_executable_runs_beside_our_simulator(name, workspace):
     report = headless(workspace, "--duration", "4", name, "robot_node", command=("run",))
     assert f"theirs: {name}" in report["log"]
     assert "a scan" in report["log"]
@@ -77,7 +77,7 @@ def test_an_executable_of_theirs_runs_beside_our_simulator(name, workspace):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_package_that_is_named_is_the_workspaces(name, workspace):
+def test_named_package_is_the_workspaces(name, workspace):
     line = [sys.executable, "-m", "bot_console.tui", "run", name, "safety_node"]
     done = subprocess.run(line, cwd=workspace, capture_output=True, text=True, check=False)
     assert done.returncode == 1

@@ -1,4 +1,4 @@
-"""The first commands of ROS 2's tutorials, without turtles."""
+"""The first commands of the ROS 2 tutorials, without turtles."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def message(program: Program) -> list[str]:
     ("package", "numbers", "quote"),
     [("demo_nodes_cpp", (1, 2, 3), "'"), ("demo_nodes_py", (0, 1, 2), '"')],
 )
-def test_talker_and_listener(package: str, numbers: tuple[int, ...], quote: str) -> None:
+def test_listener_hears_talker(package: str, numbers: tuple[int, ...], quote: str) -> None:
     with system() as running:
         listener = running.executable(package, "listener")
         talker = running.executable(package, "talker")
@@ -25,7 +25,7 @@ def test_talker_and_listener(package: str, numbers: tuple[int, ...], quote: str)
     assert message(listener) == [f"I heard: [Hello World: {each}]" for each in numbers]
 
 
-def test_qualities_of_service_and_bytes() -> None:
+def test_qos_and_serialized_talkers_are_heard() -> None:
     with system() as running:
         talker = running.executable("demo_nodes_py", "talker_qos")
         heard = running.executable("demo_nodes_py", "listener_qos")
@@ -45,13 +45,13 @@ def test_qualities_of_service_and_bytes() -> None:
 @pytest.mark.parametrize(
     ("words", "count"), [(("-n", "3"), 3), (("--number_of_cycles", "1", "--ros-args"), 1), ((), 20)]
 )
-def test_a_talker_ends_after_so_many_messages(words: tuple[str, ...], count: int) -> None:
+def test_talker_ends_after_given_number_of_messages(words: tuple[str, ...], count: int) -> None:
     with system() as running:
         talker = running.finish(running.executable("demo_nodes_py", "talker_qos", *words))
     assert (talker.exit, len(message(talker))) == (0, count + 1)
 
 
-def test_a_listener_ends_after_so_many_messages() -> None:
+def test_listener_ends_after_given_number_of_messages() -> None:
     with system() as running:
         listener = running.executable("demo_nodes_py", "listener_qos", "-n", "2")
         running.executable("demo_nodes_py", "talker")
@@ -62,7 +62,7 @@ def test_a_listener_ends_after_so_many_messages() -> None:
 
 
 @pytest.mark.parametrize("package", ["demo_nodes_cpp", "demo_nodes_py"])
-def test_a_client_waits_for_its_server(package: str) -> None:
+def test_client_waits_for_its_server(package: str) -> None:
     with system() as running:
         client = running.executable(package, "add_two_ints_client")
         running.run(1.5)
@@ -72,7 +72,7 @@ def test_a_client_waits_for_its_server(package: str) -> None:
     assert message(server) == ["Incoming request\na: 2 b: 3"]
 
 
-def test_parameters() -> None:
+def test_parameter_demos_work() -> None:
     with system() as running:
         running.executable("demo_nodes_cpp", "parameter_blackboard", "--ros-args", "-p", "color:=red")
         running.executable("demo_nodes_py", "set_parameters_callback")
@@ -93,7 +93,7 @@ SEQUENCE = [0, 1, 1, 2, 3, 5, 8, 13, 21, 34, 55]
         ("action_tutorials_cpp", f"Result received: {' '.join(map(str, SEQUENCE))} "),
     ],
 )
-def test_fibonacci(package: str, last: str) -> None:
+def test_fibonacci_action_succeeds(package: str, last: str) -> None:
     with system() as running:
         server = running.executable(package, "fibonacci_action_server")
         running.run(0.2)
@@ -104,7 +104,7 @@ def test_fibonacci(package: str, last: str) -> None:
     assert "Executing goal" in message(server)[0] + message(server)[1]
 
 
-def test_minimal_examples() -> None:
+def test_minimal_examples_work() -> None:
     with system() as running:
         heard = running.executable("examples_rclpy_minimal_subscriber", "subscriber_member_function")
         running.executable("examples_rclpy_minimal_publisher", "publisher_member_function")
@@ -115,7 +115,7 @@ def test_minimal_examples() -> None:
     assert message(asked) == ["Result of add_two_ints: for 41 + 1 = 42"]
 
 
-def test_static_transforms_and_echo() -> None:
+def test_static_transforms_are_echoed() -> None:
     with system() as running:
         new = ("--x", "1", "--yaw", "1.5707963", "--frame-id", "world", "--child-frame-id", "tower")
         reported = running.executable("tf2_ros", "static_transform_publisher", *new)
@@ -138,14 +138,14 @@ def test_static_transforms_and_echo() -> None:
         (["--qw", "1", "--yaw", "1", "--frame-id", "a", "--child-frame-id", "b"], "not both"),
     ],
 )
-def test_a_static_transform_that_cannot_be(words: list[str], refusal: str) -> None:
+def test_invalid_static_transform_is_refused(words: list[str], refusal: str) -> None:
     with system() as running:
         ended = running.finish(running.executable("tf2_ros", "static_transform_publisher", *words))
     assert ended.exit != 0
     assert refusal in ended.stderr
 
 
-def test_a_listed_package() -> None:
+def test_demo_package_is_listed() -> None:
     with system() as running:
         assert running.ask("pkg", "executables", "turtlesim").stdout.split() == [
             *("turtlesim", "draw_square", "turtlesim", "mimic"),

@@ -1,4 +1,4 @@
-"""Images that are sent on by another transport, as programs ask for `camera/image_raw/compressed`."""
+"""Images republished by another transport, for programs that subscribe to `camera/image_raw/compressed`."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def republish(running: System, *words: str) -> Program:
     return program
 
 
-def test_images_are_compressed_while_somebody_listens(running: System, codec: None) -> None:
+def test_images_are_compressed_while_subscribed(running: System, codec: None) -> None:
     republish(running, "raw", "compressed", "--ros-args", "-r", "in:=camera", "-r", "out/compressed:=camera/compressed")
     running.ros2("topic", "pub", "-r", "5", "/camera", IMAGE, PIXEL)
     running.run(1.0)
@@ -49,7 +49,7 @@ def test_images_are_compressed_while_somebody_listens(running: System, codec: No
     assert "Subscription count: 0" in running.ask("topic", "info", "/camera").stdout
 
 
-def test_and_back_in_their_own_encoding(running: System, codec: None) -> None:
+def test_compressed_images_are_decoded_to_their_encoding(running: System, codec: None) -> None:
     republish(running, "compressed", "raw")
     fields = "{format: 'rgb8; jpeg compressed bgr8', data: [3, 2, 1]}"
     running.ros2("topic", "pub", "-r", "5", "/in/compressed", "sensor_msgs/msg/CompressedImage", fields)
@@ -57,7 +57,7 @@ def test_and_back_in_their_own_encoding(running: System, codec: None) -> None:
     assert "encoding: rgb8" in reported and reported.endswith("data:\n- 1\n- 2\n- 3\n---\n")
 
 
-def test_without_open_cv_it_reports_what_brings_it(running: System, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_opencv_is_reported_with_install_hint(running: System, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("bot_console_demos.image_transport.republish.available", lambda: ["raw"])
     refused = running.finish(running.executable("image_transport", "republish", "compressed", "raw"))
     assert refused.exit == 1
@@ -67,7 +67,7 @@ def test_without_open_cv_it_reports_what_brings_it(running: System, monkeypatch:
     assert running.finish(running.executable("image_transport", "republish", "--help")).exit == 1
 
 
-def test_as_they_are_by_parameters(running: System) -> None:
+def test_raw_images_are_republished_by_parameters(running: System) -> None:
     republish(running, "--ros-args", "-p", "in_transport:=raw", "-p", "out_transport:=raw")
     running.ros2("topic", "pub", "-r", "5", "/in", IMAGE, PIXEL)
     assert "encoding: rgb8" in running.ask("topic", "echo", "--once", "/out").stdout

@@ -1,6 +1,6 @@
 """Launch files as the tutorials build them up: two simulators, a mimic between them, arguments, events and timers.
 
-And a project of several files in all three languages, with namespaces, files of parameters and a frame that is added.
+Also a project of several files in all three languages, with namespaces, parameter files and an added frame.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ def pose(running: System, who: str, turtle: str = "turtle1") -> list[float]:
     return [float(re.findall(rf"^{axis}: ([-\d.e]+)", text, re.M)[0]) for axis in ("x", "y", "theta")]
 
 
-def test_a_mimic_between_two_simulators(running: System, tmp_path: Path) -> None:
+def test_mimic_runs_between_two_simulators(running: System, tmp_path: Path) -> None:
     file = tmp_path / "mimic.launch.py"
     file.write_text(LAUNCH_FILE)
     launched = running.ros2("launch", str(file), "red:=240")
@@ -122,14 +122,14 @@ def test_a_mimic_between_two_simulators(running: System, tmp_path: Path) -> None
     assert running.ask("param", "get", "/leader/sim", "background_r").stdout == "Integer value is: 69\n"
 
 
-def test_its_arguments_are_shown(running: System, tmp_path: Path) -> None:
+def test_arguments_are_shown(running: System, tmp_path: Path) -> None:
     file = tmp_path / "mimic.launch.py"
     file.write_text(LAUNCH_FILE)
     shown = running.ask("launch", str(file), "--show-args").stdout
     assert "'red':" in shown and "How red the follower's field is" in shown and "(default: '120')" in shown
 
 
-def test_a_project_of_several_files(running: System, tmp_path: Path) -> None:
+def test_project_of_several_files_runs(running: System, tmp_path: Path) -> None:
     for name, text in PROJECT.items():
         (tmp_path / name).write_text(text)
     running.ros2("launch", str(tmp_path / "project.launch.xml"), "target:=carrot1")

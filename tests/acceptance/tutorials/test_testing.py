@@ -1,4 +1,4 @@
-"""A launch test as the tutorial of testing builds it up: nodes beside it, their messages, lines and exit codes."""
+"""A launch test as in the testing tutorial: nodes under test, their messages, output and exit codes."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ class TestAfterwards(unittest.TestCase):
 
 
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnknownMarkWarning")
-def test_nodes_under_test(tmp_path: Path) -> None:
+def test_launch_test_of_nodes_passes(tmp_path: Path) -> None:
     path = tmp_path / "test_talker.py"
     path.write_text(LAUNCH_TEST)
     result = unittest.TestResult()

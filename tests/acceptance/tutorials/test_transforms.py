@@ -1,4 +1,4 @@
-"""Transforms between programs: one looks them up for others, which ask as if it were their own buffer."""
+"""Transforms between programs: one looks them up for others, which query it like their own buffer."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def static(running: System, parent: str, child: str, x: float) -> None:
     running.executable("tf2_ros", "static_transform_publisher", *words)
 
 
-def test_a_buffer_in_another_process_answers(running: System) -> None:
+def test_buffer_in_another_process_answers(running: System) -> None:
     running.executable("tf2_ros", "buffer_server")
     static(running, "map", "base", 1.5)
     running.run(0.5)
@@ -55,7 +55,7 @@ def test_a_buffer_in_another_process_answers(running: System) -> None:
     assert "x=-1.5" in asking(running, f"buffer.transform({there}, 'base').point").stdout
 
 
-def test_it_waits_for_a_transform_that_comes_within_the_time_out(running: System) -> None:
+def test_lookup_waits_for_a_transform_within_its_time_out(running: System) -> None:
     running.executable("tf2_ros", "buffer_server")
     running.run(0.5)
     ask = "buffer.can_transform('map', 'base', Time(), Duration(seconds=5))"
@@ -65,7 +65,7 @@ def test_it_waits_for_a_transform_that_comes_within_the_time_out(running: System
     assert re.match(r"True\nafter 2\.[01]\n", running.finish(asked).stdout)
 
 
-def test_what_does_not_come_is_reported_with_its_reason(running: System) -> None:
+def test_missing_transform_is_reported_with_its_reason(running: System) -> None:
     running.executable("tf2_ros", "buffer_server")
     running.run(0.5)
     ask = "buffer.lookup_transform('map', 'base', Time(), Duration(seconds=1))"
@@ -75,7 +75,7 @@ def test_what_does_not_come_is_reported_with_its_reason(running: System) -> None
     assert asking(running, "buffer.can_transform('map', 'base', Time())").stdout == "False\nafter 0.0\n"
 
 
-def test_nobody_who_answers(running: System) -> None:
+def test_missing_buffer_server_is_reported(running: System) -> None:
     ask = "buffer.lookup_transform('map', 'base', Time())"
     assert asking(running, ask, 0.5).stdout == "TimeoutException The BufferServer is not ready.\nafter 0.0\n"
 
@@ -124,7 +124,7 @@ rclpy.spin(Carrot())
 """
 
 
-def test_a_listener_looks_into_the_past(running: System) -> None:
+def test_listener_looks_up_the_past(running: System) -> None:
     carrot = running.python("-c", LISTENING)
     running.run(2.5)
     assert carrot.stdout == "moved -1.0\nExtrapolationException\n"

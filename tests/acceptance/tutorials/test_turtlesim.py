@@ -1,4 +1,4 @@
-"""The tutorials with turtles, as a person types them."""
+"""The turtle tutorials, as a person types them."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def call(running: System, service: str, kind: str, fields: str = "{}") -> str:
     return running.ask("service", "call", service, kind, fields).stdout
 
 
-def test_it_starts_as_upstream_reports_it(running: System, sim: Program) -> None:
+def test_turtlesim_starts_with_upstreams_messages(running: System, sim: Program) -> None:
     assert message(sim) == [
         "Starting turtlesim with node name /turtlesim",
         "Spawning turtle [turtle1] at x=[5.544445], y=[5.544445], theta=[0.000000]",
@@ -59,7 +59,7 @@ def test_it_starts_as_upstream_reports_it(running: System, sim: Program) -> None
     assert {"/clear", "/kill", "/reset", "/spawn", *(f"/turtle1/{each}" for each in turtles)} <= {*services}
 
 
-def test_a_velocity_is_dead_after_a_second(running: System, sim: Program) -> None:
+def test_velocity_expires_after_a_second(running: System, sim: Program) -> None:
     running.ask("topic", "pub", "--once", "/turtle1/cmd_vel", TWIST, "{linear: {x: 2.0}, angular: {z: 1.8}}")
     running.run(3.0)
     at_rest = pose(running)
@@ -70,7 +70,7 @@ def test_a_velocity_is_dead_after_a_second(running: System, sim: Program) -> Non
     assert running.ask("topic", "echo", "--once", "/turtle1/color_sensor").stdout == "r: 179\ng: 184\nb: 255\n---\n"
 
 
-def test_walls(running: System, sim: Program) -> None:
+def test_turtle_stops_at_walls(running: System, sim: Program) -> None:
     call(running, "/turtle1/teleport_absolute", "turtlesim/srv/TeleportAbsolute", "{x: 11.0, y: 3.0}")
     running.ask("topic", "pub", "--once", "/turtle1/cmd_vel", TWIST, "{linear: {x: 10.0}}")
     running.run(0.5)
@@ -78,7 +78,7 @@ def test_walls(running: System, sim: Program) -> None:
     assert message(sim)[2] == "Oh no! I hit the wall! (Clamping from [x=11.160000, y=8.088889])"
 
 
-def test_spawn_kill_and_reset(running: System, sim: Program) -> None:
+def test_turtles_can_be_spawned_killed_and_reset(running: System, sim: Program) -> None:
     spawn = partial(call, running, "/spawn", "turtlesim/srv/Spawn")
     assert "Spawn_Response(name='leo')" in spawn("{x: 2, y: 2, theta: 0.2, name: leo}")
     assert "Spawn_Response(name='')" in spawn("{name: leo}")
@@ -99,7 +99,7 @@ def test_spawn_kill_and_reset(running: System, sim: Program) -> None:
     ]
 
 
-def test_pen_and_clear(running: System, sim: Program) -> None:
+def test_pen_and_clear_change_the_drawing(running: System, sim: Program) -> None:
     pen = partial(call, running, "/turtle1/set_pen", "turtlesim/srv/SetPen")
     jump = partial(call, running, "/turtle1/teleport_relative", "turtlesim/srv/TeleportRelative")
 
@@ -118,7 +118,7 @@ def test_pen_and_clear(running: System, sim: Program) -> None:
     assert message(sim)[-1] == "Clearing turtlesim."
 
 
-def test_rotations_as_goals(running: System, sim: Program) -> None:
+def test_rotations_are_goals(running: System, sim: Program) -> None:
     goal = "/turtle1/rotate_absolute", "turtlesim/action/RotateAbsolute"
     done = running.ask("action", "send_goal", *goal, "{theta: 1.57}", "--feedback")
     assert "Goal finished with status: SUCCEEDED" in done.stdout
@@ -143,7 +143,7 @@ def test_rotations_as_goals(running: System, sim: Program) -> None:
     ]
 
 
-def test_background_parameters(running: System, sim: Program) -> None:
+def test_background_is_set_by_parameters(running: System, sim: Program) -> None:
     assert running.ask("param", "get", "/turtlesim", "background_r").stdout == "Integer value is: 69\n"
     described = running.ask("param", "describe", "/turtlesim", "background_b").stdout
     assert "Description: Blue channel of the background color" in described
@@ -153,7 +153,7 @@ def test_background_parameters(running: System, sim: Program) -> None:
     assert running.ask("param", "set", "/turtlesim", "background_r", "150").stdout == "Set parameter successful\n"
 
 
-def test_a_square(running: System, sim: Program) -> None:
+def test_draw_square_draws_a_square(running: System, sim: Program) -> None:
     square = running.executable("turtlesim", "draw_square")
     running.run(40.0)
     goals = re.findall(r"New goal \[([-\d.]+) ([-\d.]+), ([-\d.]+)\]", square.stderr)
@@ -164,7 +164,7 @@ def test_a_square(running: System, sim: Program) -> None:
     assert message(sim)[2] == "Resetting turtlesim."
 
 
-def test_mimic(running: System, sim: Program) -> None:
+def test_mimic_follows_the_first_turtle(running: System, sim: Program) -> None:
     call(running, "/spawn", "turtlesim/srv/Spawn", "{x: 2, y: 2, name: ape}")
     remaps = ("-r", "input/pose:=turtle1/pose", "-r", "output/cmd_vel:=ape/cmd_vel")
     running.executable("turtlesim", "mimic", "--ros-args", *remaps)
@@ -175,7 +175,7 @@ def test_mimic(running: System, sim: Program) -> None:
     assert pose(running, "ape")["x"] > 2.9
 
 
-def test_a_keyboard_is_asked_for(running: System) -> None:
+def test_teleop_asks_for_a_keyboard(running: System) -> None:
     teleop = running.executable("turtlesim", "turtle_teleop_key")
     running.finish(teleop)
     assert teleop.exit == 1
@@ -183,7 +183,7 @@ def test_a_keyboard_is_asked_for(running: System) -> None:
     assert "Traceback" not in teleop.stderr
 
 
-def test_two_fields_from_one_launch_file(running: System) -> None:
+def test_launch_file_starts_two_simulators(running: System) -> None:
     launched = running.ros2("launch", "turtlesim", "multisim.launch.py")
     running.run(5.0)
     assert running.ask("node", "list").stdout.split() == ["/turtlesim1/turtlesim", "/turtlesim2/turtlesim"]
@@ -196,7 +196,7 @@ def test_two_fields_from_one_launch_file(running: System) -> None:
     running.finish(launched)
 
 
-def test_a_turtle_follows_another_by_its_frame(running: System) -> None:
+def test_turtle_follows_another_by_its_frame(running: System) -> None:
     running.ros2("launch", "turtle_tf2_py", "turtle_tf2_demo_launch.py")
     running.run(5.0)
     call(running, "/turtle1/teleport_absolute", "turtlesim/srv/TeleportAbsolute", "{x: 9.0, y: 9.0}")
