@@ -1,4 +1,4 @@
-"""Building the workspace, where the page says `colcon build`: what a source says counts at once."""
+"""Building the workspace, where the page says `colcon build`: changes of a source take effect at once."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from course.table import row
 
 @row(83, 260, 270, 363, 369)
 def a_changed_source_counts_after_the_line(page: Page, row: Row) -> None:
-    """A package that is not there is told as colcon tells it."""
+    """A missing package is reported as colcon reports it."""
     workspace = make_workspace(page.scratch)
     page.work_on(workspace)
     words = row.command.rpartition("&& ")[2].split()

@@ -1,4 +1,4 @@
-"""Chapter 1, step 4 to the exercise: a robot that is tuned while it runs, and parameter files."""
+"""Chapter 1, from step 4 to the exercise: a robot that is tuned while it runs, and parameter files."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def safety_is_switched(page: Page, row: Row) -> None:
 
 
 def after_a_scan(page: Page, nearest: float) -> str:
-    """`linear.x` of what the robot answers a scan with."""
+    """`linear.x` of the robot's answer to a scan."""
     echo = page.start("ros2 topic echo /cmd_vel --once --field linear.x")
     page.ask(f"ros2 topic pub --once /scan sensor_msgs/msg/LaserScan '{{ranges: [3.0, {nearest}]}}'")
     return echo.stdout.splitlines()[0]
@@ -79,7 +79,7 @@ def parameters_are_listed(page: Page, row: Row) -> None:
 
 @row(49)
 def the_value_of_the_command_line_is_there(page: Page, row: Row) -> None:
-    """The node is asked: what it is changed to afterwards is there, too."""
+    """The value in the node, which includes later changes."""
     starts(page, 47)
     assert page.ask(row.command).stdout == "Double value is: 2.5\n"
     assert page.ask(row.command.replace("max_speed", "safety_distance")).stdout == "Double value is: 0.8\n"

@@ -22,7 +22,7 @@ def as_printed(page: Page, seconds: float = 0.5) -> Program:
 
 
 def repaired(page: Page) -> Program:
-    """The listing with `Parameter` imported from where it is meant to come from (N13)."""
+    """The listing, with `Parameter` imported from where it is meant to come from (N13)."""
     text = (COURSE / "nodes" / "dynamic_robot.py").read_text("utf-8")
     wrong = "from rcl_interfaces.msg import SetParametersResult, Parameter\n"
     right = "from rcl_interfaces.msg import SetParametersResult\nfrom rclpy.parameter import Parameter\n"
@@ -37,7 +37,7 @@ def logged(program: Program) -> list[str]:
 
 
 def cannot_be_run(page: Page, name: str) -> None:
-    """There is no main() to run, which is said with the mend (N14)."""
+    """There is no main() to run, which is reported with a hint (N14)."""
     failed = page.ask(f"ros2 run my_package {name}")
     assert failed.exit == 1
     assert f"module 'my_package.{name}' has no attribute 'main'" in failed.stderr
@@ -92,7 +92,7 @@ def a_mode_ends_the_node_as_printed_and_works_when_repaired(page: Page, row: Row
 
 @row(123, 124, 125, 126)
 def a_mode_sets_its_preset(page: Page, row: Row) -> None:
-    """The nested set is committed, and its events come, before the mode's own."""
+    """The nested set is committed, and its events are published, before the mode's own."""
     robot = repaired(page)
     mode, speed, sensitivity = PRESETS[row.number]
     events = page.start("ros2 topic echo /parameter_events --field changed_parameters[0].name".replace("[0].name", ""))

@@ -19,7 +19,7 @@ PRINTED_NODES = {
 
 
 def launched(page: Page, command: str) -> Program:
-    """Start a launch; it runs on."""
+    """Start a launch and leave it running."""
     launch = page.start(command, 1.5)
     assert launch.exit is None, launch.output
     return launch
@@ -122,7 +122,7 @@ def arguments_are_overridden(page: Page, row: Row) -> None:
 
 @row(90, 91, 92, 93, 94)
 def arguments_are_shown(page: Page, row: Row) -> None:
-    """The words are those of real ROS 2, with what the page has lost (N10)."""
+    """The text is that of real ROS 2, including what the page omits (N10)."""
     shown = page.ask(page.row(90).command)
     assert (shown.exit, shown.stderr) == (0, "")
     assert shown.stdout.startswith("Arguments (pass arguments as '<name>:=<value>'):\n")
@@ -140,7 +140,7 @@ def the_basic_file_loads(page: Page, row: Row) -> None:
 
 @row(96, 105, complete=True)
 def the_system_loads(page: Page, row: Row) -> None:
-    """The configuration file is keyed by another name, so the defaults stay (N7)."""
+    """The configuration file has another key, so the defaults stay (N7)."""
     launched(page, page.row(105).command)
     assert nodes(page) == ["/controller", "/planner", "/robot_navigator", "/sensor_handler"]
     has(page, "robot_navigator", max_speed="1.0")
@@ -164,7 +164,7 @@ def generate_launch_description():
 
 @row(61)
 def namespaces_and_remappings_are_configured(page: Page, row: Row) -> None:
-    """No listing of the page has a namespace: two of its robots, each in one, drive on topics of their own."""
+    """No listing of the page has a namespace: two of its robots in different namespaces drive on separate topics."""
     file = page.scratch / "namespaces.launch.py"
     file.write_text(NAMESPACES, "utf-8")
     launched(page, f"ros2 launch {file}")

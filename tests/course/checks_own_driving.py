@@ -1,4 +1,4 @@
-"""What the robot that comes along does with scans, and with parameters that change while it runs."""
+"""What the bundled robot does with scans, and with parameters that change while it runs."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ for distance in {distances}:
 node.destroy_node()
 rclpy.shutdown()"""
 FREE, NEAR = 8.0, 0.2
-"""Distances (m) ahead that every setting takes for open space, and for an obstacle."""
+"""Distances (m) ahead that count as open space, and as an obstacle, with every setting."""
 
 
 class Answer(NamedTuple):
@@ -42,7 +42,7 @@ class Answer(NamedTuple):
 
 
 def answers(page: Page, *distances: float, intensity: float = 255.0) -> list[Answer]:
-    """What the navigator commands for scans whose only beam looks ahead and measures these distances (m)."""
+    """The navigator's commands for scans whose only beam points ahead and measures these distances (m)."""
     probe = page.python(PROBE.format(distances=list(distances), intensity=intensity), 1.0)
     assert probe.exit == 0, f"it answers {len(probe.stdout.splitlines())} of {len(distances)} scans: {probe.stderr}"
     return [Answer(*map(float, line.split())) for line in probe.stdout.splitlines()]
@@ -63,7 +63,7 @@ def introductions(program: Program) -> int:
 
 @row(312, own=True)
 def the_robot_has_all_of_it(page: Page, row: Row) -> None:
-    """Six parameters, validated, and a command for each scan."""
+    """It has six parameters with validation, and commands a velocity for each scan."""
     start(page, "robot_navigator")
     listed = page.ask(f"ros2 param list {NAVIGATOR}").stdout.split()
     six = {"max_speed", "safety_distance", "detection_threshold", "turn_rate", "enable_safety", "robot_name"}
@@ -74,7 +74,7 @@ def the_robot_has_all_of_it(page: Page, row: Row) -> None:
 
 @row(315, own=True)
 def scans_are_evaluated_by_the_parameters(page: Page, row: Row) -> None:
-    """How near is too near, and how weak a return is no obstacle, are parameters."""
+    """The distance of an obstacle, and the weakest return that counts, are parameters."""
     start(page, "robot_navigator")
     assert [each.linear > 0.0 for each in answers(page, 0.8, 0.4)] == [True, False]
     put(page, "safety_distance", "1.0")
@@ -85,7 +85,7 @@ def scans_are_evaluated_by_the_parameters(page: Page, row: Row) -> None:
 
 @row(316, own=True)
 def velocities_are_commanded(page: Page, row: Row) -> None:
-    """As fast as it may where the way is free; it turns on the spot, as fast as it may, where it is not."""
+    """At full speed if the way is free; otherwise it turns on the spot at the full turn rate."""
     start(page, "robot_navigator", "--ros-args", "-p", "max_speed:=0.7", "-p", "turn_rate:=0.6")
     free, near = answers(page, FREE, NEAR)
     assert free.linear == 0.7
@@ -94,7 +94,7 @@ def velocities_are_commanded(page: Page, row: Row) -> None:
 
 @row(301, 331, 344, own=True)
 def each_change_takes_effect_at_once(page: Page, row: Row) -> None:
-    """In what the robot does, without a restart."""
+    """The robot behaves differently at once, without a restart."""
     started = start(page, "robot_navigator")
     assert answer(page, FREE).linear == 1.0
     put(page, "max_speed", "2.5")
@@ -127,7 +127,7 @@ STAMP = re.compile(r"\[(\d{10}\.\d{9})\] \[robot_navigator\]: (.*)$", re.MULTILI
 
 @row(302, 332, own=True)
 def each_change_is_logged_with_its_time(page: Page, row: Row) -> None:
-    """Once each, and what is refused is not; the robot is told of one each 1.5 s."""
+    """Once each, and not if refused; the robot gets a change every 1.5 s."""
     started = start(page, "robot_navigator")
     for name, (value, _) in CHANGES.items():
         put(page, name, value)
@@ -142,7 +142,7 @@ def each_change_is_logged_with_its_time(page: Page, row: Row) -> None:
 
 
 AT_START = {"enable_stamped_cmd_vel": "True", "model": "turtlebot4"}
-"""Read only, with another value than the default: what a robot is, the command line of its start says."""
+"""Read-only parameters with a value other than the default, as given on the command line at the start."""
 
 
 @row(342, own=True)
@@ -167,12 +167,12 @@ def each_parameter_can_be_set(page: Page, row: Row) -> None:
 
 
 def parameters(page: Page, node: str) -> dict[str, Any]:
-    """What `ros2 param dump` prints of a node."""
+    """The output of `ros2 param dump` for a node."""
     return yaml.safe_load(page.ask(f"ros2 param dump /{node}").stdout)[f"/{node}"]["ros__parameters"]
 
 
 def another(page: Page, node: str, name: str, value: Any) -> Any:
-    """A value that the parameter may have, other than this one."""
+    """Another valid value of the parameter."""
     if isinstance(value, bool):
         return not value
     if isinstance(value, (int, float)):

@@ -1,4 +1,4 @@
-"""The profiles and launch files that come along, by what the robot does with them."""
+"""The bundled profiles and launch files, judged by what the robot does with them."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ STEPS = [round(0.1 + 0.05 * each, 2) for each in range(39)]
 
 
 class Manner(NamedTuple):
-    """How a profile makes the robot drive."""
+    """How the robot drives with a profile."""
 
     speed: float
-    """What is commanded where the way is free (m/s)."""
+    """The commanded speed if the way is free (m/s)."""
     distance: float
     """The farthest obstacle that it stops for (m)."""
     driven: float
@@ -35,7 +35,7 @@ _manners: dict[str, Manner] = {}
 
 
 def manner(page: Page, name: str) -> Manner:
-    """How the robot drives with a profile's file; tried once for all rows."""
+    """How the robot drives with a profile's file; measured once for all rows."""
     if name not in _manners:
         program = start(page, "robot_navigator", "--ros-args", "--params-file", str(profile(page, name)[0]))
         free, *near = answers(page, FREE, *STEPS)
@@ -100,7 +100,7 @@ CUSTOM: dict[str, dict[str, Any]] = {
     "motion_controller": {"max_acceleration": 0.45},
     "simulator": {"seed": 17},
 }
-"""Values that no profile has and that are no defaults, for each node."""
+"""Values for each node that no profile has and that are not defaults."""
 
 
 def custom_file(page: Page) -> Path:
@@ -144,7 +144,7 @@ def each_environment_has_its_configuration(page: Page, row: Row) -> None:
 
 @row(336, own=True)
 def arguments_change_the_launch(page: Page, row: Row) -> None:
-    """Profile, seed, world and who drives; wrong ones are refused with the choices."""
+    """Profile, seed, world and navigator; wrong ones are refused with the choices."""
     shown = page.ask(f"{LAUNCH} --show-args").stdout
     assert all(f"    '{each}':\n" in shown for each in ("profile", "config_file", "seed", "world", "navigator"))
     launch = system(page, "profile:=outdoor seed:=23 world:=warehouse navigator:=false use_sim_time:=true")

@@ -1,4 +1,4 @@
-"""What the project asks for, shown by the robot that comes along: its nodes, limits and profiles."""
+"""The requirements of the project, shown by the bundled robot: its nodes, limits and profiles."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ FIXED = ("start_type_description_service", "use_sim_time")
 
 
 def start(page: Page, name: str, *words: str) -> Program:
-    """Start the node of that name; it runs on."""
+    """Start the node of that name and leave it running."""
     program = page.start(" ".join(["ros2 run intelligent_robot", NODES[name], *words]))
     assert program.exit is None, program.stderr
     return program

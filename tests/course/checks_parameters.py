@@ -14,7 +14,7 @@ STEP_1, STEP_2, STEP_3 = 13, 22, 33
 
 
 def starts(page: Page, number: int, seconds: float = 0.5) -> Program:
-    """Start the command of a row; it runs on, without a traceback."""
+    """Start the command of a row and leave it running; it must not print a traceback."""
     program = page.start(page.row(number).command, seconds)
     assert program.exit is None, program.stderr
     return program
@@ -75,7 +75,7 @@ STARTED: dict[int, tuple[str, dict[str, str]]] = {
     53: ("/configurable_robot", {"max_speed": "2.0", "safety_distance": "0.6", "detection_threshold": "120"}),
     133: ("/simple_robot", {"speed": "1.0", "robot_name": "TestBot", "enable_safety": "True"}),
 }
-"""The node that a command starts, with all that its words and files say, and defaults beside them."""
+"""The node that a command starts, with all parameters given on the command line and in files, and defaults."""
 
 
 @row(*STARTED)
@@ -194,7 +194,7 @@ def set_is_logged(page: Page, row: Row) -> None:
 
 @row(36)
 def a_refused_value_is_reported(page: Page, row: Row) -> None:
-    """The words are those of real ROS 2 (N4)."""
+    """The text is that of real ROS 2 (N4)."""
     starts(page, STEP_3)
     answer = page.ask(page.row(34).command)
     assert answer.stderr.startswith("Setting parameter failed: Speed must be between")

@@ -126,7 +126,7 @@ def safety_is_reported(page: Page, row: Row) -> None:
 
 
 def answer_to(page: Page, *ranges: float) -> list[str]:
-    """`linear.x` and `angular.z` of what a scan is answered with; empty when with nothing."""
+    """`linear.x` and `angular.z` of the answer to a scan; empty if there is none."""
     echo = page.start("ros2 topic echo /cmd_vel --csv")
     page.ask(f"ros2 topic pub --once /scan sensor_msgs/msg/LaserScan '{{ranges: {list(ranges)}}}'")
     answer = page.stop(echo).stdout.strip().split(",")

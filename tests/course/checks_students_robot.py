@@ -18,7 +18,7 @@ PROFILES = {"indoor": (1.0, 0.5), "outdoor": (2.0, 1.0), "warehouse": (1.4, 0.7)
 
 
 def drive(folder: Path, config: Path) -> dict[str, Any]:
-    """The report of a minute's drive of the student's launch file with one configuration."""
+    """The report of a one-minute drive with the student's launch file and one configuration."""
     launch = "src/intelligent_robot/launch/robot_system.launch.py"
     words = ["--headless", "--fast", "--duration", "60", "--launch", launch, f"config_file:={config}"]
     done = subprocess.run(

@@ -1,6 +1,6 @@
-"""Which test shows a row about the console's screens: most of chapter 4 by keyboard, beside the page's own nodes.
+"""Which test shows a row about the console's screens: most of chapter 4 by keyboard, with the page's own nodes.
 
-The row checks that the test is there; that it was run and passed is checked at the end of the checks (`count_rows.py`).
+The row checks that the test exists; `count_rows.py`, at the end of the checks, that it was run and passed.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ OPENING, SECOND_TERMINAL = "tests/pilot/screen/test_opening.py", "tests/acceptan
 _SHOWN: tuple[tuple[str, Iterable[int]], ...] = (
     (TUNED, (134, 135, 136, *range(140, 144), 192, 193, 195, 283, 284, 325, 348, 388)),
     (FIELDS, (138, 139)),
-    (SLIDER, (137,)),  # as printed, the robot declares no range (N15)
+    (SLIDER, (137,)),  # As printed, the robot declares no range (N15).
     (SINE, (146, 147, 148, 149, 151, 152, 153, 328)),
     (f"{PLOT}::test_the_window_grows_and_shrinks_and_limits_can_be_given", (150,)),
     (ARROWS, (*range(154, 164), 200, 201, 327, 378)),
@@ -56,11 +56,11 @@ _SHOWN: tuple[tuple[str, Iterable[int]], ...] = (
     ),
 )
 SHOWN: dict[int, str] = {number: test for test, numbers in _SHOWN for number in numbers}
-"""The test's id, as pytest writes it, by the number of the row."""
+"""The ids of tests, as pytest writes them, by the number of the row."""
 
 
 def is_there(test: str) -> bool:
-    """Whether a file has the test of that id, and nothing skips it always."""
+    """Whether a file contains the test of that id, not always skipped."""
     path, _, name = test.partition("::")
     return name in _tests(ROOT / path)
 

@@ -1,4 +1,4 @@
-"""The page's workspace, made of its unchanged listings, and a system in it that its commands are asked of."""
+"""The page's workspace, made of its unchanged listings, and a running system in which its commands are run."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ STATED = re.compile(r"^\[(\w+)\] (?:\[([^\]]+)\]: )?(.*)$")
 
 
 class PrintedText(NamedTuple):
-    """A log line: severity, logger, message; the page leaves out the time, and now and then the logger (N2)."""
+    """A log line: severity, logger, message; the page omits the time, and sometimes the logger (N2)."""
 
     severity: str
     logger: str
@@ -52,7 +52,7 @@ class PrintedText(NamedTuple):
 
 
 def logs(program: Program) -> list[PrintedText]:
-    """What a program, or the nodes of a launch, have logged, in the form that real ROS 2 gives it (N2)."""
+    """The log lines of a program, or of the nodes of a launch, in the format of real ROS 2 (N2)."""
     lines = "".join(text for _, text in program.output).splitlines()
     return [PrintedText(*match.groups()) for line in lines if (match := LOG.match(line))]
 
@@ -65,38 +65,38 @@ def stated(text: str) -> PrintedText:
 
 
 def message_of(program: Program, line: PrintedText) -> int:
-    """How often a program has logged a line; a line without a logger fits any."""
+    """How often a program has logged a line; a line without a logger matches any."""
     return sum(each == (line.severity, line.logger or each.logger, line.message) for each in logs(program))
 
 
 class Page:
-    """A running system whose commands are those of the page."""
+    """A running system in which the page's commands are run."""
 
     def __init__(self, running: System, scratch: Path) -> None:
         self._system = running
         self.scratch = scratch
-        """A folder to write into."""
+        """A folder for files."""
 
     def row(self, number: int) -> Row:
         """A row by its number."""
         return rows()[number]
 
     def start(self, command: str, seconds: float = 0.5) -> Program:
-        """Start what a command line names and let it run for so many s."""
+        """Start what a command line names and let it run for `seconds`."""
         program = self._start(command)
         self._system.run(seconds)
         return program
 
     def ask(self, command: str, stop_after: float | None = None) -> Program:
-        """Run a command line to its end, or interrupt it after so many s."""
+        """Run a command line to its end, or interrupt it after `stop_after` seconds."""
         return self._system.finish(self._start(command), stop_after)
 
     def stop(self, program: Program) -> Program:
-        """Ctrl-C."""
+        """Interrupt a program as Ctrl-C does."""
         return self._system.finish(program, 0.0)
 
     def run(self, seconds: float) -> None:
-        """Let so much time (s) go by."""
+        """Let time (s) pass."""
         self._system.run(seconds)
 
     def python(self, text: str, seconds: float = 0.5) -> Program:
@@ -124,15 +124,15 @@ class Page:
         )
 
     def value(self, node: str, parameter: str) -> str:
-        """What `ros2 param get --hide-type` prints."""
+        """The output of `ros2 param get --hide-type`."""
         return self.ask(f"ros2 param get {node} {parameter} --hide-type").stdout.strip()
 
     def work_on(self, folder: Path) -> None:
-        """The packages of another workspace, for the rest of the test."""
+        """Use the packages of another workspace for the rest of the test."""
         discover.use(discover.Workspace([folder / "src"]))
 
     def work_in(self, folder: str) -> None:
-        """`cd`, for the rest of the test."""
+        """Change the working directory for the rest of the test."""
         os.chdir(folder)
 
     def _start(self, command: str) -> Program:
@@ -143,7 +143,7 @@ class Page:
 
 @contextmanager
 def page(folder: Path, scratch: Path, *, own: bool = False) -> Iterator[Page]:
-    """A system in the page's workspace, or with `own` in an empty one, where our own robot is found."""
+    """A system in the page's workspace; with `own`, in an empty one, so that our own robot is found."""
     before = discover.workspace()
     discover.use(discover.Workspace([] if own else [folder / "src"]))
     try:
@@ -166,7 +166,7 @@ NOT_PRINTED = {
 
 
 def make_workspace(folder: Path, *, complete: bool = False) -> Path:
-    """`src/my_package`, `src/intelligent_robot` with the page's files as they are; `complete` adds stand-ins (N8)."""
+    """`src/my_package`, `src/intelligent_robot` with the page's files as they are; `complete` adds substitutes (N8)."""
     _package(folder / "src" / "my_package", sorted((COURSE / "nodes").glob("*.py")))
     names = sorted(each.stem for each in (COURSE / "nodes").glob("*.py"))
     names += NOT_PRINTED["my_package"] if complete else ()

@@ -9,7 +9,7 @@ from functools import lru_cache
 from pathlib import Path
 
 COURSE = Path(os.environ.get("BOT_CONSOLE_COURSE", "")).absolute()
-"""The folder with the page's listings and `checks.md`, where the environment names one."""
+"""The folder with the page's listings and `checks.md`, if the environment names one."""
 LINE = re.compile(r"^\| C(\d+) \| (.*) \| (.*) \| (.*) \| *(.*?) *\|$")
 
 
@@ -25,12 +25,12 @@ class Row:
 
     @property
     def quoted(self) -> list[str]:
-        """What stands between backticks: commands, lines of output, names."""
+        """The texts between backticks: commands, lines of output, names."""
         return [each.replace("\\|", "|") for each in re.findall(r"`([^`]*)`", self.text)]
 
     @property
     def command(self) -> str:
-        """The command of a row that is one."""
+        """The command of a row that consists of one."""
         return self.quoted[0]
 
     def __str__(self) -> str:
@@ -39,7 +39,7 @@ class Row:
 
 @lru_cache
 def rows() -> dict[int, Row]:
-    """All rows by number; none where no course is named."""
+    """All rows by number; none if no course is named."""
     checks = COURSE / "checks.md"
     if not os.environ.get("BOT_CONSOLE_COURSE") or not checks.is_file():
         return {}

@@ -1,4 +1,6 @@
-"""Which row is checked how: the checks say so themselves, the rest is told here with its reason."""
+"""Which check covers which row: registered by the checks themselves; rows without a check are listed here with a
+reason.
+"""
 
 from __future__ import annotations
 
@@ -10,13 +12,13 @@ from course.rows import Row
 Check = Callable[[Page, Row], None]
 CHECKS: dict[int, Check] = {}
 OWN: set[int] = set()
-"""Rows that are checked with our own robot in place of the page's."""
+"""Rows that are checked with our own robot instead of the page's."""
 COMPLETE: set[int] = set()
-"""Rows that are checked with stand-ins for the executables that the page does not print (N8)."""
+"""Rows that are checked with substitutes for the executables that the page does not print (N8)."""
 
 
 def row(*numbers: int, own: bool = False, complete: bool = False) -> Callable[[Check], Check]:
-    """Say that a function checks these rows, and in which workspace: the page's as printed, with stand-ins, ours."""
+    """Register a function as the check of these rows, and choose the workspace: as printed, completed, or ours."""
 
     def add(check: Check) -> Check:
         for number in numbers:
@@ -53,7 +55,7 @@ UNCHECKED: tuple[tuple[Iterable[int], str], ...] = (
     (rows_from(355, 360), AIM),
     (rows_from(379, 385), AIM),
 )
-"""Rows without a check, and why; a check wins over what stands here."""
+"""Rows without a check, and why; a check takes precedence over an entry here."""
 
 
 def reason(number: int) -> str:

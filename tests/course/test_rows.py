@@ -18,18 +18,20 @@ for _module in sorted(Path(__file__).parent.glob("checks_*.py")):
 
 @pytest.fixture(scope="module")
 def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The page's workspace as printed; nobody writes into it."""
+    """The page's workspace as printed; read-only by convention."""
     return make_workspace(tmp_path_factory.mktemp("printed"))
 
 
 @pytest.fixture(scope="module")
 def complete(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The page's workspace with stand-ins for what it does not print."""
+    """The page's workspace with substitutes for what it does not print."""
     return make_workspace(tmp_path_factory.mktemp("complete"), complete=True)
 
 
 @pytest.mark.parametrize("row", rows().values(), ids=str)
-def test_row(row: Row, request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_row_of_the_course_holds(
+    row: Row, request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     if row.number in SHOWN:
         request.getfixturevalue("record_property")("shown_by", SHOWN[row.number])
         assert is_there(SHOWN[row.number])
@@ -49,5 +51,5 @@ def test_no_row_is_both_checked_and_shown() -> None:
 
 
 @pytest.mark.skipif(bool(os.environ.get("BOT_CONSOLE_COURSE")), reason="there is a course")
-def test_the_course_is_there() -> None:
+def test_course_is_present() -> None:
     pytest.skip("BOT_CONSOLE_COURSE names no course")

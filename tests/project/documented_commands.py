@@ -1,4 +1,4 @@
-"""Command lines of the documents, and what is wrong with one."""
+"""Command lines in the documents, and what is wrong with them."""
 
 from __future__ import annotations
 
@@ -21,23 +21,25 @@ BLOCK = re.compile(r"^```bash\n(.*?)^```", re.MULTILINE | re.DOTALL)
 INLINE = re.compile(
     r"(?<!`)`((?:NO_COLOR=1 )?bot-console [^`\s]+ [^`]+|ros2 [^`\s]+ [^`\s]+ [^`]+|python tools/[^`]+)`"
 )
-"""A command in a sentence; fewer words only name one."""
+"""A command in a sentence; shorter ones only name a command."""
 OWN = set(["stop", "release", "reset", "check", "up", "down", "status", "attach", "doctor", "router", "lint", "graph"])
-"""Commands of ours whose words are not looked at."""
+"""Our own commands whose arguments are not checked."""
 ELSEWHERE = {"source", "python3", "pip", "eval", "pytest", "tmux", "cd", "export", "set"}
 PACKAGE, SYSTEM = "bot_console_robot", "robot_system.launch.py"
 ENVIRONMENT = re.compile(r"[A-Z_]+=.*")
 
 
 def commands(text: str) -> list[str]:
-    """The lines of all shell blocks, and commands that stand in a sentence without `...` or capitals for words."""
+    """The lines of all shell blocks, and commands in sentences that contain no `...` and no placeholders in
+    capitals.
+    """
     lines = [line for block in BLOCK.findall(text) for line in block.splitlines() if line.strip()]
     inline = (each.replace("\n", " ") for each in INLINE.findall(text) if "..." not in each)
     return lines + [each for each in inline if not re.search(r"\b[A-Z]{3,}\b(?!_)", each)]
 
 
 def fault(line: str) -> str:
-    """Why a line cannot be typed; empty when it can."""
+    """Why a line is not valid; empty if it is."""
     for part in re.split(r"&&|\|\|", line):
         words = shlex.split(part, comments=True)
         while words and ENVIRONMENT.fullmatch(words[0]):
@@ -65,7 +67,7 @@ def _fault(words: list[str]) -> str:
 
 
 def _quietly(parse) -> str:
-    """What an argparse parser complains of."""
+    """The error message of an argparse parser."""
     message = io.StringIO()
     with contextlib.redirect_stderr(message), contextlib.redirect_stdout(io.StringIO()):
         try:

@@ -1,4 +1,4 @@
-"""The type checker holds every middleware to the whole of `Bus`, and every user of one to what `Bus` has."""
+"""The type checker requires every middleware to implement all of `Bus`, and every user to use only `Bus`."""
 
 import importlib.util
 import json
@@ -35,12 +35,12 @@ PLANTED = {
 
 @pytest.fixture(scope="module")
 def errors(tmp_path_factory):
-    """What the checker says of the planted files, by name."""
+    """The checker's messages about the planted files, by name."""
     place = tmp_path_factory.mktemp("planted")
     for name, text in PLANTED.items():
         (place / f"{name}.py").write_text(text)
     paths = ("build/editable", "runtime", "runtime/rosidl/generated")
-    config = {"extraPaths": [str(ROOT / each) for each in paths], "reportReturnType": "none"}  # bodies are empty
+    config = {"extraPaths": [str(ROOT / each) for each in paths], "reportReturnType": "none"}  # Their bodies are empty.
     (place / "pyrightconfig.json").write_text(json.dumps(config))
     words = [sys.executable, "-m", "pyright", "-p", str(place), "--outputjson"]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
@@ -50,21 +50,21 @@ def errors(tmp_path_factory):
     return found
 
 
-def test_one_that_has_all_is_accepted(errors):
+def test_complete_implementation_is_accepted(errors):
     assert errors["complete"] == []
 
 
-def test_one_that_lacks_a_method_is_refused(errors):
+def test_implementation_without_a_method_is_rejected(errors):
     (message,) = errors["lacking"]
     assert '"has_server" is not present' in message
 
 
-def test_one_whose_method_gives_something_else_is_refused(errors):
+def test_implementation_with_another_return_type_is_rejected(errors):
     (message,) = errors["other_result"]
     assert '"published" is an incompatible type' in message
 
 
 @pytest.mark.parametrize("user", ["user_of_a_bus", "user_of_a_context"])
-def test_a_user_is_held_to_the_protocol(errors, user):
+def test_user_is_limited_to_the_protocol(errors, user):
     (message,) = errors[user]
     assert "has_servant" in message

@@ -1,4 +1,4 @@
-"""The changelog has one entry per fact: a merge can bring an old wording back beside the new one."""
+"""The changelog has one entry per fact: a merge can bring back an old wording beside the new one."""
 
 import re
 from itertools import combinations
@@ -8,7 +8,7 @@ CHANGELOG = (Path(__file__).resolve().parents[2] / "CHANGELOG.md").read_text(enc
 ENTRY = re.compile(r"^- .*(?:\n  .*)*", re.MULTILINE)
 WORD = re.compile(r"[\w:/~-]{4,}")
 SAME_FACT = 0.75
-"""Share of the shorter entry's words from which on two entries are one fact: different facts stay below 0.65."""
+"""Share of common words from which two entries count as one fact: different facts stay below 0.65."""
 MIN_WORDS = 6
 
 
@@ -22,15 +22,15 @@ def repeated(text):
     ]
 
 
-def test_no_fact_stands_twice():
+def test_no_fact_is_listed_twice():
     assert repeated(CHANGELOG) == []
 
 
-def test_no_group_stands_twice():
+def test_no_group_occurs_twice():
     groups = re.findall(r"^#+ .+$", CHANGELOG, re.MULTILINE)
     assert len(groups) == len(set(groups))
 
 
-def test_a_fact_in_other_words_would_be_noticed():
+def test_reworded_fact_is_noticed():
     again = "- History (`H`): every change and refusal, also of earlier runs; back to a row; export as CSV or YAML.\n"
     assert len(repeated(CHANGELOG + again)) == 1

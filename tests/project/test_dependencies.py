@@ -24,7 +24,7 @@ IMPORT_NAMES = {
     "pillow": "PIL",
 }
 BUILD_ONLY = {"rosbags"}
-"""Imported by what runs at build time alone (`runtime/rosidl/standard.py`)."""
+"""Imported only at build time (`runtime/rosidl/standard.py`)."""
 
 
 def project():
@@ -38,7 +38,7 @@ def import_names(requirements):
 
 @cache
 def imported():
-    """Top-level names that any file imports, late imports and optional ones included."""
+    """Top-level names that any file imports, including late and optional imports."""
     names = set()
     for path in (path for folder in FOLDERS for path in (ROOT / folder).rglob("*.py")):
         if "generated" in path.parts:
@@ -53,7 +53,7 @@ def imported():
 
 
 def by_name(text):
-    """Top-level names that a source imports by `import_module`."""
+    """Top-level names that a source imports with `import_module`."""
     if "import_module" not in text:
         return set()
     calls = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Call)]
@@ -62,23 +62,23 @@ def by_name(text):
 
 
 def called(function):
-    """The last word of what is called."""
+    """The last part of a called function's name."""
     return function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
 
 
 def ros_names():
-    """What the runtime serves under ROS names: its own folders, generated interfaces, our packages."""
+    """The ROS names that the runtime serves: its own folders, generated interfaces, our packages."""
     runtime = ROOT / "runtime"
     places = runtime, runtime / "rosidl" / "generated", runtime / "rosidl" / "unverified"
     folders = {path.name for place in places for path in place.iterdir()}
     return folders | {"bot_console", "bot_console_robot", "bot_console_demos", "intelligent_robot"}
 
 
-def test_what_is_declared_is_imported():
+def test_declared_dependencies_are_imported():
     assert import_names(project()["dependencies"]) - imported() == set()
 
 
-def test_what_is_imported_is_declared():
+def test_imported_packages_are_declared():
     extras = project()["optional-dependencies"]
     optional = [line for name, lines in extras.items() if name != "dev" for line in lines]
     known = (
@@ -93,7 +93,7 @@ def test_each_dependency_has_its_reason():
     assert missing == []
 
 
-def test_every_textual_that_may_be_installed_is_one_the_terminal_knows():
+def test_all_allowed_textual_versions_are_known_to_the_terminal_code():
     bounds = next(each for each in project()["dependencies"] if each.startswith("textual"))
     gate = re.search(r'startswith\("(\d+)\.(\d+)\."\)', (ROOT / "tui" / "terminal" / "output.py").read_text())
     major, minor = map(int, gate.groups())

@@ -1,4 +1,4 @@
-"""The documents are true: tables equal the code, links lead somewhere, command lines can be typed."""
+"""The documents are true: tables equal the code, links lead somewhere, command lines are valid."""
 
 import importlib.util
 import re
@@ -40,7 +40,7 @@ def anchors(path):
 
 
 @named
-def test_tables_are_those_of_the_code(path):
+def test_tables_match_the_code(path):
     assert tables.filled(text_of(path)) == text_of(path), "run: python tools/tables.py"
 
 
@@ -48,11 +48,11 @@ def test_manual_page_matches_the_options_and_commands():
     assert man_page.manual_page() == text_of(man_page.PAGE), "run: python tools/man_page.py"
 
 
-def test_every_table_stands_in_a_document():
+def test_every_table_is_in_a_document():
     assert {name for path in DOCUMENTS for name in tables.named(text_of(path))} == set(tables.TABLES)
 
 
-def test_a_changed_value_would_be_noticed():
+def test_changed_value_is_noticed():
     path = ROOT / "docs" / "parameters.md"
     wrong = text_of(path).replace("0.1 to 5 |", "0.1 to 6 |")
     assert wrong != text_of(path)
@@ -73,7 +73,7 @@ def test_links_lead_somewhere(path):
 
 
 @named
-def test_command_lines_can_be_typed(path):
+def test_command_lines_are_valid(path):
     faults = {line: wrong for line in commands(text_of(path)) if (wrong := fault(line))}
     assert not faults
 
@@ -94,11 +94,11 @@ def test_command_lines_can_be_typed(path):
         "bot-console export",
     ],
 )
-def test_a_wrong_command_line_would_be_noticed(line):
+def test_invalid_command_line_is_noticed(line):
     assert fault(line)
 
 
-def test_message_packages_are_all_named():
+def test_all_message_packages_are_named():
     row = next(line for line in text_of(ROOT / "docs" / "nodes-and-runtime.md").splitlines() if "std_msgs`" in line)
     generated = ROOT / "runtime" / "rosidl" / "generated"
     packages = {each.parent.name for each in generated.glob("*/__init__.py")}
@@ -107,12 +107,12 @@ def test_message_packages_are_all_named():
     assert set(re.findall(r"`(\w+)`", row)) == packages
 
 
-def test_every_document_is_reached_from_the_readme():
+def test_readme_links_to_every_document():
     linked = {each.partition("#")[0] for each in LINK.findall(text_of(ROOT / "README.md"))}
     assert {f"docs/{path.name}" for path in (ROOT / "docs").glob("*.md")} <= linked
 
 
-def test_what_is_to_be_opened_first_is_there():
+def test_files_to_open_first_exist():
     table = text_of(ROOT / "docs" / "contributing.md").partition("## Where would you change")[2].partition("\n## ")[0]
     places = re.findall(r"`([\w./]+/[\w./]*)`", table)
     assert len(places) >= 20

@@ -1,4 +1,4 @@
-"""`bot-console export DIR` gives a package that a machine with ROS 2 can build."""
+"""`bot-console export DIR` writes a package that a machine with ROS 2 can build."""
 
 import subprocess
 import sys
@@ -31,13 +31,13 @@ ROS = {
 LIBRARIES = {"numpy", "pymunk", "yaml", "setuptools"}
 
 
-def test_files_import_ros_names_and_ordinary_libraries_only(tmp_path):
+def test_files_import_only_ros_names_and_ordinary_libraries(tmp_path):
     names = imported(export(tmp_path)) - set(sys.stdlib_module_names)
     assert names - LIBRARIES - {NAME} <= ROS
     assert {"rclpy", "launch", "numpy", "pymunk"} <= names
 
 
-def test_the_package_is_read_like_any_other_of_a_workspace(tmp_path):
+def test_package_is_found_like_any_other_of_a_workspace(tmp_path):
     package = read_package(export(tmp_path))
     assert package.name == NAME
     assert package.build_type == "ament_python"
@@ -62,7 +62,7 @@ def test_every_ros_import_is_a_dependency_of_the_manifest(tmp_path):
     assert imported(place) & ROS <= depends
 
 
-def test_setup_py_is_a_program_that_python_takes(tmp_path):
+def test_setup_py_is_valid_python(tmp_path):
     place = export(tmp_path)
     done = subprocess.run(
         [sys.executable, "setup.py", "--name"], cwd=place, capture_output=True, text=True, check=False
@@ -72,7 +72,7 @@ def test_setup_py_is_a_program_that_python_takes(tmp_path):
     assert done.stdout.strip().endswith(NAME)
 
 
-def test_an_existing_folder_is_left_alone(tmp_path, capsys):
+def test_existing_folder_is_left_alone(tmp_path, capsys):
     export(tmp_path)
     with pytest.raises(SystemExit) as ended:
         main(["export", str(tmp_path)])

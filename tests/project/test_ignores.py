@@ -1,4 +1,4 @@
-"""What tells a checker to look away says why: on its line, or beside it where it is for a whole file."""
+"""Comments that silence a checker give a reason: on the same line, or beside it if they are for a whole file."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 WRITERS = {ROOT / "runtime" / "rosidl" / each for each in ("emit.py", "emit_holder.py")}
-"""They have such lines for what they write, which is generated."""
+"""These write such comments into generated files."""
 ON_A_LINE = re.compile(r"#\s*(?:noqa(?::[ A-Z0-9,]+)?|(?:type|pyright):\s*ignore(?:\[[^\]]*\])?)(?![\w:])(.*)")
 FOR_A_FILE = re.compile(
     r"^#\s*(?:pyright:\s*(?:(?:report\w+=\w+|basic|standard),?\s*)+|ruff:\s*noqa(?::[ A-Z0-9,]+)?)(.*)"
@@ -25,7 +25,7 @@ def sources() -> Iterator[Path]:
 
 
 def without_a_reason(text: str) -> Iterator[int]:
-    """The numbers of the lines that give none."""
+    """The numbers of the lines without a reason."""
     lines = text.splitlines()
     for number, (above, line, below) in enumerate(zip(["", *lines], lines, [*lines[1:], ""], strict=False), 1):
         if match := ON_A_LINE.search(line):
@@ -38,7 +38,7 @@ def without_a_reason(text: str) -> Iterator[int]:
             yield number
 
 
-def test_each_has_its_reason() -> None:
+def test_each_ignore_has_a_reason() -> None:
     found = [
         f"{path.relative_to(ROOT)}:{number}"
         for path in sources()
@@ -58,5 +58,5 @@ def test_each_has_its_reason() -> None:
         ("# pyright: reportPrivateUsage=false\n# One library, as upstream.\n", []),
     ],
 )
-def test_what_counts_as_one(text: str, lines: list[int]) -> None:
+def test_ignore_comments_are_recognised(text: str, lines: list[int]) -> None:
     assert list(without_a_reason(text)) == lines

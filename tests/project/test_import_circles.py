@@ -1,4 +1,4 @@
-"""No module imports, by whatever way, one that imports it: late imports count, and those for annotations alone, too."""
+"""There are no circular imports, counting late imports and those only for annotations."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from syntax import statements
 ROOT = Path(__file__).parents[2]
 GENERATED = ROOT / "runtime" / "rosidl" / "generated"
 ALLOWED: dict[frozenset[str], str] = {}
-"""Circles that stay, as the set of their modules, each with the reason. There is none."""
+"""Circles that stay, as the set of their modules, each with the reason. There are none."""
 NATIVE = "rclpy._rclpy_pybind11"
 """Stands for upstream's C extension, so it is below everything of rclpy."""
 Graph = dict[str, set[str]]
 
 
 def modules() -> dict[str, Path]:
-    """Every module of ours by its one name: of the ROS packages that under which they are imported."""
+    """All our modules by their canonical names: for ROS packages, those under which they are imported."""
     found: dict[str, Path] = {}
     for top in ("runtime", "tui", "nodes"):
         for path in (ROOT / top).rglob("*.py"):
@@ -33,7 +33,7 @@ def modules() -> dict[str, Path]:
 
 
 def canonical(name: str) -> str:
-    """The one name of a module that has two."""
+    """The canonical name of a module that has two."""
     inside = name.removeprefix("bot_console.runtime.")
     if inside != name and inside.partition(".")[0] in PACKAGES:
         return inside
@@ -105,16 +105,16 @@ def circles(edges: Graph) -> list[frozenset[str]]:
     return found
 
 
-def test_no_circle():
+def test_no_circular_imports():
     left = [sorted(each) for each in circles(graph()) if each not in ALLOWED]
     assert not left, "\n".join(" <-> ".join(each) for each in left)
 
 
-def test_what_is_allowed_is_there():
+def test_allowed_circles_exist():
     assert set(ALLOWED) <= set(circles(graph()))
 
 
-def test_what_is_below_the_public_modules_of_rclpy_knows_none_of_them():
+def test_modules_below_public_rclpy_import_none_of_it():
     up = {
         (name, target)
         for name, targets in graph().items()
@@ -125,13 +125,13 @@ def test_what_is_below_the_public_modules_of_rclpy_knows_none_of_them():
     assert not up
 
 
-def test_what_a_node_is_made_of_knows_no_node():
+def test_parts_of_a_node_do_not_import_the_node():
     up = {name for name, targets in graph().items() if name.startswith("rclpy.node_parts.") and "rclpy.node" in targets}
     assert not up
 
 
 @pytest.mark.parametrize("back", ["from . import a", "if TYPE_CHECKING:\n    from x import a", "import json"])
-def test_late_imports_count_and_those_for_annotations(tmp_path, back):
+def test_late_imports_and_annotations_count(tmp_path, back):
     late, other = tmp_path / "a.py", tmp_path / "b.py"
     late.write_text("def f():\n    from x import b\n")
     other.write_text(f"{back}\n")

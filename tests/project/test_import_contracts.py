@@ -1,4 +1,4 @@
-"""The floors of the house hold, and a step across them is noticed."""
+"""The layers hold, and a planted violation is noticed."""
 
 import os
 import re
@@ -40,14 +40,14 @@ def check(house):
     return subprocess.run(words, cwd=house, env=environment, capture_output=True, text=True, check=False)
 
 
-def test_the_contracts_hold(house):
+def test_import_contracts_hold(house):
     done = check(house)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
 @pytest.fixture(scope="module")
 def planted(house):
-    """What is said of all planted violations at once."""
+    """The messages about all planted violations at once."""
     for path, line in PLANTED.items():
         place = house / "build" / "editable" / "bot_console" / path
         place.write_text(f"{place.read_text(encoding='utf-8')}\n{line}\n", encoding="utf-8")
@@ -57,6 +57,6 @@ def planted(house):
 
 
 @pytest.mark.parametrize("path", PLANTED)
-def test_a_planted_violation_is_caught(planted, path):
+def test_planted_violation_is_reported(planted, path):
     module = "bot_console." + path.removesuffix(".py").replace("/", ".")
     assert re.search(rf"{re.escape(module)} -> {PLANTED[path].removeprefix('import ')}\b", planted), planted

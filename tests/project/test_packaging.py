@@ -31,7 +31,7 @@ SHARED = {
 }
 
 
-def test_the_wheel_holds_one_package(wheel):
+def test_wheel_contains_one_package(wheel):
     names = [name.split("/")[0] for name in wheel]
     assert {name for name in names if not name.endswith((".dist-info", ".data"))} == {"bot_console"}
 
@@ -50,13 +50,13 @@ def test_wheel_installs_manual_page_and_shell_completion(wheel):
         "bot_console/nodes/simulator_node.py",
     ],
 )
-def test_the_wheel_has_what_a_run_needs(wheel, name):
+def test_wheel_contains_what_a_run_needs(wheel, name):
     assert name in wheel
 
 
-def test_the_wheel_has_generated_messages(wheel):
+def test_wheel_contains_generated_messages(wheel):
     assert any(name.startswith("bot_console/runtime/rosidl/generated/") and "geometry_msgs" in name for name in wheel)
 
 
-def test_no_module_has_a_name_from_outside_of_its_package(wheel):
+def test_no_module_shadows_an_outside_name(wheel):
     assert not any(name.startswith(("rclpy/", "launch/", "tests/")) for name in wheel)

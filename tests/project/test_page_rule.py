@@ -44,7 +44,7 @@ RUNS = [(name, *how) for name in NAMES for how in (("profile", 1), ("profile", 2
     ("name", "parameters", "seed", "minutes"),
     [(*OFTEN, 2), *(pytest.param(*each, 10, marks=pytest.mark.soak) for each in RUNS)],
 )
-def test_minutes_without_standing_for_twenty_seconds(name: str, parameters: str, seed: int, minutes: int) -> None:
+def test_robot_never_stands_for_twenty_seconds(name: str, parameters: str, seed: int, minutes: int) -> None:
     run = Simulation(world(name), seed, lidar(name))
     own = profile(name)["robot_navigator"]
     rule = (own["max_speed"], own["safety_distance"], own["turn_rate"]) if parameters == "profile" else (1.0, 0.5, 1.0)
@@ -55,8 +55,8 @@ def test_minutes_without_standing_for_twenty_seconds(name: str, parameters: str,
 
 @pytest.mark.soak
 @pytest.mark.parametrize("name", NAMES)
-def test_from_every_place_some_heading_is_free(name: str) -> None:
-    """A place is a trap when no half circle of the safety distance is free there: the rule would turn for ever."""
+def test_some_heading_is_free_at_every_place(name: str) -> None:
+    """A place is a trap if no half circle of the safety distance is free there: the rule would turn for ever."""
     exact = lidar(name, noise=0.0, dropout=0.0, false_returns=0.0, field_of_view=2 * math.pi)
     run = Simulation(replace(world(name), movers=()), 1, exact)
     safety = profile(name)["robot_navigator"]["safety_distance"]

@@ -1,4 +1,4 @@
-"""The middleware names its process by the real id: `os.getpid` gives a node that is a thread a made-up one."""
+"""The middleware uses the real process id: `os.getpid` gives a node that is a thread a made-up one."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ def made_up(text: str) -> Iterator[int]:
             yield node.lineno
 
 
-def test_what_is_searched_for_is_found() -> None:
+def test_planted_call_is_found() -> None:
     assert sorted(made_up("import os\nos.getpid()\nfrom os import getpid\nreal.getpid()\n")) == [2, 3]
 
 
-def test_nothing_in_the_middleware_asks_for_it() -> None:
+def test_middleware_never_asks_os_for_the_process_id() -> None:
     files = sorted((ROOT / "runtime" / "rmw").rglob("*.py"))
     assert files
     found = [f"{file}:{line}" for file in files for line in made_up(file.read_text(encoding="utf-8"))]

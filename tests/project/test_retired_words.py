@@ -124,7 +124,7 @@ def test_file_names_contain_no_retired_words() -> None:
     assert not found, "\n".join(found)
 
 
-def test_a_planted_name_is_found() -> None:
+def test_planted_names_are_found() -> None:
     tree = ast.parse(
         "class Shelf:\n    def tell_all(self, wish, max_rows=1):\n        self.mended = wish\nPATIENCE_S = 1\n"
     )

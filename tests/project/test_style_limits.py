@@ -1,4 +1,4 @@
-"""The limits of the style page: what a reader is asked to hold in the head at once."""
+"""The limits of the style page: how much a reader has to keep in mind at once."""
 
 import ast
 from pathlib import Path
@@ -23,14 +23,14 @@ def test_files_are_found():
 
 
 @pytest.mark.parametrize("folder", (*SOURCES, "tests/helpers"))
-def test_no_file_is_longer_than_the_limit(folder):
+def test_no_file_exceeds_the_limit(folder):
     inside = [path for path in FILES if path.is_relative_to(ROOT / folder)]
     long = {str(path.relative_to(ROOT)): n for path in inside if (n := len(path.read_text().splitlines())) > FILE_LIMIT}
     assert long == {}
 
 
 @pytest.mark.parametrize("folder", (*SOURCES, "tests/helpers"))
-def test_no_function_is_longer_than_the_limit(folder):
+def test_no_function_exceeds_the_limit(folder):
     long = {}
     for path in (path for path in FILES if path.is_relative_to(ROOT / folder)):
         for node in statements(path):

@@ -1,4 +1,4 @@
-"""The page of what runs says what can be imported."""
+"""The page "What runs" is up to date, and says what can be imported."""
 
 import importlib.util
 import json
@@ -16,11 +16,11 @@ def tool():
     return module
 
 
-def test_the_page_is_made_by_the_script():
+def test_page_is_generated_by_the_script():
     assert (ROOT / "docs" / "what-runs.md").read_text(encoding="utf-8") == tool().page(), "python tools/what_runs.py"
 
 
-def test_packages_that_are_not_here_report_what_brings_them():
+def test_unavailable_packages_report_alternatives():
     rows = [each.strip("|").split("|") for each in tool().page().splitlines() if each.startswith("| `")]
     assert [row[0] for row in rows if row[1].strip() == "no" and not row[2].strip()] == []
 
@@ -34,6 +34,6 @@ def test_each_difference_of_a_live_rclpy_has_one_decision():
     assert [row["what"] for row, cases in what_runs.decisions() if not any(cases.values())] == []
 
 
-def test_the_runtime_differs_from_the_recordings_where_it_is_decided_that_it_does():
+def test_runtime_differs_from_recordings_only_where_decided():
     newer = {case for row, cases in tool().decisions() if row["here"] == "newer" for case in cases["jazzy"]}
     assert newer == set(differing_on_purpose("rclpy"))

@@ -1,6 +1,6 @@
-"""Starts and ends of the console in every way: `python tests/soak/ends.py --ends 500`, JSON.
+"""Starts and ends the console in every way: `python tests/soak/ends.py --ends 500`, JSON.
 
-Each end must leave a usable terminal, no process, no socket and no temporary file of a process that has ended in order.
+Each end must leave a usable terminal and, if the process ended in order, no process, socket or temporary file.
 Prints how many ends of each kind there were, and what was wrong with those that failed.
 """
 
@@ -23,11 +23,11 @@ from terminal import Terminal
 
 TIMEOUT_S = 60.0
 UNCLEAN = ("killed", "crash")
-"""Kinds after which files may be left: the next start removes them."""
+"""Kinds that may leave files, which the next start removes."""
 
 
 def sent(*numbers: signal.Signals) -> Callable[[Terminal], None]:
-    """These signals, one at once after the other."""
+    """Sends these signals, one right after the other."""
 
     def send(terminal: Terminal) -> None:
         for number in numbers:
@@ -61,7 +61,7 @@ KINDS: dict[str, Callable[[Terminal], None]] = {
 }
 
 NODES = {"node aborts": ("process", "os.abort()"), "node raises": ("thread", "raise RuntimeError('broken node')")}
-"""Kinds in which a node has died before the end comes: its isolation, and what it does."""
+"""Kinds in which a node has died before the end: its isolation, and how it dies."""
 
 NODE = """import os, rclpy
 rclpy.init()
@@ -79,7 +79,7 @@ def generate_launch_description():
 
 
 def died(kind: str, folder: Path) -> list[str]:
-    """The console's arguments for a kind in which a node dies: its launch file, written here, and its isolation."""
+    """The console's arguments for a kind in which a node dies; writes its launch file."""
     isolation, act = NODES[kind]
     node, launch = folder / "broken_node.py", folder / "broken.launch.py"
     node.write_text(NODE.format(act))
@@ -88,7 +88,7 @@ def died(kind: str, folder: Path) -> list[str]:
 
 
 def end(kind: str, folder: Path, base: Path) -> str:
-    """Start a console and end it; what was wrong, empty when nothing was."""
+    """Start a console and end it; returns what was wrong, empty if nothing was."""
     arguments = died(kind, folder) if kind in NODES else []
     terminal = Terminal(["-m", "bot_console.tui", "--seed", "1", *arguments], folder)
     try:
@@ -123,7 +123,7 @@ def _left(terminal: Terminal, kind: str, base: Path) -> str:
 
 
 def main() -> None:
-    """Run as the words of the command say."""
+    """Run with the command line's options."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--ends", type=int, default=500)
     parser.add_argument("--kind", choices=KINDS, action="append", help="only of this kind; may be given several times")

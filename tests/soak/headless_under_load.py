@@ -1,9 +1,9 @@
-"""Stepped runs beside busy processes: each must give its report, and all of them the same one.
+"""Stepped runs beside busy processes: each must report, and all must report the same.
 
     python tests/soak/headless_under_load.py --runs 200 --busy 16
 
-Prints one JSON object: how many runs there were, and how many ended how. `--nice` is for the runs and the busy
-processes alike, so that a machine that others work on stays theirs.
+Prints one JSON object: how many runs there were, and how many ended how. `--nice` applies to the runs and to the busy
+processes, so that a shared machine stays usable.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ TIMEOUT_S = 600.0
 
 @contextmanager
 def busy_processes(count: int) -> Generator[None]:
-    """So many processes that only compute, for the length of the block."""
+    """Run `count` processes that only compute, for the length of the block."""
     started = [subprocess.Popen([sys.executable, "-c", BUSY]) for _ in range(count)]
     try:
         yield
@@ -37,7 +37,7 @@ def busy_processes(count: int) -> Generator[None]:
 
 
 def run(seconds: float) -> str:
-    """How one run ended: the digest of its report, marked where it is not deterministic, or its last words."""
+    """The outcome of one run: the digest of its report, marked if it is not deterministic, or its last output."""
     words = ["--headless", "--fast", "--seed", "1", "--duration", str(seconds)]
     line = [sys.executable, "-m", "bot_console.tui", *words]
     done = subprocess.run(line, capture_output=True, text=True, check=False, timeout=TIMEOUT_S)
@@ -49,7 +49,7 @@ def run(seconds: float) -> str:
 
 
 def outcomes(runs: int, busy: int, seconds: float = 10.0) -> Counter[str]:
-    """How often the runs ended how, told on stderr as they end; as many run at a time as there are processors."""
+    """The outcomes of the runs with their counts, printed on stderr as runs end; one run per processor at a time."""
     ended: Counter[str] = Counter()
     with busy_processes(busy), ThreadPoolExecutor(os.cpu_count()) as pool:
         for outcome in pool.map(run, [seconds] * runs):
@@ -59,7 +59,7 @@ def outcomes(runs: int, busy: int, seconds: float = 10.0) -> Counter[str]:
 
 
 def main() -> None:
-    """Run as the words of the command say."""
+    """Run with the command line's options."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--runs", type=int, default=200)
     parser.add_argument("--busy", type=int, default=16)

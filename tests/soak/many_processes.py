@@ -1,10 +1,10 @@
 """Many processes in one domain, from a few that start at one moment to a graph of thousands of entities; JSON.
 
     python tests/soak/many_processes.py --meet 10          rounds of 50 that start together: how many pairs talk
-    python tests/soak/many_processes.py --graph            20 with 10 nodes of 25 entities each, all ask for the graph
+    python tests/soak/many_processes.py --graph            20 with 10 nodes of 25 entities each, all query the graph
 
-`cpu_s` is the processor time of a process, `most` of the one that took most, from the question until all is known;
-`rest` is what all of them take afterwards, in shares of a processor, and `grown_mb` by how much the largest grows
+`cpu_s` is the processor time per process, `most` that of the busiest one, from the query until everything is known;
+`rest` is what all of them use afterwards, in shares of a processor, and `grown_mb` by how much the largest grows
 meanwhile. Linux.
 """
 
@@ -25,16 +25,16 @@ from bot_console.runtime.warm_up import warm_up
 
 PROCESSES = 50
 TIMEOUT_S = 120.0
-"""Seconds until a process says what it has seen so far."""
+"""Seconds until a process reports what it has found so far."""
 PERIOD = 0.25
 HOLDERS, NODES, ENTITIES = 20, 10, 25
 REST = 10.0
 Work = Callable[[int, Callable[[], None]], Any]
-"""What a process does: its number, and what waits for the others; gives what it reports."""
+"""The work of a process: takes its number, and a function that waits for the others; returns its report."""
 
 
 def together(count: int, work: Work, steps: int) -> list[Any]:
-    """The reports of processes that are forked, wait, and take each step at one moment."""
+    """The reports of processes that are forked, wait, and take each step at the same moment."""
     addresses = [os.pipe() for _ in range(steps)]
     arrivals, reports, children = os.pipe(), [os.pipe() for _ in range(count)], []
     for number in range(count):
@@ -53,7 +53,7 @@ def together(count: int, work: Work, steps: int) -> list[Any]:
                 signal.pause()
             except BaseException:
                 traceback.print_exc()
-            finally:  # whatever ends it: it would go on as its parent, and fork as many again
+            finally:  # Whatever ends it: otherwise it would continue as its parent, and fork as many again.
                 os._exit(1)
         children.append(pid)
     for _, end in addresses:
@@ -70,7 +70,7 @@ def together(count: int, work: Work, steps: int) -> list[Any]:
 
 
 def joined(name: str) -> Any:
-    """A node in the domain of all."""
+    """A node in the common domain."""
     import rclpy
     from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
 
@@ -80,7 +80,7 @@ def joined(name: str) -> Any:
 
 
 def until(done: Callable[[], bool], each: Callable[[], object] = lambda: None) -> bool:
-    """Whether something came about in time; `each` is done before each look."""
+    """Whether a condition came true in time; `each` is called before each check."""
     deadline = time.monotonic() + TIMEOUT_S
     while not done():
         if time.monotonic() > deadline:
@@ -91,7 +91,7 @@ def until(done: Callable[[], bool], each: Callable[[], object] = lambda: None) -
 
 
 def meet(number: int, wait: Callable[[], None]) -> int:
-    """How many others one has heard; it goes on talking until all have reported."""
+    """How many others one process has heard; it goes on talking until all have reported."""
     import threading
 
     import rclpy
@@ -109,13 +109,13 @@ def meet(number: int, wait: Callable[[], None]) -> int:
 
 
 def hold(number: int, wait: Callable[[], None]) -> dict[str, Any]:
-    """Have nodes with entities, then learn what all have; what that costs."""
+    """Create nodes with entities, then discover all others; returns the cost."""
     import rclpy
     from std_msgs.msg import Int32
 
     first = joined(f"holder_{number}")
     nodes = [first, *(rclpy.create_node(f"holder_{number}_{each}") for each in range(1, NODES))]
-    (own,) = first.context.bus._local.tables()  # as no question for the graph is to be asked yet
+    (own,) = first.context.bus._local.tables()  # Not by a graph query, since none may have been made yet.
     few = entities([own]) // NODES
     for node in nodes:
         for each in range(ENTITIES - few):
@@ -141,7 +141,7 @@ def entities(tables: Any) -> int:
 
 
 def own_mb() -> float:
-    """Memory (MB) of this process that it shares with none."""
+    """Memory (MB) of this process that it shares with no other."""
     _, resident, shared, *_ = Path("/proc/self/statm").read_text().split()
     return (int(resident) - int(shared)) * os.sysconf("SC_PAGE_SIZE") / 1e6
 
@@ -163,7 +163,7 @@ def graph() -> dict[str, Any]:
 
 
 def main() -> None:
-    """Run what is asked for."""
+    """Run what the command line requests."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--meet", type=int, default=0, metavar="ROUNDS")
     parser.add_argument("--graph", action="store_true")

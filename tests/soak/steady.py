@@ -51,7 +51,7 @@ def descendants(pid: int) -> list[int]:
 
 
 def sample(pid: int) -> Sample:
-    """Memory that the processes share with none (MB), threads and open descriptors of a process and what it started."""
+    """Unshared memory (MB), threads and open descriptors of a process and its descendants."""
     memory, threads, descriptors = 0.0, 0, 0
     for each in descendants(pid):
         with contextlib.suppress(OSError):
@@ -63,7 +63,7 @@ def sample(pid: int) -> Sample:
 
 
 def fitted(samples: list[Sample], length: float) -> dict[str, Any]:
-    """The line through the samples of a run of some length (hours, minutes), for each thing that was sampled."""
+    """The line fitted to the samples of a run of some length (hours, minutes), for each quantity."""
     rows = np.array(samples, dtype=float)
     start, tenth = len(rows) // 5, max(1, len(rows) // 10)
     moments = np.linspace(0.0, length, len(rows))
@@ -94,9 +94,9 @@ def simulated(hours: float, folder: Path) -> dict[str, Any]:
 
 
 def live(minutes: float, filled: float, folder: Path) -> dict[str, Any]:
-    """Run a console with its robot, read from as a terminal is; a key goes through its panes.
+    """Run a console with its robot, read from like a terminal; a key goes through its panes.
 
-    It is sampled for so many `minutes` after those in which it has `filled` what it keeps.
+    It is sampled for so many `minutes` after those in which it has `filled` its buffers.
     """
     terminal, samples = Terminal(["-m", "bot_console.tui", "--seed", "1"], folder), []
     try:
@@ -127,7 +127,7 @@ def live(minutes: float, filled: float, folder: Path) -> dict[str, Any]:
 
 
 def _until(over: Callable[[], bool], pid: int) -> list[Sample]:
-    """Samples of a process and what it started, about two a second, until it is over."""
+    """Samples of a process and its descendants, about two a second, until it is over."""
     samples: list[Sample] = []
     while not over():
         samples.append(sample(pid))
@@ -138,7 +138,7 @@ def _until(over: Callable[[], bool], pid: int) -> list[Sample]:
 
 
 def main() -> None:
-    """Run as the words of the command say."""
+    """Run with the command line's options."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--simulated", type=float, metavar="HOURS")
     parser.add_argument("--live", type=float, metavar="MINUTES")

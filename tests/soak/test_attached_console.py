@@ -1,7 +1,7 @@
-"""Half an hour of all that a console does beside a robot, on the rclpy that is there: nothing is lost, nothing grows.
+"""Half an hour of everything that a console does beside a robot, on any rclpy: nothing is lost, nothing grows.
 
 `-m soak` runs it on the embedded runtime, `BOT_CONSOLE_TESTS_ON=ros pytest -m ros tests/soak` on a sourced ROS 2.
-BOT_CONSOLE_SOAK_MINUTES says how long, 30 without it. What it has measured is printed (`-s`).
+BOT_CONSOLE_SOAK_MINUTES sets its length; the default is 30. Its measurements are printed (`-s`).
 """
 
 from __future__ import annotations
@@ -32,16 +32,16 @@ WAYS = [
 PERIOD = 0.05
 """Seconds between two rounds."""
 SHORT, LONG = 20, 200
-"""Rounds between two changes of what is looked at, and between two visits of another node."""
+"""Rounds between two changes of the view, and between two visits of another node."""
 SLOWEST = 5.0
-"""Seconds that the slowest of all sets may take, on a machine that does other things as well."""
+"""Seconds that the slowest of all sets may take on a machine that does other work as well."""
 GROWTH = 10e6
-"""Bytes by which the process may grow from the first third to the end, beside a kilobyte for each line of the log."""
+"""Bytes by which the process may grow from the first third to the end, plus a kilobyte for each line of the log."""
 
 
 @dataclass
 class Seen:
-    """What was measured."""
+    """The measurements."""
 
     rounds: int = 0
     lines: int = 0
@@ -50,7 +50,7 @@ class Seen:
     """Resident memory (bytes) every minute, or ten times in a shorter run."""
     threads: list[int] = field(default_factory=list)
     ends: list[int] = field(default_factory=list)
-    """How many endpoints the console has, at the same times."""
+    """The number of the console's endpoints, at the same times."""
 
 
 def resident() -> int:
@@ -63,7 +63,7 @@ def resident() -> int:
 
 @contextlib.contextmanager
 def visitor(domain: int, name: str) -> Iterator[None]:
-    """Another node of the robot, for a while."""
+    """Add another node of the robot for a while."""
     context = Context()
     rclpy.init(args=[], context=context, domain_id=domain)
     node = rclpy.create_node(name, context=context)
@@ -87,7 +87,7 @@ def visitor(domain: int, name: str) -> Iterator[None]:
 
 
 def a_round(rig: RosRig, number: int, seen: Seen) -> None:
-    """Set, be refused, publish, log, drive; now and then look at something else, stop, and have a visitor."""
+    """Set, be refused, publish, log, drive; sometimes change the view, stop, and have a visitor."""
     console = rig.console
     began = time.monotonic()
     taken = console.set_parameters(ROBOT, {"speed": 0.5 + number % 10 / 10}).result(TIMEOUT_S)
@@ -145,7 +145,7 @@ def test_nothing_is_lost_and_nothing_grows(make, tmp_path: Path) -> None:
         assert len(rig.console.matching_logs(which, 0)) == seen.lines
         assert seen.slowest < SLOWEST
         third = max(1, len(seen.sizes) // 3)
-        for counts in (seen.threads, seen.ends):  # which go up and down with what is looked at
+        for counts in (seen.threads, seen.ends):  # They go up and down with the view.
             assert min(counts[-third:]) <= max(counts[:third])
         assert seen.sizes[-1] - seen.sizes[third] < GROWTH + 1000 * seen.lines
     finally:

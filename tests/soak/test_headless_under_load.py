@@ -1,4 +1,4 @@
-"""A stepped run knows no wall time: two hundred runs beside sixteen busy processes give one report."""
+"""A stepped run is independent of wall time: two hundred runs beside sixteen busy processes give one report."""
 
 import json
 import sys
@@ -13,7 +13,7 @@ pytestmark = pytest.mark.soak
 RUNS = 200
 
 
-def test_one_report_of_all_runs():
+def test_all_runs_give_the_same_report():
     ended = outcomes(RUNS, busy=16)
     assert list(ended.values()) == [RUNS], ended
     assert json.loads(next(iter(ended)))["deterministic"] is True

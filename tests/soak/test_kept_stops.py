@@ -1,4 +1,4 @@
-"""A stop holds until a person releases it, whatever ends and starts meanwhile; a witness judges by ground truth.
+"""A stop holds until a person releases it, whatever ends and starts meanwhile; judged by a witness of the ground truth.
 
 In one process: `tests/unit/tui/console/test_kept_stops.py`. Many runs beside busy processes: `witnessed_runs.py`.
 """
@@ -31,5 +31,5 @@ def robot(tmp_path: Path) -> Iterator[LiveRobot]:
 
 
 @pytest.mark.parametrize("way", WAYS, ids=lambda each: each.__name__)
-def test_a_stop_holds_until_it_is_released_and_then_does_not_come_back(robot: LiveRobot, way: Way) -> None:
+def test_stop_holds_until_released_and_does_not_return(robot: LiveRobot, way: Way) -> None:
     held_through(way, robot)

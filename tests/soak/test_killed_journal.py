@@ -1,4 +1,4 @@
-"""A program killed (-9) while it notes changes has lost none that it showed, and the next one reads them all."""
+"""A program killed (-9) while it records changes has lost none that it showed, and the next one reads them all."""
 
 from __future__ import annotations
 
@@ -21,7 +21,9 @@ NUMBER = 8
 
 
 def note_for_ever(file: Path, first: int, noted: int) -> None:
-    """Note one change after the other, each with the next number, and tell the pipe `noted` of each that is seen."""
+    """Record one change after the other, with consecutive numbers, and write each number to the pipe `noted` once it is
+    visible.
+    """
     journal = Journal(history=History(file, time.time_ns()))
     for number in count(first):
         journal.record(time.time_ns(), "/n", "p", (number - 1, number), ChangeSource.EDIT)
@@ -29,7 +31,7 @@ def note_for_ever(file: Path, first: int, noted: int) -> None:
 
 
 def numbers(file: Path) -> list[int]:
-    """What another program reads."""
+    """The numbers that another program reads."""
     history = History(file, time.time_ns())
     found = [each.new for each in history.earlier(ROWS)]
     assert not history.problem, history.problem
@@ -55,7 +57,7 @@ def kill_writers(file: Path, times: int) -> None:
         newest = int.from_bytes(seen[-NUMBER:], "little") if seen else last
         there = numbers(file)
         last = there[-1] if there else 0
-        # One more than was seen may be there: it was on the disk, and the program died before it showed it.
+        # There may be one more than was seen: it was on disk, and the program died before it showed it.
         assert last in (newest, newest + 1)
         assert there == list(range(last - len(there) + 1, last + 1)), "none in between is missing"
     assert last > times
@@ -63,8 +65,8 @@ def kill_writers(file: Path, times: int) -> None:
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="forks")
 @pytest.mark.parametrize("times", [10, pytest.param(1000, marks=[pytest.mark.soak, pytest.mark.timeout(1000)])])
-def test_nothing_that_was_shown_is_lost(times: int, tmp_path: Path) -> None:
-    # In an interpreter of its own: a fork is safe only where no thread runs.
+def test_no_change_that_was_shown_is_lost(times: int, tmp_path: Path) -> None:
+    # In a separate interpreter: a fork is safe only if no other thread runs.
     done = subprocess.run(
         [sys.executable, __file__, str(tmp_path / "history.sqlite"), str(times)],
         check=False,

@@ -81,7 +81,7 @@ def settings(folder: Path, number: int) -> None:
 
 
 def package(folder: Path, number: int) -> None:
-    """Beside what killed exports have left, which is not asked about: a name of its own for each process."""
+    """Export beside what killed exports have left, which is not asked about: each process has a separate name."""
     with contextlib.redirect_stdout(io.StringIO()):
         export_package([str(folder / "packages" / f"{os.getpid()}-{number}")])
 
@@ -96,7 +96,7 @@ def bag(folder: Path, number: int) -> None:
 
 
 WRITERS = {log: 0.05, parameters: 0.05, plot: 0.1, graph: 0.05, history: 0.05, settings: 0.1, package: 0.5, bag: 0.1}
-"""All that the program saves, each with another number in every line, and within how many seconds it is killed."""
+"""Everything that the program saves, with another number in every line, and within how many seconds it is killed."""
 
 
 def write_for_ever(writer: Callable[[Path, int], None], folder: Path) -> None:
@@ -105,7 +105,7 @@ def write_for_ever(writer: Callable[[Path, int], None], folder: Path) -> None:
 
 
 def assert_whole(folder: Path) -> None:
-    """The files are as some save has left them, and nothing half-written will be taken for one."""
+    """Check that the files are as some save has left them, and that nothing partial would be taken for one."""
     lines = (folder / "log.txt").read_text().splitlines()
     assert len(lines) == LINES and len(set(lines)) == 1
     comment, *rest = (folder / "parameters.yaml").read_text().splitlines()
@@ -123,7 +123,7 @@ def assert_whole(folder: Path) -> None:
     assert isinstance(alarms, list) and len(alarms) == 200 and len(set(alarms)) == 1
     assert LineHistory().file.read_text().endswith("\n")
     for each in (folder / "bags").iterdir():
-        if any(file.stat().st_size for file in each.glob("*.mcap")):  # else it had not begun
+        if any(file.stat().st_size for file in each.glob("*.mcap")):  # Otherwise it had not started.
             texts = [deserialize_message(entry.data, String).data for entry in Bag(each).messages()]
             assert texts == [str(at) for at in range(len(texts))]
         shutil.rmtree(each)
@@ -133,7 +133,7 @@ def assert_whole(folder: Path) -> None:
 
 
 def assert_same_files(part: Path, whole: Path) -> None:
-    """What is there of an export is as it shall be, whole file by whole file."""
+    """Check that every file of an export is complete."""
     for each in part.rglob("*"):
         if each.is_file() and not each.name.endswith(SUFFIX):
             assert each.read_bytes() == (whole / each.relative_to(part)).read_bytes(), each
@@ -143,7 +143,7 @@ def kill_writers(folder: Path, times: int) -> None:
     """Start writers one by one and kill each at a random moment; the random numbers are the same each time."""
     moments = random.Random(times)
     (folder / "parameters.yaml").write_text(COMMENT + "/n:\n  ros__parameters:\n    a: 0\n    b: 0\n    c: 0\n")
-    for writer in WRITERS:  # which imports what they need, before the first fork
+    for writer in WRITERS:  # This imports what they need, before the first fork.
         writer(folder, 0)
     (folder / "packages" / f"{os.getpid()}-0").rename(folder / "package")
     for _, (writer, longest) in zip(range(times), cycle(WRITERS.items()), strict=False):
@@ -158,8 +158,8 @@ def kill_writers(folder: Path, times: int) -> None:
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="forks")
 @pytest.mark.parametrize("times", [10, pytest.param(1000, marks=[pytest.mark.soak, pytest.mark.timeout(1000)])])
-def test_killed_at_random_moments(times: int, tmp_path: Path) -> None:
-    # In an interpreter of its own: a fork is safe only where no thread runs.
+def test_kill_at_random_moments_leaves_complete_files(times: int, tmp_path: Path) -> None:
+    # In a separate interpreter: a fork is safe only if no other thread runs.
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM, __file__, str(tmp_path), str(times)], check=False, timeout=900,
         capture_output=True, text=True,

@@ -20,7 +20,7 @@ WARM_UP = 20
 """Restarts before the first count: modules are imported, pools are filled."""
 RESTARTS = 500
 SLACK = 50
-"""Objects of one kind that may be more; a tenth of what one leaked object for each restart would be."""
+"""Allowed growth in objects of one kind; a tenth of what one leaked object per restart would be."""
 KEPT = {
     "launch.logging.launch_logger.LaunchLogger": "Python keeps loggers for ever, and each start has names of its own",
     "builtins.list": "handlers and filters of those",
@@ -40,12 +40,12 @@ def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
 
 
 def descriptors() -> list[str]:
-    """What the open file descriptors of this process point at."""
+    """The targets of this process's open file descriptors."""
     found: list[str] = []
     for each in Path("/proc/self/fd").iterdir():
         try:
             found.append(os.readlink(each))
-        except FileNotFoundError:  # the one that lists them
+        except FileNotFoundError:  # The descriptor used for listing.
             continue
     return sorted(found)
 
@@ -57,7 +57,7 @@ def census() -> Counter[str]:
 
 
 def leaks_nothing(bench: Bench, once: Callable[[], None], end: Callable[[], object] = lambda: None) -> None:
-    """Do something hundreds of times; what is left must not grow with it."""
+    """Do something hundreds of times; what is left must not grow."""
     for _ in range(WARM_UP):
         once()
     threads, files, objects = threading.active_count(), len(descriptors()), census()
@@ -70,11 +70,11 @@ def leaks_nothing(bench: Bench, once: Callable[[], None], end: Callable[[], obje
     def left() -> dict[str, int]:
         return {kind: count for kind, count in (census() - objects).items() if count > SLACK and kind not in KEPT}
 
-    # Some are let go a few seconds later: of escalations that were not needed, and of the watch over busy nodes.
+    # Some are released a few seconds later: those of unneeded escalations, and of the watch over busy nodes.
     bench.until(lambda: not left(), f"nothing to be left, but there is {left()}")
 
 
-def test_restarts_of_a_node_leave_nothing(bench: Bench) -> None:
+def test_restarts_of_a_node_leak_nothing(bench: Bench) -> None:
     program = bench.program(WAITS)
     assert bench.run(f"[Node(executable={program!r}, name='other'), Node(executable={program!r}, name='bob')]").ok
     key = bench.until(lambda: len(bench.info.processes) == 2 and bench.info.processes[1].key, "both")
@@ -89,7 +89,7 @@ def test_restarts_of_a_node_leave_nothing(bench: Bench) -> None:
     assert other.restarts == 0 and other.state is ProcessState.RUNNING
 
 
-def test_restarts_of_a_killed_node_leave_nothing(bench: Bench) -> None:
+def test_restarts_of_a_killed_node_leak_nothing(bench: Bench) -> None:
     program = bench.program(WAITS)
     assert bench.run(f"[Node(executable={program!r}, name='bob')]").ok
     key = bench.process().key
@@ -102,7 +102,7 @@ def test_restarts_of_a_killed_node_leave_nothing(bench: Bench) -> None:
     leaks_nothing(bench, once)
 
 
-def test_restarts_of_a_real_process_leave_nothing(bench: Bench) -> None:
+def test_restarts_of_a_real_process_leak_nothing(bench: Bench) -> None:
     assert bench.run("[ExecuteProcess(cmd=['sleep', '1000'])]").ok
     key = bench.process().key
     leaks_nothing(bench, lambda: _restart(bench, key))
@@ -112,7 +112,7 @@ def _restart(bench: Bench, key: str) -> None:
     assert bench.launcher.restart(key).result(30).ok
 
 
-def test_a_process_that_launch_starts_again_and_again_leaves_nothing(bench: Bench) -> None:
+def test_respawned_process_leaks_nothing(bench: Bench) -> None:
     program = bench.program(ENDS)
     assert bench.run(f"[Node(executable={program!r}, respawn=True, respawn_delay=0.001)]").ok
     until = itertools.count(1)

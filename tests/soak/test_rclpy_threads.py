@@ -24,17 +24,17 @@ from std_msgs.msg import Int64
 pytestmark = pytest.mark.soak
 
 TIMEOUT_S = 60.0
-"""How long (s) a thread may take to end before it counts as hung."""
+"""Seconds that a thread may take to end before it counts as hung."""
 MINUTE = 60.0
 BACKLOG = 2_000
-"""How many messages may wait before the senders of the stress make a pause."""
+"""How many messages may wait before the senders of the stress test pause."""
 KEEP_ALL = QoSProfile(history=HistoryPolicy.KEEP_ALL)
 _domains = itertools.count(900_000)
 
 
 @contextmanager
 def context() -> Iterator[Context]:
-    """A context of its own domain."""
+    """A context in a separate domain."""
     made = Context()
     made.init([], domain_id=next(_domains))
     yield made
@@ -42,21 +42,21 @@ def context() -> Iterator[Context]:
 
 
 class Threads:
-    """Threads that must end, and whose exceptions are the test's."""
+    """Threads that must end, and whose exceptions fail the test."""
 
     def __init__(self) -> None:
         self._threads: list[threading.Thread] = []
         self._errors: list[BaseException] = []
 
     def start(self, target: Callable[..., object], *args: Any) -> None:
-        """Run something in a thread; the shutdown of its context is no error."""
+        """Run something in a thread; the shutdown of its context is not an error."""
 
         def run() -> None:
             try:
                 target(*args)
             except ExternalShutdownException:
                 pass
-            except BaseException as error:  # the border to a thread: the test raises it
+            except BaseException as error:  # Outermost frame of the thread: the test raises it.
                 self._errors.append(error)
 
         thread = threading.Thread(target=run, daemon=True)
@@ -64,7 +64,7 @@ class Threads:
         thread.start()
 
     def join(self, busy: float = 0.0) -> None:
-        """Wait for all, which may work for `busy` s; fail for one that hangs, and raise what one has raised."""
+        """Wait for all threads, which may work for `busy` s; fail if one hangs, and raise their exceptions."""
         end = time.monotonic() + busy + TIMEOUT_S
         for thread in self._threads:
             thread.join(max(0.0, end - time.monotonic()))
@@ -74,14 +74,14 @@ class Threads:
 
 
 def eventually(what: Callable[[], bool]) -> None:
-    """Wait until something is so."""
+    """Wait until a condition holds."""
     end = time.monotonic() + TIMEOUT_S
     while not what():
         assert time.monotonic() < end, "it did not come about"
         time.sleep(0.001)
 
 
-def test_ping_pong_between_two_executors() -> None:
+def test_ping_pong_between_two_executors_loses_nothing() -> None:
     count, done, threads = 50_000, threading.Event(), Threads()
     with context() as ctx:
         left, right = Node("left", context=ctx), Node("right", context=ctx)
@@ -136,7 +136,7 @@ def test_foreign_threads_lose_nothing(group: Any) -> None:
     assert set(got.values()) == {1}
 
 
-def test_an_exclusive_group_is_exclusive_under_pressure() -> None:
+def test_exclusive_group_is_exclusive_under_load() -> None:
     inside, worst, calls, threads = [0], [0], [0], Threads()
     group = MutuallyExclusiveCallbackGroup()
 
@@ -170,7 +170,7 @@ def test_an_exclusive_group_is_exclusive_under_pressure() -> None:
     assert worst == [1]
 
 
-def test_calls_from_many_threads() -> None:
+def test_calls_from_many_threads_are_answered() -> None:
     per_thread, callers, threads, wrong = 1_000, 5, Threads(), []
     with context() as ctx:
         node, requester = Node("server", context=ctx), Node("asker", context=ctx)
@@ -202,7 +202,7 @@ def test_calls_from_many_threads() -> None:
 
 
 @pytest.mark.parametrize("kind", [SingleThreadedExecutor, MultiThreadedExecutor])
-def test_shutdown_during_callbacks(kind: Any) -> None:
+def test_shutdown_during_callbacks_ends_cleanly(kind: Any) -> None:
     for _ in range(150):
         threads = Threads()
         with context() as ctx:
@@ -222,7 +222,7 @@ def test_shutdown_during_callbacks(kind: Any) -> None:
 
 
 def _publish(publisher: Any) -> None:
-    with suppress(RuntimeError):  # the context may be shut down by now
+    with suppress(RuntimeError):  # The context may be shut down by now.
         publisher.publish(Int64())
 
 
@@ -232,7 +232,7 @@ def census() -> Counter[str]:
     return Counter(type(each).__name__ for each in gc.get_objects())
 
 
-def test_a_thousand_nodes_leave_nothing() -> None:
+def test_a_thousand_nodes_leak_nothing() -> None:
     def live(number: int, ctx: Context) -> None:
         node = Node(f"n{number}", context=ctx)
         node.declare_parameter("p", number)
@@ -258,7 +258,7 @@ def test_a_thousand_nodes_leave_nothing() -> None:
 
 
 @pytest.mark.timeout(300)
-def test_a_minute_of_everything() -> None:
+def test_a_minute_of_everything_leaks_nothing() -> None:
     end, threads, lock = time.monotonic() + MINUTE, Threads(), threading.Lock()
     sent: Counter[int] = Counter()
     got: Counter[int] = Counter()

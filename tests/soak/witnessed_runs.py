@@ -1,10 +1,10 @@
-"""Live runs beside busy processes in which a robot is stopped, or loses its person or its safety monitor.
+"""Live runs beside busy processes in which a robot is stopped, or loses its operator or its safety monitor.
 
     python tests/soak/witnessed_runs.py --runs 50 --busy 2 [--only person]
 
-A witness of the ground truth is the judge, in a process of its own. Prints one JSON object: for each of the groups
-`stop`, `person`, `monitor` and `kept` (stops that outlive locks and consoles) how many
-runs there were, how many of them moved when they were to stand, and how long (s) the robot went on.
+Judged by a witness of the ground truth in a separate process. Prints one JSON object: for each of the groups `stop`,
+`person`, `monitor` and `kept` (stops that outlive locks and consoles) how many runs there were, how many of them moved
+when they had to stand, and how long (s) the robot went on.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ GROUPS = {**LOSSES, "kept": KEPT}
 
 
 def witnessed(group: str, runs: int, robot: LiveRobot) -> dict[str, Any]:
-    """Go through the losses of a group in turn; a run that fails is told and counted, and the robot is released."""
+    """Go through the losses of a group in turn; a failed run is printed and counted, and the robot is released."""
     went_on: dict[str, list[float]] = {each.__name__: [] for each in GROUPS[group]}
     failed: list[str] = []
     for number in range(runs):
@@ -50,13 +50,13 @@ def witnessed(group: str, runs: int, robot: LiveRobot) -> dict[str, Any]:
 
 
 def main() -> None:
-    """Run as the words of the command say."""
+    """Run with the command line's options."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--runs", type=int, default=50, help="in each group")
     parser.add_argument("--busy", type=int, default=2)
     parser.add_argument("--only", choices=list(GROUPS))
     options = parser.parse_args()
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # so that the robot's processes end as well
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # So that the robot's processes end as well.
     report: dict[str, Any] = {}
     folder, sockets = Path(tempfile.mkdtemp()), Path(tempfile.mkdtemp(prefix="bcs"))
     try:
