@@ -1,4 +1,4 @@
-"""Each promise is kept by the scripted system and by real ones, wherever their nodes are."""
+"""Each promise is kept by the scripted system and by real ones, whichever way their nodes are connected."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ WAYS = [
     pytest.param(network_rig, id="network", marks=pytest.mark.soak),
     pytest.param(machine_rig, id="ros", marks=pytest.mark.ros),
 ]
-"""A network is tried often in `tests/unit/rmw/zenoh` and `acceptance/console/test_network_faults.py`.
+"""Networks are mostly tested in `tests/unit/rmw/zenoh` and `acceptance/console/test_network_faults.py`.
 
-The last one is for machines with a ROS 2: `BOT_CONSOLE_TESTS_ON=ros pytest -m ros tests/contract`."""
+The last one is for machines with a ROS 2: `BOT_CONSOLE_TESTS_ON=ros pytest -m ros tests/contract`.
+"""
 
 OURS = {
     "test_other_implementation.py": "the Zenoh sessions of our middleware, beside another implementation of its format",
@@ -26,19 +27,19 @@ OURS = {
     "test_seals.py": "the seals that our middleware adds to messages",
     "test_two_processes.py": "two processes that meet over our middleware",
 }
-"""Files that test what only our runtime has, with the reason why they are skipped on another rclpy."""
+"""Files that test features of our runtime only, with the reason why they are skipped on another rclpy."""
 
 
 class OfOurs(pytest.Module):
-    """A file whose imports another rclpy need not have."""
+    """A file whose imports may be missing on another rclpy."""
 
     def collect(self) -> Iterable[pytest.Item | pytest.Collector]:
-        """Skip the file with one line."""
+        """Skip the file with a one-line reason."""
         pytest.skip(f"{OURS[self.path.name]}: nothing that another rclpy has")
 
 
 def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> pytest.Module | None:
-    """Skip the files of `OURS` where the ROS names mean another rclpy."""
+    """Skip the files of `OURS` if `rclpy` is not ours."""
     if is_embedded_rclpy() or module_path.name not in OURS:
         return None
     return OfOurs.from_parent(parent, path=module_path)

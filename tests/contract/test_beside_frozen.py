@@ -1,4 +1,4 @@
-"""A process that is frozen, or does not take what it has subscribed to, holds up nobody else."""
+"""A process that is frozen, or does not read its subscriptions, delays no other process."""
 
 import os
 import signal
@@ -36,15 +36,15 @@ def took(action) -> float:
     return time.monotonic() - began
 
 
-def test_a_publisher_of_what_must_not_be_lost_never_waits_and_who_reads_gets_all(here):
+def test_a_reliable_publisher_does_not_block_and_active_subscribers_get_everything(here):
     longest = max(took(lambda: here.publisher.publish(SCAN)) for _ in range(SCANS))
-    assert longest < 1.0  # waiting for the frozen one would take 2 s; 0.1 s on a quiet machine
+    assert longest < 1.0  # waiting for the frozen process would take 2 s; 0.1 s on a quiet machine
     asked = here.node.create_client(Trigger, "/scans")
     here.until(asked.service_is_ready)
     here.until(lambda: here.result(asked.call_async(Trigger.Request())).message == str(SCANS))
 
 
-def test_the_graph_and_new_entities_are_there_at_once(here):
+def test_graph_queries_and_new_entities_do_not_wait_for_it(here):
     assert took(here.node.get_node_names) < 1.0
     assert "peer" in here.node.get_node_names()
     assert took(lambda: here.node.create_publisher(String, "/new", 10)) < 1.0
@@ -52,7 +52,7 @@ def test_the_graph_and_new_entities_are_there_at_once(here):
     assert took(lambda: Node("another", context=here.context).destroy_node()) < 2.0
 
 
-def test_a_service_of_another_process_answers(here):
+def test_a_service_of_another_process_responds(here):
     client = here.node.create_client(Trigger, "/pull")
     here.until(client.service_is_ready)
     assert here.result(client.call_async(Trigger.Request())).success
@@ -62,7 +62,7 @@ def test_the_frozen_process_is_known_at_once_with_its_nodes(here):
     assert {pid: list(nodes) for pid, nodes in here.context.bus.stopped().items()} == {here.frozen: ["/other/peer"]}
 
 
-def test_who_joins_later_learns_which_process_is_frozen_and_sees_the_others(here, monkeypatch):
+def test_a_later_process_learns_which_one_is_frozen_and_sees_the_others(here, monkeypatch):
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", here.folder)
     output = []
     forget = on_notice(lambda process, text: output.append(text))

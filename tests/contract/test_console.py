@@ -1,4 +1,4 @@
-"""What `Console` promises of all that is no parameter: snapshots, logs, series, steering, commands, and its end."""
+"""What `Console` promises apart from parameters: snapshots, logs, series, driving, commands, and its end."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ def seqs(rig: Rig, which: LogFilter | None = None, after: int = 0, limit: int | 
 
 
 def publish_all(rig: Rig) -> list[int]:
-    """Let the robot log one line of each severity; their numbers."""
+    """Let the robot log one line of each severity; returns their numbers."""
     for severity in SEVERITIES:
         rig.show_text(severity, f"it is {severity.name}")
     until(lambda: len(seqs(rig)) == len(SEVERITIES), "four records")
     return seqs(rig)
 
 
-def test_what_has_not_changed_is_the_same_object(rig: Rig) -> None:
+def test_unchanged_parts_of_a_snapshot_are_the_same_objects(rig: Rig) -> None:
     before = until(rig.console.snapshot, "a snapshot")
     publish_all(rig)
     after = rig.console.snapshot()
@@ -44,7 +44,7 @@ def test_the_graph_has_nodes_topics_and_services_with_types(rig: Rig) -> None:
     assert {each.name: each.types for each in graph.services}["/greet"] == ("std_srvs/srv/Trigger",)
 
 
-def test_logs_have_number_severity_node_and_text(rig: Rig) -> None:
+def test_log_records_have_number_severity_node_and_text(rig: Rig) -> None:
     numbers = publish_all(rig)
     records = [rig.console.log(each) for each in numbers]
     assert numbers == sorted(set(numbers))
@@ -74,18 +74,18 @@ def test_logs_are_filtered(rig: Rig, which: LogFilter, left: tuple[Severity, ...
     assert [each and each.severity for each in found] == list(left)
 
 
-def test_logs_are_read_from_a_number_on_and_the_newest_when_limited(rig: Rig) -> None:
+def test_logs_are_read_from_a_number_on_and_the_newest_if_limited(rig: Rig) -> None:
     numbers = publish_all(rig)
     assert seqs(rig, after=numbers[2]) == numbers[2:]
     assert seqs(rig, limit=1) == numbers[-1:]
 
 
-def test_a_pattern_that_does_not_compile_is_a_readable_error(rig: Rig) -> None:
+def test_an_invalid_pattern_is_a_readable_error(rig: Rig) -> None:
     with pytest.raises(ValueError, match="regular expression"):
         seqs(rig, LogFilter(words="re:("))
 
 
-def test_cleared_logs_are_gone_and_numbers_go_on(rig: Rig) -> None:
+def test_cleared_logs_are_gone_and_numbering_continues(rig: Rig) -> None:
     numbers = publish_all(rig)
     rig.console.clear_logs()
     assert seqs(rig) == [] and rig.console.log(numbers[0]) is None
@@ -110,7 +110,7 @@ def test_a_watched_series_is_read_by_cursor(rig: Rig) -> None:
     assert len(rig.console.samples(LEVEL).values) == 0
 
 
-def test_a_series_is_collected_for_as_long_as_anybody_wants_it(rig: Rig) -> None:
+def test_a_series_is_collected_as_long_as_any_requester_needs_it(rig: Rig) -> None:
     path = f"{ROBOT}:speed"
     assert rig.console.watch(path).ok and rig.console.watch(path, "another").ok
     rig.console.unwatch(path)
@@ -124,7 +124,7 @@ def _new(rig: Rig, path: str, cursor: int) -> Any:
     return new if len(new.values) else None
 
 
-def test_a_parameter_is_a_series_too(rig: Rig) -> None:
+def test_a_parameter_can_be_watched_as_a_series(rig: Rig) -> None:
     path = f"{ROBOT}:speed"
     assert rig.console.watch(path).ok
     rig.console.set_parameters(ROBOT, {"speed": 0.5}).result(TIMEOUT_S)
@@ -132,13 +132,13 @@ def test_a_parameter_is_a_series_too(rig: Rig) -> None:
 
 
 @pytest.mark.parametrize("path", ["/nowhere/data", f"{ROBOT}:nothing", "/nobody:speed"])
-def test_what_cannot_be_plotted_reports_why(rig: Rig, path: str) -> None:
+def test_a_path_that_cannot_be_plotted_is_explained(rig: Rig, path: str) -> None:
     answer = rig.console.watch(path)
     assert not answer.ok and answer.text
     assert len(rig.console.samples(path).values) == 0
 
 
-def test_the_time_axis_is_that_of_the_stamps(rig: Rig) -> None:
+def test_the_time_axis_matches_message_stamps(rig: Rig) -> None:
     publish_all(rig)
     record = rig.console.log(seqs(rig)[0])
     assert record is not None
@@ -147,7 +147,7 @@ def test_the_time_axis_is_that_of_the_stamps(rig: Rig) -> None:
 
 
 def drive_until_heard(rig: Rig, linear: float, angular: float) -> None:
-    """Give a command again and again, as the pane does, until the robot has it."""
+    """Repeat a command, as the pane does, until the robot has received it."""
 
     def heard() -> bool:
         rig.console.drive(linear, angular)
@@ -156,7 +156,7 @@ def drive_until_heard(rig: Rig, linear: float, angular: float) -> None:
     until(heard, f"the command {linear}, {angular}")
 
 
-def test_commands_reach_the_robot_and_the_all_stop_holds_it(rig: Rig) -> None:
+def test_commands_reach_the_robot_and_an_all_stop_holds_it(rig: Rig) -> None:
     drive_until_heard(rig, 0.5, -0.25)
     assert set(rig.received) == {(0.5, -0.25)}
     rig.console.all_stop(True)
@@ -170,7 +170,7 @@ def test_commands_reach_the_robot_and_the_all_stop_holds_it(rig: Rig) -> None:
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
-def test_a_velocity_that_is_no_number_is_never_sent(rig: Rig, value: float) -> None:
+def test_a_velocity_that_is_not_finite_is_never_sent(rig: Rig, value: float) -> None:
     with pytest.raises(ValueError, match="finite"):
         rig.console.drive(value, 0.0)
     with pytest.raises(ValueError, match="finite"):
@@ -178,20 +178,20 @@ def test_a_velocity_that_is_no_number_is_never_sent(rig: Rig, value: float) -> N
     assert list(rig.received) == []
 
 
-def test_a_service_is_called_or_it_is_reported_why_not(rig: Rig) -> None:
+def test_a_service_call_returns_its_response_or_the_reason_of_failure(rig: Rig) -> None:
     assert rig.console.call("/greet", "std_srvs/srv/Trigger", {}).result(TIMEOUT_S).ok
     for service, type_name in (("/nowhere", "std_srvs/srv/Trigger"), ("/greet", "nobody_srvs/srv/Nothing")):
         answer = rig.console.call(service, type_name, {}).result(TIMEOUT_S)
         assert not answer.ok and answer.text
 
 
-def test_a_logger_level_is_set_where_the_node_offers_it(rig: Rig) -> None:
+def test_a_logger_level_is_set_if_the_node_offers_that(rig: Rig) -> None:
     assert rig.console.set_logger_level(ROBOT, Severity.WARN).result(TIMEOUT_S).ok
     answer = rig.console.set_logger_level("/nobody", Severity.WARN).result(TIMEOUT_S)
     assert not answer.ok and "/nobody" in answer.text
 
 
-def test_the_levels_of_a_nodes_loggers_are_reported(rig: Rig) -> None:
+def test_the_levels_of_a_nodes_loggers_are_listed(rig: Rig) -> None:
     rig.console.set_logger_level(ROBOT, Severity.ERROR, "robot.arm").result(TIMEOUT_S)
     rig.console.set_logger_level(ROBOT, Severity.WARN).result(TIMEOUT_S)
     levels = {each.logger: each.severity for each in rig.console.logger_levels(ROBOT).result(TIMEOUT_S)}
@@ -200,7 +200,7 @@ def test_the_levels_of_a_nodes_loggers_are_reported(rig: Rig) -> None:
         rig.console.logger_levels("/nobody").result(TIMEOUT_S)
 
 
-def test_the_last_word_of_a_console_is_zero_velocity(rig: Rig) -> None:
+def test_the_last_command_of_a_console_is_zero_velocity(rig: Rig) -> None:
     drive_until_heard(rig, 1.0, 0.5)
     rig.console.close()
     until(lambda: rig.received[-1] == (0.0, 0.0), "the stop")
@@ -211,7 +211,7 @@ def test_the_last_word_of_a_console_is_zero_velocity(rig: Rig) -> None:
     assert set(rig.received[before:]) <= {(0.0, 0.0)}
 
 
-def test_a_closed_console_refuses_and_shows_what_it_knew(rig: Rig) -> None:
+def test_a_closed_console_refuses_requests_and_still_shows_its_data(rig: Rig) -> None:
     numbers = publish_all(rig)
     console = rig.console
     console.close()

@@ -35,7 +35,7 @@ def rig(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.Monk
 
 
 def launch(rig: LauncherRig) -> Answer:
-    """Launch the file; the answer."""
+    """Launch the file and return the answer."""
     answer = rig.launcher.launch(rig.path, {"robot": "bob"}).result(TIMEOUT_S)
     rig.settle()
     return answer
@@ -47,11 +47,11 @@ def process(rig: LauncherRig) -> ProcessInfo:
 
 
 def do(rig: LauncherRig, verb: str, key: str) -> Answer:
-    """Ask for a verb; the answer."""
+    """Apply a verb and return the answer."""
     return getattr(rig.launcher, verb)(key).result(TIMEOUT_S)
 
 
-def test_files_and_their_arguments(rig: LauncherRig) -> None:
+def test_launch_files_and_their_arguments_are_listed(rig: LauncherRig) -> None:
     here = str(Path(rig.path).parent)
     assert [each for each in rig.launcher.files() if each.startswith(here)] == [rig.path]
     assert tuple(rig.launcher.arguments(rig.path)) == DECLARED
@@ -77,7 +77,7 @@ def test_a_launched_file_shows_its_processes(rig: LauncherRig) -> None:
         (["stop", "restart", "kill", "start", "stop"], ProcessState.EXITED, 2, 0),
     ],
 )
-def test_each_process_is_steered(
+def test_each_process_is_controlled_separately(
     rig: LauncherRig, verbs: list[str], state: ProcessState, restarts: int, exit_code: int
 ) -> None:
     launch(rig)
@@ -92,7 +92,7 @@ def test_each_process_is_steered(
 
 
 @pytest.mark.parametrize(("verb", "ended"), [("start", False), ("stop", True), ("kill", True)])
-def test_what_makes_no_sense_is_refused_with_the_reason(rig: LauncherRig, verb: str, ended: bool) -> None:
+def test_verbs_that_do_not_apply_are_refused_with_the_reason(rig: LauncherRig, verb: str, ended: bool) -> None:
     launch(rig)
     if ended:
         do(rig, "stop", process(rig).key)
@@ -101,12 +101,12 @@ def test_what_makes_no_sense_is_refused_with_the_reason(rig: LauncherRig, verb: 
 
 
 @pytest.mark.parametrize("verb", ["start", "stop", "kill", "restart"])
-def test_an_unknown_process_is_named(rig: LauncherRig, verb: str) -> None:
+def test_an_unknown_process_is_named_in_the_refusal(rig: LauncherRig, verb: str) -> None:
     answer = do(rig, verb, "nobody")
     assert not answer.ok and "nobody" in answer.text
 
 
-def test_a_file_with_a_fault_is_reported_with_file_and_line_and_nothing_else_stops(rig: LauncherRig) -> None:
+def test_a_fault_is_reported_with_file_and_line_and_stops_nothing_else(rig: LauncherRig) -> None:
     launch(rig)
     rig.break_file()
     with pytest.raises(ValueError, match=r"system\.launch\.py, line 3: syntax error"):
@@ -123,7 +123,7 @@ def test_two_files_run_at_once(rig: LauncherRig) -> None:
     assert len({each.key for each in rig.info().processes}) == 2
 
 
-def test_a_closed_launcher_has_ended_its_processes_and_refuses(rig: LauncherRig) -> None:
+def test_a_closed_launcher_has_ended_its_processes_and_refuses_requests(rig: LauncherRig) -> None:
     launch(rig)
     key = process(rig).key
     rig.close()

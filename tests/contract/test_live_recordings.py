@@ -1,7 +1,7 @@
-"""The recorded programs on the live rclpy of PyPI: it differs from the recordings where `live/` says so, nowhere else.
+"""The recorded programs on the live rclpy from PyPI: it differs from the recordings only where `live/` says so.
 
-`BOT_CONSOLE_TESTS_DISTRO` names the distribution. With `BOT_CONSOLE_TESTS_RECORD=FOLDER`, what differed is also written
-there, one file for each area.
+`BOT_CONSOLE_TESTS_DISTRO` names the distribution. With `BOT_CONSOLE_TESTS_RECORD=FOLDER`, the differences are also
+written there, one file per area.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ pytestmark = [
 ]
 DISTRO = os.environ.get("BOT_CONSOLE_TESTS_DISTRO", "jazzy")
 TIMED = ("programs/main_with_spin_and_interrupt",)
-"""Interrupts itself after 0.3 s, when a busy machine may not have begun to spin: not judged here, only on ours."""
+"""Interrupts itself after 0.3 s, when a busy machine may not have begun to spin: checked only with our rclpy."""
 FIRST_DOMAIN = 80
-"""Areas are replayed side by side, each in its own domain. DDS takes up to 101 on every system."""
+"""Areas are replayed in parallel, each in a separate domain. DDS allows domains up to 101 on every system."""
 SETUP = f"exec(open({str(PYPI_TYPES)!r}).read())"
 
 
 def differing(folder: Path, *which: str) -> dict[str, Any]:
-    """What was not as recorded, by id of the case."""
+    """Outcomes that differ from the recording, by id of the case."""
     report = folder / "report.json"
     words = [*which, "--setup", SETUP, "--report", str(report)]
     subprocess.run([sys.executable, str(RECORDINGS / "replay.py"), *words], check=False, capture_output=True)
@@ -45,12 +45,14 @@ def differing(folder: Path, *which: str) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("area", recorded_areas())
-def test_area(area: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> None:
+def test_area_is_replayed_as_recorded(
+    area: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", str(FIRST_DOMAIN + list(recorded_areas()).index(area)))
     known = json.loads((LIVE / f"{DISTRO}.json").read_text("utf-8"))
     found = differing(tmp_path, area)
     doubtful = [case for case in found if case not in known and not absent_types(found[case])]
-    if doubtful:  # a busy machine may have been too slow once
+    if doubtful:  # a busy machine may have been too slow the first time
         found = {case: got for case, got in found.items() if case not in doubtful}
         found |= differing(tmp_path, *doubtful)
     absent = [case for case, got in found.items() if absent_types(got)]

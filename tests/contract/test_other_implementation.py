@@ -1,4 +1,4 @@
-"""Topics and services pass to and from an implementation of the wire format that is not ours, each way."""
+"""Topics and services work with another implementation of the wire format, in both directions."""
 
 import os
 import subprocess
@@ -15,7 +15,7 @@ PEER = Path(__file__).resolve().parents[1] / "helpers" / "processes" / "sdk_peer
 
 
 def beside(socket: Path) -> dict[str, str]:
-    """The environment in which the other one connects to our socket, and neither listens nor looks for anybody."""
+    """The environment in which the other one connects to our socket, and neither listens nor scouts."""
     settings = {
         "mode": '"peer"',
         "connect/endpoints": f'["unixsock-stream/{socket}"]',
@@ -41,7 +41,7 @@ def here(tmp_path_factory):
             other.wait()
 
 
-def test_its_messages_are_heard(here):
+def test_messages_of_the_other_implementation_are_received(here):
     heard = []
     here.node.create_subscription(String, "/chatter", lambda message: heard.append(message.data), 10)
     here.until(lambda: len(heard) > 2)
@@ -49,13 +49,13 @@ def test_its_messages_are_heard(here):
     assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))
 
 
-def test_its_service_answers(here):
+def test_a_service_of_the_other_implementation_responds(here):
     client = here.node.create_client(AddTwoInts, "/add")
     here.until(client.service_is_ready)
     assert here.result(client.call_async(AddTwoInts.Request(a=2, b=40))).sum == 42
 
 
-def test_it_hears_our_message_and_is_answered_by_our_service(here):
+def test_the_other_implementation_receives_our_messages_and_calls_our_service(here):
     def add(request, response):
         response.sum = request.a + request.b
         return response

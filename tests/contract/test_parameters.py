@@ -1,4 +1,4 @@
-"""What `Console` promises of parameters: listed, described, set, refused with the reason, undone, in profiles."""
+"""What `Console` promises about parameters: listed, described, set, refused with the reason, undone, in profiles."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def parameter(rig: Rig, name: str) -> ParameterInfo:
 
 
 def setting(rig: Rig, values: dict[str, Any], node: str = ROBOT, *, atomically: bool = False) -> list[SetOutcome]:
-    """Set, and wait for the outcome."""
+    """Set values and wait for the outcomes."""
     return list(rig.console.set_parameters(node, values, atomically=atomically).result(TIMEOUT_S))
 
 
@@ -27,7 +27,7 @@ def shown(rig: Rig, name: str, value: Any) -> None:
     until(lambda: parameter(rig, name).value == value, f"{name} = {value}")
 
 
-def test_they_are_listed_and_described(rig: Rig) -> None:
+def test_parameters_are_listed_and_described(rig: Rig) -> None:
     tree = rig.console.snapshot().parameters[ROBOT]
     assert {"speed", "count", "mode", "frame", "gains"} <= {each.name for each in tree.parameters}
     speed = parameter(rig, "speed")
@@ -40,7 +40,7 @@ def test_they_are_listed_and_described(rig: Rig) -> None:
 @pytest.mark.parametrize(
     ("name", "value"), [("speed", 1.5), ("speed", 2.0), ("count", -4), ("mode", "brave"), ("gains", (3.0,))]
 )
-def test_a_value_is_taken_shown_and_written_down(rig: Rig, name: str, value: Any) -> None:
+def test_an_accepted_value_is_shown_and_recorded_in_the_journal(rig: Rig, name: str, value: Any) -> None:
     before = parameter(rig, name).value
     assert setting(rig, {name: value}) == [SetOutcome(ROBOT, name, value, True)]
     shown(rig, name, value)
@@ -63,9 +63,7 @@ def test_a_value_is_taken_shown_and_written_down(rig: Rig, name: str, value: Any
         ("/nobody", "speed", 1.0, "node"),
     ],
 )
-def test_a_refusal_reports_who_and_why_and_changes_nothing(
-    rig: Rig, node: str, name: str, value: Any, who: str
-) -> None:
+def test_a_refusal_says_who_and_why_and_changes_nothing(rig: Rig, node: str, name: str, value: Any, who: str) -> None:
     before = rig.console.snapshot().parameters[ROBOT]
     (outcome,) = setting(rig, {name: value}, node)
     assert (outcome.node, outcome.name, outcome.value, outcome.accepted) == (node, name, value, False)
@@ -77,7 +75,7 @@ def test_a_refusal_reports_who_and_why_and_changes_nothing(
     assert not rig.console.snapshot().journal.can_undo
 
 
-def test_the_reason_of_the_nodes_own_rule_is_reported_in_its_words(rig: Rig) -> None:
+def test_the_reason_of_the_nodes_own_callback_is_reported_verbatim(rig: Rig) -> None:
     rig.forbid_speed()
     (outcome,) = setting(rig, {"speed": 1.5})
     assert (outcome.accepted, outcome.reason, outcome.refused_by) == (False, TOO_FAST, "callback")
@@ -90,7 +88,7 @@ def test_each_of_several_values_has_its_outcome(rig: Rig) -> None:
     assert parameter(rig, "speed").value == 1.0
 
 
-def test_atomically_means_all_or_nothing(rig: Rig) -> None:
+def test_atomic_set_accepts_all_values_or_none(rig: Rig) -> None:
     outcomes = setting(rig, {"speed": 9.0, "count": 5}, atomically=True)
     assert [each.accepted for each in outcomes] == [False, False]
     assert all(each.reason for each in outcomes)
@@ -102,7 +100,7 @@ def both(rig: Rig) -> tuple[object, object]:
     return parameter(rig, "speed").value, getattr(trees[ARM].get("reach"), "value", None)
 
 
-def test_values_of_two_nodes_are_taken_together_and_taken_back_by_one_undo(rig: Rig) -> None:
+def test_values_of_two_nodes_are_set_together_and_reverted_by_one_undo(rig: Rig) -> None:
     outcomes = rig.console.set_all({ROBOT: {"speed": 0.5, "count": 4}, ARM: {"reach": 0.2}}, by="a set").result(
         TIMEOUT_S
     )
@@ -116,8 +114,8 @@ def test_values_of_two_nodes_are_taken_together_and_taken_back_by_one_undo(rig: 
 
 
 @pytest.mark.parametrize("rule", ["descriptor", "callback"])
-def test_what_one_node_refuses_no_node_takes(rig: Rig, rule: str) -> None:
-    """The robot is asked after the arm, by the order of the request; its own rule is known to nobody before."""
+def test_values_refused_by_one_node_are_set_on_none(rig: Rig, rule: str) -> None:
+    """The robot is asked after the arm, in the order of the request; nobody knows its callback's rule beforehand."""
     if rule == "callback":
         rig.forbid_speed()
     outcomes = rig.console.set_all(
@@ -134,7 +132,7 @@ def test_what_one_node_refuses_no_node_takes(rig: Rig, rule: str) -> None:
     assert not snapshot.journal.can_undo and snapshot.journal.unsaved == ()
 
 
-def test_a_profile_that_the_second_node_refuses_leaves_the_first_as_it_was(rig: Rig) -> None:
+def test_a_profile_refused_by_the_second_node_leaves_the_first_unchanged(rig: Rig) -> None:
     rig.forbid_speed()
     outcomes = rig.console.apply_profile("careful").result(TIMEOUT_S)
     assert {each.node for each in outcomes} == {ARM, ROBOT} and not any(each.accepted for each in outcomes)
@@ -143,7 +141,7 @@ def test_a_profile_that_the_second_node_refuses_leaves_the_first_as_it_was(rig: 
     assert not rig.console.snapshot().journal.can_undo
 
 
-def test_undo_and_redo(rig: Rig) -> None:
+def test_undo_and_redo_restore_values(rig: Rig) -> None:
     setting(rig, {"speed": 1.5})
     shown(rig, "speed", 1.5)
     for ask, value, source in (("undo", 1.0, ChangeSource.UNDO), ("redo", 1.5, ChangeSource.REDO)):
@@ -155,7 +153,7 @@ def test_undo_and_redo(rig: Rig) -> None:
         assert (journal.can_undo, journal.can_redo) == (ask == "redo", ask == "undo")
 
 
-def test_a_new_change_ends_what_could_be_redone(rig: Rig) -> None:
+def test_a_new_change_discards_redoable_steps(rig: Rig) -> None:
     setting(rig, {"speed": 1.5})
     assert rig.console.undo().result(TIMEOUT_S).ok
     setting(rig, {"count": 9})
@@ -164,12 +162,12 @@ def test_a_new_change_ends_what_could_be_redone(rig: Rig) -> None:
 
 
 @pytest.mark.parametrize("ask", ["undo", "redo"])
-def test_nothing_to_undo_is_reported(rig: Rig, ask: str) -> None:
+def test_undo_without_changes_is_refused(rig: Rig, ask: str) -> None:
     answer = getattr(rig.console, ask)().result(TIMEOUT_S)
     assert not answer.ok and f"nothing to {ask}" in answer.text
 
 
-def test_a_change_made_elsewhere_is_seen_and_not_ours_to_undo(rig: Rig) -> None:
+def test_a_change_made_elsewhere_is_shown_and_cannot_be_undone_here(rig: Rig) -> None:
     rig.set_elsewhere("mode", "brave")
     shown(rig, "mode", "brave")
     until(rig.console.changes, "the journal")
@@ -177,7 +175,7 @@ def test_a_change_made_elsewhere_is_seen_and_not_ours_to_undo(rig: Rig) -> None:
     assert not rig.console.snapshot().journal.can_undo
 
 
-def test_a_value_reports_who_has_set_it(rig: Rig) -> None:
+def test_the_origin_of_a_value_says_who_has_set_it(rig: Rig) -> None:
     assert parameter(rig, "speed").origin == "start value"
     setting(rig, {"speed": 0.5})
     shown(rig, "speed", 0.5)
@@ -196,7 +194,7 @@ def test_the_journal_is_read_from_a_number_on(rig: Rig) -> None:
     assert (rig.console.snapshot().journal.first, rig.console.snapshot().journal.end) == (0, 3)
 
 
-def test_a_profile_reports_what_it_would_change(rig: Rig) -> None:
+def test_a_profile_shows_what_it_would_change(rig: Rig) -> None:
     profiles = {each.name: each for each in rig.console.snapshot().profiles}
     assert list(profiles) == ["broken", "careful", "elsewhere", "slow", "wild"]
     assert "two underscores" in profiles["broken"].problem
@@ -225,7 +223,7 @@ def test_a_profile_is_applied_and_can_be_undone(rig: Rig) -> None:
     shown(rig, "count", 3)
 
 
-def test_one_undo_takes_a_profile_back_on_all_nodes_and_its_name_with_it(rig: Rig) -> None:
+def test_one_undo_reverts_a_profile_and_its_name_on_all_nodes(rig: Rig) -> None:
     def named(name: str, changes: int) -> None:
         until(
             lambda: (rig.console.snapshot().active_profile, rig.console.snapshot().profile_changes) == (name, changes),
@@ -252,7 +250,7 @@ def test_one_undo_takes_a_profile_back_on_all_nodes_and_its_name_with_it(rig: Ri
     named("careful", 0)
 
 
-def test_an_undo_that_one_node_refuses_reports_it_and_keeps_the_name_that_is_nearer_to_the_truth(rig: Rig) -> None:
+def test_an_undo_refused_by_one_node_is_reported_and_keeps_the_closer_profile(rig: Rig) -> None:
     rig.console.apply_profile("careful").result(TIMEOUT_S)
     shown(rig, "speed", 0.5)
     rig.forbid_speed()
@@ -265,7 +263,7 @@ def test_an_undo_that_one_node_refuses_reports_it_and_keeps_the_name_that_is_nea
     assert parameter(rig, "speed").value == 0.5
 
 
-def test_what_was_set_here_is_unsaved_until_it_is_in_a_file_or_undone(rig: Rig, tmp_path: Path) -> None:
+def test_values_set_here_are_unsaved_until_saved_or_undone(rig: Rig, tmp_path: Path) -> None:
     def unsaved() -> tuple[tuple[str, str], ...]:
         return rig.console.snapshot().journal.unsaved
 
@@ -287,7 +285,7 @@ def test_what_was_set_here_is_unsaved_until_it_is_in_a_file_or_undone(rig: Rig, 
     assert unsaved() == ()
 
 
-def test_a_profile_that_is_refused_changes_nothing_and_is_not_the_active_one(rig: Rig) -> None:
+def test_a_refused_profile_changes_nothing_and_does_not_become_active(rig: Rig) -> None:
     outcomes = rig.console.apply_profile("wild").result(TIMEOUT_S)
     assert not any(each.accepted for each in outcomes)
     assert parameter(rig, "count").value == 3
@@ -295,12 +293,12 @@ def test_a_profile_that_is_refused_changes_nothing_and_is_not_the_active_one(rig
 
 
 @pytest.mark.parametrize(("name", "why"), [("nobody", "no profile nobody"), ("broken", "two underscores")])
-def test_a_profile_that_cannot_be_used_reports_why(rig: Rig, name: str, why: str) -> None:
+def test_an_unusable_profile_is_explained(rig: Rig, name: str, why: str) -> None:
     with pytest.raises(ValueError, match=why):
         rig.console.apply_profile(name).result(TIMEOUT_S)
 
 
-def test_they_are_saved_or_it_is_reported_why_not(rig: Rig, tmp_path: Path) -> None:
+def test_saving_parameters_succeeds_or_says_why_not(rig: Rig, tmp_path: Path) -> None:
     answer = rig.console.save_parameters(str(tmp_path / "saved.yaml"), [ROBOT])
     assert answer.ok and "saved" in answer.text
     assert "speed: 1.0" in (tmp_path / "saved.yaml").read_text()
@@ -308,7 +306,7 @@ def test_they_are_saved_or_it_is_reported_why_not(rig: Rig, tmp_path: Path) -> N
     assert not answer.ok and answer.text
 
 
-def test_any_file_is_opened_as_a_profile_and_seen_before_it_is_applied(rig: Rig, tmp_path: Path) -> None:
+def test_any_file_can_be_opened_as_a_profile_and_previewed(rig: Rig, tmp_path: Path) -> None:
     file = tmp_path / "mine" / "any.yaml"
     file.parent.mkdir()
     file.write_text("# Mine.\n/**:\n  ros__parameters: {speed: 0.4}\n/robot:\n  ros__parameters: {nobody: 1}\n")
@@ -323,7 +321,7 @@ def test_any_file_is_opened_as_a_profile_and_seen_before_it_is_applied(rig: Rig,
     assert not answer.ok and "no file" in answer.text
 
 
-def test_what_runs_is_saved_as_a_profile_and_can_be_gone_back_to(rig: Rig) -> None:
+def test_current_values_are_saved_as_a_profile_and_can_be_restored(rig: Rig) -> None:
     setting(rig, {"speed": 1.5})
     shown(rig, "speed", 1.5)
     assert rig.console.save_profile("fast", "For the long hall.").ok
@@ -340,7 +338,7 @@ def test_what_runs_is_saved_as_a_profile_and_can_be_gone_back_to(rig: Rig) -> No
     assert not any(each.own for each in rig.console.snapshot().profiles)
 
 
-def test_a_profile_whose_file_is_deleted_is_the_active_one_no_more(rig: Rig) -> None:
+def test_a_profile_whose_file_is_deleted_is_no_longer_active(rig: Rig) -> None:
     assert rig.console.save_profile("passing").ok
     assert all(each.accepted for each in rig.console.apply_profile("passing").result(TIMEOUT_S))
     assert rig.console.snapshot().active_profile == "passing"

@@ -1,6 +1,6 @@
-"""What each pane's backend sees of one scene is what was recorded on ours, wherever it is played.
+"""What each pane's backend sees of one scene is what was recorded with our runtime, wherever the scene is played.
 
-With BOT_CONSOLE_TESTS_RECORD=FOLDER, what was seen is also written there, to be laid beside `recorded/`.
+With BOT_CONSOLE_TESTS_RECORD=FOLDER, what was seen is also written there, for comparison with `recorded/`.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def rig(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.Monk
 
 
 def differences(recorded: Any, seen: Any, place: str = "") -> list[str]:
-    """Where two recordings are not the same, each on a line of its own."""
+    """The differences between two recordings, one per line."""
     if isinstance(recorded, dict) and isinstance(seen, dict):
         found = [(recorded.get(key), seen.get(key), f"{place}/{key}") for key in sorted({*recorded, *seen})]
     elif isinstance(recorded, list) and isinstance(seen, list) and len(recorded) == len(seen):
@@ -57,7 +57,7 @@ def differences(recorded: Any, seen: Any, place: str = "") -> list[str]:
 
 
 def as_worded_here(text: str) -> str:
-    """Recorded refusals with the types as this rclpy prints them: by name on Jazzy, by number on Kilted."""
+    """Recorded refusals with types as this rclpy prints them: by name on Jazzy, by number on Kilted."""
     return re.sub(r"\bType\.([A-Z_]+)", lambda found: f"{Parameter.Type[found[1]]}", text)
 
 
@@ -71,10 +71,10 @@ def compare(name: str, way: str, scene: Callable[[], Any]) -> None:
 
 
 @pytest.mark.parametrize("rig", WAYS, indirect=True)
-def test_what_the_panes_see(rig: Rig, request: pytest.FixtureRequest) -> None:
+def test_the_panes_see_what_was_recorded(rig: Rig, request: pytest.FixtureRequest) -> None:
     compare("panes", request.node.callspec.id, lambda: play(rig))
 
 
 @pytest.mark.parametrize("rig", LAUNCHERS, indirect=True)
-def test_what_the_launch_pane_sees(rig: LauncherRig, request: pytest.FixtureRequest) -> None:
+def test_the_launch_pane_sees_what_was_recorded(rig: LauncherRig, request: pytest.FixtureRequest) -> None:
     compare("launch", request.node.callspec.id, lambda: play_launch(rig.launcher, rig.info, rig.settle, rig.path))

@@ -1,4 +1,4 @@
-"""A session is opened anew under a node that knows nothing of it: no call raises, and then all works as before."""
+"""A session is reopened underneath an unaware node: no call raises, and afterwards everything works as before."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ def session_of(here: Here) -> MeshSession:
 
 
 def while_reopened(here: Here, call: Callable[[], None], times: int = TIMES) -> None:
-    """Call again and again in this thread while the session is opened anew in another, each so often at least.
+    """Repeat a call in this thread while the session is reopened in another, each at least `times` times.
 
-    How long either takes is the machine's affair.
+    How long either takes depends on the machine.
     """
     called = opened = 0
     done = threading.Event()
@@ -106,7 +106,7 @@ def test_no_call_of_a_node_raises(here: Here) -> None:
     assert here.result(pull.call_async(Trigger.Request())).message == "pulled"
 
 
-def test_what_is_asked_or_must_not_be_dropped_meanwhile_arrives(here: Here) -> None:
+def test_requests_and_reliable_messages_sent_meanwhile_arrive(here: Here) -> None:
     heard: list[str] = []
     here.node.create_subscription(String, "/echo", lambda message: heard.append(message.data), 1000)
     show_text = here.node.create_publisher(String, "/say", ALL)
@@ -129,7 +129,7 @@ def test_what_is_asked_or_must_not_be_dropped_meanwhile_arrives(here: Here) -> N
     here.until(lambda: "meanwhile" in heard)
 
 
-def test_nothing_raises_while_it_cannot_be_opened(here: Here) -> None:
+def test_nothing_raises_while_the_session_cannot_be_opened(here: Here) -> None:
     session, join = session_of(here), session_of(here)._join
     pull = here.node.create_client(Trigger, "/pull")
     here.until(pull.service_is_ready)
@@ -147,14 +147,14 @@ def test_nothing_raises_while_it_cannot_be_opened(here: Here) -> None:
         publisher.publish(String(data="x"))
     assert here.node.destroy_subscription(taken_back)
     asked = pull.call_async(Trigger.Request())
-    assert here.node.count_publishers("/echo") == 0  # what cannot be reached is not shown
+    assert here.node.count_publishers("/echo") == 0  # unreachable endpoints are not shown
     session._join = join
     session.rejoin(lambda folder: True)
     assert here.result(asked).message == "pulled"
     here.until(lambda: here.node.count_publishers("/echo") == 1)
 
 
-def test_one_that_ends_meanwhile_leaves_the_graph(tmp_path) -> None:
+def test_a_process_that_ends_meanwhile_leaves_the_graph(tmp_path) -> None:
     with two_processes(tmp_path / "s", peers=2) as (here, peers):
         session, join = session_of(here), session_of(here)._join
 

@@ -1,4 +1,6 @@
-"""All that goes to other processes is sealed: who hears it can tell a message that was cut from a whole one."""
+"""Everything sent to other processes carries a seal, by which a receiver can tell a truncated message from a whole
+one.
+"""
 
 import os
 import threading
@@ -30,7 +32,7 @@ def here(tmp_path_factory):
 
 @pytest.fixture
 def stranger(here, monkeypatch):
-    """A session of the same domain that is nobody's node."""
+    """A session of the same domain without a node."""
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", here.folder)
     session = open_session(DOMAIN)
     here.until(lambda: len(session.linked()) == 2)
@@ -87,7 +89,7 @@ def test_requests_and_responses_are_sealed(here, stranger):
     assert len(replies) == 1 and all(is_sealed(*each) for each in (*asked, *replies))
 
 
-def test_a_command_that_was_cut_moves_nothing_and_one_without_a_seal_is_taken(here, stranger):
+def test_a_truncated_command_is_ignored_and_one_without_seal_is_accepted(here, stranger):
     heard = []
     here.node.create_subscription(Twist, "/cmd_vel", lambda command: heard.append(command.linear.x), 10)
     key = data_key(DOMAIN, "/cmd_vel", "geometry_msgs/msg/Twist", type_hash.text(Twist))

@@ -1,4 +1,4 @@
-"""What rclpy promises holds between two processes: one shared system for the whole module."""
+"""What rclpy promises holds between two processes; the module shares one system."""
 
 import pytest
 from example_interfaces.action import Fibonacci
@@ -19,7 +19,7 @@ def here(tmp_path_factory):
         yield system
 
 
-def test_what_is_published_is_received_once_and_in_order(here):
+def test_published_messages_are_received_once_and_in_order(here):
     heard = []
     here.node.create_subscription(String, "/echo", lambda m: heard.append(m.data), 1000)
     publisher = here.node.create_publisher(String, "/say", 1000)
@@ -32,7 +32,7 @@ def test_what_is_published_is_received_once_and_in_order(here):
     assert heard == output
 
 
-def test_a_latched_message_waits_for_those_who_come_later(here):
+def test_a_latched_message_is_delivered_to_late_subscriptions(here):
     heard = []
     qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     here.node.create_subscription(String, "/latched", lambda m: heard.append(m.data), qos)
@@ -40,7 +40,7 @@ def test_a_latched_message_waits_for_those_who_come_later(here):
     assert heard == ["kept"]
 
 
-def test_a_profile_that_does_not_fit_is_reported_and_nothing_is_received(here):
+def test_an_incompatible_profile_is_reported_and_nothing_is_received(here):
     reported, heard, fitting = [], [], []
     events = SubscriptionEventCallbacks(incompatible_qos=reported.append)
     here.node.create_subscription(String, "/poor", heard.append, 10, event_callbacks=events)
@@ -50,7 +50,7 @@ def test_a_profile_that_does_not_fit_is_reported_and_nothing_is_received(here):
     assert reported[0].total_count == 1
 
 
-def test_a_service_answers_and_its_log_line_arrives(here):
+def test_a_service_responds_and_its_log_line_arrives(here):
     lines = []
     qos = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     here.node.create_subscription(Log, "/rosout", lambda line: lines.append(line.msg), qos)
@@ -61,7 +61,7 @@ def test_a_service_answers_and_its_log_line_arrives(here):
     here.until(lambda: "somebody pulled" in lines)
 
 
-def test_a_flood_of_log_lines_arrives_whole_and_in_order(here):
+def test_a_flood_of_log_lines_arrives_complete_and_in_order(here):
     heard = []
     qos = QoSProfile(history=HistoryPolicy.KEEP_ALL, depth=0, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     subscription = here.node.create_subscription(Log, "/rosout", lambda line: heard.append(line.msg), qos)
@@ -104,7 +104,7 @@ def test_parameters_are_read_and_set_and_the_change_is_reported(here):
     assert not refused.successful and refused.reason
 
 
-def test_the_graph_shows_both(here):
+def test_the_graph_shows_both_nodes(here):
     names = here.node.get_node_names_and_namespaces()
     assert sorted(names) == [("here", "/"), ("peer", "/other")]
     (info,) = here.node.get_publishers_info_by_topic("/echo")

@@ -1,8 +1,8 @@
 """Feeds every parser with mutated inputs: `python tests/fuzz [--inputs 1000000] [--seed 1] [--only filter]`.
 
-An input that ends in anything but a refusal, or takes longer than five seconds of processor time, is a finding. Prints
-JSON: for each parser how many inputs there were and how long they took, and the findings with the shortest input of
-each. The same seed gives the same inputs. Exit code 1 where there is a finding.
+An input is a finding if it causes anything but a refusal, or takes longer than five seconds of processor time. Prints
+JSON: for each parser the number of inputs and the time they took, and the findings with the shortest input of each. The
+same seed gives the same inputs. The exit code is 1 if there are findings.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from targets import targets
 
 
 def run(inputs: int, seed: int, only: Sequence[str] = ()) -> dict[str, Any]:
-    """Feed all parsers, or those whose names hold one of some words, with so many inputs in all."""
+    """Feed all parsers, or those whose names contain one of some words, with `inputs` inputs in total."""
     from bot_console.runtime.importer import install
 
     install()
@@ -58,7 +58,7 @@ def run(inputs: int, seed: int, only: Sequence[str] = ()) -> dict[str, Any]:
 
 
 def main() -> None:
-    """Run as the words of the command say."""
+    """Run according to the command line."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--inputs", type=int, default=1_000_000, help="in all")
     parser.add_argument("--seed", type=int, default=1)

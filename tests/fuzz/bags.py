@@ -1,4 +1,4 @@
-"""Parsers of what was recorded: each function feeds one with a text, in place of bytes where a file is not text."""
+"""Parsers of recordings: each function feeds a text to one of them, in place of bytes if the file is not text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Feeds one parser and gathers what comes of it but refusals."""
+"""Feeds one parser and collects every outcome but refusals."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Hang(BaseException):
 
 
 def feed(target: Target, count: int, seed: int, findings: dict[str, dict[str, Any]]) -> float:
-    """Feed one parser; gives the seconds of processor time it took."""
+    """Feed one parser; returns the seconds of processor time it took."""
     began = time.process_time()
     for number, text in enumerate(inputs_of(target, seed)):
         if number >= count:

@@ -1,4 +1,4 @@
-"""Parsers of files: each function feeds one with a text."""
+"""Parsers of files: each function feeds a text to one of them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ FOLDER = Path(tempfile.mkdtemp(prefix="fuzz"))
 
 
 def file(text: str, name: str) -> Path:
-    """A file with this text; there is one of each name."""
+    """A file with this text; there is one per name."""
     path = FOLDER / name
     path.write_bytes(text.encode("utf-8", "surrogatepass"))
     return path
@@ -81,7 +81,7 @@ def launch(suffix: str) -> Callable[[str], None]:
         try:
             found = AnyLaunchDescriptionSource(str(path)).get_launch_description(LaunchContext())
             found.get_launch_arguments()
-        except Exception as error:  # what is wrong is told as one message, whatever it is
+        except Exception as error:  # any error is reported as one message
             assert fault_text(error, str(path), reading=True).strip()
 
     return run

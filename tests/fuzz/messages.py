@@ -1,4 +1,4 @@
-"""What nodes and networks send, and how it is shown: each function feeds it with a text."""
+"""What nodes and networks send, and how it is shown: each function feeds a text to one part."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ def message_yaml(text: str) -> None:
         values = read_values(text)
     except RecursionError:
         raise
-    except RuntimeError:  # how the verbs refuse what the library lets fall
+    except RuntimeError:  # how the verbs report exceptions of the library
         return
     if isinstance(values, dict):
         message = LaserScan()
         set_message_fields(message, values)
-        serialize_message(message)  # nothing is shown that could not be sent
+        serialize_message(message)  # messages that could not be sent are never shown
         reported(message)
 
 
@@ -67,7 +67,7 @@ def shown(value: Any) -> None:
 
 
 def pane_text(text: str) -> None:
-    """What a node or a person wrote, as all panes show it."""
+    """Text written by a node or a person, as all panes show it."""
     from bot_console.tui import format as words
     from bot_console.tui.console.model import ConsoleSnapshot
     from bot_console.tui.console.robot.robot_model import DriveInfo, RobotStop

@@ -1,4 +1,4 @@
-"""Inputs made from good ones: cut, joined, repeated, with what breaks parsers put in between."""
+"""Inputs derived from valid ones: cut, joined, repeated, and mixed with text that tends to break parsers."""
 
 from __future__ import annotations
 
@@ -149,13 +149,13 @@ NUMBERS = (
     "-9223372036854775809", "18446744073709551616", "4294967296", "256", "59:59:59", "1_000", "1.0.0", "2001-01-01",
     "true", "null", "text", "''", "[]", "{}", "[[1.0], 2]", "!!float", "!!int", "*a",
 )  # fmt: skip
-"""What stands in a number's place, in any notation of YAML, Python and XML."""
+"""Replacements for a number, in any notation of YAML, Python and XML."""
 MAX_BYTES = 20_000
-"""Characters of an input."""
+"""Maximum length of an input, in characters."""
 
 
 def mutated(seeds: Sequence[str], chance: random.Random) -> str:
-    """One of the good inputs, changed in one place or several."""
+    """One of the valid inputs, changed in one or several places."""
     text = chance.choice(seeds)
     for _ in range(chance.choice((1, 1, 1, 2, 2, 3, 5, 8))):
         text = chance.choice(CHANGES)(text, seeds, chance)

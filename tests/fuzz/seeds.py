@@ -1,4 +1,4 @@
-"""Good inputs, from which others are made."""
+"""Valid inputs, from which others are derived."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def files(*patterns: str) -> Callable[[], Sequence[str]]:
-    """The texts of files of the project."""
+    """The texts of files in the project."""
 
     def read() -> Sequence[str]:
         found = [path for pattern in patterns for path in sorted(ROOT.glob(pattern))]

@@ -1,4 +1,4 @@
-"""Every parser of what people, files and nodes write, as a target: good inputs, and what may come of bad ones."""
+"""Every parser of what people, files and nodes write, as a target: valid inputs, and the refusals of invalid ones."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from mutation import mutated
 
 @dataclass(frozen=True)
 class Target:
-    """What is fed. `run` returns for any input; only `refusals` may leave it."""
+    """What is fed. `run` returns for any input; only `refusals` may be raised."""
 
     name: str
     seeds: Callable[[], Sequence[str]]
@@ -168,7 +168,7 @@ def targets() -> list[Target]:
 
 
 def inputs_of(target: Target, seed: int) -> Iterator[str]:
-    """Good inputs first, then mutated ones without end; the same ones for the same seed."""
+    """Valid inputs first, then endless mutated ones; the same ones for the same seed."""
     chance = random.Random(f"{seed} {target.name}")
     good = target.seeds()
     return itertools.chain(good, (mutated(good, chance) for _ in itertools.count()))

@@ -1,4 +1,4 @@
-"""What people type: each function feeds a parser with a text."""
+"""What people type: each function feeds a text to one parser."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def ros_arguments(text: str) -> None:
 
 
 def quietly(run: Callable[[Sequence[str]], object]) -> Callable[[str], None]:
-    """Run a command line; its exit is an answer."""
+    """Run a command line; exiting counts as an answer."""
 
     def fed(text: str) -> None:
         output = io.StringIO()
@@ -75,7 +75,7 @@ def interface_verbs(words: Sequence[str]) -> None:
 
     with contextlib.redirect_stderr(io.StringIO()) as output:
         main(["interface", *words])
-    # A name that a package lacks is told as ROS 2 tells it, by this line below a traceback.
+    # As in ROS 2, a name missing from a package is reported by this line below a traceback.
     recorded = re.fullmatch(r".*AttributeError: module '\S+' has no attribute '\w+'\n", output.getvalue(), re.DOTALL)
     assert recorded or "Traceback" not in output.getvalue(), output.getvalue()
 

@@ -1,4 +1,4 @@
-"""A small part of `python tests/fuzz`, which feeds every parser with mutated inputs for as long as one likes."""
+"""A small part of `python tests/fuzz`, which feeds every parser with mutated inputs for as long as desired."""
 
 import json
 import os
@@ -10,7 +10,7 @@ FUZZ = Path(__file__).parents[1] / "fuzz"
 INPUTS = 1550
 
 
-def test_no_mutated_input_gets_more_than_a_refusal(tmp_path):
+def test_no_mutated_input_causes_more_than_a_refusal(tmp_path):
     done = subprocess.run(
         [sys.executable, str(FUZZ), "--inputs", str(INPUTS), "--seed", "1", "--report", str(tmp_path / "report.json")],
         capture_output=True, text=True, cwd=tmp_path, timeout=140, check=False,
@@ -22,7 +22,7 @@ def test_no_mutated_input_gets_more_than_a_refusal(tmp_path):
     assert sum(each["inputs"] for each in report["parsers"].values()) == INPUTS
 
 
-def test_a_fault_is_found(tmp_path, monkeypatch):
+def test_an_injected_fault_is_found(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(FUZZ))
     import importlib
 

@@ -30,7 +30,7 @@ SITES = [("", "", 0), ("ws/arm.py", "spin", 7), ("ws/arm.py", "Stop", 70), ("bat
 HOUR = 3600
 MIDNIGHT = int(time.mktime((2026, 11, 22, 0, 0, 0, 0, 0, -1)))
 MOMENTS = [0, 14 * HOUR, 14 * HOUR + 59.5, 14 * HOUR + 60, 23 * HOUR + 59, 24 * HOUR, 38 * HOUR + 30]
-"""Seconds after a midnight."""
+"""Seconds after midnight."""
 texts = st.text("ab \n", max_size=8).map(str.lower)
 lines = st.tuples(
     st.sampled_from(LEVELS), st.sampled_from(NODES), texts, st.sampled_from(SITES), st.sampled_from(MOMENTS)
@@ -118,12 +118,12 @@ words_and_lines = given(records, filters, st.integers(1, 4))
 
 
 @words_and_lines
-def test_the_log_finds_what_the_words_mean(lines, words, times):
+def test_the_log_finds_what_the_filter_means(lines, words, times):
     the_log_finds(lines, words, times)
 
 
 @words_and_lines
-def test_it_finds_the_same_without_re2(lines, words, times):
+def test_the_log_finds_the_same_without_re2(lines, words, times):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(patterns, "re2", None)
         the_log_finds(lines, words, times)
@@ -147,7 +147,7 @@ def the_log_finds(lines, words, times):
 
 
 @given(lines, filters)
-def test_one_line_passes_as_many_do(line, words):
+def test_a_single_line_passes_as_in_a_search(line, words):
     level, node, text, site, moment = line
     record = LogRecord(0, stamp(moment), level, node, text, *site)
     assert parse(typed(words)).passes(record) is holds_all(words, line)
@@ -157,7 +157,7 @@ some_filters = st.lists(filters.filter(len), max_size=2)
 
 
 @given(records, filters, some_filters, some_filters, st.sampled_from(LEVELS))
-def test_rules_hide_and_show(lines, words, hidden, only, minimum):
+def test_rules_hide_and_show_lines(lines, words, hidden, only, minimum):
     which = LogFilter(minimum, typed(words), tuple(map(typed, hidden)), tuple(map(typed, only)))
     wanted = [
         number
@@ -171,8 +171,8 @@ def test_rules_hide_and_show(lines, words, hidden, only, minimum):
 
 
 @given(st.lists(st.sampled_from("aab"), max_size=60), st.integers(2, 40), st.integers(1, 5), st.data())
-def test_rows_of_equal_lines_are_one_however_they_come(message, capacity, slice_of, data):
-    """Older lines are found in slices, newer ones come between, the oldest fall out of a small store."""
+def test_runs_of_equal_lines_are_folded_in_whatever_order_they_arrive(message, capacity, slice_of, data):
+    """Older lines are found in slices, newer ones arrive meanwhile, and a small store drops the oldest."""
     store, searched = LogStore(capacity), None
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(view, "FIRST_SLICE", slice_of)

@@ -1,4 +1,4 @@
-"""No field of a message ends a node of the robot, and what the safety monitor cannot use never lets the robot go on."""
+"""No message ends a node of the robot, and messages the safety monitor cannot use never let the robot drive on."""
 
 from __future__ import annotations
 
@@ -163,14 +163,14 @@ PLAYS = {
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 @pytest.mark.parametrize("count", [A_FEW, pytest.param(MANY, marks=[pytest.mark.soak, pytest.mark.timeout(1200)])])
 @pytest.mark.parametrize("name", PLAYS)
-def test_any_message_is_survived(name: str, count: int) -> None:
+def test_nodes_survive_any_message(name: str, count: int) -> None:
     once = PLAYS[name](random.Random(7))
     for _ in range(count):
         once()
 
 
 @pytest.mark.parametrize("count", [3000, pytest.param(MANY, marks=pytest.mark.soak)])
-def test_a_scan_means_what_lies_ahead_or_nothing(count: int) -> None:
+def test_a_scan_gives_the_distance_ahead_or_nothing(count: int) -> None:
     chance = random.Random(3)
     for _ in range(count):
         message = scan(chance)

@@ -1,4 +1,4 @@
-"""Whatever order messages come in, are lost or played again, and whoever comes and goes: only a release ends a stop."""
+"""Only a release ends a stop, in whatever order messages are delivered, lost or replayed and processes restarted."""
 
 from __future__ import annotations
 
@@ -39,11 +39,11 @@ class Stops(RuleBasedStateMachine):
         self.locks: dict[str, tuple[BusNode, EmergencyStop]] = {}
         self.consoles: dict[str, tuple[BusNode, StopLink]] = {}
         self.requested: dict[str, set[str]] = {"anna": set(), "ben": set()}
-        """By console, the stops that its present process has requested."""
+        """By console, the stops that its current process has requested."""
         self.heard: set[str] = set()
         """The stops that a lock has ever held."""
         self.named: set[str] = set()
-        """The stops that a person has asked to release."""
+        """The stops whose release a person has requested."""
         self.done: set[str] = set()
         """The stops that a lock has released."""
         self.held: dict[str, set[str]] = {}
@@ -62,13 +62,13 @@ class Stops(RuleBasedStateMachine):
 
     @rule(name=LOCKS)
     def restart_lock(self, name: str) -> None:
-        """A lock is killed, and starts again at once."""
+        """A lock is killed and restarted at once."""
         self.kill_lock(name)
         self.start_lock(name)
 
     @rule()
     def restart_both(self) -> None:
-        """Both locks are killed before one starts again."""
+        """Both locks are killed before one is restarted."""
         for name in NAMES:
             self.kill_lock(name)
         for name in NAMES:
@@ -84,14 +84,14 @@ class Stops(RuleBasedStateMachine):
 
     @rule(name=LOCKS)
     def kill_lock(self, name: str) -> None:
-        """A lock is killed, and starts again later."""
+        """A lock is killed, and restarted later."""
         if name in self.locks:
             self.locks.pop(name)[0].kill()
             self.held.pop(name, None)
 
     @rule(name=CONSOLES)
     def restart_console(self, name: str) -> None:
-        """A console is killed, and another one of the same person starts."""
+        """A console is killed, and the same person starts another."""
         self.consoles.pop(name)[0].kill()
         self.requested[name].clear()
         self.start_console(name)
@@ -103,12 +103,12 @@ class Stops(RuleBasedStateMachine):
 
     @rule(name=CONSOLES)
     def stop(self, name: str) -> None:
-        """Somebody presses the key."""
+        """A person presses the stop key."""
         self.requested[name].add(self.consoles[name][1].stop("now"))
 
     @rule(name=CONSOLES, everybody=st.booleans())
     def release(self, name: str, everybody: bool) -> None:
-        """Somebody releases their own stops, or all that they see."""
+        """A person releases their own stops, or all that they see."""
         link = self.consoles[name][1]
         seen = {each.key for each in link.info.stops if everybody or each.here}
         link.release(seen)
@@ -117,7 +117,7 @@ class Stops(RuleBasedStateMachine):
 
     @rule()
     def repeat(self) -> None:
-        """Consoles look at the graph, and repeat."""
+        """Consoles poll the graph and repeat requests."""
         self.now += 0.1
         for _, link in self.consoles.values():
             link.follow(self.bus.topics())
@@ -125,18 +125,18 @@ class Stops(RuleBasedStateMachine):
 
     @rule(seconds=st.sampled_from([0.1, REMINDER_S, RELEASE_TIMEOUT_S]))
     def wait(self, seconds: float) -> None:
-        """Time goes by."""
+        """Time passes."""
         self.now += seconds
 
     @precondition(lambda self: self.bus.pending)
     @rule(index=ANY)
     def deliver(self, index: int) -> None:
-        """A message comes, perhaps before others that were sent earlier."""
+        """A message is delivered, perhaps before others that were sent earlier."""
         self.bus.deliver(index)
 
     @rule()
     def deliver_all(self) -> None:
-        """All messages come in order, and locks that were killed are there again."""
+        """All messages are delivered in order, and killed locks are restarted."""
         for name in NAMES:
             if name not in self.locks:
                 self.start_lock(name)
@@ -145,13 +145,13 @@ class Stops(RuleBasedStateMachine):
 
     @rule(name=CONSOLES)
     def stop_and_deliver(self, name: str) -> None:
-        """A stop that comes without delay."""
+        """A stop that is delivered without delay."""
         self.stop(name)
         self.deliver_all()
 
     @rule(name=CONSOLES)
     def release_and_deliver(self, name: str) -> None:
-        """A release of everything that comes without delay."""
+        """A release of everything that is delivered without delay."""
         self.release(name, everybody=True)
         self.deliver_all()
 
@@ -169,7 +169,7 @@ class Stops(RuleBasedStateMachine):
 
     @rule(key=st.sampled_from(["anna", "ben", NODE, "nobody"]))
     def play_release_of_older_form(self, key: str) -> None:
-        """A release without challenge comes, which an older console once sent."""
+        """A release without challenge, as sent by older consoles, is replayed."""
         request = Request(RELEASE, key, key=key, of=("anna", "ben", NODE))
         self.bus.send(f"/{REQUESTS}", request_message(request), again=True)
 
@@ -184,7 +184,7 @@ class Stops(RuleBasedStateMachine):
 
     @rule()
     def converge(self) -> None:
-        """In the end, every lock holds what nobody has released, and nothing else."""
+        """In the end, every lock holds the stops that nobody has released, and no others."""
         for _ in range(4):
             self.now += REMINDER_S
             self.repeat()

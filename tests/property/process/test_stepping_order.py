@@ -1,4 +1,4 @@
-"""Whatever threads do, a stepped run gives the same trace, runs one of them at a time, and time only grows."""
+"""Whatever threads do, a stepped run gives the same trace, runs one of them at a time, and time only increases."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ class Run:
 
 
 @given(programs)
-def test_same_program_same_trace(threads):
+def test_the_same_program_gives_the_same_trace(threads):
     first, second = Run(threads), Run(threads)
     assert first.trace == second.trace
     assert first.deterministic
@@ -98,7 +98,7 @@ def test_same_program_same_trace(threads):
 
 @given(st.lists(st.lists(durations, min_size=1, max_size=6), min_size=1, max_size=5))
 def test_sleepers_wake_at_their_times_in_order_of_creation(threads):
-    """A model without threads: every wake-up at the sum of its sleeps, ties in order of creation."""
+    """Compared with a model without threads: every wake-up at the sum of its sleeps, ties in order of creation."""
     trace = []
     with stepped() as clock:
         for number, sleeps in enumerate(threads):

@@ -1,4 +1,4 @@
-"""No change crosses a publish: neither the sender's later ones nor those of another receiver."""
+"""Later changes of a published message are never visible elsewhere, neither the sender's nor a receiver's."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def spoil(value: Any) -> None:
 
 
 def shown(message: Any) -> str:
-    """All of a message; `==` of upstream overlooks some differences of fixed arrays."""
+    """All of a message as text; upstream's `==` misses some differences of fixed-size arrays."""
     return repr(message)
 
 
@@ -63,7 +63,7 @@ def test_the_sender_may_change_its_message_at_once(message: Any) -> None:
 
 
 @given(messages)
-def test_a_receiver_may_change_what_it_got(message: Any) -> None:
+def test_a_receiver_may_change_its_message(message: Any) -> None:
     before, got = shown(message), []
 
     def take(received: Any) -> None:
@@ -81,7 +81,7 @@ def test_a_receiver_may_change_what_it_got(message: Any) -> None:
 
 
 @given(messages)
-def test_what_is_kept_for_late_joiners_is_a_copy(message: Any) -> None:
+def test_messages_kept_for_late_subscriptions_are_copies(message: Any) -> None:
     latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     before, got = shown(copy.deepcopy(message)), []
 

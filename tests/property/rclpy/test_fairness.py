@@ -1,4 +1,4 @@
-"""Executors are fair: nobody is served twice while somebody else waits."""
+"""Executors are fair: no entity is served twice while another one waits."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def test_subscriptions_take_turns(counts: list[int]) -> None:
     st.lists(st.integers(min_value=10, max_value=400), min_size=1, max_size=6),
     st.integers(min_value=0, max_value=3000),
 )
-def test_timers_fire_as_often_as_their_periods_report(periods: list[int], run: int) -> None:
+def test_timers_fire_as_often_as_their_periods_require(periods: list[int], run: int) -> None:
     fired = [0] * len(periods)
 
     def tick(number: int) -> None:
@@ -51,7 +51,7 @@ def test_timers_fire_as_often_as_their_periods_report(periods: list[int], run: i
 
 @settings(max_examples=40, deadline=None)
 @given(st.lists(st.sampled_from(["timer", "topic", "guard", "task"]), min_size=1, max_size=12))
-def test_everything_that_is_ready_is_served_once_in_the_order_of_kinds(kinds: list[str]) -> None:
+def test_ready_entities_are_served_once_in_the_order_of_kinds(kinds: list[str]) -> None:
     got: list[tuple[str, int]] = []
     with serving() as (node, executor):
         for number, kind in enumerate(kinds):
@@ -64,7 +64,7 @@ def test_everything_that_is_ready_is_served_once_in_the_order_of_kinds(kinds: li
 
 
 def make_ready(node: Any, executor: Any, kind: str, number: int, got: list[tuple[str, int]]) -> None:
-    """Let something of a kind be ready; it tells when it is served."""
+    """Make an entity of a kind ready; it records when it is served."""
 
     def report(*_: Any) -> None:
         got.append((kind, number))

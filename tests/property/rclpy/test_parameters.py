@@ -1,4 +1,4 @@
-"""Typing, ranges and events of parameters, for values that nobody thought of."""
+"""Types, ranges and events of parameters, for arbitrary values."""
 
 import itertools
 import math
@@ -51,9 +51,9 @@ def test_a_value_has_one_type_and_survives_its_message(case: tuple[Parameter.Typ
 
 
 @given(typed, st.sampled_from(list(Type)))
-def test_a_type_takes_a_value_exactly_if_it_may(case: tuple[Parameter.Type, Any], wanted: Parameter.Type) -> None:
+def test_a_type_accepts_exactly_the_values_allowed(case: tuple[Parameter.Type, Any], wanted: Parameter.Type) -> None:
     kind, value = case
-    # Python's bool is an int, so rclpy's integers take it.
+    # Python's bool is an int, so rclpy's integers accept it.
     also = {Type.BOOL: Type.INTEGER, Type.BOOL_ARRAY: Type.INTEGER_ARRAY}.get(kind)
     assert wanted.check(value) == (wanted in (kind, also))
     if wanted not in (kind, also):
@@ -67,7 +67,7 @@ def allowed(value: Any, descriptor: ParameterDescriptor) -> bool:
 
 
 @given(st.integers(-50, 50), st.integers(-50, 50), st.integers(0, 12), st.integers(-70, 70))
-def test_ranges_of_integers(one: int, other: int, step: int, value: int) -> None:
+def test_integer_ranges_accept_exactly_their_steps(one: int, other: int, step: int, value: int) -> None:
     descriptor = ParameterDescriptor(type=2, integer_range=[IntegerRange(from_value=one, to_value=other, step=step)])
     low, high = min(one, other), max(one, other)
     fits = value in {high, *range(low, high + 1, step or 1)}
@@ -83,7 +83,7 @@ def doubles(one: float, other: float, step: float) -> ParameterDescriptor:
 
 
 @given(tenths, tenths, st.floats(-200, 200))
-def test_ranges_of_doubles_without_step(one: float, other: float, value: float) -> None:
+def test_double_ranges_without_step_accept_values_between_their_ends(one: float, other: float, value: float) -> None:
     low, high = min(one, other), max(one, other)
     at_an_end = any(abs(value - end) <= 1e-6 * max(abs(value), abs(end)) for end in (low, high))
     assert allowed(value, doubles(one, other, 0.0)) == (at_an_end or low < value < high)
@@ -105,7 +105,7 @@ def test_steps_of_doubles_count_from_the_lower_end(
 
 
 @given(tenths, tenths, st.sampled_from([0.0, 0.5]), st.sampled_from([math.inf, -math.inf, math.nan]))
-def test_no_range_takes_what_is_not_finite(one: float, other: float, step: float, value: float) -> None:
+def test_no_range_accepts_values_that_are_not_finite(one: float, other: float, step: float, value: float) -> None:
     assert not allowed(value, doubles(one, other, step))
 
 
@@ -133,7 +133,7 @@ operations = st.lists(
 
 
 def act(node: Node, operation: Any) -> None:
-    """Do it; that it may be refused is part of the game."""
+    """Perform an operation, which may be refused."""
     kind, what, *more = operation
     try:
         if kind == "declare":
@@ -147,7 +147,7 @@ def act(node: Node, operation: Any) -> None:
 
 
 @given(operations, st.booleans())
-def test_who_hears_all_events_knows_all_parameters(context: Context, steps: Any, undeclared: bool) -> None:
+def test_parameter_events_reveal_all_parameters(context: Context, steps: Any, undeclared: bool) -> None:
     watcher = Node("watcher", context=context)
     events: list[ParameterEvent] = []
     subscription = watcher.create_subscription(ParameterEvent, "/parameter_events", events.append, 1000)
@@ -171,7 +171,7 @@ def test_who_hears_all_events_knows_all_parameters(context: Context, steps: Any,
         assert known == held
         for name, value in held.items():
             descriptor = node.describe_parameter(name)
-            # A refused list may leave another type in the descriptor of a dynamic one, as upstream's does.
+            # A refused list may leave another type in the descriptor of a dynamically typed parameter, as in upstream.
             assert (
                 descriptor.dynamic_typing or value is None or Parameter("p", value=value).type_.value == descriptor.type
             )

@@ -1,4 +1,4 @@
-"""Names, expansion and remapping hold together for all names."""
+"""Validation, expansion and remapping of names are consistent for all names."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ def test_a_valid_name_expands_to_a_full_name(name: str, node: str, namespace: st
     assert names.validate_topic_name(name) is None
     full = names.expand(name, node, namespace)
     if "{ns}" in name or "{namespace}" in name:
-        full = full.replace("//", "/")  # the root namespace ends with a slash of its own
+        full = full.replace("//", "/")  # the root namespace ends with a slash itself
     assert names.validate_full_topic_name(full) is None
 
 
 @given(typed, tokens, namespaces)
-def test_expansion_changes_a_full_name_no_more(name: str, node: str, namespace: str) -> None:
+def test_expansion_does_not_change_a_full_name(name: str, node: str, namespace: str) -> None:
     full = names.expand(name, node, namespace)
     assert names.expand(full, node, namespace) == full
 
 
 @given(paths, tokens, namespaces)
-def test_where_relative_and_private_names_lie(path: str, node: str, namespace: str) -> None:
+def test_relative_and_private_names_expand_below_namespace_and_node(path: str, node: str, namespace: str) -> None:
     prefix = namespace.rstrip("/")
     assert names.expand(path, node, namespace) == f"{prefix}/{path}"
     assert names.expand(f"~/{path}", node, namespace) == f"{prefix}/{node}/{path}"
@@ -43,7 +43,7 @@ def test_where_relative_and_private_names_lie(path: str, node: str, namespace: s
 
 
 @given(anything)
-def test_the_place_of_a_fault_is_within_the_name(name: str) -> None:
+def test_the_position_of_a_fault_is_within_the_name(name: str) -> None:
     for validate in (
         names.validate_node_name,
         names.validate_namespace,
@@ -55,7 +55,7 @@ def test_the_place_of_a_fault_is_within_the_name(name: str) -> None:
 
 
 @given(anything)
-def test_what_is_valid_in_full_is_valid_as_typed(name: str) -> None:
+def test_names_valid_when_expanded_are_valid_as_typed(name: str) -> None:
     if names.validate_full_topic_name(name) is None:
         assert names.validate_topic_name(name) is None
         assert names.validate_namespace(name) is None
@@ -80,7 +80,7 @@ def text_of(rule: tuple[str | None, str, str, str]) -> str:
 
 
 @given(rules)
-def test_a_rule_is_read_as_it_was_written(rule: tuple[str | None, str, str, str]) -> None:
+def test_a_rule_is_parsed_as_written(rule: tuple[str | None, str, str, str]) -> None:
     node, scheme, match, replacement = rule
     found = remapping.parse_rule(text_of(rule))
     assert (found.node, found.match, found.replacement) == (node, match, replacement)
@@ -89,7 +89,7 @@ def test_a_rule_is_read_as_it_was_written(rule: tuple[str | None, str, str, str]
 
 
 @given(st.lists(rules, max_size=6), sides, tokens, namespaces)
-def test_the_first_rule_that_fits_decides_and_no_other(
+def test_only_the_first_matching_rule_applies(
     written: list[tuple[str | None, str, str, str]], name: str, node: str, namespace: str
 ) -> None:
     full = names.expand(name, node, namespace)

@@ -1,4 +1,4 @@
-"""Node keys, nesting and precedence against plain restatements of the rules."""
+"""Node keys, nesting and precedence compared with straightforward restatements of the rules."""
 
 import re
 from pathlib import Path
@@ -47,13 +47,13 @@ RANKS = [
 
 
 def rank(value: Any) -> int:
-    """The place of a type among those that one key may hold for a parameter."""
+    """The rank of a type among those that one key may hold for a parameter."""
     is_list = isinstance(value, list)
     return RANKS.index((type(value[0] if is_list else value), is_list))
 
 
 def expected(given_files: Any, node: str) -> dict[str, Any]:
-    """Keys in the order of their first appearance; within a key the first type of the ranks, of that the last value."""
+    """Keys in order of first appearance; within a key the type with the first rank, and its last value."""
     order: dict[str, dict[str, list[Any]]] = {}
     for file in given_files:
         for key, name, value in file:
@@ -68,7 +68,7 @@ def expected(given_files: Any, node: str) -> dict[str, Any]:
 
 
 @given(files, nodes)
-def test_precedence(given_files: Any, node: str) -> None:
+def test_precedence_follows_the_order_of_keys_and_types(given_files: Any, node: str) -> None:
     table = ParameterTable()
     with TemporaryDirectory() as folder:
         for number, file in enumerate(given_files):
@@ -85,7 +85,7 @@ def test_precedence(given_files: Any, node: str) -> None:
 
 
 @given(st.lists(st.tuples(st.sampled_from(["/**", "n", "m"]), names, scalars), max_size=6))
-def test_words_and_files_follow_the_same_rules(rules: Any) -> None:
+def test_command_line_and_files_follow_the_same_rules(rules: Any) -> None:
     table = ParameterTable()
     for key, name, value in rules:
         table.add_value(key, name, repr(value))
@@ -108,7 +108,7 @@ def leaves(tree: Any, path: str = "") -> dict[str, int]:
 
 
 @given(trees, st.booleans())
-def test_nested_maps_are_names_with_dots(tree: Any, flow: bool) -> None:
+def test_nested_maps_become_dotted_names(tree: Any, flow: bool) -> None:
     with TemporaryDirectory() as folder:
         path = Path(folder) / "f.yaml"
         path.write_text(yaml.safe_dump({"n": {"ros__parameters": tree}}, default_flow_style=flow, sort_keys=False))

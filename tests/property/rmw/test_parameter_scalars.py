@@ -27,7 +27,7 @@ def library() -> ctypes.CDLL:
 
 
 def by_c(text: str) -> int | float | str:
-    """What the C functions make of a word that is none of the booleans."""
+    """The value that the C functions give for a word that is not a boolean."""
     libc, data = library(), ctypes.c_char_p(text.encode())
     start = ctypes.cast(data, ctypes.c_void_p).value
     for function, more in ((libc.strtol, (0,)), (libc.strtod, ())):
@@ -45,8 +45,8 @@ def by_c(text: str) -> int | float | str:
 @example("0x1p-1074")
 @example("2.2250738585072014e-308")
 @example("9223372036854775808")
-def test_numbers(text: str) -> None:
-    # Newer C libraries know binary numerals, which those of Jazzy do not.
+def test_numbers_are_read_as_in_c(text: str) -> None:
+    # Newer C libraries accept binary numerals, which those of Jazzy do not.
     if text.lower() in BOOLEANS or "0b" in text.lower():
         return
     expected, found = by_c(text), scalar_value(text)
@@ -59,14 +59,14 @@ def test_numbers(text: str) -> None:
 
 
 @given(st.integers(-(2**63), 2**63 - 1), st.sampled_from(["{:d}", "{:#x}", "{:+d}"]))
-def test_integers_in_all_notations(number: int, notation: str) -> None:
+def test_integers_are_read_in_all_notations(number: int, notation: str) -> None:
     found = scalar_value(notation.format(number))
     assert type(found) is int
     assert found == number
 
 
 @given(st.floats(allow_nan=False).filter(lambda number: number == 0 or abs(number) >= 2.0**-1022))
-def test_doubles_come_back(number: float) -> None:
+def test_doubles_are_read_back_exactly(number: float) -> None:
     found = scalar_value(repr(number))
     assert type(found) is float
     assert found == number

@@ -1,4 +1,4 @@
-"""Scalars that are read without YAML mean what YAML says."""
+"""Scalars that are read without the YAML library have the same value as with it."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ WORDS = ("yes", "No", "TRUE", "False", "on", "OFF", "y", "null", "Null", "nan", 
 @example("10.0")
 @example("010")
 @example("٣")
-def test_a_plain_scalar_means_what_it_means_in_yaml(text: str) -> None:
+def test_a_plain_scalar_has_its_yaml_value(text: str) -> None:
     seen = plain_scalar(text)
     if seen is not None:
         expected = yaml.safe_load(text)
         assert (seen, type(seen)) == (expected, type(expected))
 
 
-def test_what_is_typed_most_is_plain() -> None:
+def test_common_values_are_plain() -> None:
     typed = ("1.0", "-3", "0", "true", "False", "on", "Scout", "robot_name", "YES")
     assert [plain_scalar(each) for each in typed] == [1.0, -3, 0, True, False, True, "Scout", "robot_name", True]

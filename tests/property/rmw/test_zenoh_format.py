@@ -1,4 +1,4 @@
-"""Whatever comes over the wire, the parsers of the format answer with a value or with their one error."""
+"""Whatever arrives over the wire, the parsers of the format return a value or raise their one error."""
 
 from contextlib import suppress
 
@@ -45,7 +45,7 @@ ARGUMENTS = (TOKENS | st.text(), PROFILES, st.binary(max_size=200) | st.binary(m
 
 
 @given(*ARGUMENTS)
-def test_any_input(token, profile, data, head):
+def test_any_input_is_parsed_or_refused(token, profile, data, head):
     check(token, profile, data, head)
 
 
@@ -53,5 +53,5 @@ def test_any_input(token, profile, data, head):
 @pytest.mark.timeout(1800)
 @given(*ARGUMENTS)
 @settings(max_examples=100_000, deadline=None)
-def test_any_input_at_length(token, profile, data, head):
+def test_any_long_input_is_parsed_or_refused(token, profile, data, head):
     check(token, profile, data, head)

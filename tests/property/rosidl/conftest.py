@@ -1,4 +1,4 @@
-"""Messages of any class with arbitrary values, and the same in the form that rosbags serializes."""
+"""Messages of any class with arbitrary values, also in the form that rosbags serializes."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def message_of(cls: Any) -> st.SearchStrategy[Any]:
 
 
 def same(one: Any, other: Any) -> bool:
-    """Whether two messages have the same values, a NaN being the same as another, and arrays compared as a whole."""
+    """Whether two messages have the same values; NaN equals NaN, and arrays are compared as a whole."""
     if hasattr(one, "get_fields_and_field_types"):
         names = one.get_fields_and_field_types()
         return type(one) is type(other) and all(same(getattr(one, each), getattr(other, each)) for each in names)
@@ -54,7 +54,7 @@ def same(one: Any, other: Any) -> bool:
 
 
 def for_rosbags(message: Any) -> Any:
-    """A message as rosbags' serializer wants it: numbers in NumPy arrays, bytes as numbers."""
+    """A message as rosbags' serializer expects it: numbers in NumPy arrays, bytes as numbers."""
     found = SimpleNamespace(structure_needs_at_least_one_member=0)
     for name, text in message.get_fields_and_field_types().items():
         setattr(found, name, _for_rosbags(getattr(message, name), parse_type(text)))

@@ -1,4 +1,4 @@
-"""The YAML that is written without the library is what the library writes."""
+"""YAML written without the library is identical to what the library writes."""
 
 from __future__ import annotations
 
@@ -42,11 +42,11 @@ def library(fields: dict[str, Any]) -> str:
 
 
 @given(st.dictionaries(names, values, max_size=4))
-def test_it_is_what_the_library_writes(fields: dict[str, Any]) -> None:
+def test_output_is_identical_to_the_librarys(fields: dict[str, Any]) -> None:
     assert block_yaml(fields) in (None, library(fields))
 
 
-def test_texts_that_mean_something_are_left_to_the_library() -> None:
+def test_ambiguous_texts_are_left_to_the_library() -> None:
     for word in WORDS:
         assert block_yaml({"a": word}) in (None, library({"a": word}))
 

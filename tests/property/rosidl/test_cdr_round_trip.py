@@ -1,4 +1,4 @@
-"""CDR: what is written is read again, and is what rosbags writes."""
+"""CDR: written messages are read back unchanged, and are identical to what rosbags writes."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ NAMES = (
     "unique_identifier_msgs/msg/UUID",
 )
 A_FEW = settings.default.max_examples * 2 // 5
-"""Of a message's fields, an example tries all; there are many messages."""
+"""Fewer examples: one already covers all fields of a message, and there are many messages."""
 LIMITS = settings(max_examples=A_FEW, deadline=None, suppress_health_check=list(HealthCheck))
 
 
@@ -45,7 +45,7 @@ def class_of(name: str) -> Any:
 @pytest.mark.parametrize("name", [*NAMES, "example_interfaces/msg/WString"])
 @given(data=st.data())
 @LIMITS
-def test_what_is_written_is_read_again(name: str, data: Any, messages: Any) -> None:
+def test_written_messages_are_read_back_unchanged(name: str, data: Any, messages: Any) -> None:
     message = data.draw(messages.of(class_of(name)))
     written = serialize(message)
     read = deserialize(written, type(message))
@@ -63,7 +63,7 @@ def store() -> Any:
 @pytest.mark.parametrize("name", NAMES)
 @given(data=st.data())
 @LIMITS
-def test_the_bytes_are_those_of_rosbags(name: str, data: Any, messages: Any, store: Any) -> None:
+def test_the_bytes_are_identical_to_those_of_rosbags(name: str, data: Any, messages: Any, store: Any) -> None:
     message = data.draw(messages.of(class_of(name)))
     theirs = bytes(store.serialize_cdr(messages.for_rosbags(message), name))
     assert serialize(message) == theirs
@@ -71,7 +71,7 @@ def test_the_bytes_are_those_of_rosbags(name: str, data: Any, messages: Any, sto
 
 @given(data=st.data())
 @LIMITS
-def test_broken_bytes_are_refused_or_read_but_never_anything_else(data: Any, messages: Any) -> None:
+def test_broken_bytes_are_refused_or_read_without_other_errors(data: Any, messages: Any) -> None:
     cls = class_of(data.draw(st.sampled_from(NAMES)))
     written = bytearray(serialize(data.draw(messages.of(cls))))
     cut = data.draw(st.integers(0, len(written)))

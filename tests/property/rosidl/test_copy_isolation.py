@@ -1,4 +1,4 @@
-"""A copy is what the wire would give: equal to a CDR round trip, and free of the message it was made from."""
+"""A copy equals the result of a CDR round trip, and shares nothing with the original message."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ NAMES = (
     "tf2_msgs/msg/TFMessage",
 )
 A_FEW = settings.default.max_examples * 2 // 5
-"""Of a message's fields, an example tries all; there are many messages."""
+"""Fewer examples: one already covers all fields of a message, and there are many messages."""
 LIMITS = settings(max_examples=A_FEW, deadline=None, suppress_health_check=list(HealthCheck))
 
 
@@ -33,7 +33,7 @@ def class_of(name: str) -> Any:
 
 
 def parts(value: Any) -> list[Any]:
-    """All changeable objects inside a message, itself among them."""
+    """All mutable objects inside a message, including itself."""
     if hasattr(value, "get_fields_and_field_types"):
         inside = [getattr(value, each) for each in value.get_fields_and_field_types()]
         return [value, *(part for each in inside for part in parts(each))]
@@ -45,7 +45,7 @@ def parts(value: Any) -> list[Any]:
 @pytest.mark.parametrize("name", NAMES)
 @given(data=st.data())
 @LIMITS
-def test_a_copy_is_what_a_round_trip_gives(name: str, data: Any, messages: Any) -> None:
+def test_a_copy_equals_the_result_of_a_round_trip(name: str, data: Any, messages: Any) -> None:
     message = data.draw(messages.of(class_of(name)))
     assert messages.same(message._copy_(), deserialize(serialize(message), type(message)))
 
@@ -53,7 +53,7 @@ def test_a_copy_is_what_a_round_trip_gives(name: str, data: Any, messages: Any) 
 @pytest.mark.parametrize("name", NAMES)
 @given(data=st.data())
 @LIMITS
-def test_no_part_of_a_copy_is_a_part_of_the_message(name: str, data: Any, messages: Any) -> None:
+def test_a_copy_shares_no_part_with_the_message(name: str, data: Any, messages: Any) -> None:
     message = data.draw(messages.of(class_of(name)))
     copy = message._copy_()
     assert not {id(each) for each in parts(message)} & {id(each) for each in parts(copy)}

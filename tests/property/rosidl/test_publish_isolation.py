@@ -1,4 +1,4 @@
-"""No change of a message crosses a publish: neither to a subscription nor from one to another."""
+"""Changes of a message after publishing are not visible elsewhere: neither to nor between subscriptions."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def spoil(message: JointState) -> None:
 
 
 def serve(executor: Any, done: Callable[[], bool]) -> None:
-    """Serve what is ready; a wake of the executor may take a turn of its own."""
+    """Serve ready entities; waking the executor may take an extra turn."""
     for _ in range(20):
         if done():
             return
@@ -49,7 +49,7 @@ def serve(executor: Any, done: Callable[[], bool]) -> None:
 
 @given(data=st.data())
 @LIMITS
-def test_all_get_what_was_published(executor: Any, messages: Any, data: Any) -> None:
+def test_every_subscription_receives_what_was_published(executor: Any, messages: Any, data: Any) -> None:
     (node,) = executor.get_nodes()
     publisher = node.create_publisher(JointState, "t", LATCHED)
     message = data.draw(messages.of(JointState))

@@ -1,4 +1,4 @@
-"""No beam passes a wall, wherever the robot stands and whatever stands around it."""
+"""No beam passes through a wall, wherever the robot is and whatever surrounds it."""
 
 import math
 from typing import Any
@@ -56,7 +56,7 @@ def test_every_beam_ends_at_the_first_surface(
 
 @settings(max_examples=20, deadline=None)
 @given(st.integers(0, 2**31 - 1), st.lists(st.tuples(st.floats(-2, 2), st.floats(-3, 3)), min_size=1, max_size=20))
-def test_a_run_is_bit_equal_per_seed(seed: int, commands: list[tuple[float, float]]) -> None:
+def test_runs_with_the_same_seed_are_bit_identical(seed: int, commands: list[tuple[float, float]]) -> None:
     data = {
         "size": [10, 8],
         "start": [2, 2, 0],

@@ -28,7 +28,7 @@ turns = st.one_of(any_turns, turns_about_an_axis).filter(lambda each: math.hypot
 
 
 def reported_until(latest: int) -> st.SearchStrategy[list[Entry]]:
-    """Transforms of the first seconds, enough of them that most questions have an answer."""
+    """Transforms of the first seconds, enough of them that most lookups have an answer."""
     each = st.tuples(st.sampled_from(FRAMES[1:]), st.integers(1, latest), moves, turns)
     return st.lists(each, min_size=20, max_size=40)
 
@@ -42,7 +42,7 @@ def unit(turn: list[float]) -> np.ndarray:
 
 
 def filled(known: list[Entry]) -> BufferCore:
-    """A buffer with everything, in the order in which it is given; half of it is kept unread."""
+    """A buffer with all transforms, added in the order given; half of them are kept unparsed."""
     buffer = BufferCore()
     for index, (child, second, move, turn) in enumerate(known):
         message = TransformStamped()
@@ -59,7 +59,7 @@ def filled(known: list[Entry]) -> BufferCore:
 
 
 def in_parent(known: list[Entry], child: str, time: float) -> np.ndarray | None:
-    """The matrix of a frame in its parent at a time (s), None where it is not known."""
+    """The matrix of a frame in its parent at a time (s); None if it is unknown."""
     first: dict[int, Any] = {}
     for name, second, move, turn in known:
         if name != child or (first and second < max(first) - 10):

@@ -82,7 +82,7 @@ def test_nothing_overlaps_and_everything_is_inside(graph: Digraph, flow: Flow) -
 
 
 @given(graphs(), st.sampled_from([RIGHT, DOWN]), st.randoms())
-def test_the_order_of_what_is_given_does_not_matter(graph: Digraph, flow: Flow, random) -> None:
+def test_the_order_of_the_input_does_not_matter(graph: Digraph, flow: Flow, random) -> None:
     items, edges = list(graph.items), list(graph.edges)
     random.shuffle(items)
     random.shuffle(edges)

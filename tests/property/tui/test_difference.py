@@ -1,4 +1,4 @@
-"""Whatever was shown and whatever comes next: after what is written, the terminal shows what comes next."""
+"""Whatever was shown and whatever comes next: after the output is written, the terminal shows what comes next."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ CODES = st.lists(
 
 @st.composite
 def screens(draw: st.DrawFn) -> dict[int, dict[int, Strip | None]]:
-    """A few lines of a screen, some of whose pieces were not drawn."""
+    """A few lines of a screen, some parts of which were not drawn."""
     screen: dict[int, dict[int, Strip | None]] = {}
     for y in draw(st.lists(st.integers(0, HEIGHT - 1), unique=True, max_size=HEIGHT)):
         cuts = draw(CUTS)
@@ -59,7 +59,7 @@ def test_the_terminal_shows_what_was_drawn_last(frames) -> None:
 
 
 @given(screens())
-def test_what_is_shown_already_costs_nothing(frame) -> None:
+def test_unchanged_content_causes_no_output(frame) -> None:
     shown = ShownScreen()
     shown.forget(WIDTH, HEIGHT)
     shown.update(frame.items(), COLOURS)

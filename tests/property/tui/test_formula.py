@@ -1,4 +1,4 @@
-"""Expressions over curves against a model that works each value out alone, by the words of the documentation."""
+"""Expressions over curves against a model that computes each value separately, following the documentation."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ SECONDS = {"1 s": 1.0, "250 ms": 0.25, "3 s": 3.0}
 
 
 class Model:
-    """Works out an expression of the shapes above at one sample after the other."""
+    """Evaluates an expression of the shapes above at one sample after the other."""
 
     def __init__(self, known: dict[str, Samples], times: list[float]) -> None:
         self._known = known
@@ -91,7 +91,7 @@ class Model:
 
     @staticmethod
     def _split(text: str) -> list[str]:
-        """What stands at a comma, or on the sides of an operator, outside of all brackets."""
+        """The parts between commas, or on the two sides of an operator, outside all brackets."""
         depths = [text[: at + 1].count("(") - text[: at + 1].count(")") for at in range(len(text))]
         commas = [at for at, character in enumerate(text) if character == "," and depths[at] == 0]
         if commas:
@@ -103,7 +103,7 @@ class Model:
 
 
 @given(expressions, series, series, series, st.floats(0, 20), st.floats(0, 20))
-def test_every_value_is_what_the_words_mean(
+def test_every_value_follows_the_documentation(
     text: str, a: Samples, b: Samples, gain: Samples, start: float, length: float
 ) -> None:
     try:

@@ -68,12 +68,12 @@ def assert_given(text: str, node: str, values: dict[str, Value]) -> None:
 @given(PARAMETERS)
 @example({"a": 1, "a.b": 2, "a.b.c": (1.0, 2.0)})
 @example({"x": 2.0**-1022, "y": 1e16, "z": -0.0})
-def test_what_is_written_is_what_ros_reads(values: dict[str, Value]) -> None:
+def test_ros_reads_written_values_back(values: dict[str, Value]) -> None:
     assert_given(new_text({"/n": values}), "/n", values)
 
 
 @given(PARAMETERS, PARAMETERS, st.sampled_from(["\n", "\r\n"]))
-def test_patching_gives_the_new_values_and_keeps_the_others(
+def test_patching_sets_the_new_values_and_keeps_the_others(
     old: dict[str, Value], new: dict[str, Value], newline: str
 ) -> None:
     text = "# mine\n" + new_text({"/n": old, "/other": old}) + "# the end\n"
@@ -115,15 +115,15 @@ SCRAPS = [
 
 
 @given(st.lists(st.sampled_from(SCRAPS), min_size=1, max_size=6).map("".join))
-def test_scalars_mean_what_they_mean_in_ros(text: str) -> None:
+def test_scalars_have_the_same_value_as_in_ros(text: str) -> None:
     ours, theirs = plain_value(text), scalar_value(text)
-    # Hexadecimal fractions and signed words for NaN are read by C alone, and nobody writes them.
+    # Hexadecimal fractions and signed words for NaN are only understood by C, and nobody writes them.
     assert same(ours, theirs) or (isinstance(theirs, float) and "x" in text)
 
 
 @pytest.mark.parametrize("before", ["", "0x"])
 @pytest.mark.parametrize("read", [plain_value, scalar_value])
-def test_a_text_of_very_many_digits_is_read_in_a_moment(read, before):
+def test_a_number_with_very_many_digits_is_read_quickly(read, before):
     text = before + "1" * 30_000 + "z"
     began = process_time()
     assert read(text) == text

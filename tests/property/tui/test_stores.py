@@ -1,4 +1,4 @@
-"""Whatever has replaced a file that the console keeps: reading it neither fails nor blocks, and is reported once."""
+"""Whatever has replaced a file that the console keeps, reading it neither fails nor blocks, and is reported once."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 TIMEOUT_S = 20.0
-"""Seconds after which a read that blocks fails its test."""
+"""Seconds after which a blocking read fails its test."""
 
 
 def read_layouts() -> list[str]:
@@ -89,7 +89,7 @@ STORES: dict[str, tuple[Callable[[], Path], Callable[[], list[str]], bool]] = {
     "alarms": (lambda: config_folder() / "alarms.yaml", read_alarms, False),
     "a view": (lambda: StateFiles()._path("plot"), read_view, False),
 }
-"""Where each file is, what reads it and gives the problems, and whether a file that cannot be used is reported."""
+"""Where each file is, a function that reads it and returns the problems, and whether an unusable file is reported."""
 
 
 @pytest.fixture(autouse=True)
@@ -110,7 +110,7 @@ def read_in_time(read: Callable[[], list[str]]) -> list[str]:
 @pytest.mark.skipif(os.name == "nt", reason="a system without named pipes")
 @pytest.mark.parametrize("kind", ["pipe", "folder", "link to itself", "link to nothing", "huge"])
 @pytest.mark.parametrize(("where", "read", "reports"), STORES.values(), ids=STORES)
-def test_what_is_no_regular_file_is_reported_once(
+def test_a_path_that_is_not_a_regular_file_is_reported_once(
     where: Callable[[], Path], read: Callable[[], list[str]], reports: bool, kind: str
 ) -> None:
     path = where()

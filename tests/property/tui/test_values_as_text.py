@@ -1,4 +1,4 @@
-"""Values as text: what is shown to be edited, and the command that is copied, give back the very same value."""
+"""Values as text: both the text to edit and the copied command give back exactly the same value."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ STRINGS = ParameterInfo("/n", "p", Kind.STRING_ARRAY, ("a", "b, d"))
 
 @given(parameters())
 @example(STRINGS)
-def test_what_is_shown_to_be_edited_gives_back_the_value(parameter: ParameterInfo) -> None:
+def test_the_text_to_edit_gives_back_the_value(parameter: ParameterInfo) -> None:
     text = field_text(parameter.value)
     assert text.isprintable()
     assert same(parse_value(text, parameter), parameter.value)
@@ -113,7 +113,7 @@ def test_the_copied_command_sets_the_value(parameter: ParameterInfo) -> None:
         (Kind.STRING, r'"\xzz"', "is no escape"),
     ],
 )
-def test_what_is_no_value_is_reported_in_one_short_line(kind: Kind, text: str, why: str) -> None:
+def test_an_invalid_value_is_explained_in_one_short_line(kind: Kind, text: str, why: str) -> None:
     with pytest.raises(ValueError, match=why) as caught:
         parse_value(text, ParameterInfo("/n", "p", kind, None))
     assert len(str(caught.value)) < 100 and str(caught.value).isprintable()
@@ -132,16 +132,16 @@ def test_what_is_no_value_is_reported_in_one_short_line(kind: Kind, text: str, w
         (Kind.STRING, ' "', ' "'),
     ],
 )
-def test_how_people_write_values(kind: Kind, text: str, value: Value) -> None:
+def test_values_are_parsed_as_people_write_them(kind: Kind, text: str, value: Value) -> None:
     assert parse_value(text, ParameterInfo("/n", "p", kind, None)) == value
 
 
-def test_arrays_are_shown_as_yaml_takes_them() -> None:
+def test_arrays_are_shown_in_yaml_syntax() -> None:
     assert value_text(("a", "b, d", "1")) == '[a, "b, d", "1"]'
     assert value_text((b"\x0a", b"\xff")) == "[0x0a, 0xff]"
     assert quoted("\x1b[31m\u202e🤖") == r'"\x1b[31m\u202e🤖"'
 
 
-def test_words_and_numbers_of_any_kind() -> None:
+def test_texts_and_numbers_are_converted_by_their_form() -> None:
     assert [guess(each) for each in ("1", "1.0", "true", "x")] == [1, 1.0, True, "x"]
     assert parse_number("-.inf") == float("-inf")
