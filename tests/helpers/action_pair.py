@@ -1,4 +1,4 @@
-"""An action server and a client on two nodes, and what tests of both ask of them."""
+"""An action server and a client on two nodes, and what tests of both need from them."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ class Pair:
         self.client = ActionClient(self.client_node, Fibonacci, "fib")
 
     def outcome(self, future: Any) -> Any:
-        """The result of a future, after serving the nodes until it is there."""
+        """The result of a future, after serving the nodes until it is done."""
         self.ros.spin(future.done)
         return future.result()
 
     def send(self, order: int = 1, **options: Any) -> Any:
-        """Send a goal; the client's handle of it."""
+        """Send a goal; returns the client's handle of it."""
         return self.outcome(self.client.send_goal_async(Fibonacci.Goal(order=order), **options))
 
     def result(self, handle: Any) -> Any:

@@ -1,4 +1,4 @@
-"""A terminal as far as the console uses one: cells, their styles, and where the cursor is."""
+"""A terminal as far as the console uses one: cells, their styles, and the cursor position."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ BLANK = (" ", "")
 
 
 class Emulator:
-    """Takes output and remembers what each cell shows, and in which SGR style."""
+    """Processes output and keeps what each cell shows, and in which SGR style."""
 
     def __init__(self, width: int, height: int) -> None:
         self.cells = [[BLANK] * width for _ in range(height)]
@@ -19,7 +19,7 @@ class Emulator:
         self._style: tuple[str, ...] = ()
 
     def feed(self, text: str) -> None:
-        """Take output."""
+        """Process output."""
         for token in TOKEN.finditer(text):
             if token["letter"] is not None:
                 self._put(token["letter"])
@@ -48,12 +48,12 @@ class Emulator:
         self._x += width
 
     def lines(self) -> list[str]:
-        """The letters of each line."""
+        """The characters of each line."""
         return ["".join(character for character, _ in row) for row in self.cells]
 
 
 def styled(before: tuple[str, ...], numbers: str) -> tuple[str, ...]:
-    """A style after some more SGR codes: attributes in order, then foreground, then background."""
+    """A style after further SGR codes: attributes in order, then foreground, then background."""
     style = {_kind(code): code for code in before}
     for code in _codes(numbers):
         if code in ("", "0"):

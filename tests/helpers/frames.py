@@ -10,7 +10,7 @@ from geometry_msgs.msg import TransformStamped
 def frame(
     parent: str, child: str, at: float = 0.0, x: float = 0.0, y: float = 0.0, yaw: float = 0.0
 ) -> TransformStamped:
-    """Where a frame is in its parent at a time (s)."""
+    """The position of a frame in its parent at a time (s)."""
     message = TransformStamped()
     message.header.frame_id, message.child_frame_id = parent, child
     message.header.stamp.sec, message.header.stamp.nanosec = int(at), round(at % 1 * 10**9)

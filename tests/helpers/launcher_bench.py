@@ -14,7 +14,7 @@ from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo
 
 TIMEOUT_S = 15.0
-"""Seconds after which a test gives up; nothing is measured by it."""
+"""Seconds after which a test gives up; the tests measure no time."""
 
 WAITS = """
 import rclpy
@@ -67,7 +67,7 @@ class Spawned:
 
 
 class Bench:
-    """A launcher, a folder for its files, and what it has logged."""
+    """A launcher, a folder for its files, and the lines it has logged."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -82,36 +82,36 @@ class Bench:
         )
 
     def program(self, text: str, name: str = "program.py") -> str:
-        """A Python file; its path."""
+        """Write a Python file; returns its path."""
         path = self.folder / name
         path.write_text(text)
         return str(path)
 
     def file(self, entities: str, name: str = "system.launch.py") -> str:
-        """A launch file of these entities; its path."""
+        """Write a launch file with these entities; returns its path."""
         path = self.folder / name
         path.write_text(HEAD.format(entities=entities))
         return str(path)
 
     def run(self, entities: str, name: str = "system.launch.py", **arguments: str) -> Any:
-        """Launch these entities; the answer."""
+        """Launch these entities; returns the answer."""
         return self.launcher.launch(self.file(entities, name), arguments).result(TIMEOUT_S)
 
     def do(self, verb: str, process: ProcessInfo) -> Any:
-        """Ask for a verb; the answer."""
+        """Apply a verb; returns the answer."""
         return getattr(self.launcher, verb)(process.key).result(TIMEOUT_S)
 
     @property
     def info(self) -> LaunchInfo:
-        """What is known now."""
+        """The current state."""
         return self.launcher.info()
 
     def process(self, part: str = "") -> ProcessInfo:
-        """The first process whose key has this in it."""
+        """The first process whose key contains a text."""
         return next(each for each in self.info.processes if part in each.key)
 
     def until(self, condition: Callable[[], Any], what: str = "it") -> Any:
-        """Wait until something is so."""
+        """Wait until a condition holds."""
         deadline = time.monotonic() + TIMEOUT_S
         pause = threading.Event()
         while not (found := condition()):
@@ -120,5 +120,5 @@ class Bench:
         return found
 
     def texts(self) -> list[str]:
-        """The timeline."""
+        """The texts of the timeline."""
         return [each.text for each in self.info.timeline]

@@ -50,7 +50,7 @@ class _Lines(logging.Handler):
 
 @pytest.fixture(autouse=True)
 def log_lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[list[str]]:
-    """Lines on the screen of launches in this test."""
+    """Lines that launches in this test print to the screen."""
     import launch.logging
 
     for name in ("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "OVERRIDE_LAUNCH_SCREEN_FORMAT", "OVERRIDE_LAUNCH_LOG_FORMAT"):
@@ -70,7 +70,7 @@ def run(log_lines: list[str], monkeypatch: pytest.MonkeyPatch) -> Launch:
 
     from bot_console.runtime.process.virtual.install import install_virtual_process
 
-    install_virtual_process()  # before `os.environ` is noted, or its end would undo a part of it
+    install_virtual_process()  # before `os.environ` is saved, or restoring it would undo a part of this
     monkeypatch.setattr(os, "environ", os.environ)
     before = dict(os.environ)
 

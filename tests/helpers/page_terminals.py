@@ -1,4 +1,6 @@
-"""The course page's terminals: its commands as node processes in real time, and the console's screen beside them."""
+"""The terminals of the course page: its commands as node processes in real time, with the console's screen beside
+them.
+"""
 
 from __future__ import annotations
 
@@ -24,14 +26,14 @@ from systems import Program, System
 from textual.events import Paste
 
 TIMEOUT_S = 30.0
-"""Seconds after which a test gives up; nothing is measured by it."""
+"""Seconds after which a test gives up; the tests measure no time."""
 
 
 class Screen(Session):
-    """A session over a real console, which answers when it can."""
+    """A session over a real console, which answers asynchronously."""
 
     async def until(self, true: Callable[[], object], what: str) -> None:
-        """Let the app go on until something is so."""
+        """Let the app run until a condition holds."""
         deadline = time.monotonic() + TIMEOUT_S
         while not true():
             assert time.monotonic() < deadline, f"no {what} on\n{self.text()}"
@@ -39,16 +41,16 @@ class Screen(Session):
             await self.settle()
 
     async def shows(self, *texts: str) -> None:
-        """Wait until all of it stands on the screen, in whatever spacing."""
+        """Wait until all texts are on the screen, in whatever spacing."""
         await self.until(lambda: all(each in " ".join(self.text().split()) for each in texts), f"{texts}")
 
     async def line(self, text: str) -> None:
-        """A command of the page, copied and put in after the colon."""
+        """Run a command copied from the page on the console's command line."""
         await self.press(":")
         await self.enter(text)
 
     async def enter(self, text: str) -> None:
-        """Paste a text into the field that has the keyboard, which is quicker than its letters, and press Enter."""
+        """Paste a text into the focused field, which is faster than typing it, and press Enter."""
         self.app.post_message(Paste(text))
         await self.settle()
         await self.press("enter")
@@ -66,12 +68,12 @@ class Terminals:
         assert self.console.wait_ready(TIMEOUT_S)
 
     def start(self, command: str) -> Program:
-        """Type a `ros2` line into a terminal of its own, where it goes on."""
+        """Type a `ros2` line into a separate terminal, where it keeps running."""
         self.programs.append(self.system.ros2(*command.split()[1:]))
         return self.programs[-1]
 
     def ask(self, command: str) -> Program:
-        """Type a `ros2` line into another terminal, to its end."""
+        """Type a `ros2` line into another terminal and run it to its end."""
         return self.system.finish(self.start(command))
 
     def node(self, text: str) -> Program:
@@ -104,7 +106,7 @@ class Terminals:
 
 @contextmanager
 def terminals(folder: Path) -> Iterator[Terminals]:
-    """The page's workspace and its terminals, all ended with the block."""
+    """The page's workspace and its terminals, all ended when the block is left."""
     before = discover.workspace()
     discover.use(discover.Workspace([make_workspace(folder) / "src"]))
     running = Terminals(folder)

@@ -1,4 +1,4 @@
-"""Running the app over a sample system, with keys pressed, without timers and without a real clock."""
+"""Runs the app over a sample system and presses keys, without timers and without a real clock."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ P = TypeVar("P", bound=Widget)
 
 @dataclass
 class Session:
-    """An app that runs, with what it talks to."""
+    """A running app, with what it talks to."""
 
     app: BotConsoleApp
     pilot: Pilot[None]
@@ -36,7 +36,7 @@ class Session:
     launcher: FakeLauncher
 
     async def press(self, *keys: str) -> None:
-        """Press keys, each when all has happened that the one before brought about; then let the app draw."""
+        """Press keys, each after the effects of the previous one are complete; then let the app draw."""
         for key in keys:
             await self.pilot.press(key)
             self._pull()
@@ -44,13 +44,13 @@ class Session:
         await self.pilot.pause()
 
     async def type(self, text: str) -> None:
-        """Type a text into the field that has the keyboard, faster than anything is drawn."""
+        """Type a text into the focused field, without drawing in between."""
         for character in text:
             self.app.post_message(events.Key(_character_to_key(character), character))
         await self.settle()
 
     async def click(self, text: str, *, times: int = 1, last: bool = False) -> None:
-        """Click on the beginning of a text that is on the screen, at its first place or its last."""
+        """Click on the beginning of a text on the screen, at its first or last occurrence."""
         lines = self.lines()
         found = [(line.rindex(text) if last else line.index(text), y) for y, line in enumerate(lines) if text in line]
         assert found, f"{text!r} is not on the screen:\n{self.text()}"
@@ -64,7 +64,7 @@ class Session:
         await self.click(found.group())
 
     async def settle(self) -> None:
-        """Let everything happen that is about to."""
+        """Let everything pending happen."""
         self._pull()
         await self.pilot.pause()
 
@@ -77,16 +77,16 @@ class Session:
         return self.app.screen_stack[0].query_one(kind)
 
     def lines(self) -> list[str]:
-        """What is on the screen."""
+        """The lines on the screen."""
         return [strip.text for strip in self.app.screen._compositor.render_strips()]
 
     def text(self) -> str:
-        """What is on the screen, as one text."""
+        """The screen as one text."""
         return "\n".join(self.lines())
 
 
 class Clock:
-    """A steady clock that goes when it is told to."""
+    """A monotonic clock advanced by the test."""
 
     def __init__(self) -> None:
         self.now = 100.0
@@ -103,7 +103,7 @@ def run(
     faults_wanted: bool = False,
     appearance: Appearance | None = None,
 ) -> None:
-    """Run the app at a size and play a scene in it; a fault in a pane fails the test unless it is wanted."""
+    """Run the app at a size and play a scene in it; an exception in a pane fails the test unless it is expected."""
 
     async def main() -> None:
         console, launcher = system

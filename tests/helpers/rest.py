@@ -1,10 +1,10 @@
-"""A pilot's rest: when the app has nothing left to do, known from its event loop and not from a clock.
+"""Detects when the app has nothing left to do, from its event loop instead of a clock.
 
-Textual's pilot takes a process for idle that used next to no processor time for 20 ms: that is 80 ms for each key, and
-beside others a process uses none because it gets none, with keys still on their way. Before that it sends a message to
-every widget and waits until all have answered, which a rested event loop makes needless.
+Textual's pilot considers a process idle that has used hardly any processor time for 20 ms: that costs 80 ms per key,
+and on a busy machine a process may use none because it gets none, with keys still pending. Before that it sends a
+message to every widget and waits until all have answered, which an idle event loop makes unnecessary.
 
-A frame is drawn when a test pauses to look: none in the middle of keys, and none that the next one replaces.
+A frame is drawn when a test pauses to look at the screen, not between keys.
 """
 
 from __future__ import annotations
@@ -30,20 +30,22 @@ from textual.css.stylesheet import Stylesheet
 from textual.screen import Screen
 
 MAX_POLLS = 100_000
-"""Turns of the event loop after which what never rests is left alone."""
+"""Turns of the event loop after which an app that never becomes idle is left alone."""
 _RUNNERS = frozenset(threading.enumerate())
-"""Threads of whoever runs the tests, which are there before the first test and do nothing for an app."""
+"""Threads of the test runner, which exist before the first test and do nothing for an app."""
 POLL_S = 0.02
-"""What is due within these s is waited for."""
+"""Timers due within this many seconds are waited for."""
 
 
 async def rest(min_sleep: float = 0.02, max_sleep: float = 1) -> None:
-    """Wait until nothing is left to run or to draw; where other threads may be at work, until they use no time."""
+    """Wait until nothing is left to run or to draw; if other threads may be working, until they use no processor
+    time.
+    """
     await _at_rest(min_sleep, max_sleep, draws=True)
 
 
 async def rest_undrawn(min_sleep: float = 0.02, max_sleep: float = 1) -> None:
-    """As `rest`, but what is to be drawn is left to a frame that comes later."""
+    """Like `rest`, but drawing is left to a later frame."""
     await _at_rest(min_sleep, max_sleep, draws=False)
 
 
@@ -66,7 +68,7 @@ async def _drained(loop: Any, *, draws: bool) -> None:
         if loop._ready:
             continue
         if app is not None and app.screen_stack and app.screen.is_running:
-            app.screen._on_timer_update()  # what would be drawn when the next frame is due
+            app.screen._on_timer_update()  # draws what would be drawn when the next frame is due
             if draws and not loop._ready:
                 _draw(app)
         if not loop._ready:
@@ -74,7 +76,7 @@ async def _drained(loop: Any, *, draws: bool) -> None:
 
 
 def _draw(app: Any) -> None:
-    """Let the screen draw what has been held back: one frame for all that a key brings about."""
+    """Let the screen draw what was held back: one frame for all effects of a key."""
     screen = app.screen
 
     def draw() -> None:
@@ -87,10 +89,10 @@ def _draw(app: Any) -> None:
 
 @contextmanager
 def at_rest() -> Iterator[None]:
-    """Pilots wait so, meanwhile; and no style sheet is read again that an app of this process has read.
+    """Within this block pilots wait in this way, and style sheets are parsed only once per process.
 
-    Nor is the file of a class looked for again, or a signature made to count what a callback takes. No stop is late by
-    the clock.
+    The source file of a class is looked up, and the parameters of a callback counted, only once as well. No stop is
+    late by the clock.
     """
     with (
         patch.object(dom_module, "getfile", _file_of_class),
@@ -114,7 +116,7 @@ _compositor_refresh = Screen._compositor_refresh
 
 
 def _held(screen: Any) -> None:
-    """What lies over the panes waits for its frame as the panes do."""
+    """Make overlays wait for their frame as the panes do."""
     app = screen.app
     if isinstance(app, SparingApp) and screen is app.screen and not app.may_draw():
         screen._compositor.update_widgets(screen._dirty_widgets)
@@ -128,7 +130,7 @@ _count_parameters = _callback._count_parameters
 
 
 def _number_of_parameters(call: Callable[..., Any]) -> int:
-    """As many as its signature has; a plain function's code knows without one being made."""
+    """The number of parameters in its signature; for a plain function its code has the number."""
     plain = getattr(call, "__func__", call)
     if type(plain) is not FunctionType or hasattr(plain, "__wrapped__") or hasattr(plain, "__signature__"):
         return _count_parameters(call)
@@ -152,7 +154,9 @@ def _parsed_once(sheet: Stylesheet, css: str, *where: Any, **how: Any) -> Any:
 
 
 def _number_of_colours(sheet: Stylesheet) -> int:
-    """The same for sheets with the same variables; there are hundreds, and two hundred texts are read with them."""
+    """The same for sheets with the same variables: there are hundreds of them, and two hundred texts are parsed with
+    them.
+    """
     known = _colours.get(sheet)
     if known is None or known[0] is not sheet._variables:
         number = _numbers.setdefault(tuple(sorted(sheet._variables.items())), len(_numbers))

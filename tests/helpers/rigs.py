@@ -1,6 +1,6 @@
-"""The same small ROS system twice: scripted behind a `FakeConsole`, and real nodes behind a `RosConsole`.
+"""The same small ROS system twice: scripted behind a `FakeConsole`, and as real nodes behind a `RosConsole`.
 
-It has one robot, `/robot`, with an arm, `/arm`: parameters of each sort, a velocity topic, a topic `/level` of numbers,
+It has one robot, `/robot`, with an arm, `/arm`: parameters of each kind, a velocity topic, a topic `/level` of numbers,
 a logger service.
 """
 
@@ -60,9 +60,9 @@ ROBOT, ARM = "/robot", "/arm"
 LOGGER_SERVICE: dict[str, Any] = {
     name: True for name in ("enable_logger_service",) if name in inspect.signature(rclpy.create_node).parameters
 }
-"""What a node is given so that levels of its loggers can be set; Humble has no such service."""
+"""Node options by which levels of its loggers can be set; Humble has no such service."""
 TIMEOUT_S = 10.0
-"""Seconds after which a test gives up; nothing is measured by it."""
+"""Seconds after which a test gives up; the tests measure no time."""
 TOO_FAST = "too fast for indoors"
 DESCRIPTION = "Highest speed (m/s)"
 PROFILES: dict[str, tuple[str, dict[str, dict[str, Value]] | None]] = {
@@ -77,7 +77,7 @@ T = TypeVar("T")
 
 
 def domains() -> Iterator[int]:
-    """Domains for systems of this process, from 20 to 79: other workers have others."""
+    """Domains for systems of this process, from 20 to 79; other test workers use different ones."""
     worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
     return itertools.cycle(range(20 + worker % 3 * 20, 40 + worker % 3 * 20))
 
@@ -85,15 +85,15 @@ def domains() -> Iterator[int]:
 _domains = domains()
 
 Sides = Callable[[str], None]
-"""Called before the robot, and before the console, is connected: chooses how they are."""
+"""Called before the robot and before the console is connected: chooses how it connects."""
 
 
 def IN_ONE(side: str) -> None:
-    """Both on the same middleware, as it is."""
+    """Connect both to the same middleware, unchanged."""
 
 
 def until(condition: Callable[[], T], what: str = "it") -> T:
-    """Wait until something is so."""
+    """Wait until a condition holds."""
     deadline, pause = time.monotonic() + TIMEOUT_S, threading.Event()
     while not (found := condition()):
         assert time.monotonic() < deadline, f"waited in vain for {what}"
@@ -102,7 +102,7 @@ def until(condition: Callable[[], T], what: str = "it") -> T:
 
 
 def write_profiles(folder: Path) -> None:
-    """Some that can be used and one that cannot."""
+    """Write several usable profiles and one that is not."""
     for name, (title, nodes) in PROFILES.items():
         word = "ros_parameters" if nodes is None else "ros__parameters"
         lines = [title]
@@ -112,7 +112,7 @@ def write_profiles(folder: Path) -> None:
 
 
 class Rig(Protocol):
-    """A system, its console, and what can be done to the system from its own side."""
+    """A system, its console, and what can be done on the system's side."""
 
     console: Console
     received: Sequence[tuple[float, float]]
@@ -123,7 +123,7 @@ class Rig(Protocol):
         ...
 
     def forbid_speed(self) -> None:
-        """Let the robot's own rule refuse every speed."""
+        """Let the robot's own callback refuse every speed."""
         ...
 
     def set_elsewhere(self, name: str, value: Value) -> None:
@@ -135,7 +135,7 @@ class Rig(Protocol):
         ...
 
     def heard_by_somebody(self) -> bool:
-        """Whether what `publish` says has a listener."""
+        """Whether `publish` has a subscription."""
         ...
 
     def close(self) -> None:
@@ -192,7 +192,7 @@ class FakeRig:
         self.console.show_text(severity, "robot", text)
 
     def forbid_speed(self) -> None:
-        """Let the robot's own rule refuse every speed."""
+        """Let the robot's own callback refuse every speed."""
         self.console.refusals[ROBOT, "speed"] = TOO_FAST
 
     def set_elsewhere(self, name: str, value: Value) -> None:
@@ -207,7 +207,7 @@ class FakeRig:
         values.append(number)
 
     def heard_by_somebody(self) -> bool:
-        """Whether what `publish` says has a listener."""
+        """Whether `publish` has a subscription."""
         return True
 
     @property
@@ -282,7 +282,7 @@ class RosRig:
     def show_text(self, severity: Severity, text: str) -> None:
         """Let the robot log."""
         logger = self._node.get_logger()
-        by_severity = {  # one call site each, as rclpy wants it
+        by_severity = {  # one call site each, as rclpy requires
             Severity.INFO: lambda: logger.info(text),
             Severity.WARN: lambda: logger.warning(text),
             Severity.ERROR: lambda: logger.error(text),
@@ -291,7 +291,7 @@ class RosRig:
         by_severity[severity]()
 
     def forbid_speed(self) -> None:
-        """Let the robot's own rule refuse every speed."""
+        """Let the robot's own callback refuse every speed."""
         self._speed_rule = TOO_FAST
 
     def set_elsewhere(self, name: str, value: Value) -> None:
@@ -303,7 +303,7 @@ class RosRig:
         self._level.publish(Float64(data=number))
 
     def heard_by_somebody(self) -> bool:
-        """Whether what `publish` says has a listener."""
+        """Whether `publish` has a subscription."""
         return self._level.get_subscription_count() > 0
 
     def close(self) -> None:
@@ -314,11 +314,11 @@ class RosRig:
         self._arm.destroy_node()
         self._context.try_shutdown()
         self._thread.join(TIMEOUT_S)
-        set_logger_level("robot", LoggingSeverity.UNSET)  # which is one for all nodes of this process
+        set_logger_level("robot", LoggingSeverity.UNSET)  # logger levels are shared by all nodes of this process
 
 
 class LinkedRig(RosRig):
-    """Robot and console apart: what passes between them goes over sessions of their own."""
+    """Robot and console with separate sessions, over which their messages pass."""
 
     def __init__(self, folder: Path, open_session: Callable[[int], Session], closing: Callable[[], None]) -> None:
         self._buses: list[ZenohBus] = []
@@ -342,12 +342,12 @@ class LinkedRig(RosRig):
 
 
 def mesh_rig(folder: Path) -> Rig:
-    """As two processes of one machine."""
+    """Connected like two processes of one machine."""
     return LinkedRig(folder, open_session, lambda: None)
 
 
 def network_rig(folder: Path) -> Rig:
-    """Both as clients of a router that wants certificates, over TLS."""
+    """Both as clients of a router that requires certificates, over TLS."""
     paths = make_certificates(folder)
     tls = Tls(paths.ca, paths.certificate, paths.key)
     endpoint = f"tls/localhost:{free_port()}"

@@ -1,4 +1,4 @@
-"""Sample systems for tests of what is drawn: an empty one, a robot that drives, one with faults, and a hostile one."""
+"""Sample systems for tests of drawing: an empty one, a driving robot, one with faults, and a hostile one."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ from fakes.sensors import status
 ODOM_TOPIC = "/odom"
 SPEED, LIMIT, NEAREST = "/odom/twist.twist.linear.x", "/robot_navigator:max_speed", "/telemetry/nearest_obstacle/data"
 BELL = "\x1b[2J\x07evil[red]\u202etxt"
-"""A text that clears the screen, rings, colours and turns around, where it is let through."""
+"""A text that clears the screen, rings, colours and reverses text unless it is sanitized."""
 
 
 def parameter(name: str, value: Value, kind: Kind, description: str = "", limits: Range | None = None) -> ParameterInfo:
@@ -120,7 +120,7 @@ def _node(name: str) -> NodeInfo:
 
 
 def figures() -> dict[str, Measure]:
-    """What is measured of the robot's topics; one is silent."""
+    """Measurements of the robot's topics; one is silent."""
     found = {
         topic: Measure(rate, rate * size, 1 / rate / 2, 0.0021 if kind in (SCAN, ODOM) else None, 1200)
         for (_, topic, kind, _), rate, size in zip(
@@ -181,7 +181,7 @@ def launched() -> LaunchInfo:
 
 
 def diagnosed() -> Diagnostics:
-    """Parts of a robot, one of them warm, one broken, one silent."""
+    """Parts of a robot: one warm, one broken, one silent."""
     return Diagnostics(
         (
             status("safety_monitor: velocity", Level.OK, "free", source="cmd_vel_nav", nearest="1.2"),
@@ -235,7 +235,7 @@ def _wave(rate: float, seconds: float) -> tuple[list[float], list[float]]:
 
 
 def live(parts: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
-    """A robot that drives, with everything there is to show."""
+    """A driving robot, with everything there is to show."""
     trees = {each.node: each for each in (navigator(), simulator())}
     console = FakeConsole(
         ConsoleSnapshot(
@@ -278,7 +278,7 @@ def live(parts: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
 
 
 def with_camera(*names: str) -> tuple[FakeConsole, FakeLauncher]:
-    """The live system with cameras, the first of which sees a gradient."""
+    """The live system with cameras; the first one's image is a gradient."""
     console, launcher = live()
     topics = tuple(Endpoint(f"/{each}/image", (IMAGE,)) for each in names)
     console.change(graph=replace(console.current.graph, topics=(*console.current.graph.topics, *topics)))
@@ -299,12 +299,12 @@ def with_array(kind: Kind, value: Value) -> tuple[FakeConsole, FakeLauncher]:
 
 
 def empty() -> tuple[FakeConsole, FakeLauncher]:
-    """A system without anything in it."""
+    """A system with nothing in it."""
     return FakeConsole(), FakeLauncher()
 
 
 def faulty() -> tuple[FakeConsole, FakeLauncher]:
-    """The console's link has ended; what was known stays, a launch file could not be run, and one node is silent."""
+    """The console's connection has ended: its data stays, a launch file could not be run, and one node is silent."""
     console, launcher = live()
     trees = dict(console.current.parameters)
     trees["/silent"] = ParameterTree("/silent", (), "does not answer on its parameter services")
@@ -324,7 +324,7 @@ def faulty() -> tuple[FakeConsole, FakeLauncher]:
 
 
 def hostile(text: str = BELL) -> tuple[FakeConsole, FakeLauncher]:
-    """Every text that can come from outside carries control characters, markup and marks that turn text around."""
+    """Every external text contains control characters, markup and marks that reverse text."""
     console, _ = live()
     evil = ParameterTree(
         f"/{text}", (ParameterInfo(f"/{text}", text, Kind.STRING, text, text, constraints=text),), text

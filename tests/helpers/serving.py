@@ -1,4 +1,4 @@
-"""A node of a context of its own, served by the test."""
+"""A node with a separate context, served by the test."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Locks of a robot and links of consoles in one process, which come and go; what they send can be sent again."""
+"""Locks of a robot and links of consoles in one process, which come and go; their messages can be replayed."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ REQUEST = "emergency_stop/request"
 
 
 class StopRig:
-    """The nodes of one domain. Nothing happens but in `settle`."""
+    """The nodes of one domain. Everything happens in `settle`."""
 
     def __init__(self, stop_file: str = "") -> None:
         """`stop_file` is the parameter of all locks."""
@@ -61,7 +61,7 @@ class StopRig:
         return self.links[name]
 
     def kill(self, *names: str) -> None:
-        """End nodes without a word."""
+        """End nodes without notice."""
         for name in names:
             self.locks.pop(name, None)
             self.links.pop(name, None)
@@ -70,7 +70,7 @@ class StopRig:
             node.destroy_node()
 
     def settle(self, rounds: int = 1) -> None:
-        """Let everybody look at the graph, repeat what is not acknowledged, and hear what was sent."""
+        """Let all nodes poll the graph, repeat unacknowledged requests, and receive messages."""
         for _ in range(rounds):
             observer = self.nodes["observer"]
             names = observer.get_topic_names_and_types()
@@ -82,14 +82,14 @@ class StopRig:
                 self.executor.spin_once(timeout_sec=0)
 
     def report(self) -> None:
-        """Let as much time go by for the locks as is between two of their reports."""
+        """Let the locks' time pass until their next report."""
         for lock in self.locks.values():
             for _ in range(REPORT_POLLS):
                 lock._watch()
         self.settle()
 
     def record(self) -> None:
-        """Record what is sent from now on by requesters and locks."""
+        """Record what requesters and locks send from now on."""
 
         def recorder(topic: str) -> Callable[[DiagnosticStatus], None]:
             return lambda message: self.recorded.append((topic, message))
@@ -99,7 +99,7 @@ class StopRig:
             self.nodes["observer"].create_subscription(DiagnosticStatus, topic, recorder(topic), profile)
 
     def play(self) -> None:
-        """Send all that was recorded again, as `ros2 bag play` does."""
+        """Send everything recorded again, as `ros2 bag play` does."""
         node = self.node("player")
         topics = {topic: 10 if topic == REQUEST else LATCHED for topic, _ in self.recorded}
         publishers = {topic: node.create_publisher(DiagnosticStatus, topic, each) for topic, each in topics.items()}

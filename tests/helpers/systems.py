@@ -1,4 +1,4 @@
-"""Systems of node processes in stepped time: programs, commands that are asked of them, and what both print."""
+"""Systems of node processes in stepped time: programs, commands, and the output of both."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from typing import Any
 from bot_console.runtime.process import NodeProcess, SteppedTime, file_program, stepped
 
 LONG = 120.0
-"""How long (virtual s) a command may take that is to end by itself."""
+"""Virtual seconds that a command which ends by itself may take."""
 
 STALL = 30.0
-"""How long (wall s) a program may compute or import before the run goes on without it."""
+"""Wall-clock seconds that a program may compute or import before the run goes on without it."""
 
 
 @dataclass
@@ -27,12 +27,12 @@ class Program:
 
     @property
     def stdout(self) -> str:
-        """All that it wrote there."""
+        """Everything it wrote to stdout."""
         return "".join(text for stream, text in self.output if stream == "stdout")
 
     @property
     def stderr(self) -> str:
-        """All that it wrote there."""
+        """Everything it wrote to stderr."""
         return "".join(text for stream, text in self.output if stream == "stderr")
 
     @property
@@ -48,7 +48,7 @@ class System:
         self.clock = clock
 
     def start(self, name: str, target: Callable[[], object], argv: Sequence[str]) -> Program:
-        """Start a program; nothing of it runs before time does."""
+        """Start a program; it does not run before time passes."""
         program = Program(NodeProcess(name, self.clock))
         program.process.start(
             target,
@@ -79,11 +79,11 @@ class System:
         return self.start(executable, target, [executable, *words])
 
     def ask(self, *words: str, stop_after: float | None = None) -> Program:
-        """Run `ros2 ...` to its end, or interrupt it after so many s."""
+        """Run `ros2 ...` to its end, or interrupt it after `stop_after` s."""
         return self.finish(self.ros2(*words), stop_after)
 
     def finish(self, program: Program, stop_after: float | None = None) -> Program:
-        """Let time go on until a program has ended, or interrupt it after so many s."""
+        """Let time pass until a program has ended, or interrupt it after `stop_after` s."""
         if stop_after is not None:
             self.run(stop_after)
             program.process.interrupt()
@@ -91,13 +91,13 @@ class System:
         return program
 
     def run(self, seconds: float) -> None:
-        """Let so much time (s) go by."""
+        """Let this much time (s) pass."""
         self.clock.run_for(seconds)
 
 
 @contextmanager
 def system() -> Iterator[System]:
-    """A system whose programs are ended with the block."""
+    """A system whose programs are ended when the block is left."""
     with stepped(stall_s=STALL) as clock:
         yield System(clock)
 

@@ -1,4 +1,4 @@
-"""A program that does something at a fixed period, and notes when."""
+"""A program that does something at a fixed period, and records when."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from bot_console.runtime.process import current
 
 
 def ticker(trace: list[tuple[int, str]], name: str, period: float, count: int) -> Callable[[], None]:
-    """Sleeps `period` s and notes (steady ns, name), `count` times."""
+    """Sleeps `period` s and records (steady ns, name), `count` times."""
 
     def run() -> None:
         for _ in range(count):

@@ -61,7 +61,7 @@ class FarRig(RosRig):
         return self._node.create_publisher(String, "/long", QoSProfile(depth=10))
 
     def close(self) -> None:
-        self.wire.hint()
+        self.wire.restore()
         super().close()
         for each in self._robot_buses:
             each.close()
@@ -109,7 +109,7 @@ def test_cut_link_is_reported_and_its_return_brings_no_motion_back(
     sent_at_most = 3.5 / PERIOD  # A command is refused 1 s after the last answer, which is requested every 1.3 s.
     far.publish(1.0)  # The robot waits for nobody.
     before = len(far.received)
-    far.wire.hint()
+    far.wire.restore()
     until(lambda: (0.0, 0.0) in far.received[before:], "the zero at the end of what had waited")
     late = list(far.received[before:])
     assert late.index((0.0, 0.0)) <= sent_at_most
@@ -127,7 +127,7 @@ def test_robot_driven_before_a_long_loss_gets_a_zero_when_the_link_returns(
     until(lambda: far.console.snapshot().link.silent_s >= 15, "that Zenoh has given the link up, and what waited in it")
     key.set()  # As the disarmed pane does.
     before = len(far.received)
-    far.wire.hint()
+    far.wire.restore()
     until(lambda: far.console.snapshot() and len(far.received) > before, "a command")
     assert set(far.received[before:]) == {(0.0, 0.0)}
 

@@ -1,1 +1,1 @@
-"""Scripted stand-ins for what the console talks to: a console, a launcher, a ROS 2 of the machine."""
+"""Scripted replacements for what the console talks to: a console, a launcher, a ROS 2 installation."""

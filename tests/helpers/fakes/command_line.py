@@ -13,7 +13,7 @@ from bot_console.tui.console.model import ConsoleSnapshot
 
 
 class FakeCommandLine:
-    """Prints one node's name, whatever the line; what it was asked is kept with what the console was asked."""
+    """Prints one node's name, whatever the line; the lines it was given are kept with the requests to the console."""
 
     def __init__(self, asked: list[tuple[Any, ...]]) -> None:
         self._asked = asked

@@ -44,7 +44,7 @@ from fakes.traffic import FakeTraffic
 
 
 class FakeView(SearchedView):
-    """A view that has searched everything whenever somebody looks."""
+    """A view that has searched everything whenever it is polled."""
 
     def poll(self) -> Any:
         while self.work():
@@ -53,11 +53,11 @@ class FakeView(SearchedView):
 
 
 EARLY = "early "
-"""Before a press, the key of the stop for it."""
+"""Prefix of the key of a stop for a key press, followed by the press."""
 
 
 class FakeConsole(FakeProfiles, FakeSeries):
-    """A console over one snapshot; it takes what the descriptors allow, and remembers what it was asked."""
+    """A console over one snapshot; it accepts what the descriptors allow, and keeps the requests it received."""
 
     def __init__(self, snapshot: ConsoleSnapshot | None = None) -> None:
         self.logs = LogStore(1000)
@@ -72,11 +72,11 @@ class FakeConsole(FakeProfiles, FakeSeries):
         self.unplottable: dict[str, str] = {}
         self.journal: list[Change] = []
         self.differences: dict[str, tuple[ProfileDifference, ...]] = {}
-        """What profiles would change, where that is scripted; else it follows from their values."""
+        """What profiles would change, where scripted; otherwise it follows from their values."""
         self.past = {}
         self.now = 60.0
         self.levels: dict[str, Severity] = {}
-        """Levels of loggers that were set."""
+        """Logger levels that were set."""
         self.closed = False
         self._steps = Journal()
         self._watched = {}
@@ -146,7 +146,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
     def take(
         self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool = False, by: str = ""
     ) -> tuple[SetOutcome, ...]:
-        """What the node makes of values, whoever has asked for them."""
+        """The outcome of setting values on the node, whoever requested it."""
         outcomes = [self._result_of(node, name, value) for name, value in values.items()]
         bad = next((each for each in outcomes if not each.accepted), None)
         if atomically and bad:
@@ -222,7 +222,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
 
     @property
     def _end(self) -> int:
-        """The number of the next change; those of earlier runs are numbered below 0."""
+        """The number of the next change; those of earlier runs have negative numbers."""
         return sum(each.seq >= 0 for each in self.journal)
 
     def set_journal(self) -> None:
@@ -297,7 +297,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
         self.hold([each for each in self.current.drive.stops if not each.here and each.key not in others])
 
     def hold(self, stops: Sequence[RobotStop]) -> None:
-        """What the robot says when these hold it."""
+        """Set the stops that the robot reports."""
         first = stops[0] if stops else RobotStop("")
         self.change(
             drive=replace(

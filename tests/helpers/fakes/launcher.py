@@ -17,7 +17,7 @@ from fakes.console import CLOSED, FakeConsole
 
 
 class FakeLauncher:
-    """A launcher that remembers what it was asked; with a console it does it to the processes which that one shows."""
+    """A launcher that keeps the requests it received; with a console, it applies them to the processes shown there."""
 
     def __init__(
         self,

@@ -1,4 +1,4 @@
-"""A bus on which every message waits until a test delivers it, loses it, or sends it once more; nodes that use it."""
+"""A bus on which every message waits until a test delivers it, loses it, or sends it again; and nodes that use it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class SilentLogger:
 
 @dataclass
 class Publisher:
-    """Sends to who subscribes at that moment; a latched one keeps its last message for who comes later."""
+    """Sends to current subscriptions; a latched one keeps its last message for later ones."""
 
     node: BusNode
     topic: str
@@ -39,7 +39,7 @@ class Publisher:
 
 @dataclass
 class Subscription:
-    """One that receives."""
+    """Receives messages."""
 
     node: BusNode
     topic: str
@@ -48,30 +48,30 @@ class Subscription:
 
 @dataclass
 class LossyBus:
-    """All nodes, what was ever sent, and what is on its way."""
+    """All nodes, everything ever sent, and the messages in transit."""
 
     nodes: list[BusNode] = field(default_factory=lambda: [])
     history: list[tuple[str, Any]] = field(default_factory=lambda: [])
     pending: list[tuple[Subscription, Any]] = field(default_factory=lambda: [])
 
     def send(self, topic: str, message: Any, *, again: bool = False) -> None:
-        """Put a message on its way; one that is sent `again` was recorded before."""
+        """Put a message in transit; one that is sent `again` was recorded before."""
         if not again:
             self.history.append((topic, message))
         self.pending += [(each, message) for node in self.nodes for each in node.subscriptions if each.topic == topic]
 
     def deliver(self, index: int) -> None:
-        """Deliver one of those on their way, whichever is to come first."""
+        """Deliver one of the messages in transit, in any order."""
         subscription, message = self.pending.pop(index % len(self.pending))
         if subscription.node in self.nodes:
             subscription.callback(message)
 
     def lose(self, index: int) -> None:
-        """Lose one of those on their way."""
+        """Lose one of the messages in transit."""
         self.pending.pop(index % len(self.pending))
 
     def settle(self) -> None:
-        """Deliver all in order, and what is sent because of it."""
+        """Deliver all messages in order, including those sent in response."""
         while self.pending:
             self.deliver(0)
 
@@ -81,7 +81,7 @@ class LossyBus:
 
 
 class BusNode:
-    """As much of a node as the emergency stop uses; timers are the test's."""
+    """The part of a node that the emergency stop uses; timers are called by the test."""
 
     def __init__(self, bus: LossyBus, name: str) -> None:
         self.bus, self.name = bus, name
@@ -100,7 +100,7 @@ class BusNode:
     def create_subscription(
         self, kind: type, topic: str, callback: Callable[[Any], None], profile: QoSProfile | int, **options: Any
     ) -> Subscription:
-        """Subscribe; what latched publishers keep is on its way at once."""
+        """Subscribe; messages kept by latched publishers are put in transit at once."""
         made = Subscription(self, _full(topic), callback)
         self.subscriptions.append(made)
         for each in [each for node in self.bus.nodes for each in node.publishers]:
@@ -109,29 +109,29 @@ class BusNode:
         return made
 
     def destroy_subscription(self, subscription: Subscription) -> None:
-        """Receive no more."""
+        """Stop receiving."""
         self.subscriptions.remove(subscription)
 
     def create_service(self, *words: Any) -> None:
-        """Nobody calls."""
+        """Do nothing: nobody calls it."""
 
     def create_timer(self, *words: Any, **options: Any) -> None:
-        """The test calls what a timer would."""
+        """Do nothing: the test calls what a timer would."""
 
     def get_name(self) -> str:
-        """The name."""
+        """The node's name."""
         return self.name
 
     def get_namespace(self) -> str:
-        """The root."""
+        """The root namespace."""
         return "/"
 
     def get_logger(self) -> SilentLogger:
-        """The log."""
+        """The logger."""
         return self.logger
 
     def kill(self) -> None:
-        """End without a word."""
+        """End without notice."""
         self.bus.nodes.remove(self)
 
 

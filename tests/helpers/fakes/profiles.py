@@ -15,7 +15,7 @@ CLOSED = "the console has closed"
 
 
 class FakeProfiles:
-    """Opens files as profiles, and saves what runs as one."""
+    """Opens files as profiles, and saves the current values as one."""
 
     current: ConsoleSnapshot
     asked: list[tuple[Any, ...]]
@@ -32,7 +32,7 @@ class FakeProfiles:
         raise NotImplementedError
 
     def all_saved(self) -> None:
-        """All values are in a file now."""
+        """Note that all values are now in a file."""
         raise NotImplementedError
 
     def fetch_profile(self, address: str) -> Future[Answer]:

@@ -1,4 +1,6 @@
-"""What of rclpy and launch is public in Jazzy; anything else raises `AttributeError` when the console asks for it."""
+"""The public API of rclpy and launch in Jazzy; any other attribute raises `AttributeError` when the console accesses
+it.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,7 @@ from importlib.machinery import ModuleSpec, PathFinder
 from typing import Any
 
 CONSOLE = "bot_console.tui."
-"""Modules of this name are held to the lists; nodes and the runtime itself are not."""
+"""Modules with this prefix are restricted to the lists; nodes and the runtime itself are not."""
 
 PUBLIC: dict[str, dict[str, str]] = {
     "rclpy.node": {
@@ -62,7 +64,7 @@ PUBLIC: dict[str, dict[str, str]] = {
 
 
 class PublicOnly:
-    """A finder that lets modules load as they do, and then holds their classes to the lists."""
+    """A finder that loads modules as usual, and then restricts their classes to the lists."""
 
     def find_spec(self, name: str, path: Any = None, target: Any = None) -> ModuleSpec | None:
         """The spec of a module with a list, whose loader also guards it."""
@@ -85,7 +87,7 @@ class PublicOnly:
 
 
 def in_main_thread(service: Any) -> None:
-    """Real launch handles signals, so it cannot run elsewhere."""
+    """Require the main thread, since the real launch handles signals."""
     run = service.run
 
     def guarded(self: Any, **options: Any) -> int:
@@ -97,7 +99,7 @@ def in_main_thread(service: Any) -> None:
 
 
 def guard(cls: Any, public: frozenset[str]) -> None:
-    """Let the console see of a class what is public."""
+    """Make only the public part of a class visible to the console."""
     plain = cls.__getattribute__
 
     def __getattribute__(self: Any, name: str) -> Any:

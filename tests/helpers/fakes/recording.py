@@ -1,4 +1,4 @@
-"""The part of `FakeConsole` that records: it notes what it was asked."""
+"""The part of `FakeConsole` that records bags: it keeps the requests it received."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from bot_console.tui.console.recording import RecordingInfo
 
 
 class FakeRecording:
-    """Records nothing, and tells that it does."""
+    """Records nothing, but reports that it does."""
 
     def __init__(self, console: Any) -> None:
         self._console = console

@@ -1,8 +1,8 @@
-"""A stand-in for a machine's ROS 2: a folder in which `rclpy`, `launch` and the messages lie as plain packages.
+"""Imitates an installed ROS 2: a folder that contains `rclpy`, `launch` and the messages as ordinary packages.
 
-They are copies of the embedded runtime's, found by the path and not by our finder, so that `attach --ros` takes them
-for the machine's. What real ROS 2 does not have, or does not call public, is not there for the console: it raises
-`AttributeError`, by the lists in `public_ros.py`.
+They are copies of those of the embedded runtime, found through the path and not by our finder, so that `attach --ros`
+takes them for the installation's. Whatever real ROS 2 lacks, or does not declare public, raises `AttributeError` when
+the console accesses it, according to the lists in `public_ros.py`.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ sys.meta_path.insert(0, PublicOnly())
 
 
 def make_standin(folder: Path) -> dict[str, str]:
-    """Fill a folder; the environment in which that ROS 2 is sourced."""
+    """Fill a folder; returns the environment in which that ROS 2 is sourced."""
     place = folder / "ros"
     for name in PACKAGES:
         shutil.copytree(Path(RUNTIME) / name, place / name, ignore=shutil.ignore_patterns("__pycache__"))

@@ -1,4 +1,4 @@
-"""`FakeSensors`: what the test says that the robot shows."""
+"""`FakeSensors`: sensor data set by the test."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from bot_console.tui.console.sensors.model import Diagnostics, Level, Picture, R
 
 
 class FakeSensors:
-    """Shows what was put in."""
+    """Shows the data it was given."""
 
     def __init__(self) -> None:
         self.info = Diagnostics()
@@ -37,6 +37,6 @@ class FakeSensors:
 
 
 def status(name: str, level: Level = Level.OK, message: str = "", heard: float = 100.0, **values: str) -> Status:
-    """A status that has been so from the start."""
+    """A status that has been the same from the start."""
     reported = (ReportedStatus(1_700_000_000_000_000_000, level, message),)
     return Status(name, level, message, "robot", tuple(values.items()), heard, reported)

@@ -16,7 +16,7 @@ START = 1_700_000_000_000_000_000
 
 
 class FakeSeries:
-    """Collects what the test has put into `series`, and numbers among the parameters."""
+    """Collects what the test has put into `series`, and numeric parameters."""
 
     asked: list[tuple[Any, ...]]
     closed: bool
@@ -24,9 +24,9 @@ class FakeSeries:
     series: dict[str, tuple[list[float], list[float]]]
     unplottable: dict[str, str]
     past: dict[int, Pose]
-    """Where the robot was, by moment."""
+    """The robot's poses, by time."""
     _watched: dict[str, set[str]]
-    """Who wants each path."""
+    """The requesters of each path."""
 
     def _value(self, node: str, name: str) -> Value:
         raise NotImplementedError

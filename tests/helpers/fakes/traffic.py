@@ -1,4 +1,4 @@
-"""`FakeTraffic`: scripted topics, services and actions; forms and messages are those of the real one."""
+"""`FakeTraffic`: scripted topics, services and actions, with the forms and messages of the real one."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from bot_console.tui.console.traffic import Goal, LiveMessage, Measure, Payload,
 
 
 class FakeTraffic:
-    """Remembers what it was asked; what is measured and heard is put in by the test."""
+    """Keeps the requests it received; measurements and messages are set by the test."""
 
     def __init__(self, asked: list[tuple[Any, ...]]) -> None:
         self.asked = asked
         self.figures: dict[str, Measure] = {}
         self.messages: dict[str, tuple[Any, str]] = {}
-        """Message and type that a topic brings."""
+        """The message that a topic delivers, and its type."""
         self.response: Reply = Reply(True, "", 0.0042)
         self.requesters: dict[str, tuple[str, ...]] = {}
         self.listening = ""
@@ -35,7 +35,7 @@ class FakeTraffic:
 
     @property
     def measuring(self) -> tuple[str, ...]:
-        """What is measured, whoever asked."""
+        """The topics being measured, for any requester."""
         return tuple(topic for topics in self.requesters.values() for topic in topics)
 
     def measured(self) -> Mapping[str, Measure]:
@@ -48,7 +48,7 @@ class FakeTraffic:
             self.hear(*self.messages[topic])
 
     def hear(self, message: Any, type_name: str) -> None:
-        """Let a message come on the topic that is listened to."""
+        """Deliver a message on the topic being listened to."""
         self._heard = LiveMessage(
             self.listening, type_name, tree(message, type_name), self._heard.count + 1, 0.0, self.problem
         )

@@ -1,4 +1,4 @@
-"""A link between a console and a router that can be cut, slowed down and spoilt: a proxy on loopback."""
+"""A link between a console and a router that can be cut, delayed and disturbed: a proxy on loopback."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from collections.abc import Callable
 
 SEGMENT = 1400
 UNDER_WAY = 1000
-"""Segments of one direction that may be under way at once, so that delay does not limit the rate."""
+"""Segments of one direction that may be in transit at once, so that the delay does not limit the rate."""
 Segments = queue.Queue["tuple[float, bytes]"]
-"""When each is due, and what it is; without bytes, the end."""
+"""Segments with the time when each is due; empty bytes mark the end."""
 Spoil = Callable[[bytes], bytes]
 
 
 class BadLink:
-    """Passes on what comes at `port`; each direction holds every segment back for `delay` s, some for `hold` s more."""
+    """Forwards what arrives at `port`; each direction delays every segment by `delay` s, some by `hold` s more."""
 
     def __init__(self, to: int) -> None:
         self._to = to
@@ -35,23 +35,23 @@ class BadLink:
         threading.Thread(target=self._accept, daemon=True).start()
 
     def cut(self) -> None:
-        """Nothing passes, in neither direction, and nobody is told: as with a cable that was pulled."""
+        """Forward nothing in either direction, unnoticed by both sides, as if a cable had been pulled."""
         self._passing.clear()
 
-    def hint(self) -> None:
-        """All passes again, what has waited first."""
+    def restore(self) -> None:
+        """Forward everything again, what has waited first."""
         self._passing.set()
 
     def break_connections(self) -> None:
-        """Close all that is open; new connections are taken."""
+        """Close all open connections; new ones are accepted."""
         for each in self._sockets:
             with contextlib.suppress(OSError):
                 each.shutdown(socket.SHUT_RDWR)
 
     def close(self) -> None:
-        """Pass on nothing any more."""
+        """Stop forwarding."""
         self._server.close()
-        self.hint()
+        self.restore()
         self.break_connections()
 
     def _accept(self) -> None:
@@ -91,5 +91,5 @@ class BadLink:
         for each in (one, other):
             with contextlib.suppress(OSError):
                 each.shutdown(socket.SHUT_RDWR)
-        while data:  # whoever still reads is not to wait for room
+        while data:  # a side that still reads must not wait for buffer space
             _, data = under_way.get()

@@ -1,4 +1,4 @@
-"""Certificates made on the spot, by the `openssl` of the machine."""
+"""Certificates generated on demand with the machine's `openssl`."""
 
 from __future__ import annotations
 

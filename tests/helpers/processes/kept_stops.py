@@ -1,7 +1,7 @@
-"""Ways in which a stop could get lost while a second program drives the robot, each judged by the witness.
+"""Ways in which a stop could get lost while a second program drives the robot, each checked by the witness.
 
-`held_through` stops the robot, goes one of these ways, and returns how often the witness saw it move after that. Then
-somebody else releases it, and it has to stay released through the same way once more.
+`held_through` stops the robot, performs one of these ways, and returns how long the witness saw it move after that.
+Then somebody else releases it, and it has to stay released when the same is done again.
 """
 
 from __future__ import annotations
@@ -35,26 +35,26 @@ def monitor_killed(robot: LiveRobot, person: Terminal | None) -> None:
 
 
 def monitor_restarted(robot: LiveRobot, person: Terminal | None) -> None:
-    """The safety monitor is killed and started at once."""
+    """The safety monitor is killed and restarted at once."""
     _kill(robot.monitor)
     robot.start_monitor()
 
 
 def base_restarted(robot: LiveRobot, person: Terminal | None) -> None:
-    """The base is killed and started at once."""
+    """The base is killed and restarted at once."""
     _kill(robot.base)
     robot.start_base()
 
 
 def both_restarted(robot: LiveRobot, person: Terminal | None) -> None:
-    """Both locks are killed before one of them starts."""
+    """Both locks are killed before one of them is restarted."""
     _kill(robot.monitor, robot.base)
     robot.start_base()
     robot.start_monitor()
 
 
 def both_ended(robot: LiveRobot, person: Terminal | None) -> None:
-    """Both locks end in order, as with `down`, and start again."""
+    """Both locks shut down cleanly, as with `down`, and are restarted."""
     for each in (robot.monitor, robot.base):
         each.send_signal(signal.SIGINT)
     for each in (robot.monitor, robot.base):
@@ -64,7 +64,7 @@ def both_ended(robot: LiveRobot, person: Terminal | None) -> None:
 
 
 def console_killed(robot: LiveRobot, person: Terminal | None) -> None:
-    """The console that has stopped it is killed, and then both locks."""
+    """The console that has stopped the robot is killed, then both locks."""
     if person is not None:
         person.process.kill()
         person.process.wait()
@@ -72,7 +72,7 @@ def console_killed(robot: LiveRobot, person: Terminal | None) -> None:
 
 
 def console_frozen(robot: LiveRobot, person: Terminal | None) -> None:
-    """The console that has stopped it is frozen while both locks restart."""
+    """The console that has stopped the robot is frozen while both locks restart."""
     if person is not None:
         person.process.send_signal(signal.SIGSTOP)
     both_restarted(robot, None)
@@ -82,12 +82,12 @@ def console_frozen(robot: LiveRobot, person: Terminal | None) -> None:
 
 
 def simulator_reset(robot: LiveRobot, person: Terminal | None) -> None:
-    """The world starts again."""
+    """The world is reset."""
     assert robot.typed("service", "call", "/reset", "std_srvs/srv/Trigger") == 0
 
 
 def bag_played(robot: LiveRobot, person: Terminal | None) -> None:
-    """All that was recorded of stops and releases is sent again."""
+    """All recorded stops and releases are replayed."""
     assert robot.typed("bag", "play", str(robot.folder / "stops"), "--topics", *RECORDED) == 0
 
 
@@ -98,7 +98,7 @@ WAYS: tuple[Way, ...] = (
 
 
 def held_through(way: Way, robot: LiveRobot) -> float:
-    """How long (s) the robot went on when it was stopped; raises where it moves later, or a stop comes back."""
+    """How long (s) the robot moved after it was stopped; raises if it moves later, or if a stop comes back."""
     driver = robot.program(DRIVER, "cmd_vel")
     try:
         robot.drives()
@@ -117,7 +117,7 @@ def held_through(way: Way, robot: LiveRobot) -> float:
             robot.drives()
             way(robot, person)
             _wait(person, WATCHED)
-            robot.typed("release")  # of what a node of the robot has stopped because of its restart
+            robot.typed("release")  # the stop that a node of the robot made because of its restart
             robot.drives()
     finally:
         driver.kill()
@@ -125,7 +125,7 @@ def held_through(way: Way, robot: LiveRobot) -> float:
 
 
 def stands_since(robot: LiveRobot, held: float) -> float:
-    """How long (s) it went on after a moment; raises where it moves later than it needs to brake, or is not seen."""
+    """How long (s) it moved after a time; raises if it moves longer than it needs to brake, or is not seen."""
     seen_until = time.monotonic()
     robot.until(lambda: any(moment > seen_until for moment, _ in robot.speeds(held)), "ground truth")
     moving = [moment - held for moment, speed in robot.speeds(held) if speed > RESTING]
@@ -135,7 +135,7 @@ def stands_since(robot: LiveRobot, held: float) -> float:
 
 @contextlib.contextmanager
 def recording(robot: LiveRobot) -> Iterator[None]:
-    """Record what is sent about stops."""
+    """Record all messages about stops."""
     recorder = robot.console("bag", "record", "--output", str(robot.folder / "stops"), *RECORDED)
     _wait(None, WATCHED)
     yield
@@ -145,7 +145,7 @@ def recording(robot: LiveRobot) -> Iterator[None]:
 
 
 def _wait(person: Terminal | None, seconds: float) -> None:
-    """Let time go by; a console's screen is read meanwhile, or its terminal would stall."""
+    """Let time pass; a console's screen is read meanwhile, or its terminal would block."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         if person is not None and is_alive(person.process.pid):

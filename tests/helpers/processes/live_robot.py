@@ -1,4 +1,4 @@
-"""A live robot in processes of its own, and a witness in another one that sees from ground truth whether it moves."""
+"""A live robot in separate processes, and a witness in another one that uses ground truth to see whether it moves."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 MOVING, RESTING = 0.1, 0.02
-"""Speeds (m/s, or rad/s) of a robot that drives, and that odometry may show at rest."""
+"""Speeds (m/s, or rad/s) above which a robot is driving, and below which odometry counts as at rest."""
 TIMEOUT_S = 90.0
-"""Seconds after which a rig gives up; nothing is measured by it."""
+"""Seconds after which a rig gives up; the tests measure no time with it."""
 
 WITNESS = """
 import time
@@ -83,7 +83,7 @@ def generate_launch_description():
 
 
 class LiveRobot:
-    """Its base, its safety monitor, its other nodes and the witness, each in a process of its own."""
+    """A base, a safety monitor, other nodes and the witness, each in a separate process."""
 
     def __init__(self, folder: Path, environment: Mapping[str, str]) -> None:
         self.folder = folder
@@ -105,7 +105,7 @@ class LiveRobot:
             self._seen.append((float(moment), float(speed)))
 
     def console(self, *words: str, stdout: int | None = None) -> subprocess.Popen[bytes]:
-        """Start a command line of the program."""
+        """Start a `bot-console` command line."""
         line = [sys.executable, "-m", "bot_console.tui", *words]
         process = subprocess.Popen(
             line, cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL, stderr=self._log,
@@ -115,7 +115,7 @@ class LiveRobot:
         return process
 
     def program(self, text: str, *words: str, stdout: int | None = None) -> subprocess.Popen[bytes]:
-        """Start a node as a program of its own."""
+        """Start a node as a separate program."""
         file = self.folder / f"program{len(self._started)}.py"
         file.write_text(text)
         return self.console("run", str(file), *words, stdout=stdout)
@@ -131,15 +131,15 @@ class LiveRobot:
         return self.monitor
 
     def typed(self, *words: str) -> int:
-        """A command line, to its end."""
+        """Run a command line to its end; returns its exit code."""
         return self.console(*words).wait(TIMEOUT_S)
 
     def speeds(self, since: float, until: float = float("inf")) -> list[tuple[float, float]]:
-        """What the witness has seen between two moments of `time.monotonic`."""
+        """What the witness has seen between two times of `time.monotonic`."""
         return [each for each in list(self._seen) if since <= each[0] <= until]
 
     def until(self, true: Callable[[], bool], what: str) -> None:
-        """Wait for something."""
+        """Wait for a condition."""
         deadline = time.monotonic() + TIMEOUT_S
         while not true():
             assert time.monotonic() < deadline, f"no {what}: {(self.folder / 'robot.log').read_text()[-3000:]}"
@@ -151,9 +151,9 @@ class LiveRobot:
         self.until(lambda: any(speed > MOVING for _, speed in self.speeds(began)), "driving robot")
 
     def rests(self, since: float, within: float, watched: float) -> float:
-        """How long (s) after `since` it came to rest; raises where it moves later than `within`, or nobody sees it.
+        """How long (s) after `since` it came to rest; raises if it moves later than `within`, or if it is not seen.
 
-        It is watched for so many seconds after that.
+        It is watched for `watched` seconds after that.
         """
         end = since + within + watched
         self.until(lambda: any(moment >= end for moment, _ in self.speeds(since)), "odometry")
@@ -174,7 +174,7 @@ class LiveRobot:
 
 @contextlib.contextmanager
 def live_robot(folder: Path, sockets: Path, domain: int = 77) -> Iterator[LiveRobot]:
-    """A driving robot, in a domain of its own; `sockets` must be a short path."""
+    """A driving robot, in a separate domain; `sockets` must be a short path."""
     sockets.mkdir(mode=0o700, exist_ok=True)
     robot = LiveRobot(
         folder, {"BOT_CONSOLE_SOCKET_DIR": str(sockets), "ROS_DOMAIN_ID": str(domain), "ROS_HOME": str(folder),

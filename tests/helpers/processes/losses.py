@@ -1,7 +1,7 @@
-"""Ways in which a robot loses the person who drives or has stopped it, each judged by the witness.
+"""Ways in which a robot loses the person who drives or has stopped it, each checked by the witness.
 
 Each brings the robot from driving to rest, watches it stand, hands it back, and sees it drive again; it returns how
-long (s) the robot went on. What is beside the point takes as long as it takes.
+long (s) the robot kept moving. The other steps may take any time.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "acceptance" / "console"))
 from terminal import Terminal
 
 SILENCE = 1.0
-"""Seconds after which a robot takes a console that steers for gone."""
+"""Seconds after which a robot considers a console that has control to be gone."""
 DEAD_MAN = 2.0
 """Seconds without a key after which the steering pane stops the robot."""
 BRAKING = 2.0
-"""Seconds that locking and braking may take on a machine that is busy otherwise."""
+"""Seconds that locking and braking may take on a busy machine."""
 WATCHED = 2.0
-"""Seconds for which the robot is watched standing."""
+"""Seconds for which the robot at rest is watched."""
 CONSOLE = ["-m", "bot_console.tui", "attach"]
 
 SSH = """
@@ -46,7 +46,7 @@ while True:
     if master in ready:
         os.write(1, os.read(master, 65536))
 """
-"""What sshd is to a console: it holds the other end of its terminal."""
+"""Acts as sshd does for a console: it holds the other end of its terminal."""
 
 
 @contextlib.contextmanager
@@ -75,7 +75,7 @@ def _environment(wanted: dict[str, str]) -> Iterator[None]:
 
 
 def steer(robot: LiveRobot, terminal: Terminal) -> None:
-    """Arm the steering and turn on the spot, until the witness sees it."""
+    """Arm driving and turn on the spot, until the witness sees it."""
     terminal.type("6")
     terminal.read_until(lambda: b"disarmed" in terminal.output, "the steering pane")
     terminal.read_until(lambda: b"cmd_vel" in terminal.output, "the topic that is steered by")
@@ -92,7 +92,7 @@ def steer(robot: LiveRobot, terminal: Terminal) -> None:
 
 
 def dead_man(robot: LiveRobot) -> float:
-    """No key comes."""
+    """No key is pressed."""
     with console(robot) as terminal:
         steer(robot, terminal)
         lost = time.monotonic()
@@ -102,7 +102,7 @@ def dead_man(robot: LiveRobot) -> float:
 
 
 def frozen_console(robot: LiveRobot) -> float:
-    """The console is stopped as a process (SIGSTOP), then goes on."""
+    """The console's process is stopped (SIGSTOP), then continued."""
     with console(robot) as terminal:
         steer(robot, terminal)
         lost = time.monotonic()
@@ -165,12 +165,12 @@ def second_driver(robot: LiveRobot) -> float:
 
 
 def stopped_then_killed(robot: LiveRobot) -> float:
-    """ALL STOP of a console that is killed (-9) at once."""
+    """ALL STOP from a console that is killed (-9) at once."""
     return _stopped_then(robot, signal.SIGKILL)
 
 
 def stopped_then_frozen(robot: LiveRobot) -> float:
-    """ALL STOP of a console that is stopped as a process at once."""
+    """ALL STOP from a console whose process is stopped at once."""
     return _stopped_then(robot, signal.SIGSTOP)
 
 
@@ -189,7 +189,7 @@ def _stopped_then(robot: LiveRobot, number: signal.Signals) -> float:
 
 
 def killed_monitor(robot: LiveRobot) -> float:
-    """The safety monitor is killed (-9) while another program drives, and started again."""
+    """The safety monitor is killed (-9) while another program drives, and restarted."""
     driver = robot.program(DRIVER, "cmd_vel")
     robot.drives()
     lost = time.monotonic()
@@ -206,7 +206,9 @@ def killed_monitor(robot: LiveRobot) -> float:
 
 
 def blind_scans(robot: LiveRobot) -> float:
-    """Scans and commands of NaN, a hundred times a second: nobody sees what is ahead, and the monitor lives on."""
+    """Scans and commands of NaN, a hundred times a second: nothing is known about obstacles, and the monitor keeps
+    running.
+    """
     robot.drives()
     blind = robot.program(BLIND)
     time.sleep(WATCHED)
@@ -224,14 +226,14 @@ GROUPS: dict[str, tuple[Callable[[LiveRobot], float], ...]] = {"stop": STOPS, "p
 
 
 def rests(robot: LiveRobot, since: float, after: float, terminal: Terminal | None = None) -> float:
-    """Watch the robot stand; a console's screen is taken off meanwhile, or its terminal would stall."""
+    """Watch the robot stand; a console's screen is read meanwhile, or its terminal would block."""
     while terminal is not None and time.monotonic() < since + after + BRAKING + WATCHED:
         terminal.drain(0.1)
     return robot.rests(since, after + BRAKING, WATCHED)
 
 
 def hand_back(robot: LiveRobot, terminal: Terminal) -> None:
-    """One key, and its own program drives."""
+    """Press one key, after which the robot's own program drives."""
     terminal.type("!")
     began = time.monotonic()
     while not any(speed > MOVING for _, speed in robot.speeds(began)):
@@ -240,7 +242,7 @@ def hand_back(robot: LiveRobot, terminal: Terminal) -> None:
 
 
 def release_all(robot: LiveRobot) -> None:
-    """Nobody is left who could hand it back, so somebody else does, by name."""
+    """Release by command line, since nobody is left who could hand the robot back."""
     assert robot.typed("release") == 1, "nobody else's release lets go of it unnamed"
     assert robot.typed("release", "--all") == 0
     robot.drives()

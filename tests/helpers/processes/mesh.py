@@ -1,4 +1,4 @@
-"""Real processes that join a domain, told by lines what to do."""
+"""Real processes that join a domain and obey commands, one per line."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ import time
 from collections.abc import Callable, Iterator
 
 TIMEOUT_S = 60.0
-"""How long (s) anything may take on a busy machine."""
+"""Seconds that anything may take on a busy machine."""
 
 
 class Member:
-    """A process with a session; see `mesh_member.py` for the words it understands."""
+    """A process with a session; see `mesh_member.py` for the commands it understands."""
 
     def __init__(self, *arguments: str) -> None:
         program = os.path.join(os.path.dirname(__file__), "mesh_member.py")
@@ -29,7 +29,7 @@ class Member:
         return self
 
     def report(self, word: str) -> None:
-        """Let it do something."""
+        """Send it a command."""
         assert self.process.stdin
         self.process.stdin.write(word + "\n")
         self.process.stdin.flush()
@@ -42,7 +42,7 @@ class Member:
         return line.strip()
 
     def ask(self, word: str) -> set[str]:
-        """What it answers to a word."""
+        """Its answer to a command."""
         self.report(word)
         return set(self.read().split())
 
@@ -58,7 +58,7 @@ class Member:
 
 @contextlib.contextmanager
 def members(count: int, *arguments: str) -> Iterator[list[Member]]:
-    """This many processes that were started at one moment and have joined."""
+    """This many processes that were started at the same time and have joined."""
     started = [Member(*arguments) for _ in range(count)]
     try:
         yield [each.wait_until_joined() for each in started]
@@ -68,7 +68,7 @@ def members(count: int, *arguments: str) -> Iterator[list[Member]]:
 
 
 def eventually(true: Callable[[], bool]) -> bool:
-    """Whether something gets true in time."""
+    """Whether a condition becomes true in time."""
     deadline = time.monotonic() + TIMEOUT_S
     while not true():
         if time.monotonic() > deadline:
@@ -84,7 +84,9 @@ def all_linked(present: list[Member]) -> bool:
 
 
 def every_pair_talks(present: list[Member]) -> bool:
-    """Whether what each says is heard by all others; said again until then, as links are made in the background."""
+    """Whether all members receive each one's message; it is repeated until then, as links are made in the
+    background.
+    """
     ids = {each.zid for each in present}
 
     def heard() -> bool:

@@ -1,9 +1,9 @@
-"""A process of the mesh tests: joins domain 0, writes its session's id, and then obeys one word per line. Ids are
-their first eight digits.
+"""A process of the mesh tests: joins domain 0, writes its session's id, and then obeys one command per line.
 
-`linked` writes the ids of the sessions it has a link to; `call` publishes its id; `heard` writes the ids it has
-received; `answer` those of the sessions that answer a question; `exit` closes the session and writes how long that
-took, in s. With the argument `hasty` its first session gives links up that take 5 ms, and the watch is impatient.
+Ids are given by their first eight digits. `linked` writes the ids of the sessions it has a link to; `call` publishes
+its id; `heard` writes the ids it has received; `answer` those of the sessions that respond to a query; `exit` closes
+the session and writes how long that took, in s. With the argument `hasty` its first session gives up links that take
+5 ms, and the watch has short timeouts.
 """
 
 import sys

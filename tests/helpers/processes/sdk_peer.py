@@ -1,4 +1,6 @@
-"""Another implementation of rmw_zenoh's format: zenoh-ros2-sdk, as a process that speaks, listens, answers and asks."""
+"""Another implementation of rmw_zenoh's format, zenoh-ros2-sdk, as a process that publishes, subscribes, serves and
+calls.
+"""
 
 import itertools
 import queue

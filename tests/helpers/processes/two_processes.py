@@ -1,4 +1,4 @@
-"""A node here and nodes in other processes, in a domain of their own."""
+"""A node here and nodes in other processes, in a separate domain."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ PEER = Path(__file__).with_name("zenoh_peer.py")
 
 
 class Here:
-    """This process's node, served while something is waited for."""
+    """This process's node, served while the test waits for something."""
 
     def __init__(self):
         self.context = Context()
@@ -34,7 +34,7 @@ class Here:
         self.executor.add_node(self.node)
 
     def until(self, true: Callable[[], Any]) -> None:
-        """Serve the node until something is true."""
+        """Serve the node until a condition holds."""
 
         def spun():
             self.executor.spin_once(timeout_sec=0.01)
@@ -50,7 +50,7 @@ class Here:
 
 @contextlib.contextmanager
 def two_processes(folder: Path, peers: int = 1) -> Iterator[tuple[Here, list[subprocess.Popen[bytes]]]]:
-    """The node here, and the processes of `zenoh_peer.py`, which it sees; their sockets are in a folder."""
+    """The node here, and the discovered processes of `zenoh_peer.py`; their sockets are in a folder."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("BOT_CONSOLE_SOCKET_DIR", str(folder))
         patch.setenv("ROS_DOMAIN_ID", str(DOMAIN))

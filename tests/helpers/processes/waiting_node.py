@@ -1,4 +1,4 @@
-"""A node that waits to be stopped, for tests of launches: it prints `up`, and `interrupted` when it gets SIGINT."""
+"""A node that waits to be stopped, for tests of launches: it prints `up`, and `interrupted` when it receives SIGINT."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ except KeyboardInterrupt:
 
 
 def once_up(node: Any, then: Any) -> RegisterEventHandler:
-    """Do something (entities of launch, or a function that gives some) when that node has printed `up`."""
+    """Execute launch entities, or a function that returns some, when that node has printed `up`."""
     return RegisterEventHandler(
         OnProcessIO(target_action=node, on_stdout=lambda event: then if b"up" in event.text else None)
     )

@@ -1,4 +1,4 @@
-"""The other process of the tests of two: one node with an entity of each kind, in the domain of the environment."""
+"""The other process of tests with two: one node with an entity of each kind, in the domain of the environment."""
 
 from bot_console.runtime.importer import install
 
@@ -17,7 +17,9 @@ from std_srvs.srv import Trigger
 
 
 class Peer(Node):
-    """Latches one message, echoes, answers, counts, and offers a topic that nobody who wants reliability can have."""
+    """Latches a message, echoes, serves, counts, and offers a topic that is incompatible with reliable
+    subscriptions.
+    """
 
     def __init__(self) -> None:
         super().__init__("peer", namespace="other")
@@ -42,13 +44,13 @@ class Peer(Node):
         self.server = ActionServer(self, Fibonacci, "/fibonacci", self.count)
 
     def pull(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        """Answer."""
+        """Respond."""
         response.success, response.message = True, "pulled"
         self.get_logger().info("somebody pulled")
         return response
 
     def flood(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        """Log as fast as it goes."""
+        """Log as fast as possible."""
         for number in range(20_000):
             self.get_logger().info(f"flood {number}")
         return response
@@ -58,7 +60,7 @@ class Peer(Node):
         self.scans += 1
 
     def report_scans(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        """Say how many there were."""
+        """Report how many there were."""
         response.message = str(self.scans)
         return response
 

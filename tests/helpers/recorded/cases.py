@@ -1,4 +1,4 @@
-"""What real ROS 2 did, recorded case by case, and the cases that are meant to differ here."""
+"""What real ROS 2 did, recorded case by case, and the cases that differ here on purpose."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ DIFFERS = Path(__file__).parents[2] / "acceptance" / "differs_on_purpose.yaml"
 
 
 def recorded_areas() -> dict[str, list[str]]:
-    """The ids of all recorded rclpy cases, by area; none where there are no recordings."""
+    """The ids of all recorded rclpy cases, by area; empty if there are no recordings."""
     if not GIVEN:
         return {}
     areas: dict[str, list[str]] = {}
@@ -26,13 +26,13 @@ def recorded_areas() -> dict[str, list[str]]:
 
 
 def differing_on_purpose(kind: str) -> dict[str, str]:
-    """The ids of cases of a kind (`rclpy`, `launch`, `cli`) that are meant to differ, with the reason of each."""
+    """The ids of cases of a kind (`rclpy`, `launch`, `cli`) that differ on purpose, with the reason for each."""
     listed: dict[str, dict[str, str]] = yaml.safe_load(DIFFERS.read_text("utf-8"))
     return listed[kind]
 
 
 def faults(kind: str, replayed: Collection[str], differing: Mapping[str, object]) -> dict[str, object]:
-    """What is wrong with the outcome of a replay, by id: differences not listed, and listed ones that are gone."""
+    """What is wrong with the result of a replay, by id: unlisted differences, and listed ones that no longer occur."""
     listed = differing_on_purpose(kind)
     found = {case: how for case, how in differing.items() if case not in listed}
     stale = (case for case in listed if case in replayed and case not in differing)

@@ -1,4 +1,4 @@
-"""What was recorded of commands asked of real ROS 2, and the form in which two recordings are compared."""
+"""Recorded commands of real ROS 2, and the form in which two recordings are compared."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Row = dict[str, Any]
 
 
 def rows() -> list[Row]:
-    """All that were recorded, file by file; none where there are no records."""
+    """All recorded commands, file by file; empty if there are no recordings."""
     if not (os.environ.get("BOT_CONSOLE_ORACLE") and os.environ.get("BOT_CONSOLE_COURSE")):
         return []
     return [row for file in sorted(ORACLE.glob("*.json")) for row in json.loads(file.read_text("utf-8"))]
@@ -33,7 +33,7 @@ MARKS = re.compile(r"    [ ]*[~^]+[~^ ]*\n")
 
 
 def normal(text: str, folder: Path) -> str:
-    """What may differ from run to run, and the frames of tracebacks that lie in libraries, taken out."""
+    """Output without what may differ from run to run, and without traceback frames in libraries."""
     text = re.sub(r"\[\d{10}\.\d{9}\]", "[<time>]", text)
     text = text.replace(str(COURSE), "<course>").replace(str(folder), "<dir>")
     text = re.sub(r"File \"(nodes/)", r'File "<course>/\1', text)
@@ -42,16 +42,16 @@ def normal(text: str, folder: Path) -> str:
     text = re.sub(r"searching: \[.*?\]", "searching: [<prefixes>]", text)
     text = re.sub(r"(min: |max: |std dev: )[\d.]+s", r"\1<n>s", text)
     text = re.sub(r"window: \d+", "window: <n>", text)
-    # How many reports come before the command is stopped depends on how long the interpreter took to start.
+    # The number of reports before the command is stopped depends on how long the interpreter took to start.
     text = re.sub(r"average rate: (?:9\.[5-9]|10\.[0-4])\d*", "average rate: ~10", text)
     text = re.sub(r"(average rate: ~10\n.*\n)\1+", r"\1", text)
     return without_library_frames(text)
 
 
 def without_library_frames(text: str) -> str:
-    """Tracebacks with the frames of the course's files alone, and without what newer interpreters add to them.
+    """Tracebacks with only the frames in the course's files, and without the additions of newer interpreters.
 
-    These mark the place, show all lines of a statement, and the text of a `-c`.
+    These mark the position, show all lines of a statement, and the text of a `-c`.
     """
     kept: list[str] = []
     inside = False
@@ -71,6 +71,6 @@ def without_library_frames(text: str) -> str:
 
 
 def usage_of_other_interpreter(row: Row) -> bool:
-    """Whether a row is argparse's own text, whose form changes with Python."""
+    """Whether a row is argparse's own text, whose format depends on the Python version."""
     text = row["stdout"] + row["stderr"]
     return text.startswith("usage: ") and sys.version_info[:2] != (3, 11)

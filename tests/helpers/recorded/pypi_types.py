@@ -1,7 +1,7 @@
 """Runs before a recorded case on the rclpy of PyPI: the types of `example_interfaces`, which PyPI does not have.
 
 `test_msgs` has the same Fibonacci action. There is no service like AddTwoInts: cases that need it cannot run there.
-What else is missing is lent as it is to `bot-console attach --ros`.
+Other missing types are provided in the same way as for `bot-console attach --ros`.
 """
 
 import sys

@@ -31,21 +31,21 @@ REQUIRED = "DeclareLaunchArgument('robot', description='Its name.')"
 
 
 class LauncherRig(Protocol):
-    """A launcher, its file, and what can be done from the file's side."""
+    """A launcher, its file, and what can be done on the file's side."""
 
     path: str
     launcher: Launcher
 
     def info(self) -> LaunchInfo:
-        """What is known."""
+        """The current state."""
         ...
 
     def settle(self) -> None:
-        """All that was started waits."""
+        """Wait until everything started is waiting."""
         ...
 
     def break_file(self) -> None:
-        """The launch file gets a fault in line 3."""
+        """Put a fault into line 3 of the launch file."""
         ...
 
     def close(self) -> None:
@@ -63,14 +63,14 @@ class FakeRig:
         self.launcher: Launcher = self._fake
 
     def info(self) -> LaunchInfo:
-        """What is known."""
+        """The current state."""
         return self._console.snapshot().launch
 
     def settle(self) -> None:
-        """All that was started waits."""
+        """Wait until everything started is waiting."""
 
     def break_file(self) -> None:
-        """The launch file gets a fault in line 3."""
+        """Put a fault into line 3 of the launch file."""
         self._fake.broken = f"{self.path}, line 3: syntax error: invalid syntax"
 
     def close(self) -> None:
@@ -88,17 +88,17 @@ class RosRig:
         self.launcher: Launcher = self._bench.launcher
 
     def info(self) -> LaunchInfo:
-        """What is known."""
+        """The current state."""
         return self._bench.info
 
     def settle(self) -> None:
-        """All that was started waits."""
+        """Wait until everything started is waiting."""
         bench = self._bench
         starts = sum(each.restarts + 1 for each in self.info().processes)
         bench.until(lambda: sum(text == "up" for _, _, text in bench.printed) >= starts, "its first line")
 
     def break_file(self) -> None:
-        """The launch file gets a fault in line 3."""
+        """Put a fault into line 3 of the launch file."""
         Path(self.path).write_text("a = 1\n\ndef (:\n")
 
     def close(self) -> None:
@@ -118,7 +118,7 @@ class HostedRig(RosRig):
         self.launcher = self._proxy = HostedLauncher(ours, bench.launcher._record, lambda *line: None)
 
     def info(self) -> LaunchInfo:
-        """What is known to the console."""
+        """The state as the console sees it."""
         return self._proxy.info()
 
     def close(self) -> None:
@@ -135,7 +135,7 @@ class AttachedRig(HostedRig):
         self.launcher = self._combined = CombinedLauncher(lambda: ("own", self._proxy), self._proxy.files)
 
     def info(self) -> LaunchInfo:
-        """What is known to the console."""
+        """The state as the console sees it."""
         return self._combined.info()
 
     def close(self) -> None:
@@ -145,7 +145,7 @@ class AttachedRig(HostedRig):
 
 
 class MachineRig:
-    """The launcher of `attach --ros`, over the launch of the machine, in processes of its own."""
+    """The launcher of `attach --ros`, over the machine's launch, in separate processes."""
 
     def __init__(self, folder: Path) -> None:
         program, file = folder / "program.py", folder / "share" / "tried" / "system.launch.py"
@@ -166,15 +166,15 @@ class MachineRig:
         self._up += text == "up"
 
     def info(self) -> LaunchInfo:
-        """What is known."""
+        """The current state."""
         return self.launcher.info()
 
     def settle(self) -> None:
-        """All that was started waits."""
+        """Wait until everything started is waiting."""
         until(lambda: self._up >= sum(each.restarts + 1 for each in self.info().processes), "its first line")
 
     def break_file(self) -> None:
-        """The launch file gets a fault in line 3."""
+        """Put a fault into line 3 of the launch file."""
         Path(self.path).write_text("a = 1\n\ndef (:\n")
 
     def close(self) -> None:

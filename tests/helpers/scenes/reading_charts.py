@@ -1,4 +1,4 @@
-"""Reads a drawn flow chart as a person does: from the words on a line along its strokes to the boxes at its ends."""
+"""Reads a drawn flow chart as a person does: from the text on a line along its strokes to the boxes at its ends."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Cell = tuple[int, int]
 
 
 class Reader:
-    """The cells of a drawing, and what stands in them."""
+    """The cells of a drawing, and their characters."""
 
     def __init__(self, drawing: Drawing) -> None:
         self.cells: dict[Cell, str] = {}
@@ -40,7 +40,7 @@ class Reader:
         self.places = places
 
     def ends_of(self, line: str) -> tuple[set[str], set[str]]:
-        """The items from which the line with these words comes, and those to which its arrows lead."""
+        """The items where the line with this text begins, and those to which its arrows lead."""
         place = self.places[line]
         sources: set[str] = set()
         targets: set[str] = set()
@@ -50,7 +50,7 @@ class Reader:
         return sources, targets
 
     def _reached(self, start: Cell, step: Cell) -> Iterator[tuple[str, bool]]:
-        """The boxes at which the strokes end, and whether with an arrow; the words of other lines stop the eye."""
+        """The boxes at which the strokes end, and whether with an arrow; the text of another line ends the search."""
         todo, seen = [(start, step)], set[tuple[Cell, Cell]]()
         while todo:
             cell, step = todo.pop()

@@ -1,7 +1,7 @@
 """One scene, played to a console: what the backend of each pane sees of it, as plain data that can be compared.
 
-It needs the public interfaces of ROS 2 alone, so that the same can be recorded on ours and on a real one. Left out is
-what differs from one run to the next (times, process ids), and what each release of ROS 2 adds to every node.
+It needs only the public interfaces of ROS 2, so that the same can be recorded on our runtime and on a real one. What
+differs from run to run (times, process ids), and what each release of ROS 2 adds to every node, is left out.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ LEVEL = "/level"
 EVERY_NODES_OWN = re.compile(
     r"/(rosout|parameter_events|.*/(get_type_description|[gs]et_logger_levels|(get|set|list|describe)_parameter\w*))$"
 )
-"""Topics and services that come with a node, and not with the same number in every release."""
+"""Topics and services that come with every node, and whose number depends on the release."""
 OF_A_RELEASE = ("use_sim_time", "start_type_description_service")
 SETS: Sequence[tuple[str, str, Any]] = (
     (ROBOT, "speed", 1.5),
@@ -36,13 +36,13 @@ SETS: Sequence[tuple[str, str, Any]] = (
 )
 
 WOULD_CHANGE = ("careful", "slow", "wild")
-"""Profiles, of which the last one is refused."""
+"""Profiles, the last of which is refused."""
 
 Pane = Callable[[Rig], Any]
 
 
 def parameters(rig: Rig) -> Any:
-    """The Parameters pane: what is listed of both nodes."""
+    """The Parameters pane: the parameters listed for both nodes."""
     trees = rig.console.snapshot().parameters
     listed = {node: sorted(trees[node].parameters, key=lambda each: each.name) for node in (ROBOT, ARM)}
     return {node: [_parameter(each) for each in found if _is_ours(each)] for node, found in listed.items()}
@@ -61,7 +61,7 @@ def _parameter(each: ParameterInfo) -> dict[str, Any]:
 
 
 def sets(rig: Rig) -> Any:
-    """Setting: each outcome with who refused it and why; the node's own rule; several at once; undo and redo."""
+    """Setting: each outcome with who refused it and why; the node's own callback; several at once; undo and redo."""
     console, before = rig.console, len(rig.console.changes())
     reported = [_outcome(each) for node, name, value in SETS for each in _set(console, node, {name: value})]
     reported += [_outcome(each) for each in _set(console, ROBOT, {"speed": 9.0, "count": 5}, atomically=True)]
@@ -89,7 +89,7 @@ def _value(console: Console, node: str, name: str) -> Any:
 
 
 def profiles(rig: Rig) -> Any:
-    """The Profiles pane: what each would change, and what became of one."""
+    """The Profiles pane: what each profile would change, and the result of applying one."""
     console = rig.console
     would = {name: [_difference(each) for each in console.profile_differences(name)] for name in WOULD_CHANGE}
     applied = [_outcome(each) for each in console.apply_profile("wild").result(TIMEOUT_S)]
@@ -101,7 +101,7 @@ def _difference(each: Any) -> list[Any]:
 
 
 def graph(rig: Rig) -> Any:
-    """The Graph pane: both nodes with types and QoS of what they offer and take."""
+    """The Graph pane: both nodes with types and QoS of their endpoints."""
 
     def nodes() -> Mapping[str, Any]:
         return {each.name: each for each in rig.console.snapshot().graph.nodes}
@@ -113,7 +113,7 @@ def graph(rig: Rig) -> Any:
 
 
 def _ends(ends: Sequence[Endpoint]) -> list[list[Any]]:
-    """With reliability and durability; how deep a queue is DDS does not tell."""
+    """Endpoints with reliability and durability; DDS does not report the depth of a queue."""
     named = [each for each in ends if not EVERY_NODES_OWN.search(each.name)]
     return sorted([each.name, list(each.types), " ".join(each.qos.split()[:2])] for each in named)
 
@@ -134,7 +134,7 @@ def logs(rig: Rig) -> Any:
 
 
 def topics(rig: Rig) -> Any:
-    """The Topics pane: a message as a tree, a service that is called, and one that is not there."""
+    """The Topics pane: a message as a tree, a service call, and a call of a service that does not exist."""
     traffic = rig.console.traffic
     traffic.listen(LEVEL)
     until(rig.heard_by_somebody, "the subscription")
@@ -166,7 +166,9 @@ def plot(rig: Rig) -> Any:
 
 
 def steering(rig: Rig) -> Any:
-    """The Steering pane: what the robot heard of a command, of ALL STOP, of a command while it holds, and after it."""
+    """The Steering pane: what the robot received of a command, of ALL STOP, of a command while it holds, and after
+    it.
+    """
 
     def give(velocity: tuple[float, float]) -> None:
         def heard() -> bool:
@@ -188,7 +190,7 @@ def steering(rig: Rig) -> Any:
 
 
 def loggers(rig: Rig) -> Any:
-    """Levels of loggers, set and told."""
+    """Logger levels, set and listed."""
     answers = [rig.console.set_logger_level(node, Severity.WARN).result(TIMEOUT_S).ok for node in (ROBOT, "/nobody")]
     reported = {each.logger: each.severity.name for each in rig.console.logger_levels(ROBOT).result(TIMEOUT_S)}
     return {"set": answers, "robot": reported.get("robot")}
@@ -198,7 +200,7 @@ PANES: Mapping[str, Pane] = {
     **{"parameters": parameters, "profiles": profiles, "graph": graph, "logs": logs, "topics": topics},
     **{"plot": plot, "steering": steering, "loggers": loggers, "sets": sets},
 }
-"""In this order, since each finds what those before it have left."""
+"""In this order, since each depends on what the previous ones have left behind."""
 
 
 def play(rig: Rig) -> dict[str, Any]:
@@ -207,7 +209,7 @@ def play(rig: Rig) -> dict[str, Any]:
 
 
 def play_launch(launcher: Launcher, info: Callable[[], LaunchInfo], settle: Callable[[], None], path: str) -> Any:
-    """The Launch pane: one process, launched, restarted, stopped, started and killed, and what makes no sense."""
+    """The Launch pane: one process, launched, restarted, stopped, started and killed, and verbs that do not apply."""
     began = launcher.launch(path, {"robot": "bob"}).result(TIMEOUT_S)
     seen: list[Any] = ["launch", began.ok]
     for verb in ("", "restart", "start", "stop", "stop", "start", "kill", "kill"):
@@ -229,14 +231,14 @@ def play_launch(launcher: Launcher, info: Callable[[], LaunchInfo], settle: Call
 
 
 def _without_ids(text: str) -> str:
-    """Without process ids, the numbers that launch gives to its processes, and the folder of the file.
+    """Text without process ids, launch's process numbers, and the folder of the file.
 
-    When a file of which nothing runs any more has ended is not told in the same place each time.
+    The end of a file whose processes have all ended is reported at varying places, so it is left out.
     """
     text = re.sub(r"\bpid \d+", "pid N", text)
     return re.sub(r"(\.py)-\d+\b", r"\1", re.sub(r"\S+/(?=\w+\.launch\.py)", "", text))
 
 
 def _plain(value: Any) -> Any:
-    """As JSON gives it back."""
+    """The value as JSON returns it."""
     return list(value) if isinstance(value, (tuple, list)) else value
