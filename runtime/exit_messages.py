@@ -13,7 +13,7 @@ from collections.abc import Callable
 from typing import Any
 
 DELETED = "the folder you are in was deleted; go to another one (cd) and try again"
-RECOGNIZED = 60
+MAX_NAME_CHARACTERS = 60
 """Characters shown of a name that is too long."""
 ENDED = "ExternalShutdownException"
 """The exception raised by a wait when SIGTERM has ended the context; by name, as not every command imports rclpy."""
@@ -58,7 +58,7 @@ def place_fault(error: BaseException) -> str:
 def _shortened(name: object) -> str:
     """Return enough of the beginning of a name to recognize it, quoted."""
     text = os.fsdecode(name) if isinstance(name, (str, bytes)) else "what was given"
-    return repr(text if len(text) <= RECOGNIZED else f"{text[:RECOGNIZED]}...")
+    return repr(text if len(text) <= MAX_NAME_CHARACTERS else f"{text[:MAX_NAME_CHARACTERS]}...")
 
 
 def _has_folder() -> bool:

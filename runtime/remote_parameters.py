@@ -26,7 +26,7 @@ from bot_console.runtime.user_folders import cache_folder
 SCHEME = "https://"
 MAX_FILE_BYTES = 1_000_000
 """The maximum size of a parameter file in bytes."""
-SILENCE = 5.0
+SILENCE_TIMEOUT_S = 5.0
 """Seconds without data after which a server counts as unreachable."""
 FETCH_TIMEOUT_S = 15.0
 """The time limit (s) for a whole download."""
@@ -165,7 +165,7 @@ def _asked(address: str, tag: str) -> tuple[bytes, str] | None:
         handlers = [urllib.request.HTTPSHandler(context=ssl.create_default_context()), _SafePlaces()]
         if _is_here(address):
             handlers.append(urllib.request.ProxyHandler({}))  # a proxy would be in between, and is not on this machine
-        with urllib.request.build_opener(*handlers).open(request, timeout=SILENCE) as answer:
+        with urllib.request.build_opener(*handlers).open(request, timeout=SILENCE_TIMEOUT_S) as answer:
             return _content(address, answer), answer.headers.get("ETag", "")
     except urllib.error.HTTPError as error:
         with error:
@@ -217,7 +217,7 @@ def _check_yaml(address: str, content: bytes) -> None:
 
 def _words(why: object) -> str:
     if isinstance(why, TimeoutError):
-        return f"silent for {SILENCE:g} s"
+        return f"silent for {SILENCE_TIMEOUT_S:g} s"
     return str(getattr(why, "strerror", None) or why).lower()
 
 

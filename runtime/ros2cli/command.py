@@ -31,4 +31,4 @@ class Command(NamedTuple):
     arguments: Arguments = lambda parser: None
     main: Callable[[argparse.Namespace], Result] | None = None
     raw: bool = False
-    """Whether everything behind the command belongs to it, as with `run`."""
+    """Whether all arguments after the command belong to it, as with `run`."""

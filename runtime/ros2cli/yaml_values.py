@@ -7,7 +7,7 @@ from collections.abc import Generator
 from typing import IO, Any, cast
 
 MAX_BITS = 14_000
-"""Of a whole number; Python writes none of more than 4,300 digits, and no field holds one of more than 64 bits."""
+"""The maximum size of an integer: Python prints no more than 4,300 digits, and no field holds more than 64 bits."""
 
 
 def read_values(source: str | IO[str]) -> Any:

@@ -21,7 +21,7 @@ MARKERS = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 DEPTH = 6
 SOURCED_VARIABLE = "BOT_CONSOLE_WORKSPACE"
 """The workspaces whose `install/setup.bash` a shell has sourced, joined by colons; the last one sourced is first."""
-FOLDERS = 20_000
+MAX_FOLDERS = 20_000
 """The maximum number of folders searched, so that a start in a home directory does not take minutes."""
 
 
@@ -47,7 +47,7 @@ class Workspace:
     @cached_property
     def _with_ours_last(self) -> Mapping[str, Package]:
         found: dict[str, Package] = {}
-        budget = [FOLDERS]
+        budget = [MAX_FOLDERS]
         for folder in self.folders:
             for each in _package_folders(os.fspath(folder), DEPTH, budget):
                 package = read_package(Path(each))
@@ -120,7 +120,7 @@ def _package_folders(folder: str, depth: int, budget: list[int]) -> Iterator[str
 
 def _warn_of_size(folder: str) -> None:
     print(
-        f"[WARN] [bot-console]: more than {FOLDERS} folders: the search for packages stopped at {folder}. "
+        f"[WARN] [bot-console]: more than {MAX_FOLDERS} folders: the search for packages stopped at {folder}. "
         "Start in the workspace itself, or name it with --workspace",
         file=sys.stderr,
     )

@@ -9,7 +9,7 @@ from pathlib import Path
 from bot_console.runtime.workspace.discover import workspace
 from bot_console.runtime.workspace.package import Package
 
-SHOWN = 3
+MAX_SHOWN_PLACES = 3
 """The maximum number of places named in a hint."""
 
 
@@ -19,7 +19,7 @@ def hint_for(path: str) -> str:
         return ""
     packages = workspace().packages
     found = {name: each for name in sorted(packages) if (each := next(_files(packages[name], path), None))}
-    named = [f"package '{name}' has {_written(file)}" for name, file in found.items()][:SHOWN]
+    named = [f"package '{name}' has {_written(file)}" for name, file in found.items()][:MAX_SHOWN_PLACES]
     return "; ".join(named)
 
 

@@ -24,7 +24,7 @@ EMPTIED = (
     "modifying the original parameters list."
 )
 NOT_SET = Parameter.Type.NOT_SET
-FEW = 100
+MAX_PARAMETERS_WITH_GC = 100
 """Above this number the garbage collector is paused: it would examine the growing event, all of which is needed,
 repeatedly.
 """
@@ -152,7 +152,7 @@ class ParameterSetting:
         self, parameters: Sequence[Parameter], descriptors: dict[str, ParameterDescriptor] | None, keep_not_set: bool
     ) -> ParameterEvent:
         """Store the values; returns the event with all of them."""
-        pause = len(parameters) > FEW and gc.isenabled()
+        pause = len(parameters) > MAX_PARAMETERS_WITH_GC and gc.isenabled()
         if pause:
             gc.disable()
         try:

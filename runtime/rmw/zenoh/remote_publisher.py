@@ -19,7 +19,7 @@ KEEP_ALL_DEPTH = 1000
 """How many messages a latching publisher with KEEP_ALL keeps for other processes."""
 
 
-MANY = 1000
+DEEP_QUEUE = 1000
 """Depth from which a reliable publisher counts as one that keeps everything: ROS 2 would keep so many messages for a
 reader that is late, and a link has room for 1 MB.
 """
@@ -32,8 +32,8 @@ class RemotePublisher(deque[Any]):
     """The queue, among a publisher's local subscriptions, that represents all other processes.
 
     A message that the publisher appends is sent at once; one that must not be dropped (reliable, and KEEP_ALL, a depth
-    of `MANY` or a log line) is sent by another thread, so that the publisher does not wait. A latching publisher's
-    messages are always sent: late subscribers get them from the session, not from the program.
+    of `DEEP_QUEUE` or a log line) is sent by another thread, so that the publisher does not wait. A latching
+    publisher's messages are always sent: late subscribers get them from the session, not from the program.
     """
 
     def __init__(self, session: Session, sender: Sender, publisher: LocalPublisher, key: str) -> None:
@@ -49,7 +49,7 @@ class RemotePublisher(deque[Any]):
         """The tokens of the present subscriptions that do not match."""
         self._sender = sender
         qos = publisher.endpoint.qos
-        all_count = (depth(qos) or MANY) >= MANY or publisher.endpoint.topic in BLOCKING_TOPICS
+        all_count = (depth(qos) or DEEP_QUEUE) >= DEEP_QUEUE or publisher.endpoint.topic in BLOCKING_TOPICS
         self._blocking = all_count and qos.reliability.name != "BEST_EFFORT"
         self._target = SubscriptionEndpoint(publisher.endpoint, True, self, _nothing)
         self.latching = publisher.history is not None

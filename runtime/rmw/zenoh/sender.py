@@ -11,17 +11,17 @@ from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.zenoh.declarations import Publisher
 from bot_console.runtime.rmw.zenoh.settings import WAIT_BEFORE_DROP
 
-ROOM = 64_000_000
+MAX_QUEUED_BYTES = 64_000_000
 """Capacity of the queue in bytes: more than is published until a hung process is cut off (`WAIT_BEFORE_CUT`)."""
 
-MANY, MUCH = 128, 4_000_000
+BURST_MESSAGES, BURST_BYTES = 128, 4_000_000
 """Queued messages, or bytes, from which a publisher lets the thread send all of them before it goes on.
 
 The thread releases the GIL with each message that it sends, and gets it back only after 5 ms while somebody publishes
 without a pause: during a burst next to nothing was sent, and most images found no room.
 """
-LET_SEND = WAIT_BEFORE_DROP * 1e-6
-"""The longest such wait, in seconds: as long as other publishers wait for a full link. After a wait in vain the
+YIELD_TIMEOUT_S = WAIT_BEFORE_DROP * 1e-6
+"""The longest such wait, in seconds: as long as other publishers wait for a full link. After an unsuccessful wait the
 publisher does not wait again until the queue is empty, or until more than half of it is full and the thread has sent
 something.
 """
@@ -58,7 +58,7 @@ class Sender:
         queue = self._queue
         with self._lock:
             waiting = self._taken - self._begun
-            if waiting and waiting + len(payload) > ROOM:
+            if waiting and waiting + len(payload) > MAX_QUEUED_BYTES:
                 fits = False
             else:
                 fits = True
@@ -68,20 +68,20 @@ class Sender:
                     self._start()
                 waiting = self._taken - self._begun
         if fits:
-            if len(queue) >= MANY or waiting >= MUCH:
+            if len(queue) >= BURST_MESSAGES or waiting >= BURST_BYTES:
                 self._let_send(waiting)
         else:
             notify(
                 self._process,
-                f"messages of '{topic}' were dropped: {ROOM // 1_000_000} MB wait to be sent to processes "
+                f"messages of '{topic}' were dropped: {MAX_QUEUED_BYTES // 1_000_000} MB wait to be sent to processes "
                 "that do not take them; publish less often, or end the reader that hangs",
             )
         return fits
 
     def _let_send(self, waiting: int) -> None:
         """Give the thread time to send the whole queue (`waiting` bytes), unless the last wait was in vain."""
-        if self._late is None or (waiting > ROOM // 2 and self._begun != self._late):
-            self._late = None if self._is_emptied(LET_SEND) else self._begun
+        if self._late is None or (waiting > MAX_QUEUED_BYTES // 2 and self._begun != self._late):
+            self._late = None if self._is_emptied(YIELD_TIMEOUT_S) else self._begun
 
     def _start(self) -> None:
         """Wake or start the thread, since the queue is no longer empty; call with the lock held."""

@@ -15,7 +15,7 @@ from ros2cli.verbs.param_show import NOT_FOUND, found, report_missing, warn
 from ros2cli.yaml_values import report_yaml_errors
 
 UNDECLARED = "Invalid access to undeclared parameter"
-"""How a node begins that refuses a parameter which it has not declared; it names none."""
+"""The beginning of a node's refusal of an undeclared parameter, which does not name the parameter."""
 
 
 def set_(arguments: argparse.Namespace) -> Result:

@@ -81,7 +81,7 @@ def _subscribe(node: Node, topic: str, take: Callable[[Any], None], *, raw: bool
 
 
 def _print_each_second(node: Node, report: Callable[[], str]) -> Result:
-    """Print the text that `tell` returns, if any, once a second, forever."""
+    """Print the text that `report` returns, if any, once a second, forever."""
 
     def show() -> None:
         if text := report():

@@ -39,7 +39,7 @@ doubles its wait after every reopening, up to `LONGEST_GRACE`.
 MAX_TIMEOUT_FACTOR = 8.0
 """The largest factor of the grace period on a machine that is not busy."""
 
-BUSY = 4.0
+BUSY_LOAD = 4.0
 """Load per processor from which a machine counts as busy: the grace period grows with the load, as making links slows
 down with it. A session that is reopened in vain would make all others busy, too.
 """
@@ -214,4 +214,4 @@ def slowness() -> float:
         load, *_ = os.getloadavg()
     except (OSError, AttributeError):
         return 1.0
-    return max(1.0, load / (os.cpu_count() or 1) / BUSY)
+    return max(1.0, load / (os.cpu_count() or 1) / BUSY_LOAD)

@@ -72,7 +72,7 @@ def test_publishing_does_not_block_and_order_is_kept(sender):
 
 
 def test_message_without_room_is_dropped_and_reported(sender, monkeypatch):
-    monkeypatch.setattr(module, "ROOM", 10)
+    monkeypatch.setattr(module, "MAX_QUEUED_BYTES", 10)
     message, publisher = [], Slow()
     forget = on_notice(lambda process, text: message.append(text))
     sender.send(publisher, "/full", b"first", b"a")
@@ -118,10 +118,10 @@ def test_publisher_is_undeclared_after_its_last_message_was_sent(sender):
     assert publisher.sent == [b"1", "undeclared"]
 
 
-@pytest.mark.parametrize("limit, value, count", [("MANY", 4, 4), ("MUCH", 8, 5)])
+@pytest.mark.parametrize("limit, value, count", [("BURST_MESSAGES", 4, 4), ("BURST_BYTES", 8, 5)])
 def test_burst_yields_to_the_sender_thread(sender, monkeypatch, limit, value, count):
     monkeypatch.setattr(module, limit, value)
-    monkeypatch.setattr(module, "LET_SEND", TIMEOUT_S)
+    monkeypatch.setattr(module, "YIELD_TIMEOUT_S", TIMEOUT_S)
     publisher = Slow()
     sender._emptied = Awaited(publisher.free.set)
     for _ in range(count - 1):
@@ -133,8 +133,8 @@ def test_burst_yields_to_the_sender_thread(sender, monkeypatch, limit, value, co
 
 
 def test_burst_to_a_full_link_yields_only_once_until_the_queue_is_empty(sender, monkeypatch):
-    monkeypatch.setattr(module, "MANY", 2)
-    monkeypatch.setattr(module, "LET_SEND", 0.0)
+    monkeypatch.setattr(module, "BURST_MESSAGES", 2)
+    monkeypatch.setattr(module, "YIELD_TIMEOUT_S", 0.0)
     waits = []
     for burst in (1, 2):
         publisher = Slow()
@@ -147,9 +147,9 @@ def test_burst_to_a_full_link_yields_only_once_until_the_queue_is_empty(sender, 
 
 
 def test_burst_yields_again_beyond_half_of_the_room_if_sending_progresses(sender, monkeypatch):
-    monkeypatch.setattr(module, "MUCH", 4)
-    monkeypatch.setattr(module, "ROOM", 20)
-    monkeypatch.setattr(module, "LET_SEND", 0.0)
+    monkeypatch.setattr(module, "BURST_BYTES", 4)
+    monkeypatch.setattr(module, "MAX_QUEUED_BYTES", 20)
+    monkeypatch.setattr(module, "YIELD_TIMEOUT_S", 0.0)
     waits, publisher = [], Stepwise()
     sender._emptied = Awaited(lambda: waits.append("once"))
     sender.send(publisher, "/t", b"12", b"a")
