@@ -98,7 +98,7 @@ class ConsoleNode:
         self.setter = ParameterSetter(self.calls, self.parameters, self.journal)
         self.traffic = NodeTraffic(self.node, self.calls, lambda: self.graph.info, types)
         self.sensors = NodeSensors(self.node, self.calls, lambda: self.graph)
-        self.graph = GraphWatch(self.node, self._graph_changed, graph_events, frozen)
+        self.graph = GraphWatch(self.node, self._graph_changed, graph_events, frozen, foreign=foreign)
 
     def spin(self) -> None:
         """Serve until `close`; called in the console's own thread."""

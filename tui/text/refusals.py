@@ -11,6 +11,11 @@ BY = {"descriptor": "by its descriptor", "callback": "by the node", "console": "
 """Who refused, in the words of the detail."""
 
 
+def verdict(outcome: SetOutcome) -> str:
+    """Whether a value was refused, or not set since its node did not answer or lacks the parameter."""
+    return "not set" if outcome.refused_by == "node" else "refused"
+
+
 def beside_row(refused: SetOutcome) -> str:
     """The requested value, and why it was refused."""
     return f"✗ {sanitize(value_text(refused.value))}: {sanitize(refused.reason)}"
@@ -19,12 +24,13 @@ def beside_row(refused: SetOutcome) -> str:
 def in_detail(refused: SetOutcome) -> str:
     """The same, with who refused it."""
     by = BY.get(refused.refused_by, "")
-    return f"✗ {sanitize(value_text(refused.value))} refused{f' {by}' if by else ''}: {sanitize(refused.reason)}"
+    by_whom = f"{verdict(refused)}{f' {by}' if by else ''}"
+    return f"✗ {sanitize(value_text(refused.value))} {by_whom}: {sanitize(refused.reason)}"
 
 
 def of_one(refused: SetOutcome) -> str:
     """A message about one value that was refused."""
-    return f"{refused.node} {refused.name} = {value_text(refused.value)} was refused: {refused.reason}"
+    return f"{refused.node} {refused.name} = {value_text(refused.value)} was {verdict(refused)}: {refused.reason}"
 
 
 def of_many(outcomes: Sequence[SetOutcome]) -> str:

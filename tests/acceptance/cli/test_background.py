@@ -57,7 +57,7 @@ def test_background_robot_is_started_shown_and_ended(state: Path) -> None:
     )
     assert typed("release").returncode == 0 and "held by" not in typed("status").stdout
     again = typed("up")
-    assert again.returncode == 1 and "runs already" in again.stderr
+    assert again.returncode == 1 and "already running" in again.stderr
     apart = typed("--headless", "--duration", "0.5")
     assert "runs in isolation" in apart.stderr and apart.returncode == 0
     ended = typed("down")

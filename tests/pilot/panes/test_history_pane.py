@@ -92,7 +92,7 @@ def test_one_change_alone_is_put_back_and_a_loss_of_safety_is_named() -> None:
         await session.press("y")
         assert asked(session) == [{NAVIGATOR: {"safety_distance": 0.8}}]
         await session.press("G", "up", "up", "b")
-        assert "was refused, so there is nothing" in session.text(), "a refusal"
+        assert "was not set, so there is nothing" in session.text(), "a refusal"
 
     run(live(), play, (100, 30))
 

@@ -17,6 +17,13 @@ def test_each_place_has_value_and_reason() -> None:
     assert of_one(REFUSED) == "/robot max_speed = 9.5 was refused: at most 2.0"
 
 
+def test_a_value_without_an_answer_is_not_called_refused() -> None:
+    unanswered = SetOutcome("/robot", "max_speed", 9.5, False, "/robot/set_parameters did not answer", "node")
+    assert of_one(unanswered) == "/robot max_speed = 9.5 was not set: /robot/set_parameters did not answer"
+    assert in_detail(unanswered) == "✗ 9.5 not set: /robot/set_parameters did not answer"
+    assert "refused" not in of_many([unanswered])
+
+
 @pytest.mark.parametrize("outcomes", [(HELD_BACK, REFUSED), (REFUSED, HELD_BACK), (TAKEN, REFUSED)])
 def test_of_many_the_one_that_a_node_refused_is_reported(outcomes: tuple[SetOutcome, ...]) -> None:
     assert of_many(outcomes) == "Nothing was set: /robot max_speed = 9.5 was refused: at most 2.0"

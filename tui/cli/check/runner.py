@@ -99,7 +99,10 @@ class Runner:
         outcome = self._try(*step.words)
         if isinstance(outcome, str):
             return outcome
-        return "" if outcome.accepted else f"refused by the {outcome.refused_by}: {outcome.reason}"
+        if outcome.accepted:
+            return ""
+        verdict = "not set" if outcome.refused_by == "node" else f"refused by the {outcome.refused_by}"
+        return f"{verdict}: {outcome.reason}"
 
     def _expect_refused(self, step: Step) -> str:
         node, name, text, reason = step.words

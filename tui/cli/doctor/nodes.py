@@ -26,7 +26,7 @@ HOW = (
 )
 
 
-def node_findings() -> list[DoctorFinding]:
+def node_findings(can_learn: Callable[[str], bool] = lambda type_name: False) -> list[DoctorFinding]:
     """Run the checks from a node on this process's middleware."""
     import rclpy
 
@@ -34,7 +34,7 @@ def node_findings() -> list[DoctorFinding]:
     node = rclpy.create_node("_bot_console_doctor", enable_rosout=False, start_parameter_services=False)
     try:
         _spin(node, SETTLE)
-        return [*pair_findings(node), *type_findings(node), base_finding(node)]
+        return [*pair_findings(node), *type_findings(node, can_learn), base_finding(node)]
     finally:
         node.destroy_node()
         rclpy.try_shutdown()
@@ -64,9 +64,13 @@ def pair_findings(node: Node) -> list[DoctorFinding]:
     ]
 
 
-def type_findings(node: Node) -> list[DoctorFinding]:
-    """Types that are unknown here, or defined differently."""
+def type_findings(node: Node, can_learn: Callable[[str], bool] = lambda type_name: False) -> list[DoctorFinding]:
+    """Types that are unknown here, or defined differently.
+
+    Those that `can_learn` accepts are requested from their nodes when they are used.
+    """
     unknown: set[str] = set()
+    learned: set[str] = set()
     other: set[str] = set()
     for topic, types in node.get_topic_names_and_types():
         for kind in types:
@@ -74,7 +78,7 @@ def type_findings(node: Node) -> list[DoctorFinding]:
             ends = (*node.get_publishers_info_by_topic(topic), *node.get_subscriptions_info_by_topic(topic))
             theirs = {hash_of(each) for each in ends if each.topic_type == kind} - {""}
             if ours is None:
-                unknown.add(kind)
+                (learned if can_learn(kind) else unknown).add(kind)
             elif ours and theirs - {ours}:
                 other.add(kind)
     found: list[DoctorFinding] = []
@@ -84,6 +88,9 @@ def type_findings(node: Node) -> list[DoctorFinding]:
     if unknown:
         hint = "put their package in the workspace (--workspace DIR) or source it, to see their fields"
         found.append(DoctorFinding(Level.NOTE, "types", f"unknown here: {', '.join(sorted(unknown))}", hint))
+    if learned:
+        text = f"learned from their nodes on use: {', '.join(sorted(learned))}"
+        found.append(DoctorFinding(Level.OK, "types", text))
     return found or [DoctorFinding(Level.OK, "types", "all are known here")]
 
 

@@ -15,6 +15,7 @@ from bot_console.tui.cli.doctor.nodes import node_findings
 from bot_console.tui.cli.doctor.wire import captured, watch_wire, wire_findings
 from bot_console.tui.cli.system.connecting import connect
 from bot_console.tui.cli.system.domain import domain, take_part
+from bot_console.tui.cli.system.type_source import DomainTypes
 
 FAR_MS = 300
 PROBES = 3
@@ -39,7 +40,12 @@ def examine(way: Way | None, seconds: float, capture: Path | None, made_with: st
         take_part()
     else:
         connect(way)
-    return [*findings, *node_findings()]
+    return [*findings, *node_findings(_can_learn)]
+
+
+def _can_learn(type_name: str) -> bool:
+    """Whether a node can be asked for the definition of a type."""
+    return bool(DomainTypes().inquiries(domain(), type_name))
 
 
 def answer_time(session: Session) -> float | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 from collections.abc import Sequence
 
 from bot_console.runtime.importer import install
@@ -11,7 +12,7 @@ from bot_console.runtime.rmw.zenoh.network.client import Way, with_environment
 from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
 from bot_console.runtime.rmw.zenoh.network.reachability import place_of
 from bot_console.runtime.rmw.zenoh.session import SessionError
-from bot_console.tui.cli.system.domain import domain
+from bot_console.tui.cli.system.domain import domain, note_connection
 
 
 def connect(way: Way) -> NetworkBuses:
@@ -19,7 +20,9 @@ def connect(way: Way) -> NetworkBuses:
     install()
     buses = NetworkBuses(with_environment(way))
     choose_middleware(buses, RMW_ZENOH)
+    atexit.register(buses.close)
     bus_of(domain())  # Connect now, so that a failure is reported before there is a screen.
+    note_connection()
     return buses
 
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from bot_console.tui.cli.robot_claim import RobotClaim
 
 _taking_part = False
+_connected = False
 
 STOP_FILE_VARIABLE = "BOT_CONSOLE_STOP_FILE"
 """Where the robots of this domain keep their stops, for all nodes that this program starts: see `docs/safety.md`."""
@@ -66,6 +67,12 @@ def take_part(*, starts_nodes: bool = True) -> str:
         os.environ[STOP_FILE_VARIABLE] = str(stop_file())
     _taking_part = True
     return ""
+
+
+def note_connection() -> None:
+    """Record that this program is a client of a robot's router, instead of a member of this machine's domain."""
+    global _connected
+    _connected = True
 
 
 def stop_file() -> Path:
@@ -126,7 +133,7 @@ def robot_there() -> list[str]:
     from bot_console.runtime.rmw.middleware import bus_of
     from bot_console.tui.console.robot.robot_needed import SOURCES, VELOCITY
 
-    if not others_take_part():
+    if not (_connected or others_take_part()):
         return []
     tables = bus_of(domain()).tables()
     found = [end for each in tables for topic in SOURCES for end in each.publishers.on(topic)]
@@ -190,8 +197,12 @@ def domain() -> int:
 
 
 def end_program(code: int) -> NoReturn:
-    """End the process; at once if it has joined the domain, since closing waits up to 0.5 s for a frozen process."""
-    if _taking_part:
+    """End the process; at once if it has joined a domain or a router.
+
+    Closing waits up to 0.5 s for a frozen process, and a thread that is in Zenoh while the interpreter is finalized
+    would abort the process.
+    """
+    if _taking_part or "zenoh" in sys.modules:
         try:
             from bot_console.runtime.process.ending import exit_functions_run
         except (MemoryError, ImportError):  # Too little memory even to end; the cause has already been reported.

@@ -11,9 +11,14 @@ if TYPE_CHECKING:
     from bot_console.runtime.rmw.bus import Bus
 
 
+def named_routers() -> list[str]:
+    """The endpoints of the robot's router that the environment names; empty if it names none."""
+    return os.environ.get(CONNECT_VARIABLE, "").split()
+
+
 def reach_system() -> str:
     """Join the domain of this machine, or become a client of the robot's router named by the environment."""
-    endpoints = os.environ.get(CONNECT_VARIABLE, "").split()
+    endpoints = named_routers()
     if not endpoints:
         return take_part(starts_nodes=False)
     from bot_console.tui.cli.system.connecting import connect_to

@@ -242,23 +242,29 @@ def _bring_to_rest() -> None:
 
 
 def status(words: Sequence[str]) -> int:
-    """Report the system in the background, and the robot in the domain; 1 if there is neither."""
+    """Report the system in the background and the robot in the domain, or behind the router that the environment names.
+
+    Returns 1 if there is neither.
+    """
+    from bot_console.tui.cli.system.reaching import named_routers, reach_system
+
     _no_words("status", "Show what is running.", words)
-    alone = take_part()
-    if alone:
-        print(alone, file=sys.stderr)
+    if problem := reach_system():
+        print(problem, file=sys.stderr)
         return 1
-    there, robot = _known(), robot_there()
+    routers = named_routers()
+    where = f"ROS domain {domain()}" + (f" at {', '.join(routers)}" if routers else "")
+    there, robot = None if routers else _known(), robot_there()
     if there:
-        print(f"running in ROS domain {domain()}: {there.reported()}")
+        print(f"running in {where}: {there.reported()}")
     if robot:
-        print(f"robot in ROS domain {domain()}: {', '.join(robot)}")
+        print(f"robot in {where}: {', '.join(robot)}")
         _print_holders()
-    stopped = frozen()
+    stopped = [] if routers else frozen()  # a pid of another machine means nothing here
     for pid in stopped:
         print(f"process {pid} is stopped: it does nothing for the others; kill -CONT {pid} lets it continue")
     if not there and not robot and not stopped:
-        print(f"nothing runs in ROS domain {domain()}", file=sys.stderr)
+        print(f"nothing runs in {where}", file=sys.stderr)
         return 1
     return 0
 

@@ -59,7 +59,10 @@ class GraphWatch:
         changed: Callable[[GraphInfo], None],
         events: GraphEvents | None = None,
         frozen: FrozenNodes | None = None,
+        *,
+        foreign: bool = False,
     ) -> None:
+        """In a `foreign` system events report which nodes come and go, but not which of them hang."""
         self.info = GraphInfo()
         self._frozen = frozen
         self._node = node
@@ -71,6 +74,7 @@ class GraphWatch:
         self._polled = False
         self._rests_until = 0.0
         self._reported = events is not None
+        self._asks_nodes = foreign or events is None
         self._unheard = UnheardPairs(node)
         self._silence = SilentNodes(node, self._silent_are)
         self._end = events(node.context.get_domain_id(), self._news.append) if events else _nothing
@@ -130,8 +134,8 @@ class GraphWatch:
         self._silence.follow(self.info)
 
     def watch_nodes(self, on: bool) -> None:
-        """Start or stop checking which nodes do not respond; not needed if events are available, which report that."""
-        if not self._reported:
+        """Start or stop checking which nodes do not respond, unless events of this machine's system report that."""
+        if self._asks_nodes:
             self._silence.poll(on, self.info)
 
     def _silent_are(self, nodes: tuple[str, ...]) -> None:

@@ -146,7 +146,7 @@ class HistoryPane(ListPane):
         if change is None:
             return
         if not change.accepted:
-            self.notify(f"{change.name} was refused, so there is nothing to put back.")
+            self.notify(f"{change.name} was not set, so there is nothing to put back.")
         elif change.old is None:
             self.notify(f"{change.name} had no value before.")
         else:

@@ -70,7 +70,7 @@ def details(change: Change) -> Text:
     """All that is known of a change."""
     text = Text(no_wrap=False, overflow="fold")
     if not change.accepted:
-        text.append(f"✗ {sanitize(value_text(change.new))} was refused: {sanitize(change.reason)}\n", "bold")
+        text.append(f"✗ {sanitize(value_text(change.new))} was not set: {sanitize(change.reason)}\n", "bold")
     at = time.strftime("%Y-%m-%d ", time.localtime(change.stamp // 10**9)) + clock_text(change.stamp)
     text.append(f"{sanitize(change.node)} {sanitize(change.name)}  {changed_text(change)}\n")
     text.append(f"{at} · {sanitize(who(change))}{' · an earlier run' if change.seq < 0 else ''}\n", "dim")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from textwrap import wrap
@@ -9,6 +10,7 @@ from textwrap import wrap
 from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome, Value
 from bot_console.tui.format import counted, cut, sanitize, value_text
 from bot_console.tui.panes.profiles.dry_run import Asking
+from bot_console.tui.text.refusals import verdict
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment
@@ -119,7 +121,7 @@ class DifferenceRows(ItemList[Entry]):
 def _note(entry: Entry, change: ProfileDifference) -> tuple[str, str]:
     outcome = entry.outcome
     if outcome is not None:
-        return ("✓ taken", "good") if outcome.accepted else ("✗ refused", "error")
+        return ("✓ taken", "good") if outcome.accepted else (f"✗ {verdict(outcome)}", "error")
     if change.unknown:
         return "unknown to its node, left out", "dim"
     if change.refusal:
@@ -135,7 +137,8 @@ def outcome_text(name: str, outcomes: Sequence[SetOutcome], unknown: int) -> str
     if not outcomes:
         return f"{name}: nothing to set" + (f", its {counted(unknown, 'value')} are unknown here" if unknown else "")
     parts = [f"{taken} taken"]
-    parts += [f"{len(outcomes) - taken} refused"] if taken < len(outcomes) else []
+    failed = Counter(verdict(each) for each in outcomes if not each.accepted)
+    parts += [f"{count} {why}" for why, count in failed.items()]
     parts += [f"{unknown} unknown here, left out"] if unknown else []
     return f"{name}: {', '.join(parts)}"
 

@@ -125,6 +125,15 @@ def test_mismatched_pairs_and_unknown_types_are_reported(node) -> None:
     assert [each.level for each in type_findings(node)] == [Level.OK]
 
 
+def test_types_that_nodes_describe_are_learned_and_others_unknown(node, monkeypatch) -> None:
+    monkeypatch.setattr("bot_console.tui.cli.doctor.nodes.own_hash", lambda type_name: None)
+    node.create_publisher(String, "/words", 1)
+    found = type_findings(node, lambda type_name: type_name.startswith("std_msgs/"))
+    levels = {each.level: each.text for each in found}
+    assert levels[Level.OK] == "learned from their nodes on use: std_msgs/msg/String"
+    assert levels[Level.NOTE] == "unknown here: rcl_interfaces/msg/Log, rcl_interfaces/msg/ParameterEvent"
+
+
 def test_topic_with_two_types_is_reported_as_such(node) -> None:
     node.create_publisher(String, "/words", 1)
     node.create_subscription(Twist, "/words", lambda message: None, 1)

@@ -181,3 +181,16 @@ def test_nodes_with_the_same_name_are_counted(context, node):
     assert copies == [1, 2, 1, 2]
     first.destroy_node()
     watch.close()
+
+
+@pytest.mark.parametrize(
+    ("events", "foreign", "asks"), [(None, False, 1), (graph_events, False, 0), (graph_events, True, 1)]
+)
+def test_nodes_are_asked_for_a_sign_of_life_unless_this_machines_system_reports_it(
+    context, node, events, foreign, asks
+):
+    watch, timers = GraphWatch(node, lambda graph: None, events, foreign=foreign), []
+    node.create_timer = lambda period, tick: timers.append(tick)
+    watch.watch_nodes(True)
+    assert len(timers) == asks
+    watch.close()

@@ -79,3 +79,8 @@ def test_wide_characters_take_two_cells() -> None:
 def test_outcome_of_a_profile_counts_omitted_values(verdicts: list[bool], unknown: int, text: str) -> None:
     outcomes = [SetOutcome("/n", f"p{index}", 1, accepted) for index, accepted in enumerate(verdicts)]
     assert outcome_text("a", outcomes, unknown) == text
+
+
+def test_a_value_whose_node_has_not_answered_does_not_count_as_refused() -> None:
+    outcomes = [SetOutcome("/n", "p", 1, False, "no answer", "node"), SetOutcome("/n", "q", 1, False, "no", "callback")]
+    assert outcome_text("a", outcomes, 0) == "a: 0 taken, 1 not set, 1 refused"

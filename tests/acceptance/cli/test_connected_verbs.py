@@ -1,0 +1,64 @@
+"""Programs that `BOT_CONSOLE_CONNECT` makes clients of a router: what they report, and how they end."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+
+import pytest
+from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network.router import Router
+from bot_console.runtime.rmw.zenoh.settings import Serving
+from bot_console.runtime.rmw.zenoh.wire.tokens import TokenNode, entity_token, node_token
+from processes.ports import free_port
+
+TIMEOUT_S = 100
+ENDING = """
+import sys
+from bot_console.tui.cli.system.connecting import connect_to
+from bot_console.tui.cli.system.domain import end_program
+
+class Finalized:
+    def __del__(self):
+        print("finalized")
+
+assert not connect_to([sys.argv[1]])
+kept = Finalized()
+end_program(7)
+"""
+
+
+@pytest.fixture(scope="module")
+def place() -> Iterator[str]:
+    serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
+    router = Router(serving)
+    yield serving.endpoints[0]
+    router.close()
+
+
+def run(place: str, *words: str) -> subprocess.CompletedProcess[str]:
+    environment = dict(os.environ, BOT_CONSOLE_CONNECT=place, ROS_DOMAIN_ID="0")
+    line = [sys.executable, *words]
+    return subprocess.run(line, env=environment, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
+
+
+def test_a_program_with_a_session_ends_without_finalizing_the_interpreter_under_its_threads(place: str) -> None:
+    ended = run(place, "-c", ENDING, place)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (7, "", "")
+
+
+def test_status_reports_the_robot_behind_the_named_router(place: str) -> None:
+    assert f"nothing runs in ROS domain 0 at {place}" in run(place, "-m", "bot_console.tui", "status").stderr
+    session = open_network_session(0, Way((place,)))
+    node = TokenNode(session.zid, 0, "", "/", "base")
+    session.declare_token(node_token(0, node))
+    velocity = "/cmd_vel", "geometry_msgs/msg/Twist", f"RIHS01_{'0' * 64}", "::,10:,:,:,,"
+    session.declare_token(entity_token(0, node, 1, "MS", *velocity))
+    try:
+        seen = run(place, "-m", "bot_console.tui", "status")
+    finally:
+        session.close()
+    assert seen.returncode == 0, seen.stderr
+    assert seen.stdout.splitlines()[0] == f"robot in ROS domain 0 at {place}: /base"
