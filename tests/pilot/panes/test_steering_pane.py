@@ -275,7 +275,7 @@ def test_the_limits_are_the_robots_own_parameters() -> None:
 def test_without_a_robot_it_cannot_be_armed_and_reports_why() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter")
-        assert "nothing to steer" in " ".join(session.text().split())
+        assert "No node subscribes to cmd_vel" in " ".join(session.text().split())
         assert not steering(session).state.armed
 
     run(empty(), play, (100, 30))
