@@ -23,7 +23,7 @@ The last one is for machines with a ROS 2: `BOT_CONSOLE_TESTS_ON=ros pytest -m r
 
 OURS = {
     "test_other_implementation.py": "the Zenoh sessions of our middleware, beside another implementation of its format",
-    "test_reopened.py": "the Zenoh sessions of our middleware, opened anew",
+    "test_reopened.py": "the Zenoh sessions of our middleware are reopened",
     "test_seals.py": "the seals that our middleware adds to messages",
     "test_two_processes.py": "two processes that meet over our middleware",
 }

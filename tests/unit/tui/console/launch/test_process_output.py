@@ -1,6 +1,4 @@
-"""Output of processes: a logger's lines are told from printed text by a mark, and added only if `/rosout` lacks
-them.
-"""
+"""Output of processes: a mark distinguishes a logger's lines, which are added only if `/rosout` lacks them."""
 
 import pytest
 from bot_console.tui.console.launch.process_output import (
