@@ -25,7 +25,7 @@ WORKFLOW = f"{CHAPTER}::test_the_workflow_shows_all_of_it_side_by_side"
 STEERED = f"{CHAPTER}::test_the_robot_is_steered_by_key"
 MENU = f"{CHAPTER}::test_each_plug_in_of_the_menu_is_a_pane_and_messages_are_published"
 OWN_PLUGIN = f"{CHAPTER}::test_a_plug_in_of_ones_own_starts_and_stops_the_robot"
-SLIDER = f"{PARAMETERS}::test_the_slider_stands_beside_its_value_and_the_description_fills_a_wide_row"
+SLIDER = f"{PARAMETERS}::test_wide_row_shows_slider_and_description"
 OPENING, SECOND_TERMINAL = "tests/pilot/screen/test_opening.py", "tests/acceptance/console/test_second_terminal.py"
 
 _SHOWN: tuple[tuple[str, Iterable[int]], ...] = (
@@ -41,17 +41,17 @@ _SHOWN: tuple[tuple[str, Iterable[int]], ...] = (
     (TYPES, (194,)),
     (f"{PARAMETERS}::test_the_command_is_shown_and_copied_and_values_are_saved", (196,)),
     (WAITS, (198, 199)),
-    (f"{LOGS}::test_rules_hide_and_highlight_until_they_are_changed", (206,)),
-    (f"{LOGS}::test_the_next_error_the_whole_message_copy_and_save", (207,)),
+    (f"{LOGS}::test_rules_hide_and_highlight_lines", (206,)),
+    (f"{LOGS}::test_next_error_is_shown_in_full_copied_and_saved", (207,)),
     (STEERED, (208, 209, 210)),
     (MENU, range(212, 217)),
     (OWN_PLUGIN, (*range(218, 222), 353, 390)),
     ("tests/unit/nodes/test_presets.py::test_modes_of_the_course_robot_are_presets", (350,)),
-    ("tests/pilot/panes/test_history_pane.py::test_all_changes_are_listed_the_newest_first_with_who_and_why", (352,)),
+    ("tests/pilot/panes/test_history_pane.py::test_changes_are_listed_newest_first_with_source_and_reason", (352,)),
     (f"{SECOND_TERMINAL}::test_verbs_in_a_second_terminal_reach_the_robot", (386,)),
     (f"{SECOND_TERMINAL}::test_second_console_asks_to_attach_and_leaves_the_robot_running", (387,)),
     (
-        "tests/pilot/screen/test_opening.py::test_a_line_of_rqt_plot_replaces_the_curves_and_waits_for_what_is_not_there",
+        "tests/pilot/screen/test_opening.py::test_rqt_plot_line_replaces_curves_and_waits_for_missing_topics",
         (389,),
     ),
 )

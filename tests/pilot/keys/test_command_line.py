@@ -23,7 +23,7 @@ def field(session: Session) -> str:
     return session.pane(CommandField).query_one(Input).value
 
 
-def test_a_value_is_set_or_refused_with_its_reason() -> None:
+def test_set_command_sets_value_or_shows_refusal() -> None:
     async def play(session: Session) -> None:
         await line(session, "set robot_navigator max_speed 1.4")
         assert ("set", "/robot_navigator", {"max_speed": 1.4}) in session.console.asked
@@ -34,7 +34,7 @@ def test_a_value_is_set_or_refused_with_its_reason() -> None:
     run(live(), play, (120, 40))
 
 
-def test_what_is_wrong_is_read_whole_in_80_columns() -> None:
+def test_error_message_is_shown_in_full_at_80_columns() -> None:
     async def play(session: Session) -> None:
         await line(session, "lint running")
         reported_text = " ".join(" ".join(each[16:] for each in session.lines()[-5:]).split())
@@ -44,7 +44,7 @@ def test_what_is_wrong_is_read_whole_in_80_columns() -> None:
     run(live(), play, (80, 24))
 
 
-def test_what_is_wrong_is_reported_and_the_line_stays() -> None:
+def test_invalid_line_is_reported_and_stays_editable() -> None:
     async def play(session: Session) -> None:
         await line(session, "topc list")
         assert "did you mean topic?" in session.text() and field(session) == "topc list"
@@ -54,7 +54,7 @@ def test_what_is_wrong_is_reported_and_the_line_stays() -> None:
     run(live(), play, (120, 40))
 
 
-def test_what_is_pasted_is_taken_or_all_of_it_refused() -> None:
+def test_paste_is_inserted_or_refused_as_a_whole() -> None:
     async def play(session: Session) -> None:
         await session.press("colon")
         for characters in (MAX_PASTE_CHARACTERS, MAX_PASTE_CHARACTERS + 1):
@@ -71,7 +71,7 @@ def test_what_is_pasted_is_taken_or_all_of_it_refused() -> None:
     run(live(), play, (120, 40))
 
 
-def test_stop_release_layout_plot_help_and_lines_of_ros2() -> None:
+def test_commands_and_ros2_lines_are_run() -> None:
     async def play(session: Session) -> None:
         await line(session, "stop")
         assert session.console.asked[-1] == ("all_stop", True)
@@ -93,7 +93,7 @@ def test_stop_release_layout_plot_help_and_lines_of_ros2() -> None:
     run(live(), play, (120, 40))
 
 
-def test_tab_completes_and_the_keyboard_goes_back() -> None:
+def test_tab_completes_and_focus_returns_to_the_pane() -> None:
     async def play(session: Session) -> None:
         await session.press("2")
         focused = session.app.focused
@@ -120,7 +120,7 @@ def test_tab_completes_and_the_keyboard_goes_back() -> None:
     run(live(), play)
 
 
-def test_earlier_lines_come_back() -> None:
+def test_history_recalls_earlier_lines() -> None:
     async def play(session: Session) -> None:
         for each in ("node list", "topic list"):
             await line(session, each)

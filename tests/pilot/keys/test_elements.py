@@ -39,7 +39,7 @@ def edited(kind: Kind, value: Value, play: Callable[[Session], Awaitable[None]])
     return found
 
 
-def test_elements_are_edited_inserted_deleted_moved_and_set_once() -> None:
+def test_array_is_edited_element_by_element_and_set_once() -> None:
     async def play(session: Session) -> None:
         await session.press("enter")
         await session.type("9")
@@ -61,7 +61,7 @@ def test_a_text_with_a_comma_stays_one_element() -> None:
     assert edited(Kind.STRING_ARRAY, ("a", "b, d"), play) == [("a", "x, y", "b, d")]
 
 
-def test_a_wrong_element_is_explained_and_not_taken() -> None:
+def test_invalid_element_is_explained_and_rejected() -> None:
     async def play(session: Session) -> None:
         await session.press("enter")
         await session.type("x")
@@ -72,7 +72,7 @@ def test_a_wrong_element_is_explained_and_not_taken() -> None:
     assert edited(Kind.INTEGER_ARRAY, (1,), play) == []
 
 
-def test_bytes_and_an_empty_array() -> None:
+def test_byte_array_and_empty_array_are_edited() -> None:
     async def play(session: Session) -> None:
         assert "empty" in session.text()
         await session.press("enter")
@@ -90,7 +90,7 @@ def test_bytes_and_an_empty_array() -> None:
 
 
 @pytest.mark.parametrize("undone", [True, False])
-def test_changes_are_dropped_only_when_that_is_confirmed_twice(undone: bool) -> None:
+def test_changes_are_discarded_only_at_the_second_escape(undone: bool) -> None:
     async def play(session: Session) -> None:
         await session.press("d", *(["u"] if undone else []), "escape")
         assert isinstance(session.app.screen, ElementsScreen) is not undone

@@ -15,7 +15,7 @@ async def comes(session: Session, key: str, character: str | None) -> None:
     await session.settle()
 
 
-def test_esc_closes_what_lies_over_the_panes_and_the_character_acts_behind_it() -> None:
+def test_escape_closes_the_overlay_and_the_next_key_reaches_the_pane() -> None:
     async def play(session: Session) -> None:
         await session.press("question_mark")
         assert isinstance(session.app.screen, HelpScreen)
@@ -25,7 +25,7 @@ def test_esc_closes_what_lies_over_the_panes_and_the_character_acts_behind_it() 
     run(live(), play)
 
 
-def test_esc_and_q_end_the_console() -> None:
+def test_escape_followed_by_q_quits() -> None:
     async def play(session: Session) -> None:
         await comes(session, ALT_Q, "q")
         assert not session.app.is_running or session.app._exit
@@ -33,7 +33,7 @@ def test_esc_and_q_end_the_console() -> None:
     run(live(), play)
 
 
-def test_alt_that_the_terminal_distinguishes_is_no_esc() -> None:
+def test_alt_reported_by_the_terminal_is_not_escape() -> None:
     async def play(session: Session) -> None:
         await comes(session, ALT_Q, None)
         assert not session.app._exit
@@ -41,7 +41,7 @@ def test_alt_that_the_terminal_distinguishes_is_no_esc() -> None:
     run(live(), play)
 
 
-def test_a_key_that_a_person_has_bound_with_alt_is_that_key() -> None:
+def test_key_bound_with_alt_is_not_split() -> None:
     async def play(session: Session) -> None:
         session.app.set_keymap({"app.help": ALT_Q})
         await comes(session, ALT_Q, "q")

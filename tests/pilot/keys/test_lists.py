@@ -77,7 +77,7 @@ async def ends_and_pages(session: Session, rows: RowList, home: str, end: str) -
     assert rows.cursor == 0
 
 
-def test_first_and_last_row_and_pages() -> None:
+def test_keys_go_to_first_and_last_row_and_by_pages() -> None:
     async def play(session: Session) -> None:
         for digit in LISTS.values():
             await session.press(digit)
@@ -93,7 +93,7 @@ def matches(rows: RowList) -> Sequence[str]:
 
 
 @pytest.mark.parametrize("digit", LISTS.values(), ids=list(LISTS))
-def test_a_filter_reports_how_many_of_how_many_and_the_matches_are_gone_through_with_and_without_it(digit: str) -> None:
+def test_filter_counts_matches_and_n_steps_through_them(digit: str) -> None:
     async def play(session: Session) -> None:
         await session.press(digit)
         rows = focused(session)
@@ -121,7 +121,7 @@ def test_a_filter_reports_how_many_of_how_many_and_the_matches_are_gone_through_
 
 
 @pytest.mark.parametrize("digit", ["3", *LISTS.values()], ids=["graph", *LISTS])
-def test_where_nothing_was_searched_for_or_nothing_matches_that_is_reported(digit: str) -> None:
+def test_next_match_without_search_or_matches_is_reported(digit: str) -> None:
     async def play(session: Session) -> None:
         await session.press(digit, "n")
         assert "Nothing was looked for yet" in session.text()
@@ -131,7 +131,7 @@ def test_where_nothing_was_searched_for_or_nothing_matches_that_is_reported(digi
     run(live(), play, size=(120, 40))
 
 
-def test_the_graph_goes_from_match_to_match_too() -> None:
+def test_next_match_works_in_the_graph() -> None:
     async def play(session: Session) -> None:
         await session.press("3", "slash", *"scan", "enter", "escape", "n")
         from bot_console.tui.widgets.diagram_view import DiagramView
@@ -145,7 +145,7 @@ def test_the_graph_goes_from_match_to_match_too() -> None:
     run(live(), play, size=(120, 40))
 
 
-def test_elements_are_searched_and_none_is_hidden() -> None:
+def test_search_in_elements_hides_nothing() -> None:
     async def play(session: Session) -> None:
         await session.press("1", "slash", *"a_list", "enter", "enter")
         rows = focused(session)
@@ -160,7 +160,7 @@ def test_elements_are_searched_and_none_is_hidden() -> None:
     run(crowded(tuple(f"{name(at)}_{at}" for at in range(LINES))), play)
 
 
-def test_a_picker_has_the_same_ends_and_pages() -> None:
+def test_picker_has_the_same_keys_for_ends_and_pages() -> None:
     async def play(session: Session) -> None:
         await session.press("8", "o")
         assert isinstance(session.app.screen, PickerScreen)
@@ -172,7 +172,7 @@ def test_a_picker_has_the_same_ends_and_pages() -> None:
     run(crowded(), play)
 
 
-def test_no_key_of_a_pane_acts_while_something_is_typed() -> None:
+def test_pane_keys_are_disabled_while_typing() -> None:
     async def play(session: Session) -> None:
         await session.press("4", "a", "up", "escape", "down")
         before = session.text()
@@ -184,7 +184,7 @@ def test_no_key_of_a_pane_acts_while_something_is_typed() -> None:
     run(live(), play)
 
 
-def test_a_row_ends_before_the_scroll_bar_so_that_its_ellipsis_is_seen() -> None:
+def test_row_ellipsis_is_visible_beside_the_scroll_bar() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         rows = session.pane(ParametersPane).query_one(ParameterRows)

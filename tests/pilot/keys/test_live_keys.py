@@ -56,7 +56,7 @@ def clashes(session: Session) -> dict[str, set[str]]:
     return {key: ids for key, ids in found.items() if len(ids) > 1}
 
 
-def test_in_what_lies_over_the_panes_no_key_means_two_things() -> None:
+def test_no_key_has_two_meanings_in_an_overlay() -> None:
     async def play(session: Session) -> None:
         for name, keys in OVER.items():
             await session.press(keys[0])
@@ -70,7 +70,7 @@ def test_in_what_lies_over_the_panes_no_key_means_two_things() -> None:
     run(with_array(Kind.INTEGER_ARRAY, (1, 2)), play, size=(120, 40))
 
 
-def test_a_key_that_an_overlay_takes_from_the_app_is_found() -> None:
+def test_key_that_an_overlay_takes_from_the_app_is_detected() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         session.app.focused._bindings.bind("z", "dismiss")

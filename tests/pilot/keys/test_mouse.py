@@ -15,7 +15,7 @@ from samples import live
 NAVIGATOR = "/robot_navigator"
 
 
-def test_every_pane_is_reached_by_its_tab_and_its_rows_are_chosen() -> None:
+def test_click_on_tab_opens_pane_and_click_selects_row() -> None:
     async def play(session: Session) -> None:
         for entry in PANES:
             await session.click_tab(entry.key)
@@ -30,7 +30,7 @@ def test_every_pane_is_reached_by_its_tab_and_its_rows_are_chosen() -> None:
     run(live(), play, (200, 40))
 
 
-def test_a_double_click_opens_a_row_and_a_click_beside_the_box_closes_it() -> None:
+def test_double_click_opens_row_and_click_outside_closes_box() -> None:
     async def play(session: Session) -> None:
         await session.click_tab("2")
         await session.pilot.click(session.pane(LogsPane).query(RowList).first(), offset=(40, 1), times=2)
@@ -61,7 +61,7 @@ def test_a_question_is_answered_by_mouse(answer: str, set_: bool) -> None:
     run(live(), play, (200, 40))
 
 
-def test_one_of_several_is_chosen_and_the_robot_is_stopped_from_the_key_bar() -> None:
+def test_click_chooses_option_and_key_bar_stops_the_robot() -> None:
     async def play(session: Session) -> None:
         await session.click_tab("8")
         await session.click("o Open", last=True)
@@ -80,7 +80,7 @@ def test_one_of_several_is_chosen_and_the_robot_is_stopped_from_the_key_bar() ->
     run(live(), play, (200, 40))
 
 
-def test_a_line_of_the_help_does_what_its_key_does() -> None:
+def test_click_on_help_line_presses_its_key() -> None:
     async def play(session: Session) -> None:
         await session.click_tab("1")
         await session.click("? Help")

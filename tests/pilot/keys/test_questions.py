@@ -54,7 +54,7 @@ def without(session: Session, node: str) -> None:
     session.console.change(parameters=MappingProxyType({name: tree for name, tree in trees.items() if name != node}))
 
 
-def test_a_value_goes_to_the_parameter_that_was_asked_about_wherever_the_cursor_is_by_then() -> None:
+def test_value_is_set_on_the_edited_parameter_after_the_cursor_moved() -> None:
     async def play(session: Session) -> None:
         assert not session.app.screen.query(Input), "fields are made when they are first used"
         await edit(session, "max_speed")
@@ -66,7 +66,7 @@ def test_a_value_goes_to_the_parameter_that_was_asked_about_wherever_the_cursor_
     run(live(), play)
 
 
-def test_a_click_moves_the_cursor_and_leaves_the_keys_to_the_prompt() -> None:
+def test_click_moves_cursor_and_prompt_keeps_focus() -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
         at = rows(session).cursor
@@ -80,7 +80,7 @@ def test_a_click_moves_the_cursor_and_leaves_the_keys_to_the_prompt() -> None:
     run(live(), play)
 
 
-def test_a_click_into_another_pane_gives_the_prompt_up_and_the_next_one_opens() -> None:
+def test_click_into_another_pane_closes_the_prompt() -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
         await session.press("escape", "0", "e")
@@ -95,7 +95,7 @@ def test_a_click_into_another_pane_gives_the_prompt_up_and_the_next_one_opens() 
 
 
 @pytest.mark.parametrize("gone", ["node", "parameter"])
-def test_an_edit_closes_by_itself_when_its_subject_leaves(gone: str) -> None:
+def test_edit_closes_when_its_node_leaves(gone: str) -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
         if gone == "node":
@@ -115,7 +115,7 @@ def test_an_edit_closes_by_itself_when_its_subject_leaves(gone: str) -> None:
     run(live(), play, (120, 30))
 
 
-def test_a_subject_that_leaves_in_the_last_moment_is_noticed_by_the_answer() -> None:
+def test_answer_is_refused_if_the_node_has_just_left() -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
         without(session, "/robot_navigator")
@@ -125,7 +125,7 @@ def test_a_subject_that_leaves_in_the_last_moment_is_noticed_by_the_answer() -> 
     run(live(), play)
 
 
-def test_the_question_whether_to_kill_closes_when_the_process_has_ended() -> None:
+def test_kill_confirmation_closes_when_the_process_has_ended() -> None:
     async def play(session: Session) -> None:
         await session.press("8", "down", "down", "K")
         assert isinstance(session.app.screen, ConfirmScreen)
@@ -150,7 +150,7 @@ def test_characters_typed_after_the_filter_key_belong_to_the_filter() -> None:
     run(live(), play)
 
 
-def test_characters_typed_after_the_edit_key_are_the_value_and_what_follows_enter_is_a_command() -> None:
+def test_keys_typed_fast_go_to_the_value_until_enter() -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
         await session.press("escape")
@@ -173,7 +173,7 @@ def test_characters_typed_after_the_palette_key_belong_to_the_palette() -> None:
     run(live(), play)
 
 
-def test_a_key_pressed_twice_closes_one_thing() -> None:
+def test_escape_pressed_twice_closes_one_prompt_at_a_time() -> None:
     async def play(session: Session) -> None:
         for keys in (":\r\r", ":\x1b\x1b", ":xyzzy\r\r", ":?\r\x1b\r", "8o\r\r", "8o\x1b\x1b\x1b", "?qq"):
             await session.press("escape", "escape", "escape")
@@ -184,7 +184,7 @@ def test_a_key_pressed_twice_closes_one_thing() -> None:
     run(live(), play)
 
 
-def test_no_key_is_held_up_by_one_that_has_ended() -> None:
+def test_finished_key_does_not_hold_up_the_next() -> None:
     async def play(session: Session) -> None:
         for keys in ("?", "\x1b", ":", "\x1b", "/", "x", "\r", "/", "\x1b", "8", "o", "\x1b", "3", "\r", "\x1b"):
             await at_once(session, keys)

@@ -25,7 +25,7 @@ def shown(session: Session) -> list[str]:
     return [each.id or "" for each in session.app.visible_panes()]
 
 
-def test_a_digit_jumps_to_the_pane_and_gives_it_the_keyboard() -> None:
+def test_digit_opens_and_focuses_the_pane() -> None:
     async def play(session: Session) -> None:
         for entry in PANES:
             await session.press(entry.key)
@@ -36,7 +36,7 @@ def test_a_digit_jumps_to_the_pane_and_gives_it_the_keyboard() -> None:
     run(live(), play)
 
 
-def test_tab_goes_round_all_panes_and_shift_tab_back() -> None:
+def test_tab_cycles_through_panes_and_shift_tab_back() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         seen = [session.app.current_pane.id]
@@ -61,7 +61,7 @@ def test_tab_goes_round_all_panes_and_shift_tab_back() -> None:
         ((200, 60), {"parameters", "world", "plot", "logs", "graph"}),
     ],
 )
-def test_the_overview_holds_what_fits(size, expected) -> None:
+def test_overview_shows_the_panes_that_fit(size, expected) -> None:
     async def play(session: Session) -> None:
         await session.press("4", "0")
         assert set(shown(session)) == expected
@@ -69,7 +69,7 @@ def test_the_overview_holds_what_fits(size, expected) -> None:
     run(live(), play, size)
 
 
-def test_z_takes_one_pane_out_of_the_overview_and_back() -> None:
+def test_z_maximises_a_pane_and_restores_the_overview() -> None:
     async def play(session: Session) -> None:
         await session.press("tab", "z")
         assert shown(session) == ["world"]
@@ -79,7 +79,7 @@ def test_z_takes_one_pane_out_of_the_overview_and_back() -> None:
     run(live(), play, (120, 40))
 
 
-def test_a_terminal_that_is_too_small_gets_a_polite_word_and_recovers() -> None:
+def test_too_small_terminal_shows_a_message_and_recovers() -> None:
     async def play(session: Session) -> None:
         await session.pilot.resize_terminal(50, 15)
         await session.settle()
@@ -93,7 +93,7 @@ def test_a_terminal_that_is_too_small_gets_a_polite_word_and_recovers() -> None:
     run(live(), play)
 
 
-def test_even_a_tiny_terminal_reports_how_to_stop_the_robot_and_how_to_quit() -> None:
+def test_tiny_terminal_still_names_the_stop_and_quit_keys() -> None:
     async def play(session: Session) -> None:
         await session.pilot.resize_terminal(20, 5)
         await session.settle()
@@ -120,7 +120,7 @@ def test_help_names_every_key_of_the_pane() -> None:
     run(live(), play, (100, 70))
 
 
-def test_a_help_that_is_longer_than_the_screen_scrolls() -> None:
+def test_long_help_scrolls() -> None:
     async def play(session: Session) -> None:
         await session.press("1", "question_mark")
         begin = session.text()
@@ -133,7 +133,7 @@ def test_a_help_that_is_longer_than_the_screen_scrolls() -> None:
 
 
 @pytest.mark.parametrize("key", ["ctrl+p"])
-def test_the_palette_opens_and_runs_an_action(key: str) -> None:
+def test_palette_runs_an_action(key: str) -> None:
     async def play(session: Session) -> None:
         await session.press(key)
         assert isinstance(session.app.screen, PickerScreen)
@@ -181,7 +181,7 @@ def test_in_a_text_field_the_all_stop_and_digits_are_text() -> None:
     run(live(), play)
 
 
-def test_q_quits_and_the_line_of_keys_fits_every_width() -> None:
+def test_key_bar_fits_every_width_and_q_quits() -> None:
     async def play(session: Session) -> None:
         for entry in PANES:
             await session.press(entry.key)
@@ -218,7 +218,7 @@ def test_the_key_bar_names_the_filter_at_80_columns() -> None:
     run(live(), play)
 
 
-def test_the_first_and_the_last_row_are_one_key_away_in_every_list() -> None:
+def test_every_list_has_keys_for_first_and_last_row() -> None:
     panes: tuple[type[Pane], ...] = (ParametersPane, LaunchPane, ProfilesPane, LogsPane)
 
     async def play(session: Session) -> None:
@@ -234,7 +234,7 @@ def test_the_first_and_the_last_row_are_one_key_away_in_every_list() -> None:
     run(live(), play)
 
 
-def test_the_first_cursor_is_on_what_matters_most_in_whatever_order_nodes_come() -> None:
+def test_first_cursor_is_on_the_most_important_parameter_in_any_node_order() -> None:
     system = live()
     trees = dict(system[0].current.parameters)
     system[0].change(parameters={"/simulator": trees["/simulator"]})

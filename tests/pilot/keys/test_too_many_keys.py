@@ -23,7 +23,7 @@ async def behind(session: Session, *keys: str) -> list[str]:
     return [each.key for each in session.app._keyboard._waiting if isinstance(each, events.Key)]
 
 
-def test_a_key_that_is_held_down_is_done_a_few_times_more() -> None:
+def test_held_key_acts_only_a_few_times_after_its_release() -> None:
     async def play(session: Session) -> None:
         waiting = await behind(session, *"x" * 3 * REPEATS, *"yx" * REPEATS)
         assert waiting == [*"x" * REPEATS, *"yx" * REPEATS]
@@ -39,7 +39,7 @@ def test_stops_are_never_dropped() -> None:
     run(live(), play)
 
 
-def test_characters_of_a_text_are_not_dropped() -> None:
+def test_typed_text_is_not_dropped() -> None:
     async def play(session: Session) -> None:
         await session.press("colon")
         assert len(await behind(session, *"a" * 3 * REPEATS)) == 3 * REPEATS
@@ -50,7 +50,7 @@ def test_characters_of_a_text_are_not_dropped() -> None:
     run(live(), play)
 
 
-def test_what_waits_is_bounded_but_for_stops(monkeypatch: MonkeyPatch) -> None:
+def test_waiting_keys_are_limited_except_stops(monkeypatch: MonkeyPatch) -> None:
     assert MAX_WAITING_KEYS > 100 * REPEATS
     monkeypatch.setattr(keyboard, "MAX_WAITING_KEYS", 2 * REPEATS)
 

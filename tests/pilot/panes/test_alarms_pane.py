@@ -33,7 +33,7 @@ async def add(session: Session, text: str) -> None:
     await session.press("enter")
 
 
-def test_it_is_reported_once_for_each_crossing_also_while_the_pane_is_hidden() -> None:
+def test_alarm_is_announced_once_per_crossing_even_while_hidden() -> None:
     async def play(session: Session) -> None:
         await session.press("B")
         await add(session, f"too fast: {SPEED} > 2")
@@ -58,7 +58,7 @@ def test_it_is_reported_once_for_each_crossing_also_while_the_pane_is_hidden() -
     run(live(), play, (120, 30))
 
 
-def test_a_bell_rings_where_it_is_asked_for(monkeypatch) -> None:
+def test_bell_rings_only_for_alarms_with_bell(monkeypatch) -> None:
     async def play(session: Session) -> None:
         rung = []
         monkeypatch.setattr(session.app, "bell", lambda: rung.append(1))
@@ -73,7 +73,7 @@ def test_a_bell_rings_where_it_is_asked_for(monkeypatch) -> None:
     run(live(), play)
 
 
-def test_alarms_are_kept_edited_and_taken_away() -> None:
+def test_alarms_are_stored_edited_and_deleted() -> None:
     async def play(session: Session) -> None:
         await session.press("B")
         await add(session, f"fast: {SPEED} > 2")
@@ -88,7 +88,7 @@ def test_alarms_are_kept_edited_and_taken_away() -> None:
     run(live(), play)
 
 
-def test_what_is_wrong_is_reported_before_it_is_taken_and_what_is_missing_is_waited_for() -> None:
+def test_invalid_condition_is_rejected_and_missing_topic_is_awaited() -> None:
     async def play(session: Session) -> None:
         await session.press("B")
         await add(session, "fast: 1 < 2")
@@ -105,7 +105,7 @@ def test_what_is_wrong_is_reported_before_it_is_taken_and_what_is_missing_is_wai
     run(live(), play, (120, 30))
 
 
-def test_the_mouse_chooses_and_edits() -> None:
+def test_click_selects_and_edits_an_alarm() -> None:
     async def play(session: Session) -> None:
         await session.press("B")
         for name in ("one", "two"):
@@ -120,7 +120,7 @@ def test_the_mouse_chooses_and_edits() -> None:
     run(live(), play, (120, 30))
 
 
-def test_nothing_there_reports_what_to_do() -> None:
+def test_empty_pane_explains_how_to_add_an_alarm() -> None:
     async def play(session: Session) -> None:
         await session.press("B", "d", "b", "p")
         assert "a adds an alarm" in session.text()
@@ -128,6 +128,6 @@ def test_nothing_there_reports_what_to_do() -> None:
     run(empty(), play)
 
 
-def test_a_name_stands_before_a_colon_and_a_blank() -> None:
+def test_name_precedes_colon_and_blank() -> None:
     assert parted("low battery:  /a/b  < 1") == ("low battery", "/a/b < 1")
     assert parted("/node:speed < 1") == ("/node:speed < 1", "/node:speed < 1")

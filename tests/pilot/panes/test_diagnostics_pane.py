@@ -16,7 +16,7 @@ def titles(session: Session) -> list[str]:
     return [each.title for each in session.pane(StatusRows).rows]
 
 
-def test_the_tree_shows_levels_by_word_and_the_worst_upwards() -> None:
+def test_tree_names_levels_and_propagates_the_worst() -> None:
     async def play(session: Session) -> None:
         await session.press("M")
         lines = session.lines()
@@ -32,7 +32,7 @@ def test_the_tree_shows_levels_by_word_and_the_worst_upwards() -> None:
     run(live(), play, (100, 30))
 
 
-def test_that_nothing_reports_is_reported_in_whole() -> None:
+def test_absence_of_diagnostics_is_explained_in_full() -> None:
     async def play(session: Session) -> None:
         session.console.sensors.info = Diagnostics()
         await session.press("M")
@@ -44,7 +44,7 @@ def test_that_nothing_reports_is_reported_in_whole() -> None:
     run(live(), play, (120, 40))
 
 
-def test_what_comes_is_shown_when_time_goes_on_and_what_is_silent_turns_stale() -> None:
+def test_new_status_is_shown_and_silent_one_becomes_stale() -> None:
     async def play(session: Session) -> None:
         await session.press("M", "w")
         assert "safety_monitor: velocity" not in titles(session) and "2 of 5" not in session.text()
@@ -71,7 +71,7 @@ def test_what_comes_is_shown_when_time_goes_on_and_what_is_silent_turns_stale() 
     run(live(), play, (100, 30))
 
 
-def test_filter_and_folds() -> None:
+def test_rows_are_filtered_and_folded() -> None:
     async def play(session: Session) -> None:
         await session.press("M", "slash")
         await session.type("warm")
@@ -85,7 +85,7 @@ def test_filter_and_folds() -> None:
     run(live(), play)
 
 
-def test_the_mouse_chooses_opens_and_closes() -> None:
+def test_mouse_selects_opens_and_folds_rows() -> None:
     async def play(session: Session) -> None:
         await session.press("M")
         assert await session.pilot.click(StatusRows, offset=(10, 3))
@@ -102,7 +102,7 @@ def test_the_mouse_chooses_opens_and_closes() -> None:
     run(live(), play, (100, 30))
 
 
-def test_nothing_to_see_reports_why() -> None:
+def test_empty_list_explains_why() -> None:
     async def play(session: Session) -> None:
         await session.press("M", "enter", "left", "C", "w")
         assert "No node publishes diagnostics" in session.text()

@@ -23,7 +23,7 @@ def asked(session: Session) -> list[dict[str, dict[str, object]]]:
     return [each[1] for each in session.console.asked if each[0] == "set_all"]
 
 
-def test_all_changes_are_listed_the_newest_first_with_who_and_why() -> None:
+def test_changes_are_listed_newest_first_with_source_and_reason() -> None:
     async def play(session: Session) -> None:
         await session.press("H")
         assert shown(session) == [("max_speed", 10.0), ("max_speed", 1.0), ("turn_rate", 1.5)]
@@ -40,7 +40,7 @@ def test_all_changes_are_listed_the_newest_first_with_who_and_why() -> None:
     run(live(), play, (100, 30))
 
 
-def test_in_80_columns_who_and_why_have_room_beside_long_names_and_values() -> None:
+def test_source_and_reason_fit_at_80_columns_beside_long_names() -> None:
     async def play(session: Session) -> None:
         long = {"recovery.emergency_stop_distance": "a value that is long", "speed": 1.0}
         session.console.take("/warehouse/robot_navigator_of_the_dock", long, ChangeSource.OTHER)
@@ -51,7 +51,7 @@ def test_in_80_columns_who_and_why_have_room_beside_long_names_and_values() -> N
     run(live(), play, (80, 24))
 
 
-def test_going_back_to_a_row_asks_and_sets_everything_together() -> None:
+def test_going_back_to_a_row_asks_and_sets_all_values_together() -> None:
     async def play(session: Session) -> None:
         session.console.set_parameters(NAVIGATOR, {"max_speed": 2.0})
         session.console.set_parameters(NAVIGATOR, {"turn_rate": 2.0})
@@ -71,7 +71,7 @@ def test_going_back_to_a_row_asks_and_sets_everything_together() -> None:
     run(live(), play, (100, 30))
 
 
-def test_what_a_node_refuses_on_the_way_back_leaves_all_as_it_is_and_reports_why() -> None:
+def test_refused_revert_changes_nothing_and_shows_the_reason() -> None:
     async def play(session: Session) -> None:
         session.console.set_parameters(NAVIGATOR, {"turn_rate": 2.0})
         session.console.set_parameters("/simulator", {"lidar.beams": 90})
@@ -83,7 +83,7 @@ def test_what_a_node_refuses_on_the_way_back_leaves_all_as_it_is_and_reports_why
     run(live(), play, (100, 30))
 
 
-def test_one_change_alone_is_put_back_and_a_loss_of_safety_is_named() -> None:
+def test_single_change_is_reverted_with_a_safety_warning() -> None:
     async def play(session: Session) -> None:
         session.console.set_parameters(NAVIGATOR, {"safety_distance": 1.5})
         session.console.set_parameters(NAVIGATOR, {"turn_rate": 2.0})
@@ -97,7 +97,7 @@ def test_one_change_alone_is_put_back_and_a_loss_of_safety_is_named() -> None:
     run(live(), play, (100, 30))
 
 
-def test_a_filter_and_only_refusals() -> None:
+def test_changes_are_filtered_by_words_and_by_refusal() -> None:
     async def play(session: Session) -> None:
         await session.press("H", "slash")
         await session.type("outdoor")
@@ -111,7 +111,7 @@ def test_a_filter_and_only_refusals() -> None:
     run(live(), play)
 
 
-def test_log_and_plot_look_at_the_moment_of_the_row() -> None:
+def test_log_and_plot_show_the_time_of_the_row() -> None:
     async def play(session: Session) -> None:
         for second in range(-20, 20):
             session.console.show_text(Severity.INFO, "clock", f"second {second}", START + second * 10**9)
@@ -137,7 +137,7 @@ def test_log_and_plot_look_at_the_moment_of_the_row() -> None:
     run(live(), play, (120, 40))
 
 
-def test_what_is_shown_is_exported(tmp_path: Path) -> None:
+def test_shown_changes_are_exported(tmp_path: Path) -> None:
     async def play(session: Session) -> None:
         await session.press("H", "x", "e")
         for _ in range(len("history.csv")):
@@ -150,7 +150,7 @@ def test_what_is_shown_is_exported(tmp_path: Path) -> None:
     run(live(), play)
 
 
-def test_an_empty_history_reports_it() -> None:
+def test_empty_history_says_so() -> None:
     async def play(session: Session) -> None:
         await session.press("H", "u", "b", "p", "y", "x", "escape")
         assert "No parameter was changed yet." in session.text()

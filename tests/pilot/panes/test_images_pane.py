@@ -29,7 +29,7 @@ async def later(session: Session, seconds: float) -> None:
     await session.settle()
 
 
-def test_the_first_topic_is_shown_in_half_blocks_and_n_takes_the_next() -> None:
+def test_first_topic_is_shown_in_half_blocks_and_n_shows_the_next() -> None:
     async def play(session: Session) -> None:
         await session.press("I")
         sensors = session.console.sensors
@@ -49,7 +49,7 @@ def test_the_first_topic_is_shown_in_half_blocks_and_n_takes_the_next() -> None:
     run(system(), play)
 
 
-def test_pictures_come_no_faster_than_the_pace_and_stand_still_when_frozen() -> None:
+def test_frame_rate_is_limited_and_freezing_stops_updates() -> None:
     async def play(session: Session) -> None:
         await session.press("I")
         session.console.sensors.shown = picture(40, 2)
@@ -69,7 +69,7 @@ def test_pictures_come_no_faster_than_the_pace_and_stand_still_when_frozen() -> 
     run(system(), play)
 
 
-def test_a_slow_link_freezes_the_picture_and_space_takes_one(monkeypatch) -> None:
+def test_slow_link_freezes_the_image_and_space_fetches_one(monkeypatch) -> None:
     async def play(session: Session) -> None:
         await session.press("I")
         monkeypatch.setattr(type(session.app.gate), "held_back", 20)
@@ -82,7 +82,7 @@ def test_a_slow_link_freezes_the_picture_and_space_takes_one(monkeypatch) -> Non
     run(system(), play)
 
 
-def test_characters_where_they_are_wanted_and_on_plain_terminals() -> None:
+def test_characters_are_used_on_request_and_on_plain_terminals() -> None:
     async def play(session: Session) -> None:
         await session.press("I", "g")
         assert "################" in session.text() and "#cccccc" not in drawn(session)
@@ -96,7 +96,7 @@ def test_characters_where_they_are_wanted_and_on_plain_terminals() -> None:
     run(system(), play)
 
 
-def test_what_cannot_be_shown_reports_why() -> None:
+def test_unsupported_image_explains_why() -> None:
     async def nothing(session: Session) -> None:
         await session.press("I", "n", "space", "g", "y", "t")
         assert "No topic of sensor_msgs/msg/Image" in session.text()
@@ -110,7 +110,7 @@ def test_what_cannot_be_shown_reports_why() -> None:
     run(system(), wrong)
 
 
-def test_where_no_image_comes_the_pane_reports_what_to_do_until_one_does() -> None:
+def test_pane_explains_what_to_do_until_an_image_arrives() -> None:
     async def play(session: Session) -> None:
         await session.press("I")
         assert "8 then o opens a launch file" in session.text()

@@ -27,7 +27,7 @@ async def until(session: Session, kind: type) -> None:
     raise AssertionError(f"no {kind.__name__}")
 
 
-def test_processes_stand_as_a_tree_with_their_state() -> None:
+def test_processes_are_shown_as_a_tree_with_states() -> None:
     async def play(session: Session) -> None:
         await session.press("8")
         text = session.text()
@@ -39,7 +39,7 @@ def test_processes_stand_as_a_tree_with_their_state() -> None:
     run(live(), play, (120, 40))
 
 
-def test_one_process_is_started_stopped_and_restarted_and_killing_is_asked_about() -> None:
+def test_process_is_started_stopped_restarted_and_killed_after_a_question() -> None:
     async def play(session: Session) -> None:
         await session.press("8", "down", "x", "r", "s")
         key = "sensor_handler@0"
@@ -52,7 +52,7 @@ def test_one_process_is_started_stopped_and_restarted_and_killing_is_asked_about
     run(live(), play)
 
 
-def test_on_a_group_the_keys_mean_all_of_it() -> None:
+def test_keys_on_a_group_act_on_all_its_processes() -> None:
     async def play(session: Session) -> None:
         await session.press("8", "x")
         assert "Stop 5 processes of robot_system.launch.py?" in session.text()
@@ -63,7 +63,7 @@ def test_on_a_group_the_keys_mean_all_of_it() -> None:
     run(live(), play)
 
 
-def test_on_a_group_a_process_that_is_stopping_is_started_and_nothing_to_do_is_reported() -> None:
+def test_starting_a_group_includes_stopping_processes() -> None:
     def with_states(state: ProcessState) -> LaunchInfo:
         return replace(launched(), processes=tuple(replace(each, state=state) for each in launched().processes))
 
@@ -98,7 +98,7 @@ def test_groups_fold_and_the_cursor_stays_on_its_process() -> None:
     run(live(), play)
 
 
-def test_details_and_timeline() -> None:
+def test_details_and_timeline_are_listed() -> None:
     async def play(session: Session) -> None:
         await session.press("8", *["down"] * 4, "enter")
         text = session.text()
@@ -133,7 +133,7 @@ def test_a_launch_file_is_picked_and_its_arguments_are_filled_in() -> None:
     run(live(), play)
 
 
-def test_a_value_that_is_not_among_the_choices_is_refused() -> None:
+def test_argument_outside_its_choices_is_rejected() -> None:
     async def play(session: Session) -> None:
         session.launcher.declared = arguments()[:1]
         await session.press("8", "o", "enter")
@@ -160,7 +160,7 @@ def test_a_path_may_be_typed_and_a_file_without_arguments_starts_at_once() -> No
     run(live(), play)
 
 
-def test_a_launch_file_that_cannot_be_read_is_shown_and_nothing_else_stops() -> None:
+def test_unreadable_launch_file_is_reported_and_changes_nothing() -> None:
     async def play(session: Session) -> None:
         session.launcher.broken = "/opt/launch/robot_system.launch.py, line 3: invalid syntax"
         await session.press("8", "o", "enter")
@@ -181,7 +181,7 @@ def test_a_launch_that_failed_is_reported_in_the_pane() -> None:
     run(faulty(), play, (100, 30))
 
 
-def test_a_failure_is_reported_once_and_whole_until_the_cursor_moves() -> None:
+def test_failure_is_shown_in_full_until_the_cursor_moves() -> None:
     async def play(session: Session) -> None:
         problem = "/a/long/path/to/some/workspace/src/robot/launch/robot.launch.py, line 31: " + "word " * 12 + "end"
         session.launcher.declared = ()
@@ -196,7 +196,7 @@ def test_a_failure_is_reported_once_and_whole_until_the_cursor_moves() -> None:
     run(live(), play)
 
 
-def test_choices_stand_as_a_list_with_a_mark_at_the_value() -> None:
+def test_choices_are_listed_with_the_value_marked() -> None:
     async def play(session: Session) -> None:
         session.launcher.declared = arguments()[:1]
         await session.press("8", "o", "enter")
@@ -208,7 +208,7 @@ def test_choices_stand_as_a_list_with_a_mark_at_the_value() -> None:
     run(live(), play)
 
 
-def test_an_empty_pane_reports_what_to_do_and_a_process_that_comes_appears() -> None:
+def test_empty_pane_explains_what_to_do_and_new_process_appears() -> None:
     async def play(session: Session) -> None:
         await session.press("8", "x", "s", "enter", "left", "right")
         assert "o opens a launch file" in session.text()
@@ -224,7 +224,7 @@ def test_an_empty_pane_reports_what_to_do_and_a_process_that_comes_appears() -> 
     run(empty(), play)
 
 
-def test_states_are_reported_by_word_and_by_sign() -> None:
+def test_states_have_a_word_and_a_sign() -> None:
     async def play(session: Session) -> None:
         info = launched()
         first = info.processes[0]
@@ -239,7 +239,7 @@ def test_states_are_reported_by_word_and_by_sign() -> None:
     run(live(), play)
 
 
-def test_what_ends_a_lock_that_holds_the_robot_is_asked_about_with_the_names_of_the_holders() -> None:
+def test_ending_a_lock_that_holds_the_robot_asks_and_names_the_holders() -> None:
     async def play(session: Session) -> None:
         console = session.console
         lock = Endpoint("/emergency_stop/arbiter", ("diagnostic_msgs/msg/DiagnosticStatus",))

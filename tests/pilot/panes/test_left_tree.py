@@ -15,7 +15,7 @@ def current(session: Session) -> tuple[str, str]:
     return row.node, row.parameter.name if row.parameter else ""
 
 
-def test_it_is_as_it_was_left() -> None:
+def test_parameter_tree_is_restored_at_the_next_start() -> None:
     kept = {}
 
     async def leave(session: Session) -> None:
@@ -41,7 +41,7 @@ def test_it_is_as_it_was_left() -> None:
     assert kept["parameters"]["closed"]
 
 
-def test_a_filter_is_there_again_and_escape_takes_it_away() -> None:
+def test_filter_is_restored_and_escape_clears_it() -> None:
     async def play(session: Session) -> None:
         session.app.state_store.put(
             "parameters", {"filter": "turn", "at": ["/robot_navigator", "turn_rate", "turn_rate"]}
@@ -55,7 +55,7 @@ def test_a_filter_is_there_again_and_escape_takes_it_away() -> None:
     run(live(), play)
 
 
-def test_the_graph_is_drawn_as_it_was_left() -> None:
+def test_graph_view_is_restored() -> None:
     async def play(session: Session) -> None:
         pane = session.pane(GraphPane)
         await session.press("3", "m", "D")
@@ -69,7 +69,7 @@ def test_the_graph_is_drawn_as_it_was_left() -> None:
     run(live(), play)
 
 
-def test_a_preselected_node_comes_before_what_was_left() -> None:
+def test_preselected_node_takes_precedence_over_restored_cursor() -> None:
     async def play(session: Session) -> None:
         session.app.state_store.put("parameters", {"filter": "turn", "closed": ["/simulator"]})
         pane = session.pane(ParametersPane)

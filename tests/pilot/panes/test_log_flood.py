@@ -56,7 +56,7 @@ def shown(session: Session) -> np.ndarray[Any, Any]:
     return numbers.array()
 
 
-def test_a_hundred_thousand_lines_are_followed_counted_and_shown_once() -> None:
+def test_hundred_thousand_lines_are_followed_and_counted_exactly_once() -> None:
     console = Flooded()
 
     async def play(session: Session) -> None:

@@ -21,7 +21,7 @@ def seqs(session: Session) -> list[int]:
     return [rows.number(index) for index in range(rows.row_count())]
 
 
-def test_the_newest_line_is_followed_until_somebody_scrolls_up() -> None:
+def test_newest_line_is_followed_until_the_user_scrolls_up() -> None:
     async def play(session: Session) -> None:
         await session.press("2")
         for number in range(60):
@@ -39,7 +39,7 @@ def test_the_newest_line_is_followed_until_somebody_scrolls_up() -> None:
     run(live(), play)
 
 
-def test_severity_words_and_nodes_filter() -> None:
+def test_lines_are_filtered_by_severity_words_and_node() -> None:
     async def play(session: Session) -> None:
         await session.press("2", "w")
         assert len(seqs(session)) == 2
@@ -59,7 +59,7 @@ def test_severity_words_and_nodes_filter() -> None:
     run(live(), play)
 
 
-def test_the_next_error_the_whole_message_copy_and_save(tmp_path: Path) -> None:
+def test_next_error_is_shown_in_full_copied_and_saved(tmp_path: Path) -> None:
     async def play(session: Session) -> None:
         await session.press("2", "g", "E", "enter")
         assert "node.py:7 in callback" in session.text()
@@ -72,7 +72,7 @@ def test_the_next_error_the_whole_message_copy_and_save(tmp_path: Path) -> None:
     assert text.count("\n") == 5 and "[ERROR]" in text
 
 
-def test_a_file_that_is_there_is_replaced_only_when_asked_to(tmp_path: Path) -> None:
+def test_existing_file_is_replaced_only_after_a_question(tmp_path: Path) -> None:
     path = tmp_path / "mine [b].txt"
 
     async def play(session: Session) -> None:
@@ -93,7 +93,7 @@ def test_a_file_that_is_there_is_replaced_only_when_asked_to(tmp_path: Path) -> 
     run(live(), play)
 
 
-def test_a_bad_pattern_is_explained_and_an_empty_log_is_calm() -> None:
+def test_invalid_pattern_is_explained_even_on_an_empty_log() -> None:
     async def play(session: Session) -> None:
         await session.press("2", "E", "enter", "x", "y", "K", "f", "slash")
         session.app.clear_notifications()
@@ -104,7 +104,7 @@ def test_a_bad_pattern_is_explained_and_an_empty_log_is_calm() -> None:
     run(empty(), play)
 
 
-def test_rules_hide_and_highlight_until_they_are_changed() -> None:
+def test_rules_hide_and_highlight_lines() -> None:
     async def play(session: Session) -> None:
         await session.press("2", "g", "plus", "enter")
         assert "▌" in session.text() and "In violet: node:=" in session.text()
@@ -162,7 +162,7 @@ def test_a_search_hides_nothing_and_goes_around() -> None:
     run(live(), play)
 
 
-def test_repeats_are_one_line_with_their_number() -> None:
+def test_repeated_lines_are_folded_with_a_count() -> None:
     async def play(session: Session) -> None:
         await session.press("2")
         before = len(seqs(session))
@@ -179,7 +179,7 @@ def test_repeats_are_one_line_with_their_number() -> None:
     run(live(), play)
 
 
-def test_a_saved_log_is_read_in_its_place(tmp_path: Path) -> None:
+def test_saved_log_replaces_the_live_one(tmp_path: Path) -> None:
     path = tmp_path / "run.txt"
     path.write_text("[WARN] [1700000000.5] [/arm]: saved\nin two lines\n")
 
@@ -203,7 +203,7 @@ def test_a_saved_log_is_read_in_its_place(tmp_path: Path) -> None:
     run(live(), play)
 
 
-def test_what_was_before_a_line_and_its_moment_in_the_plot() -> None:
+def test_line_leads_to_preceding_events_and_to_the_plot() -> None:
     async def play(session: Session) -> None:
         cursor = session.app.time_cursor
         await session.press("2", "g", "b")
@@ -219,7 +219,7 @@ def test_what_was_before_a_line_and_its_moment_in_the_plot() -> None:
     run(live(), play)
 
 
-def test_levels_of_loggers_are_set_where_a_node_offers_it() -> None:
+def test_logger_levels_are_set_on_nodes_with_logger_services() -> None:
     async def play(session: Session) -> None:
         graph = session.console.current.graph
         offered = Endpoint("/robot_navigator/set_logger_levels", ("rcl_interfaces/srv/SetLoggerLevels",))
@@ -236,7 +236,7 @@ def test_levels_of_loggers_are_set_where_a_node_offers_it() -> None:
     run(live(), play)
 
 
-def test_a_node_that_left_before_its_lines_were_inspected_is_spelled_as_it_was() -> None:
+def test_name_of_a_node_that_has_left_is_still_spelled_as_in_the_graph() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         graph = session.console.current.graph

@@ -28,7 +28,7 @@ def asked(session: Session) -> list[tuple[str, dict[str, object]]]:
     return [each[1:] for each in session.console.asked if each[0] == "set"]
 
 
-def test_a_number_is_edited_and_moved_by_steps() -> None:
+def test_number_is_edited_and_stepped() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         await go_to(session, "max_speed")
@@ -42,7 +42,7 @@ def test_a_number_is_edited_and_moved_by_steps() -> None:
     run(live(), play)
 
 
-def test_a_value_that_is_not_answered_reports_that_it_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_unanswered_value_is_shown_as_pending(monkeypatch: pytest.MonkeyPatch) -> None:
     async def play(session: Session) -> None:
         pane = session.pane(ParametersPane)
         pane.clock = Clock()
@@ -68,7 +68,7 @@ def test_a_value_that_is_not_answered_reports_that_it_is_waited_for(monkeypatch:
     run(live(), play)
 
 
-def test_a_bool_toggles_and_a_text_that_is_no_value_is_explained() -> None:
+def test_boolean_toggles_and_invalid_value_is_explained() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         await go_to(session, "enable_safety")
@@ -83,7 +83,7 @@ def test_a_bool_toggles_and_a_text_that_is_no_value_is_explained() -> None:
     run(live(), play)
 
 
-def test_what_is_wrong_with_a_value_is_read_whole_beside_what_was_typed() -> None:
+def test_error_of_a_typed_value_is_shown_in_full() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         await go_to(session, "max_speed")
@@ -98,7 +98,7 @@ def test_what_is_wrong_with_a_value_is_read_whole_beside_what_was_typed() -> Non
     run(live(), play)
 
 
-def test_a_refusal_snaps_back_and_reports_who_refused_and_why() -> None:
+def test_refused_value_snaps_back_and_shows_node_and_reason() -> None:
     async def play(session: Session) -> None:
         session.console.refusals["/robot_navigator", "max_speed"] = "too fast for indoors"
         await session.press("1")
@@ -129,7 +129,7 @@ async def refuse(session: Session) -> None:
     await session.press("enter")
 
 
-def test_a_long_reason_is_whole_in_the_detail_and_keeps_its_colour_at_the_cursor() -> None:
+def test_long_reason_is_shown_in_full_in_the_details() -> None:
     async def play(session: Session) -> None:
         await refuse(session)
         shown = rows(session)
@@ -146,7 +146,7 @@ def test_a_long_reason_is_whole_in_the_detail_and_keeps_its_colour_at_the_cursor
 
 
 @pytest.mark.parametrize("key", ["escape", "x"])
-def test_the_mark_of_a_refusal_is_dismissed(key: str) -> None:
+def test_refusal_is_dismissed(key: str) -> None:
     async def play(session: Session) -> None:
         await refuse(session)
         assert "✗ 3.0" in session.text()
@@ -161,7 +161,7 @@ def test_the_mark_of_a_refusal_is_dismissed(key: str) -> None:
 LONG = "emergency_stop_distance_of_the_rear_bumper"
 
 
-def test_a_name_is_whole_where_there_is_room_and_ends_in_an_ellipsis_where_there_is_none() -> None:
+def test_name_is_cut_with_an_ellipsis_only_without_room() -> None:
     async def play(session: Session) -> None:
         trees = dict(session.console.current.parameters)
         tree = trees["/robot_navigator"]
@@ -180,7 +180,7 @@ def test_a_name_is_whole_where_there_is_room_and_ends_in_an_ellipsis_where_there
     run(live(), play, (120, 24))
 
 
-def test_the_slider_stands_beside_its_value_and_the_description_fills_a_wide_row() -> None:
+def test_wide_row_shows_slider_and_description() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         line = next(each for each in session.lines() if "max_speed" in each)
@@ -190,7 +190,7 @@ def test_the_slider_stands_beside_its_value_and_the_description_fills_a_wide_row
     run(live(), play, (120, 40))
 
 
-def test_default_undo_redo_fold_and_filters() -> None:
+def test_reset_undo_redo_folding_and_filters_work() -> None:
     async def play(session: Session) -> None:
         await session.press("1", "c")
         assert [row.name for row in rows(session).rows if row.parameter] == ["safety_distance"]
@@ -229,7 +229,7 @@ def test_the_command_is_shown_and_copied_and_values_are_saved() -> None:
     run(live(), play, (100, 30))
 
 
-def test_a_value_changed_elsewhere_is_seen_and_the_cursor_stays() -> None:
+def test_value_changed_elsewhere_is_shown_and_cursor_stays() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         await go_to(session, "turn_rate")
@@ -245,7 +245,7 @@ def test_a_value_changed_elsewhere_is_seen_and_the_cursor_stays() -> None:
     run(live(), play)
 
 
-def test_what_a_node_began_again_with_is_its_start_and_not_a_change_since() -> None:
+def test_values_of_a_restarted_node_are_its_new_start_values() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         console = session.console
@@ -259,7 +259,7 @@ def test_what_a_node_began_again_with_is_its_start_and_not_a_change_since() -> N
     run(live(), play)
 
 
-def test_a_node_that_does_not_answer_reports_it() -> None:
+def test_unanswering_node_is_reported() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         assert "does not answer on its parameter services" in session.text()
@@ -267,7 +267,7 @@ def test_a_node_that_does_not_answer_reports_it() -> None:
     run(faulty(), play, (120, 40))
 
 
-def test_an_empty_system_waits() -> None:
+def test_pane_waits_for_nodes_in_an_empty_system() -> None:
     async def play(session: Session) -> None:
         await session.press("1", "enter", "plus", "d", "p", "y", "left", "right", "C")
         assert "Waiting for nodes" in session.text()
@@ -275,7 +275,7 @@ def test_an_empty_system_waits() -> None:
     run(empty(), play)
 
 
-def test_that_a_value_is_saved_is_reported_at_once() -> None:
+def test_saved_value_loses_its_mark_immediately() -> None:
     key = ("/robot_navigator", "max_speed")
 
     async def play(session: Session) -> None:

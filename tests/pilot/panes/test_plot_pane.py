@@ -19,7 +19,7 @@ def plot(session: Session) -> PlotPane:
     return session.pane(PlotPane)
 
 
-def test_speed_and_its_limit_are_plotted_from_the_start() -> None:
+def test_speed_and_its_limit_are_plotted_by_default() -> None:
     async def play(session: Session) -> None:
         await session.press("4")
         assert plot(session).paths == [SPEED, LIMIT]
@@ -45,7 +45,7 @@ def test_a_curve_is_added_by_its_path_with_completion_and_removed() -> None:
     run(live(), play)
 
 
-def test_what_cannot_be_plotted_is_refused_with_the_reason() -> None:
+def test_unplottable_path_is_rejected_with_a_reason() -> None:
     async def play(session: Session) -> None:
         session.console.unplottable["/scan"] = "name a field of /scan as well, for instance /scan/range_max"
         await session.press("4", "a")
@@ -68,7 +68,7 @@ def test_a_parameter_is_plotted_from_the_parameter_pane() -> None:
     run(live(), play)
 
 
-def test_pausing_holds_the_picture_and_counts_what_comes() -> None:
+def test_pausing_freezes_the_picture_and_counts_new_samples() -> None:
     async def play(session: Session) -> None:
         await session.press("4", "space")
         before = session.lines()[2:14]
@@ -103,7 +103,7 @@ def test_the_window_grows_and_shrinks_and_limits_can_be_given() -> None:
     run(live(), play, (100, 30))
 
 
-def test_values_that_are_no_numbers_leave_a_gap_and_are_counted() -> None:
+def test_nan_values_leave_a_gap_and_are_counted() -> None:
     system = live()
     system[0].series[SPEED][1][400:600] = [math.nan] * 100 + [math.inf] * 50 + [-math.inf] * 50
 
@@ -114,7 +114,7 @@ def test_values_that_are_no_numbers_leave_a_gap_and_are_counted() -> None:
     run(system, play, (120, 40))
 
 
-def test_a_curve_without_any_number_reports_it() -> None:
+def test_curve_without_numbers_says_so() -> None:
     async def play(session: Session) -> None:
         await session.press("4")
         assert "no numbers in this window" in session.text()
@@ -155,7 +155,7 @@ def test_samples_and_picture_are_saved(tmp_path: Path) -> None:
     assert any(0x2800 < ord(character) < 0x2900 for character in (tmp_path / "p.txt").read_text())
 
 
-def test_an_empty_plot_reports_what_to_do() -> None:
+def test_empty_plot_explains_what_to_do() -> None:
     async def play(session: Session) -> None:
         await session.press("4", "x", "X", "space", "plus", "left", "right", "f", "K", "up", "down")
         assert "Press a" in session.text()
@@ -163,7 +163,7 @@ def test_an_empty_plot_reports_what_to_do() -> None:
     run(empty(), play)
 
 
-def test_an_expression_is_completed_added_and_refused_in_words() -> None:
+def test_expression_is_completed_added_or_rejected_with_a_reason() -> None:
     async def play(session: Session) -> None:
         await session.press("4", "a")
         await session.type("deg(" + SPEED + ") - /tele")
@@ -177,7 +177,7 @@ def test_an_expression_is_completed_added_and_refused_in_words() -> None:
     run(live(), play, (120, 40))
 
 
-def test_the_cursor_reports_values_and_moves_for_everybody() -> None:
+def test_cursor_shows_values_and_moves_in_all_panes() -> None:
     async def play(session: Session) -> None:
         await session.press("4", "c")
         before = session.app.time_cursor.stamp
@@ -194,7 +194,7 @@ def test_the_cursor_reports_values_and_moves_for_everybody() -> None:
     run(live(), play, (120, 40))
 
 
-def test_thresholds_axes_and_forms_are_kept_under_a_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_presets_store_thresholds_axes_and_forms(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path))
 
     async def play(session: Session) -> None:

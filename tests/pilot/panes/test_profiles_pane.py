@@ -24,7 +24,7 @@ def applied(session: Session) -> list[tuple[str, bool]]:
     return [each[1:] for each in session.console.asked if each[0] == "apply"]
 
 
-def test_the_differences_stand_there_before_anything_is_applied() -> None:
+def test_differences_are_shown_before_applying() -> None:
     async def play(session: Session) -> None:
         await session.press("7")
         assert "Nothing to change" in session.text()
@@ -39,7 +39,7 @@ def test_the_differences_stand_there_before_anything_is_applied() -> None:
     run(live(), play, (120, 40))
 
 
-def test_what_a_profile_is_for_is_read_whole_in_80_columns_and_after_a_change_of_size() -> None:
+def test_description_is_shown_in_full_at_80_columns_and_after_resizing() -> None:
     title = "Outdoor: higher speed, larger distances, and then so many words that no list has room for all of them"
     system = live()
     profile = replace(system[0].current.profiles[0], title=title)
@@ -56,7 +56,7 @@ def test_what_a_profile_is_for_is_read_whole_in_80_columns_and_after_a_change_of
     run(system, play)
 
 
-def test_a_refusal_or_safety_is_asked_about_and_no_means_no() -> None:
+def test_refusal_or_loss_of_safety_asks_and_no_applies_nothing() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "down", "a")
         assert isinstance(session.app.screen, ConfirmScreen)
@@ -72,7 +72,7 @@ def test_a_refusal_or_safety_is_asked_about_and_no_means_no() -> None:
     run(live(), play, (120, 40))
 
 
-def test_a_harmless_profile_is_applied_at_once_with_or_without_its_world() -> None:
+def test_safe_profile_is_applied_without_a_question() -> None:
     system = live()
     system[0].differences["competition"] = (SANITIZED,)
 
@@ -87,7 +87,7 @@ def test_a_harmless_profile_is_applied_at_once_with_or_without_its_world() -> No
     run(system, play, (120, 40))
 
 
-def test_a_profile_that_cannot_be_read_reports_how_to_fix_it() -> None:
+def test_unreadable_profile_explains_how_to_fix_it() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "down", "down", "a", "w")
         assert "two underscores" in session.text()
@@ -96,7 +96,7 @@ def test_a_profile_that_cannot_be_read_reports_how_to_fix_it() -> None:
     run(live(), play, (120, 40))
 
 
-def test_an_error_while_applying_is_shown_where_it_was_made() -> None:
+def test_error_while_applying_is_shown_in_the_pane() -> None:
     async def play(session: Session) -> None:
         failed: Future[tuple[object, ...]] = Future()
         failed.set_exception(RuntimeError("the node /robot_navigator does not answer"))
@@ -108,7 +108,7 @@ def test_an_error_while_applying_is_shown_where_it_was_made() -> None:
     run(live(), play, (120, 40))
 
 
-def test_the_list_stays_while_its_values_change() -> None:
+def test_list_of_differences_stays_while_values_are_applied() -> None:
     async def play(session: Session) -> None:
         slow: Future[tuple[object, ...]] = Future()
         session.console.differences["competition"] = (SANITIZED,)
@@ -137,7 +137,7 @@ def test_a_changed_parameter_changes_the_differences() -> None:
     run(live(), play, (120, 40))
 
 
-def test_a_node_that_can_be_asked_without_setting_is_asked_before_anything_is_applied() -> None:
+def test_node_that_can_check_values_is_asked_before_applying() -> None:
     console, *rest = live()
     console.differences["competition"] = (
         SANITIZED,
@@ -181,7 +181,7 @@ def test_a_node_that_can_be_asked_without_setting_is_asked_before_anything_is_ap
     run((console, *rest), play, (120, 40))
 
 
-def test_a_console_that_is_read_only_asks_no_node_and_blames_none() -> None:
+def test_read_only_console_asks_no_node_to_check() -> None:
     console, *rest = live()
     console.differences["competition"] = (SANITIZED,)
     check = Endpoint(f"{SANITIZED.node}/check_parameters", ("rcl_interfaces/srv/SetParametersAtomically",))
@@ -197,7 +197,7 @@ def test_a_console_that_is_read_only_asks_no_node_and_blames_none() -> None:
     run((console, *rest), play, (120, 40))
 
 
-def test_without_profiles_it_reports_it() -> None:
+def test_absence_of_profiles_is_reported() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "a", "w", "down", "r", "u")
         assert "No profiles" in session.text()
@@ -205,7 +205,7 @@ def test_without_profiles_it_reports_it() -> None:
     run(empty(), play)
 
 
-def test_many_differences_scroll() -> None:
+def test_long_list_of_differences_scrolls() -> None:
     system = live()
     many = tuple(replace(differences()[0], name=f"parameter_{at}") for at in range(60))
     system[0].differences["competition"] = many
@@ -219,7 +219,7 @@ def test_many_differences_scroll() -> None:
     run(system, play)
 
 
-def test_the_cursor_stands_on_the_active_profile_and_goes_along_with_it() -> None:
+def test_cursor_follows_the_active_profile() -> None:
     system = live()
     system[0].change(active_profile="broken")
 
@@ -238,7 +238,7 @@ def test_the_cursor_stands_on_the_active_profile_and_goes_along_with_it() -> Non
     run(system, play, (120, 40))
 
 
-def test_the_status_line_reports_how_far_the_robot_is_from_its_profile() -> None:
+def test_status_line_counts_differences_from_the_profile() -> None:
     async def play(session: Session) -> None:
         assert "indoor" in session.lines()[-2] and "changed" not in session.lines()[-2]
         session.console.change(profile_changes=2)
@@ -248,7 +248,7 @@ def test_the_status_line_reports_how_far_the_robot_is_from_its_profile() -> None
     run(live(), play, (160, 40))
 
 
-def test_a_file_is_opened_and_what_runs_is_saved_as_a_profile(tmp_path: Path) -> None:
+def test_file_is_opened_and_running_values_are_saved_as_a_profile(tmp_path: Path) -> None:
     file = tmp_path / "mine.yaml"
     file.write_text("# Mine.\n/robot_navigator:\n  ros__parameters: {turn_rate: 0.5, nobody: 1}\n/gone:\n"
                     "  ros__parameters: {x: 1}\n")  # fmt: skip
@@ -289,7 +289,7 @@ def test_a_launch_profile_that_ends_a_lock_names_who_holds_the_robot() -> None:
     run((console, launcher), play, (120, 50))
 
 
-def test_a_launch_profile_asks_stops_what_runs_and_then_launches() -> None:
+def test_launch_profile_stops_the_system_before_launching() -> None:
     console, launcher = live()
     two = Profile("two", "/p/two.yaml", "Two robots.", launch="/p/two.launch.py", arguments={"robots": "2"})
     console.change(profiles=(*console.current.profiles, two))
@@ -309,7 +309,7 @@ def test_a_launch_profile_asks_stops_what_runs_and_then_launches() -> None:
     run((console, launcher), play, (120, 40))
 
 
-def test_an_address_is_fetched_and_then_seen_before_it_is_applied(tmp_path) -> None:
+def test_profile_from_a_url_is_shown_before_it_is_applied(tmp_path) -> None:
     path = tmp_path / "served.yaml"
     path.write_text("/robot_navigator: {ros__parameters: {max_speed: 1.5}}\n")
 
@@ -329,7 +329,7 @@ def test_an_address_is_fetched_and_then_seen_before_it_is_applied(tmp_path) -> N
     run(live(), play)
 
 
-def test_presets_that_a_node_keeps_are_applied_saved_and_deleted() -> None:
+def test_presets_of_a_node_are_applied_saved_and_deleted() -> None:
     console, *rest = live()
     kept = {"careful": "slow and gentle"}
     offered = [("list", "std_srvs/srv/Trigger")]

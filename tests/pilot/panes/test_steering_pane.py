@@ -35,7 +35,7 @@ def pass_time(session: Session, seconds: float) -> None:
     steering(session).tick()
 
 
-def test_keys_rest_until_armed() -> None:
+def test_keys_are_ignored_until_armed() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "w")
         assert commands(session) == [] and "not armed" in session.text()
@@ -62,7 +62,7 @@ DRIVEN: list[tuple[list[str], tuple[float, float]]] = [
 ]
 
 
-def test_the_keys_of_rqt_robot_steering() -> None:
+def test_keys_of_rqt_robot_steering_drive_the_robot() -> None:
     async def play(session: Session) -> None:
         await session.press("6")
         for keys, expected in DRIVEN:
@@ -75,7 +75,7 @@ def test_the_keys_of_rqt_robot_steering() -> None:
     run(live(), play)
 
 
-def test_the_command_is_repeated_and_silence_stops_the_robot_once() -> None:
+def test_command_is_repeated_and_dead_man_timeout_stops_once() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter", "W")
         for _ in range(15):
@@ -99,7 +99,7 @@ def test_the_command_is_repeated_and_silence_stops_the_robot_once() -> None:
     run(live(), play)
 
 
-def test_the_deadman_time_is_chosen_with_t() -> None:
+def test_t_selects_the_dead_man_time() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter", "t", "W")
         pass_time(session, 4.9)
@@ -111,7 +111,7 @@ def test_the_deadman_time_is_chosen_with_t() -> None:
 
 
 @pytest.mark.parametrize("key", ["1", "tab", "escape", "enter", "0"])
-def test_leaving_or_disarming_sends_zero_and_keys_rest(key: str) -> None:
+def test_leaving_or_disarming_sends_zero_and_disables_keys(key: str) -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter", "W", key)
         assert commands(session)[-1] == (0.0, 0.0)
@@ -120,7 +120,7 @@ def test_leaving_or_disarming_sends_zero_and_keys_rest(key: str) -> None:
     run(live(), play)
 
 
-def test_left_the_robot_stands_until_one_key_hands_it_back() -> None:
+def test_leaving_the_pane_holds_the_robot_until_it_is_handed_back() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter", "W", "escape")
         assert stops(session) == [("all_stop", True), ("steer", False)]
@@ -140,7 +140,7 @@ def test_h_hands_back_without_a_stop() -> None:
     run(live(), play)
 
 
-def test_while_armed_the_steering_is_held_again_and_again() -> None:
+def test_steering_is_renewed_while_armed() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter")
         before = session.console.asked.count(("steer", True))
@@ -169,7 +169,7 @@ def test_a_stop_that_is_not_acknowledged_is_not_called_held() -> None:
     run(live(), play, (140, 40))
 
 
-def test_a_robot_without_a_lock_that_stands_after_the_dead_man_time_is_steered_on_by_enter() -> None:
+def test_enter_resumes_steering_a_robot_without_lock_after_timeout() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter")
         stands = replace(driving(), lockable=False, stopped=True, stopped_here=True, stop_reason=DEAD_MAN)
@@ -189,7 +189,7 @@ def test_a_robot_without_a_lock_that_stands_after_the_dead_man_time_is_steered_o
     run(live(), play)
 
 
-def test_a_console_that_is_read_only_does_not_arm_and_stops_nothing_by_leaving() -> None:
+def test_read_only_console_neither_arms_nor_stops_the_robot() -> None:
     async def play(session: Session) -> None:
         session.console.change(drive=replace(driving(), refused="read-only console"))
         await session.settle()
@@ -221,7 +221,7 @@ def test_space_stops_armed_or_not() -> None:
     run(live(), play)
 
 
-def test_who_is_read_only_is_shown_no_key_that_is_refused() -> None:
+def test_read_only_console_names_no_key_that_would_be_refused() -> None:
     async def play(session: Session) -> None:
         await session.press("6")
         drive = replace(driving(), refused="read-only console")
@@ -250,7 +250,7 @@ def test_the_all_stop_zeroes_the_sliders_and_holds_the_keys() -> None:
     run(live(), play)
 
 
-def test_zero_on_exit() -> None:
+def test_zero_is_sent_on_exit() -> None:
     system = live()
 
     async def play(session: Session) -> None:
@@ -272,7 +272,7 @@ def test_the_limits_are_the_robots_own_parameters() -> None:
     run(live(), play)
 
 
-def test_without_a_robot_it_cannot_be_armed_and_reports_why() -> None:
+def test_arming_without_a_robot_is_refused_with_a_reason() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter")
         assert "No node subscribes to cmd_vel" in " ".join(session.text().split())
@@ -317,7 +317,7 @@ def test_limits_and_dead_man_time_are_kept_per_robot_and_arming_is_not() -> None
     run(live(), play, (100, 30))
 
 
-def test_what_limits_the_command_is_named() -> None:
+def test_reason_for_a_limited_command_is_shown() -> None:
     async def play(session: Session) -> None:
         await session.press("6")
         assert "by warning_distance of /safety_monitor" in session.text()
@@ -328,7 +328,7 @@ def test_what_limits_the_command_is_named() -> None:
     run(live(), play, (100, 30))
 
 
-def test_limits_are_typed_or_the_parameters() -> None:
+def test_limits_are_typed_or_taken_from_the_parameters() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "v")
         await session.type("0.2")
@@ -344,7 +344,7 @@ def test_limits_are_typed_or_the_parameters() -> None:
     run(live(), play, (100, 30))
 
 
-def test_the_mouse_moves_sliders_and_the_pad_as_a_stick() -> None:
+def test_mouse_moves_sliders_and_the_pad_springs_back() -> None:
     async def play(session: Session) -> None:
         await session.press("6")
         pane = steering(session)
@@ -372,7 +372,7 @@ def test_the_mouse_moves_sliders_and_the_pad_as_a_stick() -> None:
     run(live(), play, (120, 50))
 
 
-def test_nodes_that_publish_on_the_pane_s_topic_are_named() -> None:
+def test_other_publishers_of_the_topic_are_named() -> None:
     async def play(session: Session) -> None:
         await session.press("6")
         assert "newest command wins" not in session.text(), "the safety monitor chooses"

@@ -51,7 +51,7 @@ async def at(session: Session, name: str) -> None:
     await session.settle()
 
 
-def test_figures_stand_beside_each_topic_and_faults_are_reported() -> None:
+def test_topics_show_rates_and_faults() -> None:
     async def play(session: Session) -> None:
         await opened(session)
         line = next(each for each in session.lines() if "/odom" in each)
@@ -62,7 +62,7 @@ def test_figures_stand_beside_each_topic_and_faults_are_reported() -> None:
     run(live(), play, SIZE)
 
 
-def test_only_rows_in_view_are_measured_and_none_while_the_pane_is_hidden() -> None:
+def test_only_visible_rows_are_measured() -> None:
     topics = tuple(Endpoint(f"/t{number:03}", ("std_msgs/msg/Float64",)) for number in range(300))
 
     async def play(session: Session) -> None:
@@ -80,7 +80,7 @@ def test_only_rows_in_view_are_measured_and_none_while_the_pane_is_hidden() -> N
     run(live(), play, SIZE)
 
 
-def test_the_newest_message_is_a_tree_that_freezes_and_folds() -> None:
+def test_newest_message_is_a_tree_that_can_be_frozen_and_folded() -> None:
     async def play(session: Session) -> None:
         await opened(session)
         await at(session, ODOM_TOPIC)
@@ -104,7 +104,7 @@ def test_the_newest_message_is_a_tree_that_freezes_and_folds() -> None:
     run(live(), play, SIZE)
 
 
-def test_names_beside_a_message_lose_their_middle_and_the_one_that_is_open_stands_out() -> None:
+def test_names_beside_a_message_are_cut_in_the_middle() -> None:
     deep = [f"/cell_3/perception/front/left/camera/{each}" for each in ("colour/image_raw", "depth/image_raw", "info")]
     topics = tuple(Endpoint(each, ("std_msgs/msg/Float64",)) for each in deep)
 
@@ -162,7 +162,7 @@ def test_a_message_is_filled_in_and_published_once_and_at_a_rate() -> None:
     run(live(), play, SIZE)
 
 
-def test_earlier_messages_come_back() -> None:
+def test_earlier_sent_messages_are_recalled() -> None:
     async def play(session: Session) -> None:
         session.console.traffic.remembered["/cmd_vel"] = [{"linear.x": "0.1"}, {"linear.x": "0.2"}]
         await opened(session)
@@ -177,7 +177,7 @@ def test_earlier_messages_come_back() -> None:
     run(live(), play, SIZE)
 
 
-def test_a_quaternion_is_typed_as_a_yaw_and_a_stamp_is_now() -> None:
+def test_quaternion_is_typed_as_yaw_and_stamp_as_now() -> None:
     async def play(session: Session) -> None:
         await opened(session)
         await at(session, ODOM_TOPIC)
@@ -211,7 +211,7 @@ def test_a_service_is_called_and_its_answer_shown() -> None:
     run(live(), play, SIZE)
 
 
-def test_a_goal_is_sent_watched_and_cancelled() -> None:
+def test_goal_is_sent_followed_and_cancelled() -> None:
     async def play(session: Session) -> None:
         session.console.change(graph=with_services())
         await opened(session, "m", "m")
@@ -230,7 +230,7 @@ def test_a_goal_is_sent_watched_and_cancelled() -> None:
     run(live(), play, SIZE)
 
 
-def test_built_in_services_are_left_out_until_they_are_asked_for() -> None:
+def test_built_in_services_are_hidden_by_default() -> None:
     async def play(session: Session) -> None:
         session.console.change(graph=with_services())
         await opened(session, "m")
@@ -242,7 +242,7 @@ def test_built_in_services_are_left_out_until_they_are_asked_for() -> None:
     run(live(), play, SIZE)
 
 
-def test_an_empty_system_reports_it() -> None:
+def test_empty_system_is_reported() -> None:
     async def play(session: Session) -> None:
         await opened(session, "enter", "P", "p", "x", "y", "space")
         assert "No topics yet" in session.text()
@@ -250,7 +250,7 @@ def test_an_empty_system_reports_it() -> None:
     run(empty(), play)
 
 
-def test_the_key_bar_names_what_keys_do_with_topics_services_and_actions() -> None:
+def test_key_bar_describes_keys_for_topics_services_and_actions() -> None:
     async def play(session: Session) -> None:
         def bar() -> str:
             return session.lines()[-1]

@@ -11,7 +11,7 @@ from piloting import Session, run
 from samples import empty, faulty, live, world
 
 
-def test_the_robot_is_an_arrow_in_its_map_and_moves() -> None:
+def test_robot_is_drawn_as_a_moving_arrow_in_the_map() -> None:
     async def play(session: Session) -> None:
         await session.press("5")
         before = session.text()
@@ -23,7 +23,7 @@ def test_the_robot_is_an_arrow_in_its_map_and_moves() -> None:
     run(live(), play)
 
 
-def test_zooming_changes_the_scale_and_fit_shows_all_again() -> None:
+def test_zoom_changes_the_scale_and_fit_shows_the_whole_map() -> None:
     async def play(session: Session) -> None:
         await session.press("5")
         whole = session.lines()
@@ -35,7 +35,7 @@ def test_zooming_changes_the_scale_and_fit_shows_all_again() -> None:
     run(live(), play)
 
 
-def test_the_scale_has_its_length_in_a_narrow_pane_too() -> None:
+def test_scale_bar_keeps_its_length_in_a_narrow_pane() -> None:
     async def play(session: Session) -> None:
         await session.press("5")
         [line] = [each for each in session.lines() if "nearest" in each]
@@ -44,7 +44,7 @@ def test_the_scale_has_its_length_in_a_narrow_pane_too() -> None:
     run(live(), play, (60, 20))
 
 
-def test_what_is_missing_is_reported() -> None:
+def test_missing_map_or_pose_is_reported() -> None:
     async def play(session: Session) -> None:
         await session.press("5", "plus", "f")
         assert "No map and no pose yet" in session.text()
@@ -52,7 +52,7 @@ def test_what_is_missing_is_reported() -> None:
     run(empty(), play)
 
 
-def test_a_system_without_a_world_reports_why() -> None:
+def test_system_without_a_world_explains_why() -> None:
     async def play(session: Session) -> None:
         session.console.change(problem="")
         await session.press("5")
@@ -61,7 +61,7 @@ def test_a_system_without_a_world_reports_why() -> None:
     run(faulty(), play, (100, 30))
 
 
-def test_a_field_of_turtles_is_a_place_beside_the_robots() -> None:
+def test_turtle_field_is_listed_beside_the_robots() -> None:
     async def play(session: Session) -> None:
         turtles = Turtle("turtle1", Pose(5.5, 5.5, 0.0)), Turtle("leo", Pose(2.0, 2.0, 1.57), 2.0)
         session.console.change(world=replace(world(), fields=(TurtleField("/turtlesim", turtles),)))
@@ -76,7 +76,7 @@ def test_a_field_of_turtles_is_a_place_beside_the_robots() -> None:
     run(live(), play, (120, 30))
 
 
-def test_n_goes_from_robot_to_robot_and_to_the_turtles() -> None:
+def test_n_cycles_through_robots_and_turtles() -> None:
     async def play(session: Session) -> None:
         def see(robot: str) -> None:
             field = TurtleField("/turtlesim", (Turtle("turtle1", Pose(5.5, 5.5, 0.0)),))
@@ -102,7 +102,7 @@ def test_n_goes_from_robot_to_robot_and_to_the_turtles() -> None:
     run(live(), play, (120, 30))
 
 
-def test_turtles_alone_need_no_key() -> None:
+def test_turtle_field_is_shown_at_once_without_robots() -> None:
     async def play(session: Session) -> None:
         session.console.change(
             world=WorldInfo(fields=(TurtleField("/turtlesim", (Turtle("turtle1", Pose(1.0, 1.0)),)),))
@@ -116,7 +116,7 @@ def test_turtles_alone_need_no_key() -> None:
     run(empty(), play)
 
 
-def test_the_robot_stands_where_it_was_at_the_moment_that_is_inspected() -> None:
+def test_robot_is_drawn_at_its_pose_of_the_inspected_time() -> None:
     system = live()
     system[0].past[START] = Pose(2.0, 1.0, 0.0)
 

@@ -16,7 +16,7 @@ def held_by(session: Session) -> list[str]:
     return [each.key for each in session.console.current.drive.stops]
 
 
-def test_a_holder_that_has_ended_is_reported_as_gone_also_in_80_columns() -> None:
+def test_holder_that_has_ended_is_marked_gone_at_80_columns() -> None:
     async def play(session: Session) -> None:
         session.console.hold([RobotStop("b", "bot-console of ben@lab (pid 12)", "ALL STOP", gone=True)])
         await session.settle()
@@ -31,7 +31,7 @@ def test_a_holder_that_has_ended_is_reported_as_gone_also_in_80_columns() -> Non
     run(live(), play, (80, 24))
 
 
-def test_it_holds_and_lets_go() -> None:
+def test_stop_key_holds_and_releases_the_robot() -> None:
     async def play(session: Session) -> None:
         await session.press(STOP)
         assert held_by(session) == ["ours"] and "ALL STOP held (! releases)" in session.text()
@@ -41,7 +41,7 @@ def test_it_holds_and_lets_go() -> None:
     run(live(), play)
 
 
-def test_a_robot_that_somebody_else_holds_is_held_by_us_first_then_asked_about() -> None:
+def test_first_press_adds_our_stop_and_second_asks_to_release_others() -> None:
     async def play(session: Session) -> None:
         session.console.hold([BEN])
         await session.settle()
@@ -58,7 +58,7 @@ def test_a_robot_that_somebody_else_holds_is_held_by_us_first_then_asked_about()
     run(live(), play, (120, 40))
 
 
-def test_stop_pressed_in_the_question_holds_and_asks_no_second_time() -> None:
+def test_stop_pressed_during_the_question_holds_without_asking_again() -> None:
     async def play(session: Session) -> None:
         session.console.hold([BEN])
         await session.press(STOP, STOP, STOP, STOP)
@@ -70,7 +70,7 @@ def test_stop_pressed_in_the_question_holds_and_asks_no_second_time() -> None:
     run(live(), play)
 
 
-def test_the_question_closes_when_others_have_released_what_it_is_about() -> None:
+def test_release_question_closes_when_others_have_released() -> None:
     async def play(session: Session) -> None:
         session.console.hold([BEN])
         await session.press(STOP, STOP)
@@ -83,7 +83,7 @@ def test_the_question_closes_when_others_have_released_what_it_is_about() -> Non
     run(live(), play)
 
 
-def test_a_stop_that_comes_while_the_question_is_open_is_not_released_by_its_yes() -> None:
+def test_yes_does_not_release_a_stop_that_came_after_the_question() -> None:
     async def play(session: Session) -> None:
         session.console.hold([BEN])
         await session.press(STOP, STOP)
@@ -94,7 +94,7 @@ def test_a_stop_that_comes_while_the_question_is_open_is_not_released_by_its_yes
     run(live(), play)
 
 
-def test_what_a_node_holds_by_itself_needs_no_question() -> None:
+def test_stop_of_a_node_is_released_without_a_question() -> None:
     async def play(session: Session) -> None:
         session.console.hold([NODE])
         await session.press(STOP, STOP)

@@ -33,7 +33,7 @@ async def their_turn(session: Session) -> None:
     await session.settle()
 
 
-def test_stop_does_not_wait_for_the_keys_before_and_its_turn_does_not_release() -> None:
+def test_stop_overtakes_earlier_keys_and_does_not_release_in_its_turn() -> None:
     async def play(session: Session) -> None:
         await behind(session, "3", "2", STOP)
         assert held(session)
@@ -45,7 +45,7 @@ def test_stop_does_not_wait_for_the_keys_before_and_its_turn_does_not_release() 
     run(live(), play)
 
 
-def test_pressing_again_before_anything_is_shown_does_not_release() -> None:
+def test_second_press_before_the_stop_is_shown_does_not_release() -> None:
     async def play(session: Session) -> None:
         await behind(session, "3", STOP, STOP, STOP, STOP)
         await their_turn(session)
@@ -54,7 +54,7 @@ def test_pressing_again_before_anything_is_shown_does_not_release() -> None:
     run(live(), play)
 
 
-def test_stop_is_released_in_its_turn_if_it_was_shown() -> None:
+def test_press_releases_a_stop_that_was_shown() -> None:
     async def play(session: Session) -> None:
         await session.press(STOP)
         await behind(session, "3", STOP)
@@ -65,7 +65,7 @@ def test_stop_is_released_in_its_turn_if_it_was_shown() -> None:
     run(live(), play)
 
 
-def test_stop_behind_a_key_that_opens_a_field_is_withdrawn_and_becomes_a_character() -> None:
+def test_stop_key_typed_into_a_new_text_field_is_withdrawn_and_inserted() -> None:
     async def play(session: Session) -> None:
         await session.press("2")
         await behind(session, "slash", STOP)
@@ -76,7 +76,7 @@ def test_stop_behind_a_key_that_opens_a_field_is_withdrawn_and_becomes_a_charact
     run(live(), play)
 
 
-def test_character_leaves_the_stop_of_another_press_alone() -> None:
+def test_typed_character_keeps_the_stop_of_another_press() -> None:
     async def play(session: Session) -> None:
         await session.press("2")
         await behind(session, STOP, "slash", STOP)
@@ -90,7 +90,7 @@ def test_character_leaves_the_stop_of_another_press_alone() -> None:
 @pytest.mark.parametrize(
     "keys", [("question_mark",), ("ctrl+p", "escape"), ("1", "enter", "escape"), ("V",), ("colon", "escape")]
 )
-def test_stop_holds_over_whatever_is_on_the_screen(keys: tuple[str, ...]) -> None:
+def test_stop_works_over_every_screen(keys: tuple[str, ...]) -> None:
     async def play(session: Session) -> None:
         await behind(session, *keys, STOP)
         assert held(session)
@@ -100,7 +100,7 @@ def test_stop_holds_over_whatever_is_on_the_screen(keys: tuple[str, ...]) -> Non
     run(live(), play)
 
 
-def test_own_key_of_a_person_holds_at_once_too(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_remapped_stop_key_also_stops_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     for scope, keys in list(TABLE.items()):
         monkeypatch.setitem(TABLE, scope, keys)
 

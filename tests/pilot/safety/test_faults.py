@@ -59,7 +59,7 @@ BESIDE_OTHERS = ("a drawing",)
         ),
     ],
 )
-def test_a_fault_ends_the_pane_alone_and_enter_opens_it_again(
+def test_exception_ends_only_its_pane_and_enter_reopens_it(
     kind: str, size: tuple[int, int], monkeypatch: pytest.MonkeyPatch, state: Path
 ) -> None:
     owner, name, keys = FAULTS[kind]
@@ -84,7 +84,7 @@ def test_a_fault_ends_the_pane_alone_and_enter_opens_it_again(
     run(live(), play, size, faults_wanted=True)
 
 
-def test_a_fault_while_a_snapshot_is_shown_keeps_no_other_pane_from_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_exception_in_show_does_not_keep_other_panes_from_the_snapshot(monkeypatch: pytest.MonkeyPatch) -> None:
     async def play(session: Session) -> None:
         monkeypatch.setattr(ParametersPane, "show", boom)
         session.console.change(problem="everything is new")
@@ -97,7 +97,7 @@ def test_a_fault_while_a_snapshot_is_shown_keeps_no_other_pane_from_it(monkeypat
     run(live(), play, (120, 40), faults_wanted=True)
 
 
-def test_a_steering_pane_that_ends_leaves_the_robot_at_zero(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_failed_steering_pane_sends_zero_velocity(monkeypatch: pytest.MonkeyPatch) -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter", "w", "w")
         assert session.console.sent[-1][0] > 0
@@ -109,7 +109,7 @@ def test_a_steering_pane_that_ends_leaves_the_robot_at_zero(monkeypatch: pytest.
     run(live(), play, faults_wanted=True)
 
 
-def test_a_fault_in_what_lies_over_the_panes_closes_that(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_exception_in_an_overlay_closes_it(monkeypatch: pytest.MonkeyPatch) -> None:
     async def play(session: Session) -> None:
         monkeypatch.setattr(HelpScreen, "action_scroll_box", boom)
         await session.press("1", "question_mark", "j")
@@ -120,7 +120,7 @@ def test_a_fault_in_what_lies_over_the_panes_closes_that(monkeypatch: pytest.Mon
     run(live(), play, (120, 40), faults_wanted=True)
 
 
-def test_a_fault_elsewhere_stops_the_robot_and_reports_one_line(monkeypatch: pytest.MonkeyPatch, state: Path) -> None:
+def test_exception_outside_panes_stops_robot_and_prints_one_line(monkeypatch: pytest.MonkeyPatch, state: Path) -> None:
     console, launcher = live()
     message = io.StringIO()
 
@@ -143,13 +143,13 @@ def test_a_fault_elsewhere_stops_the_robot_and_reports_one_line(monkeypatch: pyt
     assert "Traceback" in next(state.iterdir()).read_text()
 
 
-def test_where_nothing_can_be_written_nothing_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_unwritable_folder_keeps_no_crash_report(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(crash, "state_folder", lambda: Path("/dev/null/x"))
     monkeypatch.setattr(crash.tempfile, "gettempdir", lambda: "/dev/null/y")
     assert crash.keep(ValueError("x")) == "" and crash.reason(ValueError("a\nb")) == "ValueError: a b"
 
 
-def test_panes_of_others_that_come_while_the_app_ends_do_no_harm() -> None:
+def test_plugin_panes_that_arrive_during_exit_are_ignored() -> None:
     async def play(session: Session) -> None:
         app = session.app
         area, tabs = app.screen_stack[0].query_one(PaneArea), app.screen_stack[0].query_one(Tabs)

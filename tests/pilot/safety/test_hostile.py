@@ -43,7 +43,7 @@ def test_no_control_character_reaches_the_screen() -> None:
     run(hostile(), play, (120, 40))
 
 
-def test_a_hostile_problem_is_harmless_in_every_pane() -> None:
+def test_hostile_problem_text_is_sanitized_in_every_pane() -> None:
     system = empty()
     system[0].change(problem=BELL)
 
@@ -56,7 +56,7 @@ def test_a_hostile_problem_is_harmless_in_every_pane() -> None:
     run(system, play, (120, 40))
 
 
-def test_markup_is_shown_as_it_is_written() -> None:
+def test_markup_is_shown_literally() -> None:
     async def play(session: Session) -> None:
         await session.press("2")
         assert "evil[red]" in session.text()
@@ -68,7 +68,7 @@ def test_markup_is_shown_as_it_is_written() -> None:
     run(hostile(), play, (120, 40))
 
 
-def test_the_arguments_form_and_the_picker_show_harmless_text() -> None:
+def test_arguments_form_and_picker_sanitize_text() -> None:
     async def play(session: Session) -> None:
         await session.press("8", "o")
         assert harmful(session.text().replace("\n", "")) == []
@@ -81,7 +81,7 @@ def test_the_arguments_form_and_the_picker_show_harmless_text() -> None:
     run(hostile(), play, (120, 40))
 
 
-def test_heading_of_a_detail_screen_writes_no_control_character() -> None:
+def test_detail_screen_heading_contains_no_control_character() -> None:
     async def play(session: Session) -> None:
         for screen in (FactsScreen(BELL, [(BELL, [BELL])]), OutputScreen(BELL, BELL)):
             session.app.push_screen(screen)

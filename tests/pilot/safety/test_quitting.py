@@ -26,7 +26,7 @@ async def edited(session: Session) -> None:
     await session.settle()
 
 
-def test_nothing_to_lose_and_nothing_is_asked() -> None:
+def test_quit_does_not_ask_without_unsaved_values() -> None:
     async def play(session: Session) -> None:
         await session.pilot.press("q")
         assert ended(session) and stops(session) == []
@@ -34,7 +34,7 @@ def test_nothing_to_lose_and_nothing_is_asked() -> None:
     run(live(), play)
 
 
-def test_what_would_be_lost_is_named_and_the_robot_stands_until_no_is_answered() -> None:
+def test_quit_names_unsaved_values_and_holds_the_robot_until_no() -> None:
     async def play(session: Session) -> None:
         await edited(session)
         await session.press("q")
@@ -48,7 +48,7 @@ def test_what_would_be_lost_is_named_and_the_robot_stands_until_no_is_answered()
     run(live(), play)
 
 
-def test_values_of_a_node_that_has_ended_cannot_be_saved_and_are_not_asked_about() -> None:
+def test_quit_does_not_ask_about_values_of_ended_nodes() -> None:
     async def play(session: Session) -> None:
         await edited(session)
         here = session.console.current
@@ -61,7 +61,7 @@ def test_values_of_a_node_that_has_ended_cannot_be_saved_and_are_not_asked_about
     run(live(), play)
 
 
-def test_where_no_robot_listens_nothing_is_stopped_for_the_question() -> None:
+def test_quit_question_stops_nothing_without_a_robot() -> None:
     async def play(session: Session) -> None:
         await edited(session)
         session.console.current = replace(session.console.current, drive=DriveInfo())
@@ -74,7 +74,7 @@ def test_where_no_robot_listens_nothing_is_stopped_for_the_question() -> None:
     run(live(), play)
 
 
-def test_yes_ends_it_and_the_robot_stays_held() -> None:
+def test_yes_quits_and_the_robot_stays_held() -> None:
     async def play(session: Session) -> None:
         await edited(session)
         await session.press("q")
@@ -95,7 +95,7 @@ def test_ctrl_q_twice_never_asks() -> None:
     run(live(), play)
 
 
-def test_keys_that_ctrl_q_has_overtaken_do_not_answer_its_question() -> None:
+def test_keys_typed_before_ctrl_q_do_not_answer_its_question() -> None:
     async def play(session: Session) -> None:
         await edited(session)
         early = [events.Key("q", "q"), events.Key("n", "n")]
@@ -111,7 +111,7 @@ def test_keys_that_ctrl_q_has_overtaken_do_not_answer_its_question() -> None:
     run(live(), play)
 
 
-def test_saved_undone_or_in_a_profile_is_not_lost() -> None:
+def test_values_that_are_saved_undone_or_in_a_profile_count_as_kept() -> None:
     async def play(session: Session) -> None:
         await edited(session)
         session.console.save_parameters("all.yaml")
@@ -121,7 +121,7 @@ def test_saved_undone_or_in_a_profile_is_not_lost() -> None:
     run(live(), play)
 
 
-def test_a_robot_that_was_held_before_stays_held_and_so_does_one_that_is_stopped_in_the_question() -> None:
+def test_no_keeps_stops_from_before_and_during_the_question() -> None:
     async def play(session: Session) -> None:
         await edited(session)
         await session.press("exclamation_mark", "q", "n")
@@ -132,7 +132,7 @@ def test_a_robot_that_was_held_before_stays_held_and_so_does_one_that_is_stopped
     run(live(), play)
 
 
-def test_a_stop_by_somebody_else_is_not_released_by_no() -> None:
+def test_no_does_not_release_the_stop_of_another_console() -> None:
     ben = RobotStop("b", "ben", "my foot")
 
     async def play(session: Session) -> None:
@@ -147,7 +147,7 @@ def test_a_stop_by_somebody_else_is_not_released_by_no() -> None:
     run(live(), play)
 
 
-def test_an_edit_that_takes_from_safety_is_reported_once_with_the_way_back() -> None:
+def test_unsafe_edit_is_announced_once_with_the_undo_key() -> None:
     async def play(session: Session) -> None:
         for value in (0.4, 0.3):
             session.console.set_parameters(NODE, {"safety_distance": value})

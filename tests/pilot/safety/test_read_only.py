@@ -21,7 +21,7 @@ KEYS = {
 
 
 @pytest.mark.parametrize("what", KEYS)
-def test_nothing_is_asked_whose_answer_would_be_refused(what: str) -> None:
+def test_read_only_console_refuses_before_asking(what: str) -> None:
     async def play(session: Session) -> None:
         session.console.change(capabilities=Capabilities(change=WHY))
         await session.press(*KEYS[what])

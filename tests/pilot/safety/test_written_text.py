@@ -48,7 +48,7 @@ KEYS = {
 
 
 @pytest.mark.parametrize("text", [*DRAWN, *(pytest.param(each, marks=pytest.mark.soak) for each in MORE)])
-def test_any_text_is_drawn_in_every_pane_and_over_it(text: str) -> None:
+def test_any_text_is_drawn_in_every_pane_and_overlay(text: str) -> None:
     async def play(session: Session) -> None:
         session.console.change(problem=text)
         await session.press("0")
@@ -78,7 +78,7 @@ def test_any_text_is_drawn_in_every_pane_and_over_it(text: str) -> None:
     run(hostile(text), play, (120, 40))
 
 
-def test_it_is_shown_character_by_character() -> None:
+def test_text_is_shown_character_by_character() -> None:
     async def play(session: Session) -> None:
         for text in ("[red]evil[/red]", "[/", "\\[x]"):
             session.app.clear_notifications()
@@ -95,7 +95,7 @@ def test_it_is_shown_character_by_character() -> None:
     run(live(), play, (120, 40))
 
 
-def test_any_text_may_be_typed_into_the_palette() -> None:
+def test_palette_accepts_any_text() -> None:
     async def play(session: Session) -> None:
         for line in ("[/", "ros2 [/red]", "ros2 topic echo [b", "\\", "[@click=app.quit]x"):
             await session.press("colon")

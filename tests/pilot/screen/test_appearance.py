@@ -20,7 +20,7 @@ from textual.color import Color
 
 
 @pytest.mark.parametrize("digits", ["046", pytest.param("12345678", marks=pytest.mark.soak)])
-def test_themes_follow_one_another_and_panes_are_drawn_in_each(digits: str) -> None:
+def test_panes_are_drawn_in_every_theme(digits: str) -> None:
     async def play(session: Session) -> None:
         seen = []
         for _ in THEMES:
@@ -33,7 +33,7 @@ def test_themes_follow_one_another_and_panes_are_drawn_in_each(digits: str) -> N
     run(live(), play, (120, 40))
 
 
-def test_tabs_and_keys_have_the_colour_of_the_theme_as_soon_as_it_is_chosen() -> None:
+def test_tabs_and_keys_change_colour_with_the_theme() -> None:
     async def play(session: Session) -> None:
         for _ in THEMES:
             await session.press("ctrl+y")
@@ -46,7 +46,7 @@ def test_tabs_and_keys_have_the_colour_of_the_theme_as_soon_as_it_is_chosen() ->
 
 
 @pytest.mark.parametrize("name", ["dark", "light", "high-contrast"])
-def test_text_in_colour_can_be_read(name: str) -> None:
+def test_coloured_text_has_enough_contrast(name: str) -> None:
     theme = THEMES[name]
     grounds = [Color.parse(each) for each in (theme.surface, theme.panel, theme.background)]
     words = [theme.foreground, theme.primary, theme.secondary, theme.success, theme.warning, theme.error]
@@ -70,12 +70,12 @@ def contrast(one: Color, other: Color) -> float:
 
 
 @given(st.text(alphabet=st.characters(exclude_categories=("Cs", "Cc", "Mn", "Me", "Cf"))))
-def test_plain_characters_are_ascii_and_take_as_many_cells(text: str) -> None:
+def test_plain_characters_are_ascii_of_the_same_width(text: str) -> None:
     assert plain_text(text).isascii()
     assert cell_len(plain_text(text)) == sum(map(cell_len, text))
 
 
-def test_everything_the_panes_draw_with_looks_like_something() -> None:
+def test_every_drawing_character_has_an_ascii_substitute() -> None:
     async def play(session: Session) -> None:
         for digit in "012345678":
             await session.press(digit)
@@ -85,7 +85,7 @@ def test_everything_the_panes_draw_with_looks_like_something() -> None:
     run(live(), play, (120, 40))
 
 
-def test_an_action_has_the_key_that_a_person_wants(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_action_is_remapped_to_another_key(monkeypatch: pytest.MonkeyPatch) -> None:
     for scope, keys in list(TABLE.items()):
         monkeypatch.setitem(TABLE, scope, keys)
 

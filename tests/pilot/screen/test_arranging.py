@@ -23,7 +23,7 @@ def seen(session: Session) -> dict[str, Region]:
     return {pane.id or "": pane.region for pane in session.app.visible_panes()}
 
 
-def test_split_close_and_take_it_back() -> None:
+def test_pane_is_split_closed_and_restored() -> None:
     async def play(session: Session) -> None:
         before = tree(session)
         await session.press("V")
@@ -45,18 +45,18 @@ def test_split_close_and_take_it_back() -> None:
 
 
 @pytest.mark.parametrize("columns", [60, 80, 100, 120])
-def test_the_keys_to_save_to_stop_for_help_and_to_finish_are_never_cut(columns: int) -> None:
+def test_keys_for_save_stop_help_and_done_are_never_cut(columns: int) -> None:
     line = keys_line(columns - 2).plain
     assert len(line) <= columns - 2
     assert all(each in line for each in ("w Save", "? Help", "! Stop", "esc Done"))
 
 
-def test_all_keys_of_arranging_are_named_where_there_is_room() -> None:
+def test_key_bar_names_all_arranging_keys_if_there_is_room() -> None:
     line = keys_line(200).plain
     assert all(f" {key.short or key.text}" in line for key in TABLE["arrange"] if key.footer)
 
 
-def test_the_keys_are_explained_while_panes_are_arranged_and_fit_a_new_size() -> None:
+def test_help_explains_arranging_keys_and_fits_after_resizing() -> None:
     async def play(session: Session) -> None:
         await session.press("V")
         assert "esc Done" in session.lines()[-1] and "w Save" in session.lines()[-1]
@@ -73,7 +73,7 @@ def test_the_keys_are_explained_while_panes_are_arranged_and_fit_a_new_size() ->
     run(live(), play, (100, 30))
 
 
-def test_the_keyboard_goes_where_the_arrows_report_and_panes_change_places() -> None:
+def test_arrow_keys_select_and_swap_panes() -> None:
     async def play(session: Session) -> None:
         await session.press("V", "right")
         assert session.app.current_pane.id == "world"
@@ -90,7 +90,7 @@ def test_the_keyboard_goes_where_the_arrows_report_and_panes_change_places() -> 
     run(live(), play, SIZE)
 
 
-def test_growing_takes_from_the_neighbour() -> None:
+def test_growing_a_pane_shrinks_its_neighbour() -> None:
     async def play(session: Session) -> None:
         before = seen(session)
         await session.press("V", "right_square_bracket", "plus")
@@ -103,7 +103,7 @@ def test_growing_takes_from_the_neighbour() -> None:
     run(live(), play, SIZE)
 
 
-def test_a_layout_is_saved_under_a_name_and_opened_again() -> None:
+def test_layout_is_saved_under_a_name_and_reopened() -> None:
     async def play(session: Session) -> None:
         await session.press("V", "x", "w")
         await session.type("mine")
@@ -122,7 +122,7 @@ def test_a_layout_is_saved_under_a_name_and_opened_again() -> None:
     run(live(), play, SIZE)
 
 
-def test_a_layout_without_room_shows_one_pane_and_reports_it() -> None:
+def test_layout_without_room_shows_one_pane_and_says_so() -> None:
     async def play(session: Session) -> None:
         session.app.stage.arrangement.change(below(*(each.id for each in PANES[:6])))
         await session.press("V")
@@ -131,7 +131,7 @@ def test_a_layout_without_room_shows_one_pane_and_reports_it() -> None:
     run(live(), play, (70, 22))
 
 
-def test_a_border_is_dragged() -> None:
+def test_dragging_a_border_resizes_panes() -> None:
     async def play(session: Session) -> None:
         before = seen(session)
         edge = before["parameters"].right - 1
@@ -148,7 +148,7 @@ def test_a_border_is_dragged() -> None:
     run(live(), play, SIZE)
 
 
-def test_a_tab_is_clicked() -> None:
+def test_click_on_a_tab_selects_the_pane_while_arranging() -> None:
     async def play(session: Session) -> None:
         at = session.lines()[0].index("Graph")
         await session.pilot.click(offset=(at, 0))
@@ -161,7 +161,7 @@ def test_a_tab_is_clicked() -> None:
     run(live(), play, SIZE)
 
 
-def test_the_robot_is_stopped_while_arranging() -> None:
+def test_stop_key_works_while_arranging() -> None:
     async def play(session: Session) -> None:
         await session.press("V", "exclamation_mark")
         assert session.console.asked[-1] == ("all_stop", True)
@@ -169,7 +169,7 @@ def test_the_robot_is_stopped_while_arranging() -> None:
     run(live(), play, SIZE)
 
 
-def test_tab_goes_through_what_is_seen_from_the_upper_left() -> None:
+def test_tab_visits_visible_panes_from_the_upper_left() -> None:
     async def play(session: Session) -> None:
         session.app.stage.arranging.arrangement.change(beside("plot", "parameters"))
         session.app.stage.lay_out()

@@ -10,7 +10,7 @@ from samples import live
 FEW = 3
 
 
-def test_few_answers_are_kept_however_often_panes_are_changed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_caches_stay_small_when_panes_are_switched_often(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cache_limits, "ANSWERS", FEW)
 
     async def play(session: Session) -> None:

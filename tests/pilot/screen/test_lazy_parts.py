@@ -21,7 +21,7 @@ from textual.widgets import Static
 DIGITS = {each.id: each.key for each in ORDERED}
 
 
-def test_a_pane_that_nobody_has_seen_has_no_parts() -> None:
+def test_pane_composes_nothing_before_it_is_shown() -> None:
     async def play(session: Session) -> None:
         panes = {each.id: each for each in session.app.panes()}
         assert [*panes] == [each.id for each in ORDERED]
@@ -34,7 +34,7 @@ def test_a_pane_that_nobody_has_seen_has_no_parts() -> None:
     run(live(), play)
 
 
-def test_panes_look_as_if_their_parts_had_been_there_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_lazily_composed_panes_look_like_eager_ones(monkeypatch: pytest.MonkeyPatch) -> None:
     seen: list[list[str]] = [[], []]
 
     async def play(session: Session) -> None:
@@ -49,7 +49,7 @@ def test_panes_look_as_if_their_parts_had_been_there_at_once(monkeypatch: pytest
     assert seen[0] == seen[1]
 
 
-def test_who_asks_a_pane_for_a_part_finds_all_that_is_in_it() -> None:
+def test_query_on_a_pane_composes_all_its_parts() -> None:
     async def play(session: Session) -> None:
         pane = session.pane(TopicsPane)
         assert not pane.has_parts
@@ -65,7 +65,7 @@ class Box(LazyParts):
         yield Static(id="part")
 
 
-def test_what_is_asked_for_before_the_mount_is_over_is_made_once() -> None:
+def test_parts_requested_during_mount_are_composed_once() -> None:
     async def play() -> None:
         app: App[None] = App()
         async with app.run_test() as pilot:
@@ -80,7 +80,7 @@ def test_what_is_asked_for_before_the_mount_is_over_is_made_once() -> None:
     asyncio.run(play())
 
 
-def test_a_fault_in_what_a_pane_makes_late_ends_that_pane_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_exception_in_lazy_composition_ends_only_that_pane(monkeypatch: pytest.MonkeyPatch) -> None:
     def compose(self: Pane) -> ComposeResult:
         raise ValueError("no parts")
         yield

@@ -16,7 +16,7 @@ from samples import NEAREST, SPEED, empty, live
 PAIR = ([59.0, 60.0], [1.0, 2.0])
 
 
-def test_a_line_of_rqt_plot_replaces_the_curves_and_waits_for_what_is_not_there() -> None:
+def test_rqt_plot_line_replaces_curves_and_waits_for_missing_topics() -> None:
     async def play(session: Session) -> None:
         assert session.pane(PlotPane).paths != [NEAREST]
         await session.press(":")
@@ -40,7 +40,7 @@ def test_a_line_of_rqt_plot_replaces_the_curves_and_waits_for_what_is_not_there(
         ((), "No curves. Press a and name one: /topic/field, or /node:parameter."),
     ],
 )
-def test_an_empty_plot_reports_what_it_waits_for_or_what_to_press(wanted: tuple[str, ...], message: str) -> None:
+def test_empty_plot_names_awaited_paths_or_the_key_to_press(wanted: tuple[str, ...], message: str) -> None:
     async def play(session: Session) -> None:
         session.app.open(Opening("plot", wanted))
         await session.settle()
@@ -55,7 +55,7 @@ def test_an_empty_plot_reports_what_it_waits_for_or_what_to_press(wanted: tuple[
 
 
 @pytest.mark.parametrize("wanted", ["/scan/ranges[2]", "/tf/transforms[0].rotation.z - 1", "max(/scan/ranges[4:8])"])
-def test_what_no_list_suggests_is_plotted_as_soon_as_its_topic_is_there(wanted: str) -> None:
+def test_unknown_path_is_plotted_once_its_topic_appears(wanted: str) -> None:
     console, launcher = live()
     console.plottable = lambda: ()  # type: ignore[method-assign]
     console.series |= dict.fromkeys(
@@ -76,7 +76,7 @@ def test_what_no_list_suggests_is_plotted_as_soon_as_its_topic_is_there(wanted: 
     run((console, launcher), play, (120, 40))
 
 
-def test_why_a_field_of_a_topic_that_is_there_cannot_be_plotted_stands_beside_it() -> None:
+def test_reason_for_an_unplottable_field_is_shown() -> None:
     async def play(session: Session) -> None:
         session.console.unplottable["/scan/rangs[2]"] = "LaserScan has no field 'rangs'"
         session.app.open(Opening("plot", ("/scan/rangs[2]",)))
@@ -86,7 +86,7 @@ def test_why_a_field_of_a_topic_that_is_there_cannot_be_plotted_stands_beside_it
     run(live(), play, (120, 40))
 
 
-def test_every_number_of_a_topic_is_a_curve() -> None:
+def test_topic_is_plotted_with_a_curve_per_number() -> None:
     async def play(session: Session) -> None:
         session.app.open(Opening("plot", (SPEED.rpartition("/")[0],)))
         await session.settle()
@@ -96,7 +96,7 @@ def test_every_number_of_a_topic_is_a_curve() -> None:
     run(live(), play, (120, 40))
 
 
-def test_a_node_is_gone_to() -> None:
+def test_preselected_node_is_selected() -> None:
     async def play(session: Session) -> None:
         session.app.open(Opening("parameters", node="/none"))
         await session.settle()
@@ -110,7 +110,7 @@ def test_a_node_is_gone_to() -> None:
     run(live(), play)
 
 
-def test_what_is_not_taken_over_is_reported() -> None:
+def test_ignored_options_are_reported() -> None:
     async def play(session: Session) -> None:
         await session.press(":")
         await session.type("rqt --perspective-file mine.ini wrong")

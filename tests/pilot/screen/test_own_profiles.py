@@ -28,7 +28,7 @@ def asked(session: Session) -> list[tuple]:
     return [each for each in session.console.asked if str(each[0]).endswith(" profile")]
 
 
-def test_a_name_that_is_there_asks_with_file_and_time_and_no_saves_nothing(tmp_path: Path) -> None:
+def test_overwriting_a_profile_asks_with_file_and_time(tmp_path: Path) -> None:
     async def play(session: Session) -> None:
         await session.press("7", "S")
         await session.type("zz_hall")
@@ -47,7 +47,7 @@ def test_a_name_that_is_there_asks_with_file_and_time_and_no_saves_nothing(tmp_p
     run(with_hall(tmp_path), play, (120, 40))
 
 
-def test_a_bad_name_is_refused_at_the_first_question() -> None:
+def test_invalid_profile_name_is_rejected() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "S")
         await session.type("../hall")
@@ -61,7 +61,7 @@ def test_a_bad_name_is_refused_at_the_first_question() -> None:
     run(live(), play, (120, 40))
 
 
-def test_one_is_renamed_but_not_to_a_name_that_is_taken(tmp_path: Path) -> None:
+def test_profile_is_renamed_unless_the_name_is_taken(tmp_path: Path) -> None:
     system = with_hall(tmp_path)
     console = system[0]
     console.change(profiles=(Profile("attic", "/home/attic.yaml", own=True), *console.current.profiles))
@@ -79,7 +79,7 @@ def test_one_is_renamed_but_not_to_a_name_that_is_taken(tmp_path: Path) -> None:
     run(system, play, (120, 40))
 
 
-def test_one_is_deleted_after_a_question(tmp_path: Path) -> None:
+def test_profile_is_deleted_after_a_question(tmp_path: Path) -> None:
     async def play(session: Session) -> None:
         await session.press("7", "G", "d")
         text = session.text()
@@ -92,7 +92,7 @@ def test_one_is_deleted_after_a_question(tmp_path: Path) -> None:
     run(with_hall(tmp_path), play, (80, 24))
 
 
-def test_those_that_come_with_the_robot_are_neither() -> None:
+def test_built_in_profiles_are_neither_renamed_nor_deleted() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "d")
         assert len(session.app.screen_stack) == 1 and "is not deleted: only profiles that S has saved" in session.text()

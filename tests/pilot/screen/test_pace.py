@@ -31,7 +31,7 @@ async def heartbeat(session: Session, times: int = 1) -> None:
     await session.pilot.pause()
 
 
-def test_figures_of_the_status_line_stand_a_second_words_come_at_once() -> None:
+def test_status_line_updates_numbers_each_second_and_words_at_once() -> None:
     async def play(session: Session) -> None:
         drive(session, 0.1)
         await heartbeat(session, StatusBar.EVERY)
@@ -54,7 +54,7 @@ def test_figures_of_the_status_line_stand_a_second_words_come_at_once() -> None:
     run(live(), play, (160, 40))
 
 
-def test_facts_of_the_world_stand_as_long_but_for_what_a_person_asks() -> None:
+def test_world_facts_update_each_second_except_on_request() -> None:
     async def play(session: Session) -> None:
         await session.press("5")
         await heartbeat(session, LiveFigures.EVERY)
@@ -76,7 +76,7 @@ def test_facts_of_the_world_stand_as_long_but_for_what_a_person_asks() -> None:
     run(live(), play, (120, 40))
 
 
-def test_samples_within_one_dot_are_drawn_together_and_the_last_ones_always() -> None:
+def test_samples_within_one_dot_are_drawn_together() -> None:
     async def play(session: Session) -> None:
         await session.press("4")
         times, values = session.console.series[SPEED]
@@ -97,7 +97,7 @@ def test_samples_within_one_dot_are_drawn_together_and_the_last_ones_always() ->
     run(live(), play, (120, 40))
 
 
-def test_a_map_is_worked_out_again_when_it_would_look_other() -> None:
+def test_map_is_redrawn_only_when_it_would_look_different() -> None:
     async def play(session: Session) -> None:
         await session.press("5")
 
@@ -117,7 +117,7 @@ def test_a_map_is_worked_out_again_when_it_would_look_other() -> None:
     run(live(), play, (120, 40))
 
 
-def test_worlds_of_which_a_drawing_reports_the_same_look_the_same() -> None:
+def test_worlds_with_equal_drawing_keys_look_the_same() -> None:
     chance = random.Random(7)
     world = live()[0].current.world
     same = 0

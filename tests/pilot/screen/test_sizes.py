@@ -51,7 +51,7 @@ def test_every_pane_and_the_overview_fit(size, system) -> None:
     run(system(), play, size)
 
 
-def test_below_the_minimum_only_a_word_about_it_is_seen_and_nothing_overflows() -> None:
+def test_below_the_minimum_size_only_a_message_is_shown() -> None:
     async def play(session: Session) -> None:
         for digit, size in zip(("0", *(each.key for each in PANES)), cycle(((59, 20), (60, 19), (40, 10)))):
             await session.pilot.resize_terminal(80, 24)
@@ -66,7 +66,7 @@ def test_below_the_minimum_only_a_word_about_it_is_seen_and_nothing_overflows() 
     run(live(), play)
 
 
-def test_a_resize_lays_everything_out_again() -> None:
+def test_resize_updates_the_layout() -> None:
     async def play(session: Session) -> None:
         for size in ((250, 80), (60, 20), (170, 45), (80, 24), (120, 40)):
             await session.pilot.resize_terminal(*size)
@@ -101,7 +101,7 @@ def test_small_panes_show_what_matters_most() -> None:
     run(live(), play, (80, 24))
 
 
-def test_a_layout_that_has_no_room_leaves_one_pane_without_a_word() -> None:
+def test_layout_without_room_shows_one_pane_silently() -> None:
     async def play(session: Session) -> None:
         session.app.stage.arrangement.load("watching")
         session.app.stage.arrangement.change(below(*(each.id for each in PANES[:6])))

@@ -50,9 +50,7 @@ async def begin(session: Session, line: str = "ros2 topic hz /odom") -> StreamPa
 
 
 @pytest.mark.parametrize("size", [(80, 24), (120, 40)])
-def test_it_shows_the_last_lines_and_leaves_the_keyboard_where_it_was(
-    streams: list[Printing], size: tuple[int, int]
-) -> None:
+def test_panel_shows_the_last_lines_without_taking_focus(streams: list[Printing], size: tuple[int, int]) -> None:
     async def play(session: Session) -> None:
         focused = session.app.focused
         assert "runs" not in session.text()
@@ -75,7 +73,7 @@ SIZES = [(80, 24), (120, 40)]
 
 
 @pytest.mark.parametrize("size", SIZES)
-def test_three_go_on_at_once_and_each_ends_alone(streams: list[Printing], size: tuple[int, int]) -> None:
+def test_three_commands_run_side_by_side_and_end_separately(streams: list[Printing], size: tuple[int, int]) -> None:
     async def play(session: Session) -> None:
         focused = session.app.focused
         panels = session.pane(StreamPanels)
@@ -103,7 +101,7 @@ def test_three_go_on_at_once_and_each_ends_alone(streams: list[Printing], size: 
 
 
 @pytest.mark.parametrize("size", SIZES)
-def test_as_many_as_have_room_hide_neither_status_nor_keys(streams: list[Printing], size: tuple[int, int]) -> None:
+def test_panels_never_hide_status_line_or_key_bar(streams: list[Printing], size: tuple[int, int]) -> None:
     async def play(session: Session) -> None:
         below = session.text().splitlines()[-2:]
         panels = session.pane(StreamPanels)
@@ -121,7 +119,7 @@ def test_as_many_as_have_room_hide_neither_status_nor_keys(streams: list[Printin
     run(live(), play, size)
 
 
-def test_one_too_many_is_refused_before_it_begins_and_one_that_has_ended_makes_way(streams: list[Printing]) -> None:
+def test_command_without_room_is_refused_and_an_ended_one_makes_room(streams: list[Printing]) -> None:
     async def play(session: Session) -> None:
         has = room(session.app.size)
         panels = session.pane(StreamPanels)
@@ -139,7 +137,7 @@ def test_one_too_many_is_refused_before_it_begins_and_one_that_has_ended_makes_w
     run(live(), play, (80, 24))
 
 
-def test_a_smaller_terminal_shows_the_newest_and_reports_the_others(streams: list[Printing]) -> None:
+def test_smaller_terminal_shows_the_newest_panels_and_counts_the_others(streams: list[Printing]) -> None:
     async def play(session: Session) -> None:
         panels = session.pane(StreamPanels)
         while len(streams) < 4:
@@ -153,7 +151,7 @@ def test_a_smaller_terminal_shows_the_newest_and_reports_the_others(streams: lis
     run(live(), play, (80, 24))
 
 
-def test_the_end_is_reported_and_a_click_on_the_title_closes(streams: list[Printing]) -> None:
+def test_end_is_shown_and_click_on_the_title_closes(streams: list[Printing]) -> None:
     async def play(session: Session) -> None:
         await begin(session)
         panels = await begin(session)
@@ -171,7 +169,7 @@ def test_the_end_is_reported_and_a_click_on_the_title_closes(streams: list[Print
     run(live(), play, (120, 40))
 
 
-def test_a_line_that_ends_by_itself_shows_its_output(streams: list[Printing]) -> None:
+def test_command_that_ends_shows_its_output(streams: list[Printing]) -> None:
     async def play(session: Session) -> None:
         await session.press(":")
         await session.type("ros2 node list")

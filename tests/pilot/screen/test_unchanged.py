@@ -15,7 +15,7 @@ LISTS = "12789HMB"
 
 
 @pytest.mark.parametrize("system", [live, empty], ids=["live", "empty"])
-def test_no_line_is_drawn_while_only_the_robot_moves(system) -> None:
+def test_unrelated_lines_are_not_redrawn_while_the_robot_moves(system) -> None:
     async def play(session: Session) -> None:
         for key in LISTS:
             await session.press(key)
@@ -29,7 +29,7 @@ def test_no_line_is_drawn_while_only_the_robot_moves(system) -> None:
     run(system(), play, (120, 30))
 
 
-def test_a_change_that_needs_no_wider_column_is_drawn_alone() -> None:
+def test_changed_value_of_the_same_width_redraws_only_its_row() -> None:
     async def play(session: Session) -> None:
         await session.press("H")
         changes = session.console.journal
@@ -42,7 +42,7 @@ def test_a_change_that_needs_no_wider_column_is_drawn_alone() -> None:
     run(live(), play, (120, 30))
 
 
-def test_the_console_is_asked_once_a_beat() -> None:
+def test_console_is_polled_once_per_refresh() -> None:
     async def play(session: Session) -> None:
         await session.press("0")
         with patch.object(session.console, "snapshot", side_effect=session.console.snapshot) as asked:

@@ -66,7 +66,7 @@ async def goes_on(session: Session, tuner: FakeTuner, progress: Progress) -> Non
     await session.settle()
 
 
-def test_the_best_is_found_seen_and_taken() -> None:
+def test_best_setting_is_found_shown_and_applied() -> None:
     async def play(session: Session) -> None:
         tuner = await begin(session)
         question = tuner.asked[0]
@@ -89,7 +89,7 @@ def test_the_best_is_found_seen_and_taken() -> None:
     run(live(), play, (100, 30))
 
 
-def test_a_setting_is_saved_as_a_profile_and_leaving_ends_the_runs_when_confirmed_twice() -> None:
+def test_setting_is_saved_as_profile_and_second_escape_ends_the_runs() -> None:
     async def play(session: Session) -> None:
         tuner = await begin(session)
         await goes_on(session, tuner, Progress((NOW, BEST), 20, 70, 10.0, 20))
@@ -109,7 +109,7 @@ def test_a_setting_is_saved_as_a_profile_and_leaving_ends_the_runs_when_confirme
     run(live(), play)
 
 
-def test_without_a_tuner_it_is_reported_why_before_anything_is_asked() -> None:
+def test_missing_tuner_is_reported_before_any_question() -> None:
     async def play(session: Session) -> None:
         await begin(session)
         session.app.tuner = None

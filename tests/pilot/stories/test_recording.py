@@ -9,7 +9,7 @@ from piloting import Session, run
 from samples import live
 
 
-def test_recording_begins_and_ends_by_the_same_key(tmp_path: Path) -> None:
+def test_same_key_starts_and_stops_recording(tmp_path: Path) -> None:
     async def play(session: Session) -> None:
         await session.press("5", "R")
         assert "rosbag2_" in session.app.focused.value
@@ -27,7 +27,7 @@ def test_recording_begins_and_ends_by_the_same_key(tmp_path: Path) -> None:
     run(live(), play, (120, 40))
 
 
-def test_the_last_minutes_are_saved_and_where_none_are_kept_it_is_reported(tmp_path: Path) -> None:
+def test_last_minutes_are_saved_or_their_absence_reported(tmp_path: Path) -> None:
     async def play(session: Session) -> None:
         await session.press("2", "Z")
         assert ("keep", "") in session.console.asked, "which answers why not"

@@ -44,7 +44,7 @@ async def mark_two(session: Session) -> None:
     await session.press("enter")
 
 
-def test_edits_are_marked_and_sent_together_and_one_undo_takes_them_back() -> None:
+def test_marked_edits_are_sent_together_and_undone_together() -> None:
     async def play(session: Session) -> None:
         await mark_two(session)
         assert not [each for each in session.console.asked if each[0] in ("set", "set_all")]
@@ -59,7 +59,7 @@ def test_edits_are_marked_and_sent_together_and_one_undo_takes_them_back() -> No
     run(live(), play, (100, 30))
 
 
-def test_what_one_node_refuses_leaves_everything_marked_and_reports_why() -> None:
+def test_refusal_by_one_node_keeps_all_marks_and_shows_the_reason() -> None:
     async def play(session: Session) -> None:
         session.console.refusals["/simulator", "lidar.beams"] = "not while it turns"
         await mark_two(session)
@@ -75,7 +75,7 @@ def test_what_one_node_refuses_leaves_everything_marked_and_reports_why() -> Non
     run(live(), play, (100, 30))
 
 
-def test_marking_again_before_the_answer_has_come_is_marking() -> None:
+def test_marking_can_be_resumed_before_the_answer() -> None:
     async def play(session: Session) -> None:
         answer: Future[tuple[SetOutcome, ...]] = Future()
         session.console.set_all = lambda *given: answer  # type: ignore[method-assign]
@@ -105,7 +105,7 @@ def test_two_sets_are_swapped_with_one_key() -> None:
     run(live(), play, (100, 30))
 
 
-def test_what_takes_from_safety_is_reported_before_in_each_way_to_set_it() -> None:
+def test_every_way_to_set_an_unsafe_value_warns_first() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         await go_to(session, "max_speed")
@@ -129,7 +129,7 @@ def test_what_takes_from_safety_is_reported_before_in_each_way_to_set_it() -> No
     run(live(), play, (100, 30))
 
 
-def test_an_expression_with_a_unit_reports_what_comes_of_it() -> None:
+def test_expression_with_unit_shows_its_result() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         await go_to(session, "safety_distance")
@@ -155,7 +155,7 @@ async def click(session: Session, text: str, ahead: int = 0) -> None:
     await session.settle()
 
 
-def test_the_mouse_chooses_slides_edits_and_folds() -> None:
+def test_mouse_selects_slides_edits_and_folds() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         await click(session, "turn_rate")
@@ -180,7 +180,7 @@ def test_the_mouse_chooses_slides_edits_and_folds() -> None:
     run(live(), play, (100, 30))
 
 
-def test_a_change_flashes_and_its_marks_report_where_it_came_from() -> None:
+def test_change_flashes_and_marks_show_its_source() -> None:
     async def play(session: Session) -> None:
         clock = Clock()
         session.pane(ParametersPane).clock = clock
@@ -203,7 +203,7 @@ def test_a_change_flashes_and_its_marks_report_where_it_came_from() -> None:
     run(live(), play, (100, 30))
 
 
-def test_the_plot_compares_the_responses_with_their_figures() -> None:
+def test_plot_compares_responses_with_their_figures() -> None:
     """Set B takes the speed from 0.5 to 1.0 at once; set A back down with 0.5 m/s² until 1.2 s, too far by 15 %."""
     console, launcher = live()
     times = [20.0 + at / 20 for at in range(800)]

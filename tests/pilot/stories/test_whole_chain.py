@@ -46,7 +46,7 @@ async def typed(session: Session, text: str) -> None:
     await session.press("enter")
 
 
-def test_find_refuse_set_plot_stage_apply_swap_undo_save_restart_load(tmp_path: Path) -> None:
+def test_tuning_session_works_by_keyboard_from_search_to_restart(tmp_path: Path) -> None:
     file = tmp_path / "mine.yaml"
 
     async def tune(session: Session) -> None:
@@ -112,7 +112,7 @@ async def slide(session: Session, name: str, share: float) -> None:
 
 
 @pytest.mark.soak
-def test_the_same_by_mouse_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_tuning_session_works_by_mouse_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     left: list[object] = []
     names = ("max_speed", "turn_rate", "safety_distance")
