@@ -20,7 +20,7 @@ from hypothesis import strategies as st
     ],
     ids=ascii,
 )
-def test_what_cannot_be_encoded_is_replaced(text: str, sent: str) -> None:
+def test_unencodable_characters_are_replaced(text: str, sent: str) -> None:
     assert encodable(text) == sent
 
 
@@ -30,5 +30,5 @@ def test_every_text_becomes_encodable(text: str) -> None:
 
 
 @given(st.binary(max_size=40))
-def test_arguments_become_what_their_bytes_are_in_utf_8(data: bytes) -> None:
+def test_arguments_are_decoded_as_utf_8(data: bytes) -> None:
     assert encodable(data.decode("ascii", "surrogateescape")) == data.decode("utf-8", "replace")

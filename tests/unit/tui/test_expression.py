@@ -22,7 +22,7 @@ from bot_console.tui.text.expression.numbers import evaluate
         ("x/2", 3),
     ],
 )
-def test_arithmetic(text: str, value: float) -> None:
+def test_arithmetic_is_evaluated(text: str, value: float) -> None:
     assert evaluate(text, {"x": 6}) == value
 
 
@@ -49,7 +49,7 @@ def test_arithmetic(text: str, value: float) -> None:
         "round()",
     ],
 )
-def test_everything_else_is_refused_in_words(text: str) -> None:
+def test_everything_but_arithmetic_is_rejected_with_a_reason(text: str) -> None:
     with pytest.raises(ValueError, match=r"\w+ \w+"):
         evaluate(text)
 
@@ -100,13 +100,13 @@ def of(kind: Kind, unit: str, limits: Range | None = None, value: Value = 1.0) -
         ("1e2cm", "m", 1.0),
     ],
 )
-def test_a_number_with_a_unit_is_turned_into_that_of_the_parameter(text: str, unit: str, value: float) -> None:
+def test_number_with_unit_is_converted_to_the_parameters_unit(text: str, unit: str, value: float) -> None:
     found = typed_value(text, of(Kind.DOUBLE, unit))
     assert found == pytest.approx(value) and isinstance(found, float)
 
 
 @pytest.mark.parametrize(("text", "unit"), [("3 kg", "m"), ("3 cm", ""), ("3 parsec", "m"), ("cm", "m"), ("", "m")])
-def test_a_unit_that_does_not_fit_is_reported(text: str, unit: str) -> None:
+def test_incompatible_unit_is_reported(text: str, unit: str) -> None:
     with pytest.raises(ValueError, match=r"unit|number"):
         typed_value(text, of(Kind.DOUBLE, unit))
 
@@ -114,13 +114,13 @@ def test_a_unit_that_does_not_fit_is_reported(text: str, unit: str) -> None:
 @pytest.mark.parametrize("unit", ["", "m"])
 @pytest.mark.parametrize("kind", [Kind.DOUBLE, Kind.INTEGER])
 @pytest.mark.parametrize("text", ["1e400", "-1e400", "1E999", "1e", "2.5E", "0x", "0b12", "0xg", "0o8", "1_", "3e5x"])
-def test_a_number_that_is_wrong_is_not_taken_for_one_with_a_unit(text: str, unit: str, kind: Kind) -> None:
+def test_invalid_number_is_not_taken_for_one_with_a_unit(text: str, unit: str, kind: Kind) -> None:
     with pytest.raises(ValueError, match=r"is no number|is too large") as refused:
         typed_value(text, of(kind, unit))
     assert "unit" not in str(refused.value)
 
 
-def test_a_decimal_comma_is_reported_with_the_number_that_is_meant() -> None:
+def test_decimal_comma_is_reported_with_the_intended_number() -> None:
     with pytest.raises(ValueError, match=r"^decimals have a point: 2\.5$"):
         typed_value("2,5", of(Kind.DOUBLE, "m"))
 

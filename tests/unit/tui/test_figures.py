@@ -26,7 +26,7 @@ def test_a_rate_has_at_most_three_digits_while_it_is_small(rate: float | None, t
         (4.5e12, "4500.0 GB"),
     ],
 )
-def test_an_amount_is_in_powers_of_a_thousand(amount: float | None, text: str) -> None:
+def test_amount_uses_powers_of_a_thousand(amount: float | None, text: str) -> None:
     assert amount_text(amount) == text
 
 

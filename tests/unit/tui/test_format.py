@@ -6,12 +6,12 @@ from bot_console.tui.format import brief, cut, cut_name
 from rich.cells import cell_len
 
 
-def test_what_is_cut_ends_in_an_ellipsis() -> None:
+def test_cut_text_ends_in_an_ellipsis() -> None:
     assert [cut("distance", width) for width in (9, 8, 7, 1, 0)] == ["distance", "distance", "distan…", "…", ""]
     assert cut("日本語", 4) == "日…" and cut("ab", 4, pad=True) == "ab  "
 
 
-def test_a_notification_is_a_few_lines() -> None:
+def test_notification_is_limited_to_a_few_lines() -> None:
     assert brief("one\ntwo") == "one\ntwo"
     many = brief("\n".join(f"parameter {each}" for each in range(399)))
     assert many.splitlines()[-1] == "... and 394 lines more" and len(many.splitlines()) == 6

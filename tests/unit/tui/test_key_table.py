@@ -32,7 +32,7 @@ class Help(App[None]):
 
 
 @pytest.mark.parametrize("width", [50, 90])
-def test_it_looks_like_a_table_of_rich(width: int) -> None:
+def test_key_table_looks_like_a_rich_table(width: int) -> None:
     table = Table.grid(padding=(0, 2))
     table.add_column(justify="right", min_width=12)
     table.add_column()
@@ -51,7 +51,7 @@ def test_it_looks_like_a_table_of_rich(width: int) -> None:
     assert len(asyncio.run(main())) > len(KEYS), "some take several lines"
 
 
-def test_only_what_is_seen_is_drawn_and_each_line_presses_its_key(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_only_visible_lines_are_rendered_and_carry_their_keys(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn: list[int] = []
     draw = KeyTable.render_line
 
@@ -76,7 +76,7 @@ def test_only_what_is_seen_is_drawn_and_each_line_presses_its_key(monkeypatch: p
 
 
 @given(st.lists(st.text("ab漢", min_size=1, max_size=9), min_size=1), st.integers(1, 30))
-def test_lines_are_broken_between_words_alone(words: list[str], width: int) -> None:
+def test_lines_are_wrapped_between_words(words: list[str], width: int) -> None:
     lines = wrapped(" ".join(words), width)
     assert " ".join(lines).split(" ") == words
     assert all(cell_len(line) <= width or " " not in line for line in lines)

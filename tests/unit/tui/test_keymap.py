@@ -61,7 +61,7 @@ STOLEN = {"ctrl+x", "ctrl+b", "ctrl+a", "ctrl+s", "ctrl+h", "ctrl+i", "ctrl+m", 
 
 
 @pytest.mark.parametrize(("scope", "key"), KEYS, ids=[key.id for _, key in KEYS])
-def test_the_action_exists_and_the_key_is_usable(scope: str, key: Key) -> None:
+def test_every_action_exists_and_every_key_is_usable(scope: str, key: Key) -> None:
     name = re.match(r"\w+", key.action.removeprefix("app."))
     owner = BotConsoleApp if key.action.startswith("app.") else OWNERS[scope]
     assert name and hasattr(owner, f"action_{name[0]}")

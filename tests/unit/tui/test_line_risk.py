@@ -20,5 +20,5 @@ from samples import live
         ("ros2 topic echo '/odom", ""),
     ],
 )
-def test_what_a_line_takes_from_safety(line: str, risk: str) -> None:
+def test_unsafe_command_line_is_recognised(line: str, risk: str) -> None:
     assert risk_of(line, live()[0].snapshot()) == risk

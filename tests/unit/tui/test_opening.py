@@ -28,7 +28,7 @@ def test_the_colon_of_rqt_plot_names_further_fields_and_a_relative_topic_is_one(
     assert matching("robot/speed", known) == ["/robot/speed/data"]
 
 
-def test_rqt_writes_the_fields_of_fields_with_slashes() -> None:
+def test_nested_fields_of_rqt_plot_use_slashes() -> None:
     known = ["/odom/twist.twist.linear.x", "/odom/twist.twist.linear.y", "/odom/twist.covariance[0]"]
     for wanted in ("/odom/twist/twist/linear/x", "odom/twist.twist.linear.x"):
         assert matching(wanted, known) == known[:1]
@@ -36,7 +36,7 @@ def test_rqt_writes_the_fields_of_fields_with_slashes() -> None:
 
 
 @pytest.mark.parametrize("line", ["rqt_reconfigure /arm", "ros2 run rqt_reconfigure rqt_reconfigure arm"])
-def test_a_node_is_chosen(line: str) -> None:
+def test_node_is_preselected(line: str) -> None:
     assert opening(line) == Opening("parameters", node="/arm")
 
 
@@ -55,7 +55,7 @@ def test_every_program_has_its_pane(program: str, pane: str) -> None:
         ("rqt -s rqt_bag", "there is no pane for rqt_bag"),
     ],
 )
-def test_what_is_not_taken_over_is_reported(line: str, note: str) -> None:
+def test_ignored_options_are_reported(line: str, note: str) -> None:
     assert [each.startswith(note) for each in opening(line).notes] == [True]
 
 
@@ -64,7 +64,7 @@ def test_a_perspective_is_taken(line: str) -> None:
     assert opening(line) == Opening(perspective="~/a.ini")
 
 
-def test_other_words_are_those_of_bot_console(capsys: pytest.CaptureFixture[str]) -> None:
+def test_other_arguments_are_left_to_bot_console(capsys: pytest.CaptureFixture[str]) -> None:
     given = parse(["rqt_plot", "/a/b", "outdoor", "seed:=7"])
     assert (given.profile, given.launch_arguments, given.opening.curves) == ("outdoor", {"seed": "7"}, ("/a/b",))
     with pytest.raises(SystemExit):

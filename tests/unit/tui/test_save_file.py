@@ -45,7 +45,7 @@ def test_a_new_file_and_its_folder_follow_the_umask(tmp_path: Path) -> None:
 
 @POSIX
 @pytest.mark.parametrize("rights", [0o600, 0o644, 0o664, 0o755, 0o4755])
-def test_the_mode_stays(tmp_path: Path, rights: int) -> None:
+def test_saving_keeps_the_mode(tmp_path: Path, rights: int) -> None:
     path = tmp_path / "file"
     path.write_text("old")
     path.chmod(rights)
@@ -54,7 +54,7 @@ def test_the_mode_stays(tmp_path: Path, rights: int) -> None:
 
 
 @POSIX
-def test_a_symbolic_link_stays_one_also_where_it_leads_to_nothing_yet(tmp_path: Path) -> None:
+def test_saving_keeps_symbolic_links_even_dangling_ones(tmp_path: Path) -> None:
     (tmp_path / "deep").mkdir()
     link = tmp_path / "link"
     link.symlink_to("deep/file")
@@ -66,7 +66,7 @@ def test_a_symbolic_link_stays_one_also_where_it_leads_to_nothing_yet(tmp_path: 
 
 
 @pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="only root gives files away")
-def test_the_owner_stays(tmp_path: Path) -> None:
+def test_saving_keeps_the_owner(tmp_path: Path) -> None:
     path = tmp_path / "file"
     path.write_text("old")
     os.chown(path, 1234, 2345)
@@ -96,7 +96,7 @@ def test_a_file_whose_owner_cannot_be_kept_is_left_alone(tmp_path: Path, monkeyp
 
 
 @pytest.mark.parametrize("failing", ["write", "fsync", "rename"])
-def test_on_a_full_disk_the_old_content_stays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, failing: str) -> None:
+def test_full_disk_keeps_the_old_content(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, failing: str) -> None:
     path = tmp_path / "file"
     path.write_text("old")
 
@@ -116,7 +116,7 @@ def test_on_a_full_disk_the_old_content_stays(tmp_path: Path, monkeypatch: pytes
 
 
 @POSIX
-def test_the_limit_of_a_files_size_is_a_full_disk_in_earnest(tmp_path: Path) -> None:
+def test_file_size_limit_keeps_the_old_content(tmp_path: Path) -> None:
     import resource
     import signal
 
@@ -134,7 +134,7 @@ def test_the_limit_of_a_files_size_is_a_full_disk_in_earnest(tmp_path: Path) -> 
     assert (path.read_text(), names(tmp_path)) == ("old", ["file"])
 
 
-def test_what_the_check_refuses_does_not_replace_the_old_content(tmp_path: Path) -> None:
+def test_content_that_fails_the_check_keeps_the_old_content(tmp_path: Path) -> None:
     path = tmp_path / "file"
     path.write_text("old")
 
@@ -146,7 +146,7 @@ def test_what_the_check_refuses_does_not_replace_the_old_content(tmp_path: Path)
     assert (path.read_text(), names(tmp_path)) == ("old", ["file"])
 
 
-def test_what_must_not_be_replaced_is_named(tmp_path: Path) -> None:
+def test_file_that_must_not_be_replaced_is_named(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("old")
     with pytest.raises(NotSaved, match="is a folder; add a file name"):
         save_file(tmp_path, "new")
@@ -172,13 +172,13 @@ def test_devices_pipes_and_protected_files_are_not_replaced(tmp_path: Path) -> N
     assert stat.S_ISFIFO((tmp_path / "pipe").stat().st_mode)
 
 
-def test_a_name_of_the_longest_kind_is_saved(tmp_path: Path) -> None:
+def test_file_name_of_maximum_length_is_saved(tmp_path: Path) -> None:
     path = tmp_path / ("x" * 255)
     save_file(path, "new")
     assert path.read_text() == "new"
 
 
-def test_what_a_killed_save_left_is_cleared_away_after_a_while(tmp_path: Path) -> None:
+def test_remains_of_a_killed_save_are_deleted_later(tmp_path: Path) -> None:
     old, young = (tmp_path / f"{module.PREFIX}{each}{module.SUFFIX}" for each in ("old", "young"))
     for each in (old, young):
         each.write_text("half")
@@ -188,9 +188,7 @@ def test_what_a_killed_save_left_is_cleared_away_after_a_while(tmp_path: Path) -
     assert names(tmp_path) == sorted([young.name, "file"])
 
 
-def test_a_folder_that_cannot_be_made_is_reported_beside_the_file(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_folder_that_cannot_be_created_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object, **__: object) -> None:
         raise PermissionError(errno.EACCES, "Permission denied")
 
@@ -215,7 +213,7 @@ def test_a_deleted_working_folder_is_reported(tmp_path: Path, monkeypatch: pytes
     ("text", "why"),
     [("", "give a file name"), ("  ", "give a file name"), ("~nobody-here/x", "no user"), ("a\0b", "zero")],
 )
-def test_typed_names_that_are_none(text: str, why: str) -> None:
+def test_invalid_file_names_are_rejected(text: str, why: str) -> None:
     with pytest.raises(NotSaved, match=why):
         typed_path(text)
 

@@ -10,13 +10,13 @@ from fakes.console import FakeConsole
 from samples import live
 
 
-def test_words_that_are_complete_and_the_one_that_was_begun() -> None:
+def test_line_is_split_into_complete_words_and_the_unfinished_one() -> None:
     assert split("") == ([], "")
     assert split("topic ec") == (["topic"], "ec")
     assert split("topic  echo ") == (["topic", "echo"], "")
 
 
-def test_what_begins_so_comes_before_what_has_it() -> None:
+def test_prefix_matches_precede_other_matches() -> None:
     assert fitting(["/odom", "/odom/filtered", "/scan"], "/od") == ["/odom", "/odom/filtered"]
     assert fitting(["/odom", "/scan"], "SCAN") == ["/scan"]
     assert extended(["/odom", "/odometry"], "/o") == "/odom"
@@ -24,7 +24,7 @@ def test_what_begins_so_comes_before_what_has_it() -> None:
     assert extended([], "x") == "x"
 
 
-def test_a_place_is_asked_once_and_again_for_options_and_later_lines() -> None:
+def test_completions_are_queried_once_per_position() -> None:
     asked: list[Sequence[str]] = []
     answers: list[Future[Sequence[str]]] = []
 
@@ -46,7 +46,7 @@ def test_a_place_is_asked_once_and_again_for_options_and_later_lines() -> None:
     assert len(asked) == 3
 
 
-def test_names_of_what_runs_are_known_without_asking() -> None:
+def test_names_from_the_snapshot_complete_without_a_query() -> None:
     console = live()[0]
     assert isinstance(console, FakeConsole)
     snapshot = console.snapshot()

@@ -14,12 +14,12 @@ def filled(path: Path, *lines: str) -> LineHistory:
     return history
 
 
-def test_they_outlive_the_run_each_once_the_newest_last(tmp_path: Path) -> None:
+def test_history_is_stored_without_duplicates_newest_last(tmp_path: Path) -> None:
     filled(tmp_path / "lines", "topic list", "set /a b 1", "topic list")
     assert LineHistory(tmp_path / "lines").lines() == ["set /a b 1", "topic list"]
 
 
-def test_up_goes_through_those_that_begin_so_and_down_comes_back(tmp_path: Path) -> None:
+def test_up_recalls_lines_with_the_typed_prefix_and_down_returns(tmp_path: Path) -> None:
     history = filled(tmp_path / "lines", "topic list", "node list", "topic hz /odom")
     typed, seen = "topic", []
     for step in (-1, -1, -1, 1, 1, 1):
@@ -37,12 +37,12 @@ def test_up_goes_through_those_that_begin_so_and_down_comes_back(tmp_path: Path)
     assert history.step("topic hz", -1) == "topic hz /odom", "the line that stands there already is passed by"
 
 
-def test_what_cannot_be_kept_is_known_until_the_end(tmp_path: Path) -> None:
+def test_unwritable_history_lasts_until_exit(tmp_path: Path) -> None:
     (tmp_path / "lines").mkdir()
     assert filled(tmp_path / "lines", "a", "b").lines() == ["a", "b"]
 
 
-def test_only_so_many_are_kept(tmp_path: Path) -> None:
+def test_history_length_is_limited(tmp_path: Path) -> None:
     (tmp_path / "lines").write_text("".join(f"line {number}\n" for number in range(2 * MAX_LINES)))
     history = filled(tmp_path / "lines", "new")
     assert len(history.lines()) == MAX_LINES and history.lines()[-1] == "new"

@@ -32,7 +32,7 @@ class AppWithoutScreen:
         raise AssertionError
 
 
-def test_what_begins_with_the_typed_words_comes_before_what_only_has_them() -> None:
+def test_prefix_matches_precede_other_matches() -> None:
     texts = {"line": "Command line: set, plot, layout, record", "record": "Record all topics", "arrange": "Arrange"}
     commands = {id: Command(text, "", lambda: None) for id, text in texts.items()}
 
@@ -86,7 +86,7 @@ def test_scattered_characters_are_left_out_where_words_match() -> None:
 
 @pytest.mark.parametrize("scope", ["parameters", "steering", "world", "launch"])
 @pytest.mark.parametrize("typed", ["robot", "rob", "the", "again", "al", "is", "program", "o", "l"])
-def test_what_nobody_may_choose_by_accident_is_found_by_its_own_words_only(scope: str, typed: str) -> None:
+def test_dangerous_actions_are_found_by_their_own_words_only(scope: str, typed: str) -> None:
     assert not set(found(typed, scope)) & set(OWN_WORDS)
 
 

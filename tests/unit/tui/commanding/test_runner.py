@@ -72,24 +72,24 @@ def runner() -> tuple[LineRunner, Any, FakeCommandLine]:
         ("topic echo 'x", "a quotation mark has no twin"),
     ],
 )
-def test_what_is_wrong_reports_what_to_type(text: str, hint: str) -> None:
+def test_invalid_line_is_rejected_with_a_hint(text: str, hint: str) -> None:
     assert hint in runner()[0].wrong(text)
 
 
 @pytest.mark.parametrize(
     "text", ["", "topic list", "ros2 node list", "rqt_plot /a/b", "plot /a", "release", "layout tuning"]
 )
-def test_what_may_be_right_is_run(text: str) -> None:
+def test_plausible_line_is_run(text: str) -> None:
     assert runner()[0].wrong(text) == ""
 
 
 @pytest.mark.parametrize("begin", ["set", "param set", "ros2 param set"])
-def test_what_a_value_takes_from_safety_is_reported_before_enter(begin: str) -> None:
+def test_unsafe_value_is_announced_while_typing(begin: str) -> None:
     assert runner()[0].preview(f"{begin} /robot_navigator max_speed 4.0").startswith("⚠")
     assert not runner()[0].preview(f"{begin} /robot_navigator max_speed 0.5").startswith("⚠")
 
 
-def test_a_recording_is_begun_once_and_ended() -> None:
+def test_recording_starts_once_and_stops() -> None:
     lines, screen, _ = runner()
     lines.run("record stop")
     lines.run("record bags/mine")
@@ -109,9 +109,7 @@ def test_a_recording_is_begun_once_and_ended() -> None:
         ("param get /a b", done("Integer value is: 1\n"), "OutputScreen"),
     ],
 )
-def test_what_is_started_is_reported_in_a_corner_and_takes_no_keys(
-    line: str, printed: Future[str], reported: str
-) -> None:
+def test_started_command_is_notified_and_takes_no_focus(line: str, printed: Future[str], reported: str) -> None:
     run, screen, lines = runner()
     lines.commands = lambda: ("run", "launch", "param")
     lines.run = lambda _: printed
@@ -119,7 +117,7 @@ def test_what_is_started_is_reported_in_a_corner_and_takes_no_keys(
     assert screen.reported == [reported]
 
 
-def test_a_bag_is_opened_where_it_is(tmp_path: Path) -> None:
+def test_bag_is_opened_by_its_path(tmp_path: Path) -> None:
     lines, screen, _ = runner()
     lines.run(f"bag open '{tmp_path}'")
     lines.run("bag open /no/such/bag")

@@ -70,7 +70,7 @@ class App:
         return seen
 
 
-def test_last_move_and_last_resize_count_and_moves_keep_the_whole_distance() -> None:
+def test_moves_and_resizes_are_merged_and_keep_the_whole_distance() -> None:
     end, size = moved(9), resized(99)
     assert merged(moved(1), resized(80), moved(2), resized(81), end, size) == [end, size]
     assert end.delta_x == 3
@@ -82,13 +82,13 @@ def test_nothing_is_merged_across_keys_clicks_and_pastes(between: Message) -> No
     assert merged(first, between, last) == [first, between, last]
 
 
-def test_last_steps_of_a_wheel_wait() -> None:
+def test_only_the_last_wheel_steps_are_kept() -> None:
     up = wheel(events.MouseScrollUp)
     waiting = merged(*(wheel() for _ in range(100)), up)
     assert len(waiting) == MAX_WHEEL_STEPS and waiting[-1] is up
 
 
-def test_app_is_given_more_when_it_has_handled_what_it_was_given() -> None:
+def test_app_gets_more_input_after_handling_the_previous() -> None:
     loop, app = Loop(), App()
     queue = InputQueue(app, loop)  # type: ignore[arg-type] # as far as it is used
     assert queue.is_idle
@@ -107,7 +107,7 @@ def test_app_is_given_more_when_it_has_handled_what_it_was_given() -> None:
     assert app.handle() == [key]
 
 
-def test_resizes_that_signals_report_are_one() -> None:
+def test_resize_signals_are_merged() -> None:
     loop, app = Loop(), App()
     queue = InputQueue(app, loop)  # type: ignore[arg-type] # as above
     sizes = iter((resized(81), resized(82)))
@@ -119,7 +119,7 @@ def test_resizes_that_signals_report_are_one() -> None:
     assert isinstance(event, events.Resize) and event.size.width == 81
 
 
-def test_queue_of_an_app_that_has_ended_does_not_fail() -> None:
+def test_queue_of_an_ended_app_does_not_fail() -> None:
     loop, app = Loop(), App()
     app.closed = True
     queue = InputQueue(app, loop)  # type: ignore[arg-type] # as above

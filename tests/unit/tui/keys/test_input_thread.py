@@ -72,12 +72,12 @@ def rig(monkeypatch: pytest.MonkeyPatch) -> Iterator[Rig]:
     rig.close()
 
 
-def test_keys_come_in_their_order(rig: Rig) -> None:
+def test_keys_arrive_in_order(rig: Rig) -> None:
     assert rig.types(b"q!\x1b[A", 3) == ["q", "exclamation_mark", "up"]
 
 
 @pytest.mark.parametrize("key", ["!", "\r", ":", "-", " "])
-def test_esc_and_what_is_typed_right_after_it_are_two_keys(rig: Rig, key: str) -> None:
+def test_escape_followed_by_a_key_is_two_keys(rig: Rig, key: str) -> None:
     alone = rig.types(key.encode())
     assert rig.types(f"\x1b{key}".encode(), 2) == ["escape", *alone]
 
@@ -87,14 +87,14 @@ def test_a_character_after_esc_may_have_had_alt_and_keys_of_several_bytes_stay_w
     assert rig.types(b"\x1b[A\x1bOP\x1b[1;3A\x1b\x7f\x1bb", 5) == ["up", "f1", "alt+up", "ctrl+w", "ctrl+left"]
 
 
-def test_it_ends_at_once_and_can_begin_again(rig: Rig) -> None:
+def test_thread_ends_at_once_and_can_be_restarted(rig: Rig) -> None:
     for character in "ab":
         assert rig.types(character.encode()) == [character]
         assert rig.end()
         rig.start()
 
 
-def test_it_ends_with_its_terminal_and_does_not_turn_round_for_good(rig: Rig) -> None:
+def test_thread_ends_when_the_terminal_closes(rig: Rig) -> None:
     assert rig.types(b"x") == ["x"]
     os.close(rig.master)
     rig.gone = True
@@ -102,12 +102,12 @@ def test_it_ends_with_its_terminal_and_does_not_turn_round_for_good(rig: Rig) ->
     assert not rig.thread.is_alive()
 
 
-def test_bytes_that_are_no_text_end_nothing(rig: Rig) -> None:
+def test_invalid_utf_8_does_not_end_the_thread(rig: Rig) -> None:
     rig.types(b"\xff\xfe", 2)
     assert rig.types(b"x") == ["x"]
 
 
-def test_it_goes_on_when_a_program_has_closed_its_descriptors(rig: Rig, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_thread_survives_closed_descriptors(rig: Rig, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(input_thread, "ESCAPE_TIMEOUT_S", 0.01)
     rig.types(b"a")
     ending = rig.driver.exit_event
@@ -117,7 +117,7 @@ def test_it_goes_on_when_a_program_has_closed_its_descriptors(rig: Rig, monkeypa
     assert rig.end()
 
 
-def test_an_end_before_the_beginning_is_one() -> None:
+def test_thread_stopped_before_its_start_ends() -> None:
     ending = Ending()
     ending.set()
     reading, writing = os.pipe()

@@ -73,7 +73,7 @@ def test_paste_is_one_piece_without_escapes(body: bytes) -> None:
 
 
 @pytest.mark.parametrize("begun", [b"\x1b", b"\x1b[", b"\x1b[!", b"\x1bO", b"\x1b]!", b"\x1bP!", b"\x1b[M!"])
-def test_what_becomes_no_sequence_in_time_is_keys(begun: bytes) -> None:
+def test_incomplete_sequence_becomes_keys_after_the_timeout(begun: bytes) -> None:
     splitter = Splitter()
     assert splitter.feed(begun, 1.0) == [] == splitter.expire(1.0)
     assert splitter.due == 1.0 + ESCAPE_TIMEOUT_S

@@ -100,7 +100,7 @@ def test_moves_and_wheel_steps_read_together_are_merged() -> None:
     assert sum(isinstance(each, events.Key) for each in found) == 1
 
 
-def test_keys_that_a_terminal_reports_with_more_facts_than_textual_reads() -> None:
+def test_keys_with_extended_reports_are_parsed() -> None:
     found = Reader().read(
         b"\x1b[97:65;2u", b"\x1b[97;2u", b"\x1b[1;1:2A", b"\x1b[1;1:3A", b"\x1b[13u", b"\x1b[27;5;105~"
     )

@@ -50,7 +50,7 @@ def changed_trees(draw: st.DrawFn) -> Tree:
 
 
 @given(changed_trees())
-def test_each_pane_stands_once_and_every_cell_belongs_to_one(tree: Tree) -> None:
+def test_every_cell_belongs_to_exactly_one_pane(tree: Tree) -> None:
     found = panes(tree)
     assert len(set(found)) == len(found) >= 1
     cells = [0] * (SCREEN.width * SCREEN.height)
@@ -62,19 +62,19 @@ def test_each_pane_stands_once_and_every_cell_belongs_to_one(tree: Tree) -> None
 
 
 @given(changed_trees())
-def test_a_tree_comes_back_from_its_data(tree: Tree) -> None:
+def test_tree_survives_a_round_trip_through_its_data(tree: Tree) -> None:
     assert tree_of(data_of(tree), NAMES) == tree
 
 
 @given(changed_trees(), st.sampled_from(NAMES), st.sampled_from(NAMES), st.sampled_from(["beside", "below"]))
-def test_split_then_close_gives_the_room_back(tree: Tree, pane: str, new: str, way: str) -> None:
+def test_closing_a_split_restores_the_layout(tree: Tree, pane: str, new: str, way: str) -> None:
     if pane in panes(tree) and new not in panes(tree):
         again = close(split(tree, pane, new, way), new)
         assert panes(again) == panes(tree)
         assert set(panes(split(tree, pane, new, way))) == {*panes(tree), new}
 
 
-def test_split_halves_and_a_split_of_the_same_way_is_no_deeper() -> None:
+def test_split_halves_a_pane_and_same_direction_adds_no_level() -> None:
     assert split("a", "a", "b", "beside") == beside("a", "b")
     assert split(beside("a", "b"), "a", "c", "beside") == beside("a", "c", "b", shares=(1, 1, 2))
     assert split(beside("a", "b"), "b", "c", "below") == beside("a", below("b", "c"))
@@ -82,7 +82,7 @@ def test_split_halves_and_a_split_of_the_same_way_is_no_deeper() -> None:
     assert split("a", "a", "a", "below") == "a"
 
 
-def test_closing_lets_the_neighbours_have_the_room() -> None:
+def test_closing_gives_the_space_to_the_neighbours() -> None:
     tree = below(beside("a", "b"), "c", shares=(2, 1))
     assert close(tree, "b") == below("a", "c", shares=(2, 1))
     assert close(tree, "c") == beside("a", "b")
@@ -90,7 +90,7 @@ def test_closing_lets_the_neighbours_have_the_room() -> None:
     assert close("a", "a") is None
 
 
-def test_resizing_takes_from_the_neighbour_and_stops_at_a_rest() -> None:
+def test_resizing_shrinks_the_neighbour_down_to_a_minimum() -> None:
     tree = beside("a", "b", "c")
     wider = boxes(resize(tree, "a", "beside", 0.1), SCREEN)
     before = boxes(tree, SCREEN)
@@ -104,7 +104,7 @@ def test_resizing_takes_from_the_neighbour_and_stops_at_a_rest() -> None:
     assert boxes(tree, SCREEN)["c"].width >= 8
 
 
-def test_the_neighbour_in_a_direction() -> None:
+def test_neighbour_in_a_direction_is_found() -> None:
     places = boxes(below(beside("a", below("b", "c")), "d"), SCREEN)
     assert neighbour(places, "c", -1, 0) == "a"
     assert neighbour(places, "c", 0, -1) == "b"
@@ -114,7 +114,7 @@ def test_the_neighbour_in_a_direction() -> None:
     assert neighbour(places, "d", 0, -1) in ("a", "c")
 
 
-def test_a_border_is_moved_where_it_lies() -> None:
+def test_border_is_moved_at_its_position() -> None:
     tree = below(beside("a", "b"), "c")
     found = {border.path: border for border in borders(tree, SCREEN)}
     assert found[(0,)].box == Box(79, 0, 2, 25) and found[()].box == Box(0, 24, 160, 2)
@@ -139,12 +139,12 @@ def test_a_border_is_moved_where_it_lies() -> None:
         ({"below": ["a", "a"]}, "a stands twice"),
     ],
 )
-def test_what_is_no_layout_is_refused_with_the_reason(data: object, message_of: str) -> None:
+def test_invalid_layout_is_rejected_with_a_reason(data: object, message_of: str) -> None:
     with pytest.raises(NoLayout, match=message_of.replace("'", "['\"]")):
         tree_of(data, ("a", "b"))
 
 
-def test_nesting_ends() -> None:
+def test_nesting_depth_is_limited() -> None:
     data: object = "a"
     for _ in range(2000):
         data = {"beside": [data, "b"]}
@@ -152,7 +152,7 @@ def test_nesting_ends() -> None:
         tree_of(data, ("a", "b"))
 
 
-def test_a_perspective_of_rqt_gives_its_panes() -> None:
+def test_rqt_perspective_yields_its_panes() -> None:
     text = """{"groups": {"pluginmanager": {"keys": {"running-plugins": {"type": "repr",
       "repr": "{'rqt_graph/RosGraph': [1], 'rqt_plot/Plot': [1, 2], 'rqt_nothing/Such': [1]}"}},
       "groups": {"plugin__rqt_graph__RosGraph__1": {}, "plugin__rqt_topic__TopicPlugin__1": {}}}}}"""

@@ -43,7 +43,7 @@ class Rig:
         self.early.poll()
 
 
-def test_key_with_nothing_before_it_has_its_turn_and_holds_nothing_early() -> None:
+def test_key_without_earlier_input_stops_in_its_turn() -> None:
     rig = Rig()
     event = rig.press()
     rig.early.poll()
@@ -122,7 +122,7 @@ def test_key_pressed_before_there_is_a_robot_holds_it_as_soon_as_there_is_one() 
     assert rig.asked == [("hold", "1")]
 
 
-def test_link_that_fails_leaves_the_key_to_its_turn() -> None:
+def test_key_stops_in_its_turn_if_the_early_stop_fails() -> None:
     rig = Rig()
     event = rig.press()
     rig.early.attach(object(), lambda: None)  # type: ignore[arg-type] # any failure

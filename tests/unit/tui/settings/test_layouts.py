@@ -18,14 +18,14 @@ TREE = below(beside("plot", "logs", shares=(2, 1)), "world", shares=(3, 1))
 PERSPECTIVE = "{\"repr\": \"{'rqt_graph/RosGraph': [1], 'rqt_console/Console': [1], 'rqt_bag/Bag': [1]}\"}"
 
 
-def test_saved_and_read_back() -> None:
+def test_layout_is_saved_and_loaded() -> None:
     store = FileLayouts(PANES)
     file = store.save("mine", TREE)
     assert store.layouts()["mine"].tree == TREE
     assert Path(file).read_text().startswith("# A layout") and "plot" in Path(file).read_text()
 
 
-def test_the_last_screen_comes_back() -> None:
+def test_last_layout_is_restored() -> None:
     store = FileLayouts(PANES)
     assert Arrangement(store, *store.last()).title == "overview"
     arrangement = Arrangement(store)
@@ -35,7 +35,7 @@ def test_the_last_screen_comes_back() -> None:
     assert again.title == "overview*" and again.tree(120, 40) == TREE
 
 
-def test_a_broken_file_is_named_and_the_others_are_there() -> None:
+def test_invalid_file_is_named_and_others_are_loaded() -> None:
     store = FileLayouts(PANES)
     store.save("mine", TREE)
     folder = config_folder() / "layouts"
@@ -49,7 +49,7 @@ def test_a_broken_file_is_named_and_the_others_are_there() -> None:
     )
 
 
-def test_every_layout_that_comes_along_fits_where_it_reports() -> None:
+def test_built_in_layouts_fit_their_stated_size() -> None:
     for name, layout in BUILT_IN.items():
         assert Arrangement(name=name).tree(120, 40) == layout.form(120, 40), name
     overview = BUILT_IN["overview"]
@@ -58,7 +58,7 @@ def test_every_layout_that_comes_along_fits_where_it_reports() -> None:
     assert Arrangement().tree(39, 19) is None
 
 
-def test_the_command_line_goes_before_the_settings() -> None:
+def test_command_line_takes_precedence_over_settings() -> None:
     config_folder().mkdir(parents=True)
     (config_folder() / "settings.yaml").write_text("layout: tuning\ntheme: light\nglyphs: plain\n")
     assert appearance_of(parse([])).arrangement.name == "tuning"
@@ -72,7 +72,7 @@ def test_the_command_line_goes_before_the_settings() -> None:
 @pytest.mark.parametrize(
     "line", [["rqt", "--perspective-file", "{}"], ["--perspective-file", "{}"], ["rqt_gui", "-p", "{}"]]
 )
-def test_a_perspective_of_rqt(tmp_path: Path, line: list[str]) -> None:
+def test_rqt_perspective_is_opened(tmp_path: Path, line: list[str]) -> None:
     path = tmp_path / "my.perspective"
     path.write_text(PERSPECTIVE)
     poll = appearance_of(parse([each.format(path) for each in line]))

@@ -27,13 +27,13 @@ def written(folder: Path, text: str) -> Path:
     return path
 
 
-def test_no_file_and_the_new_file_mean_the_defaults(tmp_path: Path) -> None:
+def test_missing_file_and_generated_file_yield_the_defaults(tmp_path: Path) -> None:
     assert read_settings(tmp_path / "none.yaml") == Settings()
     assert read_settings(written(tmp_path, TEMPLATE)) == Settings()
     assert read_settings(written(tmp_path, "")) == Settings()
 
 
-def test_what_is_set_is_taken(tmp_path: Path) -> None:
+def test_settings_are_read(tmp_path: Path) -> None:
     text = "theme: light\nglyphs: plain\nlayout: tuning\nkeys: {parameters.undo: 'U2,ctrl+u'}\n"
     assert read_settings(written(tmp_path, text)) == Settings(
         "light", "plain", "tuning", {"parameters.undo": "U2,ctrl+u"}
@@ -67,19 +67,19 @@ def test_what_the_graph_hides_can_be_chosen(tmp_path: Path) -> None:
         (f"keys: {{app.quit: 0x{'f' * 5000}}}", "a whole number has thousands of digits"),
     ],
 )
-def test_what_is_wrong_is_named_and_the_rest_is_taken(tmp_path: Path, text: str, message_of: str) -> None:
+def test_invalid_settings_are_named_and_the_others_used(tmp_path: Path, text: str, message_of: str) -> None:
     found = read_settings(written(tmp_path, text))
     assert len(found.problems) == 1 and message_of in found.problems[0], found.problems
     assert found.theme == "dark"
 
 
-def test_a_file_that_cannot_be_read_or_is_none(tmp_path: Path) -> None:
+def test_unreadable_or_too_large_file_is_reported(tmp_path: Path) -> None:
     assert "irectory" in read_settings(tmp_path).problems[0]
     assert "larger than" in read_settings(written(tmp_path, "#" * 200_000)).problems[0]
 
 
 @given(st.binary(max_size=200))
-def test_no_content_ends_a_start(content: bytes) -> None:
+def test_any_content_lets_the_console_start(content: bytes) -> None:
     import tempfile
 
     with tempfile.NamedTemporaryFile(suffix=".yaml") as file:
@@ -88,7 +88,7 @@ def test_no_content_ends_a_start(content: bytes) -> None:
         assert isinstance(read_settings(Path(file.name)), Settings)
 
 
-def test_actions_get_other_keys_but_a_stop_is_always_a_stop(table: None) -> None:
+def test_remapping_keeps_the_stop_key(table: None) -> None:
     given = remap({"app.quit": "ctrl+d", "app.stop": "f12"})
     assert given == {"app.quit": "ctrl+d", "app.stop": "exclamation_mark,f12"}
     keys = {key.id: key.keys for key in TABLE["app"]}
@@ -97,12 +97,12 @@ def test_actions_get_other_keys_but_a_stop_is_always_a_stop(table: None) -> None
         remap({"x": "y"})
 
 
-def test_the_table_as_it_is_has_nothing_wrong() -> None:
+def test_key_table_has_no_conflicts() -> None:
     assert wrong_keys({}) == ""
     assert wrong_keys({"app.quit": "ctrl+d"}) == ""
 
 
-def test_each_theme_that_can_be_named_is_there() -> None:
+def test_every_theme_of_the_settings_exists() -> None:
     assert set(THEMES) == set(THEME_NAMES)
 
 

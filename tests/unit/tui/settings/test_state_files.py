@@ -14,19 +14,19 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_each_system_has_its_own_memory_and_alarms_are_everybodys() -> None:
+def test_state_is_kept_per_system_and_alarms_for_all() -> None:
     one, other = StateFiles("robot"), StateFiles("/a/b.launch.py")
     assert one.put("parameters", {"filter": "speed ä"}) == "" and one.put("alarms", [{"name": "low"}]) == ""
     assert StateFiles("robot").get("parameters") == {"filter": "speed ä"} and other.get("parameters") is None
     assert other.get("alarms") == [{"name": "low"}]
 
 
-def test_alarms_stand_beside_the_settings_with_a_word_on_what_they_are(folder: Path) -> None:
+def test_alarms_file_lies_beside_the_settings_with_a_comment(folder: Path) -> None:
     StateFiles().put("alarms", [])
     assert (folder / "config" / "alarms.yaml").read_text().startswith("# Alarms of bot-console")
 
 
-def test_what_cannot_be_read_or_written_hinders_nobody(folder: Path) -> None:
+def test_unreadable_or_unwritable_state_is_ignored(folder: Path) -> None:
     kept = StateFiles()
     (folder / "config").mkdir()
     (folder / "config" / "alarms.yaml").write_text("a: [1\n")

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 
 @given(st.text(max_size=50))
-def test_any_text_comes_whole_and_harmless(text: str) -> None:
+def test_any_text_is_copied_completely_and_sanitized(text: str) -> None:
     sequence = osc52(text)
     inside = sequence.removeprefix("\x1b]52;c;").removesuffix("\x07")
     assert sequence == f"\x1b]52;c;{inside}\x07" and inside.isascii() and inside.isprintable()

@@ -33,7 +33,7 @@ def write(terminal: TextIO, text: str) -> SimpleNamespace:
     return SimpleNamespace(_writer_thread=writer)
 
 
-def test_a_stalled_terminal_is_left(terminal: tuple[int, TextIO], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_stalled_terminal_does_not_block_closing(terminal: tuple[int, TextIO], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(closing, "FLUSH_TIMEOUT_S", 0.05)
     far, file = terminal
     before = signal.getsignal(signal.SIGURG)
@@ -50,7 +50,7 @@ def test_a_stalled_terminal_is_left(terminal: tuple[int, TextIO], monkeypatch: p
     assert taken.endswith(closing.LAST_WORDS.encode()), "the modes are put back for when it wakes up"
 
 
-def test_a_terminal_that_takes_everything_gets_everything(terminal: tuple[int, TextIO]) -> None:
+def test_responsive_terminal_gets_all_output(terminal: tuple[int, TextIO]) -> None:
     far, file = terminal
     taken = bytearray()
 
@@ -67,6 +67,6 @@ def test_a_terminal_that_takes_everything_gets_everything(terminal: tuple[int, T
     assert bytes(taken) == MORE_THAN_FITS.encode()
 
 
-def test_a_driver_without_a_writer_is_just_closed() -> None:
+def test_driver_without_a_writer_is_closed() -> None:
     with closing.closing_terminal(SimpleNamespace()):
         pass

@@ -39,7 +39,7 @@ def draw(gate: AnswerGate, size: int = 100) -> None:
     gate.drawn()
 
 
-def test_the_first_frame_comes_at_once(gate: AnswerGate) -> None:
+def test_first_frame_is_sent_at_once(gate: AnswerGate) -> None:
     assert gate.wait() == 0
 
 
@@ -51,7 +51,7 @@ def test_frames_are_paced(gate: AnswerGate, clock: Clock) -> None:
     assert gate.wait() == 0
 
 
-def test_what_a_key_has_done_is_shown_at_once(gate: AnswerGate, clock: Clock) -> None:
+def test_effect_of_a_key_is_shown_at_once(gate: AnswerGate, clock: Clock) -> None:
     draw(gate)
     gate.answered()
     gate.pressed()
@@ -87,7 +87,7 @@ def test_a_slow_answer_leaves_one_frame_in_flight(gate: AnswerGate, clock: Clock
     assert gate.wait() == 0, "the answer was quick again"
 
 
-def test_a_terminal_that_never_answers_is_not_waited_for(gate: AnswerGate, clock: Clock) -> None:
+def test_terminal_that_never_answers_is_not_awaited(gate: AnswerGate, clock: Clock) -> None:
     for _ in range(10):
         draw(gate)
         clock.now += PACE

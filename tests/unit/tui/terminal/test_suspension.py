@@ -35,7 +35,7 @@ def file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     return str(path)
 
 
-def test_editors_get_the_line_each_in_its_way(file: str) -> None:
+def test_editor_command_contains_the_line_in_its_syntax(file: str) -> None:
     assert editing(file, 7, {"EDITOR": "vi -R"}) == ["vi", "-R", "+7", file]
     assert editing(file, 0, {"EDITOR": "vi"}) == ["vi", file]
     assert editing(file, 7, {"VISUAL": "code", "EDITOR": "vi"}) == ["code", "--wait", "--goto", f"{file}:7"]
@@ -46,7 +46,7 @@ def test_editors_get_the_line_each_in_its_way(file: str) -> None:
     ("environment", "hint"),
     [({}, "export EDITOR=vi"), ({"EDITOR": "emacs"}, "there is no emacs"), ({"EDITOR": "'vi"}, "without its twin")],
 )
-def test_what_is_missing_is_reported(file: str, environment: dict[str, str], hint: str) -> None:
+def test_missing_editor_or_file_is_reported(file: str, environment: dict[str, str], hint: str) -> None:
     with pytest.raises(ValueError, match=hint):
         editing(file, 7, environment)
     with pytest.raises(ValueError, match="not on this machine"):
@@ -94,7 +94,7 @@ def test_the_robot_is_held_before_the_terminal_is_left() -> None:
     assert shell.done == ["asleep", "The robot was held meanwhile; ! releases it.", "redraw"]
 
 
-def test_a_stop_that_nobody_acknowledges_is_not_waited_for_for_ever() -> None:
+def test_unacknowledged_stop_is_awaited_only_for_a_limited_time() -> None:
     console = live()[0]
     console.change(drive=replace(console.current.drive, lockable=True, stop_confirmed=False))
     away, shell = leaving(console)
@@ -106,7 +106,7 @@ def test_a_stop_that_nobody_acknowledges_is_not_waited_for_for_ever() -> None:
     assert shell.done[:1] == ["asleep"]
 
 
-def test_who_may_not_release_the_robot_does_not_hold_it() -> None:
+def test_console_that_may_not_release_does_not_hold_the_robot() -> None:
     console = live()[0]
     away, shell = leaving(console, holds=False)
     away.sleep()
@@ -141,7 +141,7 @@ def test_a_terminal_that_was_not_left_is_left_before_it_is_set_up_again() -> Non
     assert driver.done == ["set up", "left", "set up"]
 
 
-def test_going_on_twice_at_once_is_one_after_the_other() -> None:
+def test_concurrent_resumes_are_serialised() -> None:
     driver = Driver()
     takes_up_again(driver)
     driver.then = driver.resume_application_mode
@@ -149,7 +149,7 @@ def test_going_on_twice_at_once_is_one_after_the_other() -> None:
     assert driver.done == ["set up", "left", "set up"]
 
 
-def test_the_screen_is_empty_when_it_is_left() -> None:
+def test_screen_is_cleared_on_suspension() -> None:
     done: list[str] = []
     driver: Any = SimpleNamespace(write=done.append, stop_application_mode=lambda: done.append("left"))
     leaves_an_empty_screen(driver)

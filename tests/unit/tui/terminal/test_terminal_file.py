@@ -30,7 +30,7 @@ def test_the_writer_outlives_its_terminal() -> None:
     assert lasting.gone
 
 
-def test_what_is_written_arrives() -> None:
+def test_written_output_reaches_the_terminal() -> None:
     far, near = pty.openpty()
     with os.fdopen(near, "w") as file:
         lasting = TerminalFile(file)
@@ -41,7 +41,7 @@ def test_what_is_written_arrives() -> None:
     os.close(far)
 
 
-def test_a_terminal_that_somebody_has_made_not_to_block_gets_all_of_it() -> None:
+def test_non_blocking_terminal_gets_all_output() -> None:
     far, near = pty.openpty()
     tty.setraw(near)
     os.set_blocking(near, False)

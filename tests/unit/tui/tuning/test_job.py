@@ -68,21 +68,21 @@ def test_the_best_setting_is_found_and_evaluated_on_seeds_that_it_was_not_chosen
     assert (progress.done, progress.ended, progress.problem) == (len(runner.begun), True, "")
 
 
-def test_a_setting_of_which_one_run_failed_has_failed_and_reports_why(tmp_path: Path) -> None:
+def test_setting_with_a_failed_run_has_failed_with_its_reason(tmp_path: Path) -> None:
     progress = tuned(tmp_path, Instant(fail=(2,)))
     assert progress.best is None
     assert progress.rows[0].problem == "seed 2: max_speed refused"
     assert progress.problem == "every setting failed: seed 2: max_speed refused"
 
 
-def test_where_nothing_is_better_than_what_is_the_two_are_one(tmp_path: Path) -> None:
+def test_best_setting_is_the_present_one_if_none_is_better(tmp_path: Path) -> None:
     progress = tuned(tmp_path, Instant(), replace(QUESTION, tunables=(replace(SPEED, now=3.0),)))
     assert progress.held_out is not None
     assert progress.held_out[0] == progress.held_out[1]
 
 
 @pytest.mark.parametrize("left", [10, -1], ids=["within a line", "before its end of line"])
-def test_a_tuning_that_was_cut_goes_on_where_it_was_and_comes_to_the_same(tmp_path: Path, left: int) -> None:
+def test_interrupted_tuning_resumes_with_the_same_result(tmp_path: Path, left: int) -> None:
     whole = tuned(tmp_path / "whole", Instant())
     tuned(tmp_path, Instant())
     file = next(tmp_path.glob("*.jsonl"))
@@ -96,7 +96,7 @@ def test_a_tuning_that_was_cut_goes_on_where_it_was_and_comes_to_the_same(tmp_pa
     assert len(file.read_bytes().splitlines()) == len(lines)
 
 
-def test_without_resume_it_begins_again(tmp_path: Path) -> None:
+def test_tuning_starts_again_without_resume(tmp_path: Path) -> None:
     tuned(tmp_path, Instant())
     runner = Instant()
     tuned(tmp_path, runner)
@@ -104,7 +104,7 @@ def test_without_resume_it_begins_again(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("other", [{"duration": 30.0}, {"seed": 2}, {"profile": "outdoor"}, {"base": {"/a": {"b": 1}}}])
-def test_another_question_has_another_journal(other: dict[str, Any]) -> None:
+def test_other_specification_uses_another_journal(other: dict[str, Any]) -> None:
     assert replace(QUESTION, **other).digest != QUESTION.digest
 
 
@@ -119,7 +119,7 @@ def test_stopping_keeps_what_was_found(tmp_path: Path) -> None:
     journal.close()
 
 
-def test_the_time_left_is_that_of_the_runs_so_far() -> None:
+def test_remaining_time_is_estimated_from_finished_runs() -> None:
     assert Progress(done=10, runs=40, elapsed=20.0, fresh=5).left == 120.0
     assert Progress(done=10, runs=40, elapsed=20.0).left is None
 
@@ -128,12 +128,12 @@ def test_the_time_left_is_that_of_the_runs_so_far() -> None:
     ("change", "why"),
     [({"runs": 3}, "each setting takes 2; give at least 4"), ({"seeds": 0}, "must be positive"), ({}, "")],
 )
-def test_numbers_that_cannot_be(change: dict[str, Any], why: str) -> None:
+def test_invalid_numbers_are_rejected(change: dict[str, Any], why: str) -> None:
     problem = replace(QUESTION, **change).problem()
     assert why in problem
     assert bool(why) == bool(problem)
 
 
-def test_values_of_a_run_are_those_of_the_system_with_the_setting_over_them() -> None:
+def test_run_uses_the_systems_values_overridden_by_the_setting() -> None:
     specification = replace(QUESTION, base={"/navigator": {"speed": 1.0, "turn": 2.0}})
     assert specification.values((3.0,)) == {"/navigator": {"speed": 3.0, "turn": 2.0}}

@@ -28,7 +28,7 @@ REPORT = {
         ("greatest( /odom/twist.twist.linear.x ) + least(/odom/twist.twist.linear.x)", 4.0),
     ],
 )
-def test_the_value_of_a_score(text: str, value: float) -> None:
+def test_score_is_evaluated(text: str, value: float) -> None:
     assert parse_score(text).of(REPORT) == pytest.approx(value)
 
 
@@ -38,12 +38,12 @@ def test_a_collision_costs_in_every_ready_score(name: str) -> None:
     assert score.of({**REPORT, "collisions": 0}) - score.of(REPORT) == pytest.approx(2.0)
 
 
-def test_nothing_near_counts_as_room_without_end() -> None:
+def test_clearance_is_infinite_without_obstacles() -> None:
     assert parse_score("swift").of({**REPORT, "min_clearance": None, "collisions": 0}) == pytest.approx(1.5)
 
 
 @pytest.mark.parametrize("text", ["spede", "mean_speed +", "__import__('os')", "mean_speed.real", "open(1)", "speed*2"])
-def test_what_is_no_formula_is_refused(text: str) -> None:
+def test_invalid_formula_is_rejected(text: str) -> None:
     with pytest.raises(ValueError, match=r"\w"):
         parse_score(text)
 
@@ -57,15 +57,15 @@ def test_a_formula_that_divides_by_a_figure_may_still_be_right() -> None:
     assert parse_score("distance / (duration - 1)").of(REPORT) == pytest.approx(90 / 59)
 
 
-def test_a_topic_on_which_nothing_came_is_named() -> None:
+def test_silent_topic_is_named() -> None:
     with pytest.raises(ValueError, match="nothing came on /imu/x"):
         parse_score("mean(/imu/x)").of({**REPORT, "topics": {"/imu/x": statistics([])}})
 
 
-def test_a_score_without_end_is_none() -> None:
+def test_infinite_score_is_rejected() -> None:
     with pytest.raises(ValueError, match="the score is inf"):
         parse_score("min_clearance").of({**REPORT, "min_clearance": None})
 
 
-def test_figures_of_samples() -> None:
+def test_figures_are_computed_from_samples() -> None:
     assert statistics([3.0, -4.0]) == {"mean": -0.5, "least": -4.0, "greatest": 3.0, "last": -4.0, "rms": 12.5**0.5}

@@ -59,7 +59,7 @@ def test_tunables_are_named_by_parameter_or_by_node_and_parameter() -> None:
         ([], "name at least one"),
     ],
 )
-def test_a_word_that_cannot_be_meant_is_reported_with_a_hint(words: list[str], why: str) -> None:
+def test_unknown_parameter_is_rejected_with_a_hint(words: list[str], why: str) -> None:
     with pytest.raises(ValueError, match="(?s)" + why.replace(".", r"\.")):
         find_tunables(words, KNOWN)
 
@@ -68,5 +68,5 @@ def test_a_parameter_without_a_range_takes_the_given_one() -> None:
     assert find_tunables(["gain=1..3"], KNOWN)[0].high == 3.0
 
 
-def test_ends_of_a_range() -> None:
+def test_invalid_ends_of_a_range_are_rejected() -> None:
     assert parse_range("-1..2.5") == (-1.0, 2.5)

@@ -39,7 +39,7 @@ def test_a_console_that_is_read_only_promises_no_release() -> None:
     assert "! releases" in status_text(ConsoleSnapshot(drive=replace(held, refused="")))
 
 
-def test_a_robot_that_has_reported_nothing_yet_is_one() -> None:
+def test_silent_robot_is_distinguished_from_no_robot() -> None:
     assert status_text(ConsoleSnapshot()) == "no robot yet"
     assert status_text(ConsoleSnapshot(drive=DriveInfo(topic="/a/cmd_vel"))) == "no command and no odometry yet"
 

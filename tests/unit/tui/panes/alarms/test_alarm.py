@@ -16,7 +16,7 @@ def console(**series: tuple[list[float], list[float]]) -> FakeConsole:
     return made
 
 
-def test_every_crossing_counts_once_however_short() -> None:
+def test_every_crossing_counts_once_even_if_brief() -> None:
     robot = console(a=([1.0, 2.0, 3.0], [0.0, 2.0, 0.0]))
     alarm = Alarm.of(AlarmText("fast", "/a/x > 1"))
     assert alarm.poll(robot) == [2.0] and (alarm.holds, alarm.times) == (False, 1)
@@ -27,13 +27,13 @@ def test_every_crossing_counts_once_however_short() -> None:
     assert alarm.poll(robot) == [3.0] and (alarm.holds, alarm.times, alarm.since) == (True, 2, 4.0)
 
 
-def test_samples_of_several_paths_count_in_the_order_in_which_they_came() -> None:
+def test_samples_of_several_paths_are_processed_in_order_of_arrival() -> None:
     robot = console(a=([1.0, 3.0], [5.0, 0.0]), b=([2.0, 4.0], [0.0, 5.0]))
     alarm = Alarm.of(AlarmText("both", "/a/x > 1 and /b/x > 1"))
     assert alarm.poll(robot) == [] and alarm.holds is False, "they never were so at once"
 
 
-def test_without_a_value_nothing_is_known() -> None:
+def test_alarm_state_is_unknown_without_a_value() -> None:
     robot = console(a=([1.0], [5.0]))
     alarm = Alarm.of(AlarmText("both", "/a/x > 1 and /b/x > 1"))
     assert alarm.poll(robot) == [] and alarm.holds is None
@@ -41,7 +41,7 @@ def test_without_a_value_nothing_is_known() -> None:
     assert divided.poll(robot) == [] and divided.holds is None and "zero" in divided.problem
 
 
-def test_they_are_kept_as_plain_data_and_nonsense_is_left_out() -> None:
+def test_alarms_are_stored_as_plain_data_and_invalid_ones_ignored() -> None:
     alarm = AlarmText("low", "/a/x < 1", bell=True)
     assert texts_of([alarm.data, {"name": "bad", "condition": "1 <"}, 7, {"name": 3}]) == [alarm]
     assert texts_of("nothing") == []

@@ -31,7 +31,7 @@ BATTERY, SPEED = "/battery/percentage", "/odom/twist.twist.linear.x"
         ("min(/a/x, /b/y) < 1", {"/a/x": 2.0, "/b/y": 0.5}, True),
     ],
 )
-def test_it_holds_or_not(text: str, values: dict[str, float], holds: bool) -> None:
+def test_condition_is_evaluated(text: str, values: dict[str, float], holds: bool) -> None:
     condition = read(text)
     assert set(condition.paths) == set(values)
     assert condition.holds(values) is holds
@@ -55,12 +55,12 @@ def test_it_holds_or_not(text: str, values: dict[str, float], holds: bool) -> No
         (f"/a/b < {'1+' * 300}1", "characters"),
     ],
 )
-def test_what_is_wrong_is_reported(text: str, why: str) -> None:
+def test_invalid_condition_is_rejected_with_a_reason(text: str, why: str) -> None:
     with pytest.raises(ValueError, match=why or "."):
         read(text)
 
 
-def test_what_cannot_be_worked_out_for_a_value_is_reported_then() -> None:
+def test_evaluation_error_of_a_value_is_raised() -> None:
     condition = read("1 / /a/b > 2")
     assert condition.holds({"/a/b": 0.25})
     with pytest.raises(ValueError, match="zero"):
@@ -68,7 +68,7 @@ def test_what_cannot_be_worked_out_for_a_value_is_reported_then() -> None:
 
 
 @given(st.text("/ab.x:[]0123<>=!() +-*/andor,_'\"\\", max_size=40))
-def test_any_text_is_read_or_refused_in_words(text: str) -> None:
+def test_any_text_is_parsed_or_rejected_with_a_reason(text: str) -> None:
     try:
         condition = read(text)
     except ValueError as error:

@@ -16,7 +16,7 @@ def shown(found: list[Row]) -> list[tuple[str, int, Level]]:
     return [(each.title, each.depth, each.level) for each in found]
 
 
-def test_slashes_make_levels_and_the_worst_goes_upwards() -> None:
+def test_slashes_make_levels_and_the_worst_is_propagated() -> None:
     found = rows([status("arm/left/motor", Level.WARN), status("/arm/right", Level.ERROR), status("base")], NOW)
     assert shown(found) == [
         ("arm", 0, Level.ERROR),
@@ -28,31 +28,31 @@ def test_slashes_make_levels_and_the_worst_goes_upwards() -> None:
     assert (found[0].count, found[0].bad) == (2, 2)
 
 
-def test_what_is_silent_for_more_than_five_seconds_is_stale_but_an_error_is_worse() -> None:
+def test_silent_status_is_stale_after_five_seconds_unless_an_error() -> None:
     old = status("a/old", heard=NOW - 5.1)
     assert shown(rows([old, status("a/warm", Level.WARN)], NOW))[0] == ("a", 0, Level.STALE)
     assert shown(rows([status("a/edge", heard=NOW - 5.0)], NOW))[0] == ("a", 0, Level.OK)
     assert shown(rows([old, status("a/bad", Level.ERROR)], NOW))[0] == ("a", 0, Level.ERROR)
 
 
-def test_a_status_may_stand_above_others() -> None:
+def test_status_may_have_others_below_it() -> None:
     top, below = rows([status("arm", message="all well"), status("arm/hand", Level.WARN)], NOW)
     assert (top.level, top.status.message, top.count, top.bad) == (Level.WARN, "all well", 1, 1)
     assert below.path == "/arm/hand"
 
 
-def test_folded_rows_hold_back_what_stands_below() -> None:
+def test_folded_rows_hide_their_descendants() -> None:
     statuses = [status("a/b/c", Level.WARN), status("d")]
     assert shown(rows(statuses, NOW, {"/a"})) == [("a", 0, Level.WARN), ("d", 0, Level.OK)]
     assert shown(rows(statuses, NOW, {"/a/b"})) == [("a", 0, Level.WARN), ("b", 1, Level.WARN), ("d", 0, Level.OK)]
 
 
-def test_only_what_is_not_ok() -> None:
+def test_bad_only_hides_what_is_ok() -> None:
     statuses = [status("a/b", Level.WARN), status("c"), status("d", heard=0.0)]
     assert [each.path for each in rows(statuses, NOW, bad_only=True)] == ["/a", "/a/b", "/d"]
 
 
-def test_a_filter_looks_at_name_level_message_and_hardware() -> None:
+def test_filter_matches_name_level_message_and_hardware() -> None:
     one = status("arm/motor", Level.WARN, "too hot")
     assert all(matches(one, parse(words)) for words in ("motor", "warn hot", "robot", "re:to+"))
     assert not matches(one, parse("cold"))

@@ -40,7 +40,7 @@ def pairs(words: str) -> set[str]:
         ("node:odom", set()),
     ],
 )
-def test_a_connection_passes_where_each_word_holds_for_a_part_of_it(words: str, expected: set[str]) -> None:
+def test_connection_passes_if_each_word_matches_a_part_of_it(words: str, expected: set[str]) -> None:
     assert pairs(words) == expected
 
 
@@ -71,7 +71,7 @@ def test_the_last_word_is_completed(typed: str, suggested: str) -> None:
     assert completed(typed, graph()) == suggested
 
 
-def test_what_the_settings_hide_comes_on_request() -> None:
+def test_items_hidden_by_settings_are_shown_on_request() -> None:
     view = GraphView(mode=Mode.ALL, hides=("/scan*", "/safety_monitor"))
     ids = {item.id for item in shown(graph(), view).graph.items}
     assert not {"topic:/scan", "topic:/scan_raw", "/safety_monitor"} & ids and "topic:/rosout" in ids

@@ -25,24 +25,24 @@ def shown(words: str = "") -> list[str]:
     return [f"{'.' * each.depth}{each.name}" for each in rows(TREE, 0.5, parse(words))]
 
 
-def test_each_stands_below_its_parent_and_loops_are_shown_too() -> None:
+def test_frames_are_listed_below_their_parents_including_loops() -> None:
     assert shown() == ["map", ".odom", "..base", "...laser", "one", ".other"]
 
 
-def test_what_passes_a_filter_comes_with_what_leads_to_it() -> None:
+def test_matching_frames_are_listed_with_their_ancestors() -> None:
     assert shown("las") == ["map", ".odom", "..base", "...laser"]
     assert shown("other") == ["one", ".other"]
     assert shown("nothing") == []
 
 
-def test_facts_do_not_report_more_than_is_known() -> None:
+def test_facts_claim_no_more_than_is_known() -> None:
     base, laser = (next(each for each in rows(TREE, 0.5, parse("")) if each.name == name) for name in ("base", "laser"))
     assert ("By", ["/a", "/b", "one of them; messages do not say which"]) in facts(base, TREE, 0.5)
     assert ("By", ["/mast"]) in facts(laser, TREE, 0.5)
     assert ("Published", ["static, published on /tf_static"]) in facts(laser, TREE, 0.5)
 
 
-def test_a_system_that_is_reconnected_is_asked_again() -> None:
+def test_reconnected_system_is_subscribed_again() -> None:
     view, before, after = FramesView(), FakeSensors(), FakeSensors()
     view.poll(before, 0.0, seen=True)
     assert not before.watched

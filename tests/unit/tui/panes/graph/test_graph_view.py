@@ -34,7 +34,7 @@ def test_nodes_only_links_publishers_to_listeners() -> None:
     assert all(item.boxed for item in found.items)
 
 
-def test_hidden_nodes_and_tool_topics_come_on_request() -> None:
+def test_hidden_nodes_and_tool_topics_are_shown_on_request() -> None:
     info = GraphInfo((NodeInfo("/_hidden", (Endpoint("/x", ("a/msg/B",)),)), NodeInfo("/seen")))
     assert ids(GraphView(), info) == {"/seen"}
     assert ids(GraphView(debug=True), info) == {"/seen", "/_hidden", "/x"}
@@ -49,7 +49,7 @@ def test_hidden_nodes_and_tool_topics_come_on_request() -> None:
         ("nowhere", set()),
     ],
 )
-def test_filters(words: str, expected: set[str]) -> None:
+def test_filter_selects_nodes_and_topics(words: str, expected: set[str]) -> None:
     assert ids(GraphView(mode=Mode.ALL, query=parse(words))) == expected
 
 
@@ -58,7 +58,7 @@ def test_a_topic_with_two_types_is_reported() -> None:
     assert "x/msg/A, x/msg/B" in summary(info, "topic:/t")
 
 
-def test_exports_quote_what_needs_it() -> None:
+def test_exports_quote_special_characters() -> None:
     odd = Digraph((Item("a", 'say "hi" <b>'), Item("b\\", "b", False)), (("a", "b\\"),))
     drawing = draw(odd)
     assert "#quot;hi#quot; <b>" in exported(odd, drawing, ".mmd")
@@ -67,7 +67,7 @@ def test_exports_quote_what_needs_it() -> None:
     assert 'say "hi" &lt;b&gt;' in exported(odd, drawing, ".svg")
 
 
-def test_names_are_whole_in_a_file() -> None:
+def test_names_are_not_cut_in_a_file() -> None:
     info = GraphInfo((NodeInfo("/fleet/robot_1/a_node_with_a_name_that_no_box_holds"),))
     (cut,), (whole,) = (shown(info, GraphView(short=True, whole=each)).graph.items for each in (False, True))
     assert cut.label.startswith("…/") and whole.label == info.nodes[0].name

@@ -7,7 +7,7 @@ from bot_console.tui.panes.graph.view import GraphView, Mode
 from bot_console.tui.panes.graph.view_state import ViewState, view_state_of
 
 
-def test_it_is_read_as_it_was_kept() -> None:
+def test_view_state_survives_a_round_trip() -> None:
     left = ViewState(GraphView(mode=Mode.NODES, debug=True, leaves=False), frozenset({"/arm"}), rates=True)
     assert view_state_of(left.data) == left
 
@@ -15,5 +15,5 @@ def test_it_is_read_as_it_was_kept() -> None:
 @pytest.mark.parametrize(
     "data", [None, "x", {"mode": "nope", "debug": "yes", "folds": 3, "rates": 1}, ViewState().data]
 )
-def test_what_cannot_be_read_is_as_at_first(data: object) -> None:
+def test_invalid_parts_get_their_defaults(data: object) -> None:
     assert view_state_of(data) == ViewState()

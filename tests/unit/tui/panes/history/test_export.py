@@ -24,7 +24,7 @@ CHANGES = [
 REFUSED = Change(99, 1_700_000_000_000_000_000, "/n", "speed", 1.0, 9.0, ChangeSource.EDIT, False, "no\n$(touch x)")
 
 
-def test_csv(tmp_path: Path) -> None:
+def test_changes_are_exported_as_csv(tmp_path: Path) -> None:
     assert export(tmp_path / "h.csv", [*CHANGES, REFUSED]) == len(CHANGES) + 1
     rows = list(csv.DictReader((tmp_path / "h.csv").open(newline="")))
     assert [each["parameter"] for each in rows] == [*(each.name for each in CHANGES), "speed"]
@@ -34,7 +34,7 @@ def test_csv(tmp_path: Path) -> None:
     assert (rows[-1]["accepted"], rows[-1]["reason"]) == ("false", REFUSED.reason)
 
 
-def test_yaml(tmp_path: Path) -> None:
+def test_changes_are_exported_as_yaml(tmp_path: Path) -> None:
     export(tmp_path / "h.yaml", [*CHANGES, REFUSED])
     rows = yaml.safe_load((tmp_path / "h.yaml").read_text())
     for (old, new), row in zip(VALUES, rows, strict=False):
@@ -48,7 +48,7 @@ def test_yaml(tmp_path: Path) -> None:
     assert yaml.safe_load((tmp_path / "none.yml").read_text()) == []
 
 
-def test_the_script_sets_what_was_accepted_and_nothing_else(tmp_path: Path) -> None:
+def test_script_sets_only_accepted_values(tmp_path: Path) -> None:
     """A stand-in for `ros2` writes down with what words it was called."""
     export(tmp_path / "h.sh", [*CHANGES, REFUSED])
     (tmp_path / "ros2").write_text('#!/bin/sh\nprintf "%s\\0" "$@" >> called\nprintf "\\n" >> called\n')
@@ -63,6 +63,6 @@ def test_the_script_sets_what_was_accepted_and_nothing_else(tmp_path: Path) -> N
     assert "# refused" in text and shlex.split(text.splitlines()[3])[:3] == ["ros2", "param", "set"]
 
 
-def test_another_ending_is_no_form(tmp_path: Path) -> None:
+def test_unknown_file_extension_is_rejected(tmp_path: Path) -> None:
     with pytest.raises(NotSaved, match=r"end the name in .csv"):
         export(tmp_path / "h.txt", CHANGES)

@@ -19,18 +19,18 @@ CHANGES = [
 ]
 
 
-def test_the_newest_accepted_value_by_then_counts_and_what_came_later_has_its_value_before() -> None:
+def test_values_at_a_moment_are_the_newest_accepted_ones() -> None:
     assert values_at(CHANGES, CHANGES[2]) == {("/n", "speed"): 2.0, ("/n", "gain"): 6, ("/n", "mode"): "calm"}
     assert values_at(CHANGES, CHANGES[0]) == {("/n", "speed"): 2.0, ("/n", "gain"): 5, ("/n", "mode"): "calm"}
 
 
-def test_other_runs_report_nothing_of_this_one() -> None:
+def test_values_of_other_runs_are_ignored() -> None:
     earlier = [change(-2, "speed", 1.0, 7.0, run=5), change(-1, "gain", 5, 8, run=5)]
     assert values_at([*earlier, *CHANGES], CHANGES[1]) == values_at(CHANGES, CHANGES[1])
     assert values_at([*earlier, *CHANGES], earlier[0]) == {("/n", "speed"): 7.0, ("/n", "gain"): 5}
 
 
-def test_only_what_differs_is_set_and_what_is_not_there_is_reported() -> None:
+def test_only_differing_values_are_set_and_missing_ones_reported() -> None:
     tree = ParameterTree(
         "/n",
         (

@@ -14,7 +14,7 @@ def grey(rows: list[list[int]]) -> np.ndarray:
     return np.repeat(np.array(rows, np.uint8)[:, :, None], 3, axis=2)
 
 
-def test_two_pixels_stand_in_a_cell_and_equal_ones_need_one_colour() -> None:
+def test_cell_shows_two_pixels_and_equal_ones_need_one_colour() -> None:
     lines = half_blocks(grey([[0, 255], [0, 0]]), 4, 3)
     assert [("".join(text for text, _ in line)) for line in lines] == ["    ", "  ▀", "    "]
     assert lines[1][1:] == ((" ", "on #000000"), ("▀", "#ffffff on #000000"))
@@ -24,7 +24,7 @@ def test_characters_go_from_black_to_white() -> None:
     assert characters(grey([[0, 128, 255], [0, 128, 255]]), 3, 1) == [(("", ""), (" +@", ""))]
 
 
-def test_an_odd_row_has_black_below_it() -> None:
+def test_odd_last_row_is_padded_with_black() -> None:
     assert pixels_of(Picture(columns=1, rows=1, pixels=b"\x09\x09\x09")).shape == (2, 1, 3)
 
 
@@ -39,7 +39,7 @@ def test_noise_changes_nothing_and_costs_nothing() -> None:
     assert cost(moved, shown, coloured=True) > cost(moved, shown, coloured=False) > 0
 
 
-def test_no_more_pictures_than_asked_for_and_no_more_bytes_than_the_budget() -> None:
+def test_frame_rate_and_byte_budget_are_not_exceeded() -> None:
     limit, now, sent = FrameLimit(2.0), 0.0, 0
     times = []
     while now < 60.0:

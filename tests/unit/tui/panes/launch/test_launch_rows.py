@@ -19,20 +19,20 @@ INFO = LaunchInfo(
 )
 
 
-def test_groups_stand_together_below_the_processes_beside_them() -> None:
+def test_groups_follow_the_processes_beside_them() -> None:
     assert shape(INFO) == ["f", "  a", "  d", "  g", "    b", "    e", "h", "  c"]
 
 
-def test_a_closed_group_hides_what_is_in_it() -> None:
+def test_folded_group_hides_its_processes() -> None:
     assert shape(INFO, (("f", "g"),)) == ["f", "  a", "  d", "  g", "h", "  c"]
     assert shape(INFO, (("f",),)) == ["f", "h", "  c"]
 
 
-def test_a_group_counts_what_runs_below_it() -> None:
+def test_group_counts_its_running_processes() -> None:
     info = LaunchInfo(processes=(process("a", "f"), process("b", "f", "g", state=ProcessState.CRASHED)))
     head = rows(info)[0]
     assert (head.running, head.count) == (1, 2)
 
 
-def test_processes_without_a_group_stand_at_the_left() -> None:
+def test_processes_without_a_group_are_not_indented() -> None:
     assert shape(LaunchInfo(processes=(process("a"), process("b", "f")))) == ["a", "f", "  b"]

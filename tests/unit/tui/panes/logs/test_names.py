@@ -9,7 +9,7 @@ from bot_console.tui.panes.logs.rows import line_text
 GRAPH = GraphInfo((NodeInfo("/arm/left/zoo"), NodeInfo("/arm"), NodeInfo("/talker")))
 
 
-def test_a_logger_is_its_node_and_a_child_of_it_reports_it() -> None:
+def test_logger_name_becomes_node_name_with_child_suffix() -> None:
     names = NodeNames()
     assert names.of("arm.left.zoo") == "arm.left.zoo"
     assert names.learn(GRAPH) and not names.learn(GRAPH)
@@ -21,7 +21,7 @@ def test_a_logger_is_its_node_and_a_child_of_it_reports_it() -> None:
     assert names.of("") == ""
 
 
-def test_who_has_left_keeps_its_spelling() -> None:
+def test_name_of_a_node_that_has_left_is_remembered() -> None:
     names = NodeNames()
     names.learn(GRAPH)
     assert not names.learn(GraphInfo())
@@ -44,7 +44,7 @@ def test_a_wide_line_has_more_room_for_the_name() -> None:
     assert short == line_text(record, "/talker", 190), "where no name needs it there is no gap"
 
 
-def test_a_wide_line_has_the_place_in_the_code() -> None:
+def test_wide_line_shows_the_source_location() -> None:
     record = LogRecord(0, 0, Severity.INFO, "x", "hello", "/ws/src/nav/nav.py", "turn", 42)
     assert "nav.py" not in line_text(record, "/talker", 149)
     assert line_text(record, "/talker", 150, marked=True).split()[-2:] == ["nav.py:42", "▌hello"]

@@ -17,7 +17,7 @@ def line(text: str, node: str = "robot", file: str = "", number: int = 0) -> Log
     return LogRecord(0, 0, Severity.WARN, node, text, file, "spin", number)
 
 
-def test_they_are_kept_in_a_file_that_a_person_can_write(tmp_path: Path) -> None:
+def test_rules_are_stored_in_an_editable_file(tmp_path: Path) -> None:
     path = tmp_path / "rules.txt"
     path.write_text("# mine\n\nred sev:error\noff hide node:=/talker\npink noise\n")
     book = RuleBook(path)
@@ -31,7 +31,7 @@ def test_they_are_kept_in_a_file_that_a_person_can_write(tmp_path: Path) -> None
     assert again.rules == book.rules and "pink noise" in path.read_text(), "what is not understood stays"
 
 
-def test_a_colour_that_no_other_has_comes_first(tmp_path: Path) -> None:
+def test_new_rule_gets_an_unused_colour(tmp_path: Path) -> None:
     book = RuleBook(tmp_path / "rules.txt")
     colours = [book.add(f"word{number}", hide=False)[0].colour for number in range(len(COLOURS) + 1)]
     assert colours == [*COLOURS, COLOURS[0]]
@@ -39,12 +39,12 @@ def test_a_colour_that_no_other_has_comes_first(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["hide", "off red", "blue re:(", "green time:25:00"])
-def test_a_rule_that_reports_nothing_is_refused(text: str) -> None:
+def test_rule_without_words_is_rejected(text: str) -> None:
     with pytest.raises(ValueError):
         rule_of(text)
 
 
-def test_a_file_that_cannot_be_written_is_reported(tmp_path: Path) -> None:
+def test_unwritable_file_is_reported(tmp_path: Path) -> None:
     (tmp_path / "rules.txt").mkdir()
     assert "for now only" in RuleBook(tmp_path / "rules.txt").change([Rule("a")])
 
@@ -54,7 +54,7 @@ def test_a_file_that_cannot_be_written_is_reported(tmp_path: Path) -> None:
     st.sampled_from(["robot", "/arm/left zoo", 'a"b', "robot_node.py-1"]),
     st.sampled_from(["", "ws/my node.py", "nav.py"]),
 )
-def test_every_likeness_holds_for_the_line_itself(text: str, node: str, file: str) -> None:
+def test_every_similarity_matches_the_line_itself(text: str, node: str, file: str) -> None:
     record = line(text, node, file, 7)
     for what, words in similarities(record, node):
         assert rule_of(f"hide {words}").words == words.strip(), what
@@ -62,7 +62,7 @@ def test_every_likeness_holds_for_the_line_itself(text: str, node: str, file: st
             assert parse(words).passes(record), (what, words)
 
 
-def test_numbers_make_no_difference() -> None:
+def test_text_similarity_ignores_numbers() -> None:
     found = dict(similarities(line("Obstacle at 0.31 m (-2)"), "/robot"))
     query = parse(found["this text, whatever the numbers"])
     assert query.passes(line("Obstacle at 12 m (4.5)")) and not query.passes(line("An obstacle at 12 m (4.5)"))

@@ -28,7 +28,7 @@ def needed(own: Columns) -> int:
     return MARKS + own.name + GAP + own.value + (GAP + own.bar if own.bar else 0)
 
 
-def test_the_longest_name_has_room_and_the_slider_takes_what_is_left() -> None:
+def test_longest_name_fits_and_slider_takes_the_rest() -> None:
     need = measured([row("gain"), row("emergency_stop_distance")])
     widths = {width: columns(need, width) for width in range(30, 90)}
     name = 2 + len("emergency_stop_distance")
@@ -36,7 +36,7 @@ def test_the_longest_name_has_room_and_the_slider_takes_what_is_left() -> None:
     assert all(each.name == name and needed(each) <= width for width, each in widths.items() if each.bar)
 
 
-def test_one_long_name_of_many_does_not_take_the_sliders_of_all() -> None:
+def test_single_long_name_does_not_remove_all_sliders() -> None:
     rows = [row(f"gain_{number}") for number in range(20)]
     need = measured([*rows, row(LONG)])
     own = columns(need, 60)

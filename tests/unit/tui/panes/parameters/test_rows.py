@@ -28,7 +28,7 @@ GROUPED = trees(
 )
 
 
-def test_dotted_and_slashed_names_are_groups_where_at_least_two_share_them() -> None:
+def test_names_with_common_levels_are_grouped() -> None:
     assert drawn(GROUPED) == [
         "/n",
         "  gain",
@@ -50,7 +50,7 @@ def test_each_group_folds_by_itself() -> None:
     assert (found[-1].name, found[-1].folded, found[-1].count) == ("pid.", True, 3)
 
 
-def test_what_a_filter_finds_is_seen_however_the_tree_was_left() -> None:
+def test_matches_are_visible_in_a_folded_tree() -> None:
     closed = View(query=parse("kp"), folded=frozenset({"/n", "/n:pid."}))
     assert drawn(GROUPED, closed) == ["/n", "  pid.", "    x.kp", "    y.kp"]
     assert drawn(GROUPED, replace(closed, folded_matches=frozenset({"/n:pid."}))) == ["/n", "  pid."]
@@ -59,19 +59,19 @@ def test_what_a_filter_finds_is_seen_however_the_tree_was_left() -> None:
     assert drawn(changed, replace(closed, query=parse(""))) == ["/m", "  b", "/n"]
 
 
-def test_to_see_a_parameter_what_it_stands_in_is_opened_and_nothing_else() -> None:
+def test_showing_a_parameter_unfolds_only_its_ancestors() -> None:
     closed = {"/a/", "/a/b/", "/a/n", "/a/n:pid.", "/a/n:pid.x.", "/a/n:pid.y.", "/a/nearby", "/n"}
     assert opened(closed, "/a/n", "pid.x.kp") == {"/a/b/", "/a/n:pid.y.", "/a/nearby", "/n"}
 
 
-def test_a_filter_is_counted_against_what_is_shown_without_it() -> None:
+def test_filter_count_is_relative_to_the_unfiltered_view() -> None:
     found, made = trees(tree("/n", "gain", "use_sim_time", "qos_overrides./tf.depth"), tree("/m", "gain")), TreeRows()
     made.rows(found, View(query=parse("gain")))
     assert made.count(found, View()) == 2
     assert made.count(found, View(built_in=True)) == 4
 
 
-def test_what_is_not_a_number_is_no_change_of_itself() -> None:
+def test_nan_does_not_differ_from_itself() -> None:
     def info(value: Value, default: Value) -> ParameterInfo:
         return ParameterInfo("/n", "a", Kind.DOUBLE_ARRAY, value, default=default)
 
@@ -80,7 +80,7 @@ def test_what_is_not_a_number_is_no_change_of_itself() -> None:
     assert info((0.1, 0.0), (0.1, float("nan"))).changed and info((0.1,), (0.1, 0.1)).changed
 
 
-def test_a_whole_name_means_the_parameter_called_so_and_not_one_that_mentions_it() -> None:
+def test_whole_name_selects_the_parameter_of_that_name() -> None:
     crowd = trees(tree("/a", "drive.max_rate", "drive.max_speed"), tree("/b", "max_speed"), tree("/c", "max_speed"))
     found = rows(crowd, View())
 
@@ -99,7 +99,7 @@ FLEET = trees(
 )
 
 
-def test_namespaces_of_several_nodes_have_a_row_and_fold() -> None:
+def test_namespaces_with_several_nodes_have_a_foldable_row() -> None:
     assert drawn(FLEET) == [
         "/a/",
         "  b/",
@@ -123,14 +123,14 @@ def test_namespaces_of_several_nodes_have_a_row_and_fold() -> None:
     assert drawn(FLEET, View(folded=frozenset({"/a/"})))[:3] == ["/a/", "/alone/four", "  p"]
 
 
-def test_words_of_the_filter_may_stand_in_the_nodes_name_and_in_the_parameters() -> None:
+def test_filter_words_match_node_and_parameter_names() -> None:
     found = trees(tree("/robot_navigator", "max_speed", "gain"), tree("/arm", "max_speed"))
     shown = [(each.node, each.name) for each in rows(found, View(query=parse("nav speed"))) if each.parameter]
     assert shown == [("/robot_navigator", "max_speed")]
 
 
 @pytest.mark.parametrize("words", ["nav", "!nav", "SPEED", "!speed", "node:arm", "!node:arm gain", "re:max.sp", "m/s"])
-def test_the_quick_way_finds_what_the_filter_means(words: str) -> None:
+def test_fast_filter_finds_the_same_as_query_matches(words: str) -> None:
     described = tree("/robot_navigator", "max_speed", "gain")
     described = replace(
         described, parameters=tuple(replace(each, description="Größe (m/s)") for each in described.parameters)
@@ -171,7 +171,7 @@ def test_five_thousand_parameters_cost_a_bounded_time_and_one_change_only_its_no
     assert sorted(keystrokes)[1] < 0.030, "the machine may interrupt one of them"
 
 
-def test_a_key_that_lets_the_same_parameters_pass_takes_the_rows_of_before() -> None:
+def test_rows_are_reused_if_the_same_parameters_match() -> None:
     made = TreeRows()
     first = made.rows(GROUPED, View(query=parse("pid")))
     again = made.rows(GROUPED, View(query=parse("pid.")))

@@ -22,7 +22,7 @@ def test_numbers_and_booleans_that_can_be_set_are_tuned() -> None:
     assert tuning.tunable_of(ParameterInfo("/a", "speeds", Kind.DOUBLE_ARRAY, (1.0,))) is None
 
 
-def test_what_is_offered_to_type_is_taken_or_reports_what_is_missing() -> None:
+def test_offered_ranges_are_valid_or_name_what_is_missing() -> None:
     tunables = [each for each in map(tuning.tunable_of, TREE.parameters) if each]
     text = tuning.ranges_text(tunables)
     assert text == "/a:speed=0.1..5 /a:gain /a:safe"
@@ -43,26 +43,26 @@ def test_what_is_offered_to_type_is_taken_or_reports_what_is_missing() -> None:
         ("open(", "open("),
     ],
 )
-def test_a_score_is_completed(typed: str, first: str) -> None:
+def test_score_is_completed(typed: str, first: str) -> None:
     assert tuning.scores(PATHS, typed)[0].title == first
 
 
-def test_what_is_no_score_reports_why() -> None:
+def test_invalid_score_is_rejected_with_a_reason() -> None:
     assert tuning.scores(PATHS, "zzz")[0].about.startswith("✗ 'zzz' is no score")
 
 
 @pytest.mark.parametrize(("text", "value"), [("60 60", (60, 60.0)), ("12", (12, 60.0)), ("9 2.5", (9, 2.5))])
-def test_runs_and_seconds(text: str, value: tuple[int, float]) -> None:
+def test_runs_and_seconds_are_parsed(text: str, value: tuple[int, float]) -> None:
     assert tuning.numbers(text) == value
 
 
 @pytest.mark.parametrize("text", ["", "many", "0 60", "60 0", "60 inf", "1 2 3", "60 nan"])
-def test_numbers_that_are_none(text: str) -> None:
+def test_invalid_runs_and_seconds_are_rejected(text: str) -> None:
     with pytest.raises(ValueError, match="such as 60 60"):
         tuning.numbers(text)
 
 
-def test_a_run_begins_with_what_the_running_system_is_set_to() -> None:
+def test_run_starts_with_the_values_of_the_running_system() -> None:
     hidden = ParameterTree("/_bot_console", (SPEED,))
     specification = tuning.specification_of([], "swift", "60 30", {"/a": TREE, "/_bot_console": hidden})
     assert specification.base == {"/a": {"speed": 1.0, "gain": 1.0, "safe": True, "name": "x"}}

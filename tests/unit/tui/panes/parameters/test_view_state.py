@@ -8,7 +8,7 @@ from bot_console.tui.panes.parameters.rows import View
 from bot_console.tui.panes.parameters.view_state import Left, left_of
 
 
-def test_it_comes_back_as_it_was() -> None:
+def test_view_state_survives_a_round_trip() -> None:
     left = Left("nav speed", View(parse("nav speed"), True, False, frozenset({"/n", "/n:lidar"})), ("/n", "", "speed"))
     again = left_of(left.data)
     assert again is not None and again.data == left.data and again.at == left.at
@@ -16,9 +16,9 @@ def test_it_comes_back_as_it_was() -> None:
 
 
 @pytest.mark.parametrize("data", [None, 7, [], {"filter": "re:("}])
-def test_what_is_no_memory_is_none(data: object) -> None:
+def test_invalid_data_yields_no_view_state(data: object) -> None:
     assert left_of(data) is None
 
 
-def test_parts_that_are_wrong_are_left_out() -> None:
+def test_invalid_parts_are_ignored() -> None:
     assert left_of({"filter": 7, "closed": "x", "at": ["a"], "changed": "yes"}).view == View()

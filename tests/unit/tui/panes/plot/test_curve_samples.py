@@ -27,7 +27,7 @@ def take(curve: Curve, source: Source, times: int) -> None:
         assert curve.take_in(cast(Console, source))
 
 
-def test_the_newest_samples_are_kept_whatever_comes_at_once() -> None:
+def test_newest_samples_are_kept_after_a_burst() -> None:
     for each_time in (1, 7, 900, MAX_SAMPLES - 1, MAX_SAMPLES + 3):
         curve, polls = Curve("/t/data"), min(300, 3 * MAX_SAMPLES // each_time + 3)
         take(curve, Source(each_time), polls)
@@ -37,7 +37,7 @@ def test_the_newest_samples_are_kept_whatever_comes_at_once() -> None:
         assert np.array_equal(curve.times, expected / 10)
 
 
-def test_what_somebody_holds_of_them_stays_as_it_is() -> None:
+def test_returned_arrays_do_not_change_later() -> None:
     curve, held = Curve("/t/data"), []
     for _ in range(40):
         take(curve, Source(1100, headers=False), 1)
@@ -46,7 +46,7 @@ def test_what_somebody_holds_of_them_stays_as_it_is() -> None:
     assert np.isnan(curve.headers).all()
 
 
-def test_samples_are_added_where_the_others_are() -> None:
+def test_new_samples_share_memory_with_earlier_ones() -> None:
     curve = Curve("/t/data")
     take(curve, Source(20), 1)
     first = curve.values
@@ -54,7 +54,7 @@ def test_samples_are_added_where_the_others_are() -> None:
     assert np.shares_memory(first, curve.values), "arrays that are made anew for each sample leave holes in the memory"
 
 
-def test_after_clearing_only_new_samples_are_there() -> None:
+def test_only_new_samples_remain_after_clearing() -> None:
     curve = Curve("/t/data")
     take(curve, Source(20), 3)
     curve.clear()

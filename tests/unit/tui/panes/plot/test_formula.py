@@ -36,7 +36,7 @@ def values(text: str) -> list[float]:
         (f"round(wrap(rad({A} * 100)) * 100)", [175, -279, 70, 140]),
     ],
 )
-def test_what_is_worked_out(text: str, wanted: list[float]) -> None:
+def test_expression_is_evaluated_over_samples(text: str, wanted: list[float]) -> None:
     assert values(text) == pytest.approx(wanted, nan_ok=True)
 
 
@@ -49,7 +49,7 @@ def test_what_is_worked_out(text: str, wanted: list[float]) -> None:
         ("/n:a.b", "/n:a.b"),
     ],
 )
-def test_what_is_made_of_each_message_is_a_path(text: str, path: str) -> None:
+def test_function_of_one_message_becomes_a_path(text: str, path: str) -> None:
     assert read(text) == path
 
 
@@ -68,17 +68,17 @@ def test_what_is_made_of_each_message_is_a_path(text: str, path: str) -> None:
         ("/a/x + abs()", "takes 1"), (f"/a/x + 0x{'f' * 300}", "too large"),
     ],
 )  # fmt: skip
-def test_what_is_refused_in_words(text: str, why: str) -> None:
+def test_invalid_expression_is_rejected_with_a_reason(text: str, why: str) -> None:
     with pytest.raises(ValueError, match=why):
         read(text)
 
 
-def test_the_colon_of_a_slice_leads_as_a_topic_does() -> None:
+def test_colon_of_a_slice_is_not_taken_for_a_parameter() -> None:
     formula = read("min(/scan/ranges[80:100]) * /n:gain.k")
     assert isinstance(formula, Formula) and formula.lead == "/scan/ranges[80:100].min()"
 
 
-def test_commas_in_brackets_part_nothing() -> None:
+def test_commas_in_brackets_do_not_separate_paths() -> None:
     assert split("/a/x, max(/a/x, /b/y) , /s/r[1:2],") == ["/a/x", "max(/a/x, /b/y)", "/s/r[1:2]"]
 
 
@@ -86,7 +86,7 @@ def detach(console: FakeConsole) -> list[str]:
     return [each[1] for each in console.asked if each[0] == "unwatch"]
 
 
-def test_curves_share_what_they_need_and_let_it_go_with_the_last_of_them() -> None:
+def test_shared_paths_are_released_with_their_last_curve() -> None:
     console = FakeConsole()
     console.series |= {A: ([1.0, 2.0], [1.0, 2.0]), "/c/y": ([0.5, 1.5], [10.0, 20.0]), "/c/z": ([], [])}
     timeline = Timeline(console)
@@ -108,7 +108,7 @@ def test_curves_share_what_they_need_and_let_it_go_with_the_last_of_them() -> No
     assert not wrong.ok and "none of" in wrong.text
 
 
-def test_samples_lie_where_their_headers_report_if_one_wants() -> None:
+def test_samples_are_placed_by_header_stamps_on_request() -> None:
     from bot_console.tui.panes.plot.curves import Curve
 
     curve = Curve("/a/x", 0, np.array([1.0, 2.0, 3.0]), np.array([7.0, 8.0, 9.0]))

@@ -30,7 +30,7 @@ def text_of(lines: list[tuple[tuple[str, str], ...]]) -> list[str]:
 
 @pytest.mark.parametrize("width", [30, 60, 100])
 @pytest.mark.parametrize("height", [2, 5, 40])
-def test_a_line_for_each_of_many_curves_with_the_chosen_one_in_view(width: int, height: int) -> None:
+def test_sparklines_include_the_selected_curve(width: int, height: int) -> None:
     many = [curve(f"/topic_{at}/data", [at, at + 1.0] * 20) for at in range(30)]
     lines = text_of(sparklines(many, Axes(0.0, 4.0), width, height, 20))
     assert len(lines) == min(height, 31)
@@ -38,12 +38,12 @@ def test_a_line_for_each_of_many_curves_with_the_chosen_one_in_view(width: int, 
     assert all(cell_len(line) <= width for line in lines)
 
 
-def test_a_sparkline_reports_value_rate_least_and_greatest() -> None:
+def test_sparkline_shows_value_rate_minimum_and_maximum() -> None:
     line = text_of(sparklines([curve("/a/x", [1.0, 5.0, 3.0])], Axes(0.0, 1.0), 100, 3, 0))[1]
     assert line.split()[2:6] == ["3.000", "10.0/s", "1.000", "5.000"]
 
 
-def test_against_another_curve_values_meet_at_the_same_time() -> None:
+def test_xy_plot_pairs_values_of_the_same_time() -> None:
     x = Curve("/x", 0, np.array([0.0, 1.0, 2.0]), np.array([1.0, 2.0, np.nan]))
     y = Curve("/y", 1, np.array([-0.5, 0.5, 1.5, 2.5]), np.array([9.0, 10.0, 20.0, 30.0]))
     found = pairs(x, y, Axes(-1.0, 3.0))
@@ -54,7 +54,7 @@ def test_against_another_curve_values_meet_at_the_same_time() -> None:
     assert text_of(against(x, [x, curve("/none", [])], Axes(-1.0, 3.0), 40, 8))
 
 
-def test_two_axes_have_labels_on_both_sides_and_one_has_not() -> None:
+def test_second_axis_has_labels_on_the_right() -> None:
     small, large = curve("/a", [0.0, 1.0] * 20), curve("/b", [1000.0, 2000.0] * 20, colour=1)
     large.right = True
     lines = text_of(framed([small, large], (), Axes(0.0, 4.0), 80, 12))
@@ -72,13 +72,13 @@ def test_a_crossed_threshold_is_marked_where_it_begins_and_beside_the_value() ->
     assert legend(one, Axes(0.0, 4.0, cursor=0.5), 100, True)[2][0].strip() == "0.000"
 
 
-def test_thresholds_as_they_are_typed() -> None:
+def test_thresholds_are_parsed_and_formatted() -> None:
     assert thresholds_text(thresholds_of("> 3/2,<= 0.2")) == "> 1.5, < 0.2"
     assert thresholds_of("") == ()
     assert "such as" in wrong_thresholds("1.5") and "not a number" in wrong_thresholds("> a b")
 
 
-def test_facts_of_a_window() -> None:
+def test_window_facts_are_computed() -> None:
     facts = window_facts(curve("/a", [9.0, 1.0, np.inf, 3.0, 9.0]), 0.1, 0.3)
     assert facts is not None
     assert (facts.low, facts.high, facts.mean, facts.std, facts.gaps) == (1.0, 3.0, 2.0, 1.0, 1)
@@ -86,7 +86,7 @@ def test_facts_of_a_window() -> None:
     assert window_facts(curve("/a", [1.0]), 5.0, 6.0) is None
 
 
-def test_a_picture_as_svg_is_well_formed_whatever_the_names(tmp_path: Path) -> None:
+def test_svg_is_well_formed_for_any_names(tmp_path: Path) -> None:
     one = curve('/a<b>&"x"', [0.0, 1.0, np.nan, 2.0, 1.0] * 30)
     one.thresholds = thresholds_of("> 1")
     picture(tmp_path / "p.svg", [one], [Mark(1.0, True)], Axes(0.0, 10.0), lambda time: 1.7e9 + time)
@@ -98,7 +98,7 @@ def test_a_picture_as_svg_is_well_formed_whatever_the_names(tmp_path: Path) -> N
     assert min(numbers) >= 0 and max(numbers) <= 1000
 
 
-def test_a_png_is_a_picture_or_reports_what_it_needs(tmp_path: Path) -> None:
+def test_png_is_written_or_the_missing_package_named(tmp_path: Path) -> None:
     shown = [curve("/a", [0.0, 1.0] * 30)], (), Axes(0.0, 6.0), lambda time: 1.7e9 + time
     try:
         import cv2  # noqa: F401
@@ -110,7 +110,7 @@ def test_a_png_is_a_picture_or_reports_what_it_needs(tmp_path: Path) -> None:
         assert (tmp_path / "p.png").read_bytes()[:4] == b"\x89PNG"
 
 
-def test_curves_are_kept_and_files_that_hold_none_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_presets_are_stored_and_invalid_files_rejected(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path))
     preset = Preset((KeptCurve("deg(/a/x)", True, "> 1"), KeptCurve("/b/y")), 60.0, "0 1", "/b/y")
     plot_presets.keep_preset("my curves", preset)

@@ -23,7 +23,7 @@ def width_of(line: tuple[tuple[str, str], ...]) -> int:
 
 
 @given(st.lists(st.floats(-1e6, 1e6), min_size=2, max_size=300), st.integers(4, 60))
-def test_no_peak_is_lost_however_many_samples_fall_into_a_column(values: list[float], columns: int) -> None:
+def test_peaks_are_drawn_with_many_samples_per_column(values: list[float], columns: int) -> None:
     shown = curve(values)
     seen = reach(*shown.between(0.0, shown.times[-1]), 0.0, float(shown.times[-1]), columns)
     assert np.nanmax(seen.high) == pytest.approx(max(values), abs=1e-9)
@@ -31,7 +31,7 @@ def test_no_peak_is_lost_however_many_samples_fall_into_a_column(values: list[fl
     assert not np.isnan(seen.low).any()
 
 
-def test_a_value_that_is_not_finite_leaves_a_gap_and_nothing_else() -> None:
+def test_value_that_is_not_finite_leaves_only_a_gap() -> None:
     shown = curve([1.0] * 10 + [math.nan, math.inf, -math.inf] + [1.0] * 10)
     seen = reach(*shown.between(0.0, 2.2), 0.0, 2.2, 22)
     gap = np.isnan(seen.low)
@@ -53,12 +53,12 @@ def test_nothing_is_drawn_before_the_first_sample() -> None:
 @pytest.mark.parametrize(
     ("span", "maximum", "step"), [(10, 5, 2), (1, 4, 0.5), (7, 10, 1), (0.03, 6, 0.005), (0, 5, 1)]
 )
-def test_ticks_stand_at_round_numbers(span: float, maximum: int, step: float) -> None:
+def test_ticks_are_at_round_numbers(span: float, maximum: int, step: float) -> None:
     assert tick_step(span, maximum) == pytest.approx(step)
 
 
 @given(st.floats(-1e9, 1e9), st.floats(0, 1e6))
-def test_the_limits_hold_everything_and_are_never_equal(low: float, span: float) -> None:
+def test_limits_enclose_all_values_and_never_coincide(low: float, span: float) -> None:
     seen = reach(np.array([0.0, 1.0]), np.array([low, low + span]), 0.0, 1.0, 4)
     bottom, top = limits([seen])
     slack = 1e-9 * max(1.0, abs(low), abs(low + span))
@@ -66,7 +66,7 @@ def test_the_limits_hold_everything_and_are_never_equal(low: float, span: float)
 
 
 @given(st.lists(st.floats(allow_nan=True, allow_infinity=True), max_size=60), st.integers(16, 130), st.integers(4, 40))
-def test_any_series_gives_lines_of_the_width_that_was_asked_for(values: list[float], width: int, height: int) -> None:
+def test_any_series_is_drawn_in_the_requested_width(values: list[float], width: int, height: int) -> None:
     axes = Axes(0.0, 5.0)
     lines = framed([curve(values)], [Mark(1.0), Mark(2.0, True), Mark(99.0)], axes, width, height)
     assert len(lines) == height
@@ -75,7 +75,7 @@ def test_any_series_gives_lines_of_the_width_that_was_asked_for(values: list[flo
 
 
 @pytest.mark.parametrize("limits", [(-1e300, 1e300), (1e300, math.nextafter(1e300, math.inf)), (0.0, 5e-324)])
-def test_extreme_values_and_limits_come_to_an_end(limits: tuple[float, float]) -> None:
+def test_extreme_values_and_limits_are_drawn(limits: tuple[float, float]) -> None:
     for values in (list(limits), [-1.7e308, 1.7e308]):
         for axes in (Axes(0.0, 5.0), Axes(0.0, 5.0, limits)):
             assert len(framed([curve(values)], [], axes, 60, 20)) == 20
@@ -86,13 +86,13 @@ def test_numbers_fit_their_place(value: float, step: float) -> None:
     assert len(short_number(value, step)) <= 7
 
 
-def test_the_legend_reports_the_newest_value_and_the_figures_of_the_window() -> None:
+def test_legend_shows_the_newest_value_and_window_figures() -> None:
     text = "".join(each for each, _ in legend(curve([1.0, 3.0, math.nan, 2.0]), Axes(0.0, 1.0), 100, True))
     assert "2.000" in text and "min 1.000  max 3.000  mean 2.000" in text and "1 not finite" in text
 
 
 @pytest.mark.parametrize("text", ["1", "a b", "2 1", "1 1", "nan 2", "1 2 3", "inf 3", "-1.7e308 1.7e308"])
-def test_limits_that_make_no_sense_are_refused(text: str) -> None:
+def test_invalid_limits_are_rejected(text: str) -> None:
     assert wrong_limits(text)
 
 

@@ -30,7 +30,7 @@ def of(values: np.ndarray):
     return found
 
 
-def test_a_lag_of_first_order() -> None:
+def test_first_order_lag_has_the_expected_figures() -> None:
     """Rise time is tau ln 9, settling time to 5 % is tau ln 20, and there is no overshoot."""
     found = figures(of(first_order(0.8)), reference=3.5)
     assert found.rise == pytest.approx(0.8 * math.log(9), rel=0.01)
@@ -51,7 +51,7 @@ def test_a_step_down_has_the_same_figures() -> None:
     assert (up.rise, up.settling) == pytest.approx((down.rise, down.settling))
 
 
-def test_what_has_not_settled_and_what_has_no_step_report_it() -> None:
+def test_unsettled_response_and_missing_step_are_reported() -> None:
     growing = figures(of(TIMES))
     assert math.isnan(growing.settling)
     still = figures(of(np.ones_like(TIMES)), reference=1.5)
@@ -59,7 +59,7 @@ def test_what_has_not_settled_and_what_has_no_step_report_it() -> None:
     assert "rise –" in figures_text(still)
 
 
-def test_a_score_of_ones_own() -> None:
+def test_custom_score_is_evaluated() -> None:
     found = figures(of(first_order(0.8)), reference=3.0)
     assert score("10*overshoot + settling", found) == pytest.approx(found.settling, abs=0.01)
     assert "score 2.397" in figures_text(found, "settling")
@@ -67,7 +67,7 @@ def test_a_score_of_ones_own() -> None:
         score("speed", found)
 
 
-def test_the_newest_sending_of_each_set_counts() -> None:
+def test_latest_response_of_each_set_is_used() -> None:
     changes = [
         Change(at, at, "/n", "p", 0, 1, ChangeSource.EDIT, by=name)
         for at, name in enumerate(["set B", "", "set A", "set B"])

@@ -17,14 +17,14 @@ def titles(typed: str) -> list[str]:
     return [each.title for each in suggested(KNOWN, typed)]
 
 
-def test_paths_by_their_characters_numbers_first() -> None:
+def test_paths_match_by_characters_with_numbers_first() -> None:
     assert titles("") == list(KNOWN)
     assert titles("scanr")[:2] == ["/scan/ranges[0]", "/scan/ranges.min()"]
     assert titles("twist") == ["/odom/twist.twist.linear.x"]
     assert titles("/odom/pose.pose.position.x")[0] == "/odom/pose.pose.position.x"
 
 
-def test_an_element_or_a_part_is_taken_as_typed() -> None:
+def test_element_or_slice_is_offered_as_typed() -> None:
     assert titles("/scan/ranges[17]") == ["/scan/ranges[17]"]
     assert titles("/scan/ranges[1:9].max()") == ["/scan/ranges[1:9].max()"]
 
@@ -40,6 +40,6 @@ def test_a_path_that_is_not_there_yet_can_be_chosen_behind_what_has_its_characte
     assert titles("/odom/twist") == ["/odom/twist.twist.linear.x"], "what is half typed is no path of its own"
 
 
-def test_what_is_wrong_is_reported() -> None:
+def test_invalid_expression_is_reported() -> None:
     (option,) = suggested(KNOWN, "sine(/q)")
     assert option.about.startswith("✗ 'sine' is none of")

@@ -13,7 +13,7 @@ def armed(greatest: tuple[float, float] = (1.0, 3.0)) -> Steering:
     return state
 
 
-def test_it_never_passes_the_limits_and_stops_at_zero_on_the_way_back() -> None:
+def test_command_stays_within_limits_and_stops_at_zero() -> None:
     state = armed()
     state.steer(1, 0, 100, 0.0)
     assert state.linear == 1.0
@@ -23,7 +23,7 @@ def test_it_never_passes_the_limits_and_stops_at_zero_on_the_way_back() -> None:
     assert state.linear == -1.0
 
 
-def test_twenty_steps_lead_to_the_limit_without_a_rest() -> None:
+def test_twenty_steps_reach_the_limit_exactly() -> None:
     state = armed((0.7, 0.9))
     for _ in range(20):
         state.steer(1, -1, 1, 0.0)
@@ -33,14 +33,14 @@ def test_twenty_steps_lead_to_the_limit_without_a_rest() -> None:
     assert (state.linear, state.angular) == (0.0, 0.0)
 
 
-def test_other_limits_hold_at_once() -> None:
+def test_new_limits_apply_at_once() -> None:
     state = armed()
     state.steer(1, 1, 20, 0.0)
     state.limit((0.2, 0.3))
     assert (state.linear, state.angular) == (0.2, 0.3)
 
 
-def test_velocities_are_repeated_a_zero_is_published_once() -> None:
+def test_velocities_are_repeated_and_zero_is_sent_once() -> None:
     state = armed()
     assert state.command(0.0) is None
     state.steer(1, 0, 1, 0.0)
@@ -58,7 +58,7 @@ def test_the_deadman_time_is_exact() -> None:
     assert state.command(12.0) == (0.0, 0.0) and state.expired and not state.armed
 
 
-def test_disarmed_it_publishes_zero_even_if_it_did_so_before() -> None:
+def test_zero_is_sent_while_disarmed_even_if_sent_before() -> None:
     state = armed()
     state.disarm()
     assert state.command(0.0) == (0.0, 0.0)
@@ -78,7 +78,7 @@ def test_limits_come_from_parameters_that_are_positive_numbers(parameters, expec
     assert greatest_of([ParameterTree("/r", infos)]) == expected
 
 
-def test_limits_are_those_of_the_steered_robot_and_never_another_robots() -> None:
+def test_limits_are_never_those_of_another_robot() -> None:
     def tree(node: str, speed: float) -> ParameterTree:
         return ParameterTree(node, (ParameterInfo(node, "max_speed", Kind.DOUBLE, speed),))
 
