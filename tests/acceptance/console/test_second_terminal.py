@@ -77,9 +77,10 @@ def test_second_console_asks_to_attach_and_leaves_the_robot_running(console: Ter
 
     attached = Terminal([*CONSOLE, "attach"], tmp_path)
     attached.read_until(lambda: b"robot_navigator" in attached.output, "the robot's nodes in an attached console")
-    console.output = b""
+    console.output = attached.output = b""
     attached.type("!")
     console.read_until(lambda: b"ALL STOP" in console.output, "the lock of another console on the first screen")
+    attached.read_until(lambda: b"releases" in attached.output, "the lock that the next key releases")
     attached.type("!")
     eventually(console, lambda: speed() > 0.1, "the robot that drives again")
     attached.type("q")

@@ -63,7 +63,7 @@ def test_missing_opencv_is_reported_with_install_hint(running: System, monkeypat
     assert refused.exit == 1
     assert "no transport 'compressed': it needs OpenCV: pip install 'bot-console[opencv]'" in refused.stderr
     unknown = running.finish(running.executable("image_transport", "republish", "theora"))
-    assert "no transport 'theora': there are: raw, compressed" in unknown.stderr
+    assert "no transport 'theora': available transports: raw, compressed" in unknown.stderr
     assert running.finish(running.executable("image_transport", "republish", "--help")).exit == 1
 
 

@@ -92,6 +92,7 @@ class StopLink:
         self._sent_at = 0.0
         self._releasing: frozenset[str] = frozenset()
         """The ids of stops to release; for older locks the keys of their requesters."""
+        self._releasing_own: frozenset[str] = frozenset()
         self._release_until = 0.0
         self._steered_at = 0.0
         self.steering = False
@@ -160,7 +161,7 @@ class StopLink:
         held = bool(states) and all(each.locked for each in states)
         confirmed = held and all(state.holds(id, self._key) for state in states for id in self._requested)
         confirmed = confirmed and not self._silent_locks()
-        if states and all(each.heard and not self._holds_released(each) for each in states):
+        if states and all(each.heard and not self._lacks_release(each) for each in states):
             self._releasing = frozenset()
         known = {each.id: each for state in states for each in state.stops}
         stops = tuple(
@@ -187,11 +188,15 @@ class StopLink:
     def _is_own(self, id: str, key: str) -> bool:
         return key == self._key or id in self._requested
 
-    def _holds_released(self, state: LockState) -> bool:
-        """Whether a lock still holds a stop that is being released; an older one does not distinguish stops of one
-        key.
+    def _lacks_release(self, state: LockState) -> bool:
+        """Whether a lock still has to receive the release.
+
+        A lock that does not hold one of our own stops may only not have received it yet, so it has to report that stop
+        as released. An older lock cannot, and does not distinguish stops of one key.
         """
-        return any(each.id in self._releasing or not each.id for each in state.stops)
+        if any(each.id in self._releasing or not each.id for each in state.stops):
+            return True
+        return state.released is not None and not self._releasing_own <= state.released.keys()
 
     def stop(self, reason: str, *, kept: bool = True) -> str:
         """Lock until released; returns the id of the stop, which is the same while a stop of its kind holds.
@@ -226,6 +231,7 @@ class StopLink:
             own = {each.id for state in self._states.values() for each in state.stops if each.key == self._key}
             left = {id: each for id, each in self._requested.items() if each.alone}
             ids = {*self._requested, *own, *others} - left.keys()
+            self._releasing_own = frozenset(self._requested.keys() - left.keys())
             self._requested = left
         self._release(ids)
 
@@ -233,6 +239,7 @@ class StopLink:
         """Withdraw a single one of our own stops."""
         with self._changed:
             self._requested.pop(id, None)
+            self._releasing_own = frozenset({id})
         self._release({id})
 
     def _release(self, ids: Collection[str]) -> None:

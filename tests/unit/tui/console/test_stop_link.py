@@ -127,6 +127,18 @@ def test_two_consoles_hold_the_robot_and_each_withdraws_its_own_stop(rig: Rig) -
     assert not (lock.lock.held or rig.link.info.stopped)
 
 
+def test_release_sent_before_the_locks_have_reported_the_stop_is_repeated_until_they_have(rig: Rig) -> None:
+    lock = rig.lock("simulator")
+    rig.settle()
+    rig.link.stop("the arm swings")
+    rig.link.release()
+    assert rig.link.releasing
+    rig.settle()
+    rig.link.repeat()
+    rig.settle()
+    assert not (lock.lock.held or rig.link.info.stopped or rig.link.releasing)
+
+
 def test_a_lock_that_reports_only_that_it_is_locked_acknowledges_every_stop(rig: Rig) -> None:
     publisher = rig.node("plain").create_publisher(DiagnosticStatus, "emergency_stop/plain", LATCHED)
     publisher.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="false")]))
