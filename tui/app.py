@@ -203,6 +203,7 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
                     pane.tick()
             self.parts.heartbeat()
             self.update_notifications()
+            self.stage.drop_unused()
 
     def pull(self) -> None:
         """Take the newest snapshot and let the visible panes draw what has changed."""

@@ -10,6 +10,7 @@ from bot_console.tui.keys.key import NO_MODE
 from bot_console.tui.layout.arrangement import Arrangement
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.layout.tree import Tree, panes
+from bot_console.tui.layout.unused import UnusedPanes
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.screens.question_screens import screen_for
 from bot_console.tui.widgets.key_bar import NO_OTHERS, KeyBar
@@ -42,6 +43,7 @@ class Stage:
         self._focused = FIRST
         self._extent = Size(80, 24)
         self._panes: list[Pane] = []
+        self._unused = UnusedPanes()
         self.plugins: list[PaneEntry] = []
         """Panes that others bring."""
         self.arrangement = arrangement
@@ -73,6 +75,13 @@ class Stage:
         for pane in self.panes():
             if not pane.is_ending:
                 pane.observe(snapshot)
+
+    def drop_unused(self) -> None:
+        """Give the place of a pane that would stay empty to another, and give it back; called ten times a second."""
+        empty = self._unused.panes(self._newest())
+        if empty != self.arrangement.empty:
+            self.arrangement.empty = empty
+            self.lay_out()
 
     def current(self) -> Pane | None:
         """The focused pane, else the one chosen last."""

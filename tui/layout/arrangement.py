@@ -7,7 +7,7 @@ from typing import Protocol
 
 from bot_console.tui.layout.named import BUILT_IN, OVERVIEW, Layout
 from bot_console.tui.layout.placing import Box, boxes, fits
-from bot_console.tui.layout.tree import Tree
+from bot_console.tui.layout.tree import Tree, close, exchange, panes
 
 CHROME = 3
 """Lines that are not the panes': tabs, status, keys."""
@@ -15,6 +15,18 @@ MAX_TERMINAL_CELLS = 1000
 """Columns and lines of which no terminal has more."""
 REMEMBERED = 50
 """Changes that can be taken back."""
+
+
+IN_PLACE_OF_EMPTY = "graph"
+"""The pane that takes the place of one that would stay empty, unless it is on the screen already."""
+
+
+def without(tree: Tree, pane: str) -> Tree:
+    """A tree in which another pane has the place of one, or its neighbours have it."""
+    shown = panes(tree)
+    if pane not in shown:
+        return tree
+    return close(tree, pane) or tree if IN_PLACE_OF_EMPTY in shown else exchange(tree, pane, IN_PLACE_OF_EMPTY)
 
 
 class LayoutStore(Protocol):
@@ -60,6 +72,8 @@ class Arrangement:
         self._store = store or Forgetful()
         self._known: Mapping[str, Layout] = {}
         self._changed = tree
+        self.empty: frozenset[str] = frozenset()
+        """Panes that would stay empty in this system, and give their places to others."""
         self._before: list[tuple[str, Tree | None]] = []
         if tree is None and name not in self.layouts():
             raise LookupError(f"there is no layout '{name}'; layouts: {', '.join(sorted(self.layouts()))}")
@@ -78,6 +92,8 @@ class Arrangement:
     def tree(self, width: int, height: int) -> Tree | None:
         """What to show in a terminal of so many cells; None if not all of it fits."""
         tree = self._changed if self._changed is not None else self._layout().form(width, height)
+        for pane in self.empty:
+            tree = without(tree, pane)
         return tree if fits(boxes(tree, Box(0, 0, width, height - CHROME))) else None
 
     def least(self) -> tuple[int, int]:

@@ -15,6 +15,7 @@ from bot_console.tui.widgets.diagram.flow import DOWN, RIGHT, Flow
 from bot_console.tui.widgets.diagram.graph import Digraph
 from bot_console.tui.widgets.diagram.listing import Listing, draw_listing
 from bot_console.tui.widgets.diagram.overview_map import Window, map_lines, map_size, seen
+from bot_console.tui.widgets.placeholder import NO_PLACEHOLDER, Placeholder, placeholder_lines
 from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
@@ -74,6 +75,14 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
     }
 
     EMPTY: ClassVar[Digraph] = Digraph()
+    placeholder = NO_PLACEHOLDER
+    """What is shown while nothing is drawn."""
+
+    def show_placeholder(self, placeholder: Placeholder) -> None:
+        """Say something else while nothing is drawn."""
+        if placeholder != self.placeholder:
+            self.placeholder = placeholder
+            self.refresh()
 
     selected: reactive[str] = reactive("", init=False)
     """The id of the selected item; empty when there is none."""
@@ -246,6 +255,9 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
             return Strip(
                 [Segment(text, base + self.part_style(f"diagram--{name}") if name else base)]
             ).adjust_cell_length(width, base)
+        lines = () if self.drawing.rows else placeholder_lines(self.placeholder, width, self.size.height)
+        if y < len(lines):
+            return Strip([Segment(text, base) for text, _ in lines[y]]).adjust_cell_length(width, base)
         runs = self.drawing.rows[row] if row < len(self.drawing.rows) else ()
         segments: list[Segment] = []
         at = 0

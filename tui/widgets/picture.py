@@ -7,6 +7,7 @@ from functools import lru_cache
 from typing import ClassVar, TypeAlias
 
 from bot_console.tui.terminal.styling.style_sheet import StyledByPart
+from bot_console.tui.widgets.placeholder import NO_PLACEHOLDER, Placeholder, placeholder_lines
 from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
@@ -58,6 +59,15 @@ class Picture(StyledByPart):
         super().__init__(id=id)
         self.lines: Sequence[Line] = ()
 
+    placeholder = NO_PLACEHOLDER
+    """What is shown while there are no lines."""
+
+    def show_placeholder(self, placeholder: Placeholder) -> None:
+        """Say something else while there are no lines."""
+        if placeholder != self.placeholder:
+            self.placeholder = placeholder
+            self.refresh()
+
     def set_lines(self, lines: Sequence[Line]) -> None:
         """Show these lines, redrawing only the cells that have changed."""
         old, self.lines = self.lines, lines
@@ -76,7 +86,8 @@ class Picture(StyledByPart):
     def render_line(self, y: int) -> Strip:
         """Render one line."""
         base = self.own_style
-        pieces = self.lines[y] if y < len(self.lines) else ()
+        lines = self.lines or placeholder_lines(self.placeholder, *self.size)
+        pieces = lines[y] if y < len(lines) else ()
         segments = [Segment(text, base + self._style(name) if name else base) for text, name in pieces]
         return Strip(segments).adjust_cell_length(self.size.width, base)
 

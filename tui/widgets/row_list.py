@@ -7,6 +7,7 @@ from typing import ClassVar
 from bot_console.tui import keymap
 from bot_console.tui.console.query import Query
 from bot_console.tui.terminal.styling.style_sheet import StyledByPart
+from bot_console.tui.widgets.placeholder import NO_PLACEHOLDER, Placeholder, placeholder_lines
 from rich.segment import Segment
 from rich.style import Style
 from textual.events import Click
@@ -50,6 +51,15 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         def control(self) -> RowList:
             """The list."""
             return self.rows
+
+    placeholder = NO_PLACEHOLDER
+    """What is shown while there are no rows."""
+
+    def show_placeholder(self, placeholder: Placeholder) -> None:
+        """Say something else while there are no rows."""
+        if placeholder != self.placeholder:
+            self.placeholder = placeholder
+            self.refresh()
 
     def row_count(self) -> int:
         """The number of rows."""
@@ -99,12 +109,21 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         width = self.across
         base = self.own_style
         if index >= self.row_count():
-            return Strip.blank(width, base)
+            return self._below_rows(y, width, base)
         if index == self.cursor and self.has_focus:
             cursor = self.get_component_rich_style("row-list--cursor")
             strip = Strip(Segment(text, self._chosen(style, cursor)) for text, style, _ in self.row(index, width))
             return _fitted(strip, width, cursor)
         return _on(_fitted(Strip(self.row(index, width)), width, base), base)
+
+    def _below_rows(self, y: int, width: int, base: Style) -> Strip:
+        """A line without a row: blank, or part of the placeholder where there are no rows at all."""
+        lines = placeholder_lines(self.placeholder, width, self.size.height) if not self.row_count() else ()
+        if y >= len(lines):
+            return Strip.blank(width, base)
+        styles = {"": base, "dim": self.part_style("row-list--dim"), "accent": self.part_style("row-list--head")}
+        segments = [Segment(text, base + styles[name]) for text, name in lines[y]]
+        return Strip(segments).adjust_cell_length(width, base)
 
     def _chosen(self, style: Style | None, cursor: Style) -> Style:
         """The cursor's style for a segment; warnings keep their colour."""

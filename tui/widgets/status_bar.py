@@ -122,23 +122,28 @@ def _line(essential: Sequence[str], figures: Sequence[str], rest: Sequence[str])
 def _problems(snapshot: ConsoleSnapshot, acknowledged: int, alarms: Sequence[str]) -> Iterator[tuple[str, str]]:
     """What has gone wrong, what is watched, and what is recorded, each in many words and in few; the worst first."""
     if snapshot.drive.stopped and snapshot.link.silent_s:
-        yield (link_text(snapshot.link),) * 2
+        yield _both(link_text(snapshot.link))
     if snapshot.drive.means_news and not snapshot.drive.stopped:
-        yield (f"✗ NOT RELEASED: {sanitize(snapshot.drive.means_news)}",) * 2
+        yield _both(f"✗ NOT RELEASED: {sanitize(snapshot.drive.means_news)}")
     errors = errors_of(snapshot) - acknowledged
     if errors:
-        yield (counted(errors, "new error" if acknowledged else "error"),) * 2
+        yield _both(counted(errors, "new error" if acknowledged else "error"))
     if alarms:
         yield f"⚠ {sanitize(', '.join(alarms))}", f"⚠ {counted(len(alarms), 'alarm')}"
     dead = [each.label for each in snapshot.launch.processes if each.state is ProcessState.CRASHED]
     if dead:
         yield f"✗ ended: {sanitize(', '.join(dead))}", f"✗ {len(dead)} ended"
     if snapshot.launch.problem:
-        yield (reason_first(sanitize(snapshot.launch.problem)),) * 2
+        yield _both(reason_first(sanitize(snapshot.launch.problem)))
     if snapshot.recording.folder:
         yield f"● REC {sanitize(snapshot.recording.folder.rpartition('/')[2])}", "● REC"
     if snapshot.recording.problem:
-        yield (f"✗ {sanitize(snapshot.recording.problem)}",) * 2
+        yield _both(f"✗ {sanitize(snapshot.recording.problem)}")
+
+
+def _both(text: str) -> tuple[str, str]:
+    """A text that is short enough in any case."""
+    return text, text
 
 
 def state_text(snapshot: ConsoleSnapshot) -> str:

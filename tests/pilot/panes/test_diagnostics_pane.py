@@ -38,8 +38,8 @@ def test_absence_of_diagnostics_is_explained_in_full() -> None:
         await session.press("M")
         session.pane(DiagnosticsPane).tick()
         await session.settle()
-        message = " ".join(" ".join(each.rpartition("│ ")[2].strip(" │") for each in session.lines()).split())
-        assert "No node publishes diagnostics (diagnostic_msgs/msg/DiagnosticArray) yet." in message
+        message = " ".join(session.text().replace("│", " ").split())
+        assert "no node publishes diagnostics (diagnostic_msgs/msg/DiagnosticArray) yet." in message
 
     run(live(), play, (120, 40))
 
@@ -66,7 +66,7 @@ def test_new_status_is_shown_and_silent_one_becomes_stale() -> None:
         pane.clock.now += 0.5
         pane.tick()
         await session.settle()
-        assert "All is OK; w shows everything." in session.text()
+        assert "All is OK." in session.text()
 
     run(live(), play, (100, 30))
 
@@ -105,6 +105,6 @@ def test_mouse_selects_opens_and_folds_rows() -> None:
 def test_empty_list_explains_why() -> None:
     async def play(session: Session) -> None:
         await session.press("M", "enter", "left", "C", "w")
-        assert "No node publishes diagnostics" in session.text()
+        assert "no node publishes" in session.text()
 
     run(empty(), play)

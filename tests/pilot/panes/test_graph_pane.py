@@ -127,7 +127,7 @@ def test_a_new_node_appears_and_the_selection_stays() -> None:
         await session.press("3")
         session.console.change(graph=GraphInfo())
         await session.settle()
-        assert "No nodes yet" in session.text()
+        assert "there are no nodes yet" in session.text()
 
     run(live(), play)
 
@@ -186,7 +186,7 @@ def test_a_bad_pattern_is_explained_while_it_is_typed() -> None:
 def test_an_empty_system_reports_it() -> None:
     async def play(session: Session) -> None:
         await session.press("3", "enter", "right")
-        assert "No nodes yet" in session.text()
+        assert "there are no nodes yet" in session.text()
 
     run(empty(), play)
 

@@ -153,6 +153,6 @@ def test_shown_changes_are_exported(tmp_path: Path) -> None:
 def test_empty_history_says_so() -> None:
     async def play(session: Session) -> None:
         await session.press("H", "u", "b", "p", "y", "x", "escape")
-        assert "No parameter was changed yet." in session.text()
+        assert "Every change of a parameter is listed here" in session.text()
 
     run(empty(), play)

@@ -99,7 +99,7 @@ def test_characters_are_used_on_request_and_on_plain_terminals() -> None:
 def test_unsupported_image_explains_why() -> None:
     async def nothing(session: Session) -> None:
         await session.press("I", "n", "space", "g", "y", "t")
-        assert "No topic of sensor_msgs/msg/Image" in session.text()
+        assert "no topic of sensor_msgs/msg/Image" in session.text()
 
     async def wrong(session: Session) -> None:
         session.console.sensors.shown = Picture("/front/image", count=1, problem="the encoding 'yuv' cannot be shown")
@@ -113,7 +113,7 @@ def test_unsupported_image_explains_why() -> None:
 def test_pane_explains_what_to_do_until_an_image_arrives() -> None:
     async def play(session: Session) -> None:
         await session.press("I")
-        assert "8 then o opens a launch file" in session.text()
+        assert "8  Start nodes" in session.text()
         session.console.change(graph=system()[0].current.graph)
         await session.settle()
         assert "/front/image" in session.text() and "launch file" not in session.text()

@@ -211,7 +211,7 @@ def test_choices_are_listed_with_the_value_marked() -> None:
 def test_empty_pane_explains_what_to_do_and_new_process_appears() -> None:
     async def play(session: Session) -> None:
         await session.press("8", "x", "s", "enter", "left", "right")
-        assert "o opens a launch file" in session.text()
+        assert "o  Open a launch file" in session.text()
         session.console.change(launch=launched())
         await session.settle()
         assert "sensor_handler-1" in session.text()

@@ -270,7 +270,7 @@ def test_unanswering_node_is_reported() -> None:
 def test_pane_waits_for_nodes_in_an_empty_system() -> None:
     async def play(session: Session) -> None:
         await session.press("1", "enter", "plus", "d", "p", "y", "left", "right", "C")
-        assert "Waiting for nodes" in session.text()
+        assert "waiting for nodes" in session.text()
 
     run(empty(), play)
 

@@ -40,7 +40,7 @@ def test_a_curve_is_added_by_its_path_with_completion_and_removed() -> None:
         assert plot(session).paths == [SPEED, LIMIT]
         assert ("unwatch", NEAREST) in session.console.asked
         await session.press("X")
-        assert plot(session).paths == [] and "Press a" in session.text()
+        assert plot(session).paths == [] and "a  Add /topic" in session.text()
 
     run(live(), play)
 
@@ -61,7 +61,7 @@ def test_a_parameter_is_plotted_from_the_parameter_pane() -> None:
     async def play(session: Session) -> None:
         path = "/robot_navigator:detection_threshold"
         session.console.series[path] = ([1.0], [100.0])
-        await session.press("1", "down", "p")
+        await session.press("1", "home", "down", "p")
         assert path in plot(session).paths
         assert plot(session).display
 
@@ -158,7 +158,7 @@ def test_samples_and_picture_are_saved(tmp_path: Path) -> None:
 def test_empty_plot_explains_what_to_do() -> None:
     async def play(session: Session) -> None:
         await session.press("4", "x", "X", "space", "plus", "left", "right", "f", "K", "up", "down")
-        assert "Press a" in session.text()
+        assert "a  Add /topic" in session.text()
 
     run(empty(), play)
 
@@ -213,7 +213,7 @@ def test_presets_store_thresholds_axes_and_forms(tmp_path: Path, monkeypatch: py
         await session.press("f", "f")
         assert "rate" in session.text() and "20.0/s" in session.text()
         await session.press("f", "up", "v")
-        assert f"against {SPEED}" in session.text()
+        assert f"against {SPEED}" in str(plot(session).border_subtitle)
         await session.press("t")
         assert "header time" in session.text()
 

@@ -245,7 +245,7 @@ def test_built_in_services_are_hidden_by_default() -> None:
 def test_empty_system_is_reported() -> None:
     async def play(session: Session) -> None:
         await opened(session, "enter", "P", "p", "x", "y", "space")
-        assert "No topics yet" in session.text()
+        assert "All topics of the system" in session.text()
 
     run(empty(), play)
 

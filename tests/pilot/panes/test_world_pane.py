@@ -47,7 +47,7 @@ def test_scale_bar_keeps_its_length_in_a_narrow_pane() -> None:
 def test_missing_map_or_pose_is_reported() -> None:
     async def play(session: Session) -> None:
         await session.press("5", "plus", "f")
-        assert "No map and no pose yet" in session.text()
+        assert "there is no map and no pose yet" in session.text()
 
     run(empty(), play)
 
@@ -111,7 +111,7 @@ def test_turtle_field_is_shown_at_once_without_robots() -> None:
         assert "/turtlesim: turtle1 1.0, 1.0" in session.text()
         session.console.change(world=WorldInfo())
         await session.settle()
-        assert "No map and no pose yet" in session.text()
+        assert "there is no map and no pose yet" in session.text()
 
     run(empty(), play)
 

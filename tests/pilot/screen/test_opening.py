@@ -37,7 +37,7 @@ def test_rqt_plot_line_replaces_curves_and_waits_for_missing_topics() -> None:
             ("/robot/speed", "/robot/distance"),
             "Waits for /robot/speed, /robot/distance: the curve begins with the first",
         ),
-        ((), "No curves. Press a and name one: /topic/field, or /node:parameter."),
+        ((), "Numbers over time: there are no curves."),
     ],
 )
 def test_empty_plot_names_awaited_paths_or_the_key_to_press(wanted: tuple[str, ...], message: str) -> None:

@@ -15,6 +15,7 @@ from bot_console.tui.panes.alarms.alarm import Alarm, AlarmText, texts_of
 from bot_console.tui.panes.alarms.condition import read
 from bot_console.tui.panes.alarms.rows import AlarmRows, row_of
 from bot_console.tui.panes.list_pane import ListPane
+from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Line
 from bot_console.tui.widgets.row_list import RowList
@@ -32,6 +33,11 @@ MAX_ALARMS = 100
 EXAMPLE = "/battery/percentage < 0.2"
 NAMED = re.compile(r"([^/<>=()]+?):\s+(.+)")
 """A name, a colon and blanks, a condition."""
+
+EMPTY = Placeholder(
+    "An alarm watches a condition over topics and parameters and says when it becomes true.",
+    (("a", f"Add an alarm, such as  low battery: {EXAMPLE}"), ("9", "Topics that can be watched"), ("?", "Help")),
+)
 
 
 class AlarmsPane(ListPane):
@@ -134,8 +140,9 @@ class AlarmsPane(ListPane):
 
     def _describe(self) -> None:
         alarm = self._current
+        self._list.show_placeholder(FILTERED_OUT if self._alarms else EMPTY)
         if alarm is None:
-            text = "Nothing matches." if self._alarms else f"a adds an alarm, such as  low battery: {EXAMPLE}"
+            text = ""
         else:
             values = "  ".join(f"{each} = {alarm.values[each]:.4g}" for each in alarm.paths if each in alarm.values)
             text = alarm.problem or values or "no value yet"

@@ -17,6 +17,7 @@ from bot_console.tui.panes.diagnostics.table import StatusRows
 from bot_console.tui.panes.diagnostics.tree import Row, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.screens.facts import FactsScreen
+from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
@@ -28,7 +29,11 @@ POLL_S = 0.5
 """Seconds between two looks."""
 SIDE = 110
 """Cells from which the list and what is at the cursor stand side by side."""
-NOTHING = "No node publishes diagnostics (diagnostic_msgs/msg/DiagnosticArray) yet."
+EMPTY = Placeholder(
+    "What nodes report about themselves: no node publishes diagnostics (diagnostic_msgs/msg/DiagnosticArray) yet.",
+    (("3", "Nodes and topics that are there"), ("8", "Start nodes"), ("?", "Help")),
+)
+ALL_OK = Placeholder("All is OK.", (("w", "Show everything"),))
 
 
 class DiagnosticsPane(ListPane):
@@ -101,14 +106,13 @@ class DiagnosticsPane(ListPane):
 
     def _describe(self) -> None:
         row, detail = self._list.current, self.query_one("#diagnostics-detail", StaticText)
+        self._list.show_placeholder((ALL_OK if self._bad_only else FILTERED_OUT) if self._info.statuses else EMPTY)
         detail.set_class(row is None, "sentence")
         detail.show_text(self._details(row))
 
     def _details(self, row: Row | None) -> Text:
         if row is None:
-            if self._info.statuses:
-                return Text("All is OK; w shows everything." if self._bad_only else "Nothing matches.", "dim")
-            return Text(sanitize(self._problem or self._info.problem) or NOTHING, "dim")
+            return Text(sanitize(self._problem or self._info.problem), "dim")
         if row.status is None:
             return Text(sanitize(below_text(row)))
         text = Text(no_wrap=True, overflow="ellipsis")

@@ -13,9 +13,13 @@ from bot_console.tui.panes.graph.about import ends_of, node_of, summary
 from bot_console.tui.panes.graph.bundles import LINE
 from bot_console.tui.panes.graph.namespaces import SPACE, TOPIC
 from bot_console.tui.panes.graph.view import GraphView, Mode, Shown
+from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from rich.cells import cell_len
 
 GAP = "  "
+EMPTY = Placeholder(
+    "Nodes, and the topics between them: there are no nodes yet.", (("8", "Start nodes"), ("?", "Help"))
+)
 UNSENT, UNHEARD = "No publisher ", "No subscriber"
 INDENT = 7
 """Cells of `sends` and `reads`, with the blanks around them."""
@@ -47,11 +51,9 @@ def summary_of(info: GraphInfo, found: Shown, item: str) -> str:
     return sanitize(f"{source.removeprefix(SPACE)} → {target.removeprefix(SPACE)}  {names}")
 
 
-def nothing_drawn(info: GraphInfo, found: Shown) -> str:
-    """Why there is no drawing; empty while there is one."""
-    if found.graph.items:
-        return ""
-    return "Nothing matches the filter; escape clears it." if info.nodes else "No nodes yet ..."
+def nothing_drawn(info: GraphInfo) -> Placeholder:
+    """What is said while nothing is drawn."""
+    return FILTERED_OUT if info.nodes else EMPTY
 
 
 def item_notes(

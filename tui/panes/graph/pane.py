@@ -201,7 +201,8 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         info = self._info or GraphInfo()
         self.caption(caption(info, self._shown, self._view, self.words))
         text = summary_of(info, self._shown, self._picture.selected)
-        self.query_one("#graph-status", StaticText).show_text(text or self._problem or nothing_drawn(info, self._shown))
+        self._picture.show_placeholder(nothing_drawn(info))
+        self.query_one("#graph-status", StaticText).show_text(text or self._problem)
         self._report_more()
 
     def _report_dead_ends(self) -> None:

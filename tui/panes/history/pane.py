@@ -18,6 +18,7 @@ from bot_console.tui.panes.history.revert import Return, returns, values_at
 from bot_console.tui.panes.history.rows import ChangeRows, command, day_text, details, words
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.text.refusals import of_many
+from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Confirmation
 from bot_console.tui.widgets.row_list import RowList
@@ -29,6 +30,11 @@ ALL = -(10**9)
 """A number before the first change of all runs."""
 MAX_NAMED_VALUES = 12
 """Values that a question names one by one."""
+
+EMPTY = Placeholder(
+    "Every change of a parameter is listed here, whoever made it, with a way back.",
+    (("1", "Change a parameter"), ("7", "Apply a profile"), ("?", "Help")),
+)
 
 
 class HistoryPane(ListPane):
@@ -90,12 +96,8 @@ class HistoryPane(ListPane):
 
     def _describe(self) -> None:
         change = self._list.current
-        if change is not None:
-            text = details(change)
-        elif self.words or self._only_refused:
-            text = Text("Nothing matches. Escape shows all.", "dim")
-        else:
-            text = Text(sanitize(self._problem) or "No parameter was changed yet.", "dim")
+        self._list.show_placeholder(FILTERED_OUT if self.words or self._only_refused else EMPTY)
+        text = details(change) if change is not None else Text(sanitize(self._problem), "dim")
         self.query_one("#history-detail", StaticText).show_text(text)
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:

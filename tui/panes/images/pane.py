@@ -10,19 +10,21 @@ from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
 from bot_console.tui.console.sensors.model import COMPRESSED, IMAGE
 from bot_console.tui.console.sensors.model import Picture as Seen
-from bot_console.tui.format import cut
 from bot_console.tui.panes.images import drawing
 from bot_console.tui.panes.images.frame_limit import FrameLimit
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.picture import Picture
+from bot_console.tui.widgets.placeholder import NO_PLACEHOLDER, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Option
 from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
 from textual.events import Click
 
-NOTHING = "No topic of sensor_msgs/msg/Image or CompressedImage is published."
-NEXT = "Start a camera's node: 8 then o opens a launch file."
+EMPTY = Placeholder(
+    "What cameras see: no topic of sensor_msgs/msg/Image or CompressedImage is published.",
+    (("9", "Topics that are there"), ("8", "Start nodes"), ("?", "Help")),
+)
 
 
 class ImageView(Picture, can_focus=True):
@@ -80,15 +82,7 @@ class ImagesPane(Pane):
         self._graph, self._problem = snapshot.graph, snapshot.problem
         if not self._topic:
             self._topic = next(iter(self._topics()), "")
-            self._show_next()
         self._poll()
-
-    def _show_next(self) -> None:
-        """Say what to do where there is nothing to see; cleared by the first topic."""
-        width, height = self._view.size
-        empty = not self._topic and not self._problem and height
-        lines = [()] * ((height - 1) // 2) + [((cut(NEXT, width).center(width), "dim"),)]
-        self._view.set_lines(lines if empty else ())
 
     def _topics(self) -> list[str]:
         return [each.name for each in self._graph.topics if IMAGE in each.types or COMPRESSED in each.types]
@@ -145,8 +139,9 @@ class ImagesPane(Pane):
 
     def _show_text(self) -> None:
         seen, topic = self._seen, self._topic
+        self._view.show_placeholder(NO_PLACEHOLDER if topic else EMPTY)
         if not topic:
-            text = self._problem or NOTHING
+            text = self._problem
         elif seen.problem and seen.topic == topic:
             text = f"{topic}  {seen.problem}"
         elif not seen.count or seen.topic != topic:
@@ -172,8 +167,6 @@ class ImagesPane(Pane):
         """Another size: the picture is wanted for that."""
         event.stop()
         self._shown = self._drawn = None
-        if not self._topic:
-            self._show_next()
         if self.display:
             self._poll()
 
@@ -194,7 +187,7 @@ class ImagesPane(Pane):
             words = typed.lower().split()
             return [Option(each) for each in self._topics() if all(word in each.lower() for word in words)]
 
-        self.ask(Choice("Images of", self._choose, find=find, hint="words of a topic", empty=NOTHING))
+        self.ask(Choice("Images of", self._choose, find=find, hint="words of a topic", empty=EMPTY.sentence))
 
     def action_next(self) -> None:
         """Show the next topic."""

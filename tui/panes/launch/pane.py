@@ -21,6 +21,7 @@ from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.safety.stop_messages import stops_of_ending
 from bot_console.tui.screens.facts import FactsScreen
 from bot_console.tui.widgets.picture import Line, Picture
+from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Form, Option
 from bot_console.tui.widgets.row_list import RowList
@@ -32,6 +33,11 @@ EVENTS = 4
 
 ALIVE = (ProcessState.RUNNING, ProcessState.STARTING, ProcessState.STOPPING)
 STYLES = {Severity.WARN: "warn", Severity.ERROR: "error", Severity.FATAL: "error"}
+
+EMPTY = Placeholder(
+    "Processes that launch files started, with keys to stop and start each: none was launched yet.",
+    (("o", "Open a launch file"), ("3", "Nodes that run already"), ("?", "Help")),
+)
 
 
 class LaunchPane(ListPane):
@@ -126,14 +132,13 @@ class LaunchPane(ListPane):
 
     def _report(self) -> None:
         info, row = self._info or LaunchInfo(), self._list.current
+        self._list.show_placeholder(FILTERED_OUT if info.processes else EMPTY)
         if self._why_not and not info.processes:
             text = self._why_not
         elif info.problem and info.problem != self._read:
             text = info.problem
-        elif row is None and info.processes:
-            text = "Nothing matches the filter; escape takes it away."
         elif row is None:
-            text = self._problem or self._elsewhere or "Nothing was launched yet; o opens a launch file."
+            text = "" if info.processes else self._problem or self._elsewhere
         elif row.process is None:
             text = f"{' / '.join(row.group)}  {counted(row.count, 'process').replace('processs', 'processes')}"
         else:

@@ -22,6 +22,7 @@ from bot_console.tui.panes.logs.rules import RuleBook
 from bot_console.tui.panes.logs.rules_screen import RulesScreen
 from bot_console.tui.panes.logs.similar_lines import options_like
 from bot_console.tui.panes.logs.source import LiveLog
+from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.common import wrong_filter, wrong_path
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Line
@@ -29,6 +30,10 @@ from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
 
+EMPTY = Placeholder(
+    "What all nodes log and print: there is nothing yet.",
+    (("8", "Start nodes"), ("O", "Read a saved log"), ("?", "Help")),
+)
 COMPACT_LINES = 6
 """Lines of the pane below which all of them show the log, with equal lines in a row as one."""
 
@@ -163,6 +168,7 @@ class LogsPane(LinePane):
         """Say what is shown of how much, by severity."""
         problem = self._found.problem if self._found else ""
         text = problem or self.status_text()
+        self._list.show_placeholder(FILTERED_OUT if self._filtering.texts() else EMPTY)
         self.caption(text if self.has_class("compact") else "")
         self.query_one("#log-status", StaticText).show_text(text)
 

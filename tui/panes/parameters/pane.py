@@ -20,6 +20,7 @@ from bot_console.tui.panes.parameters.staging import Key
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.parameters.view_state import At, Left, left_of
 from bot_console.tui.state_store import LAST_FILE
+from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Option
 from bot_console.tui.widgets.row_list import RowList
@@ -27,6 +28,10 @@ from bot_console.tui.widgets.static_text import StaticText
 from rich.text import Text
 from textual.app import ComposeResult
 
+WAITING = Placeholder(
+    "The parameters of all nodes: waiting for nodes that have some.",
+    (("8", "Start nodes"), ("7", "Profiles: values to start from"), ("?", "Help")),
+)
 COMPACT_LINES = 12
 """Lines of the pane below which it shows no more than the parameters that matter most."""
 STATE_NAME = "parameters"
@@ -225,6 +230,7 @@ class ParametersPane(EditPane):
     def _describe(self) -> None:
         """Say what is known, in as many lines as it needs."""
         self.keys_changed()
+        self._list.show_placeholder(self._placeholder())
         words, text = self.query_one("#parameter-detail", StaticText), self._details(self._list.current)
         maximum = max(MIN_DETAIL_LINES, self.size.height // SHARE)
         need = len(text.wrap(self.host.console, max(1, words.size.width))) if words.size.width else MIN_DETAIL_LINES
@@ -233,13 +239,15 @@ class ParametersPane(EditPane):
             words.styles.height = height
         words.show_text(text)
 
+    def _placeholder(self) -> Placeholder:
+        if self.words or self._view.only_changed:
+            return FILTERED_OUT
+        fixed = self._snapshot.capabilities.live
+        return Placeholder(f"No parameters; {fixed}.") if fixed else WAITING
+
     def _details(self, row: Row | None) -> Text:
         if row is None:
-            if self.words or self._view.only_changed:
-                return Text("Nothing matches. Press / to change the filter.", "dim")
-            fixed = self._snapshot.capabilities.live
-            waiting = f"No parameters; {fixed}." if fixed else "Waiting for nodes with parameters ..."
-            return Text(sanitize(self._snapshot.problem) or waiting, "dim")
+            return Text(sanitize(self._snapshot.problem), "dim")
         if row.parameter is None:
             return Text(sanitize(row.problem or f"{row.node}  {counted(row.count, 'parameter')}"), "dim")
         key = (row.node, row.parameter.name)

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from textwrap import wrap
 from typing import Any, ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, JournalState
-from bot_console.tui.format import clock_text, sanitize
+from bot_console.tui.format import clock_text
 from bot_console.tui.opening import matching
 from bot_console.tui.panes.plot.parts import DEFAULTS, WINDOWS, Timeline
 from bot_console.tui.panes.plot.questions import PlotQuestions
 from bot_console.tui.panes.plot.responses import Responses, wrong_formula
 from bot_console.tui.widgets.picture import Line, Picture
+from bot_console.tui.widgets.placeholder import Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Line as Asked
 from textual.app import ComposeResult
@@ -26,7 +26,14 @@ MIN_FRAME_LINES = 8
 SCORED = ("rise", "overshoot", "settling", "error")
 """The figures of a response that a score may name."""
 
-EMPTY = "No curves. Press a and name one: /topic/field, or /node:parameter."
+EMPTY = Placeholder(
+    "Numbers over time: there are no curves.",
+    (
+        ("a", "Add /topic/field, or /node:parameter"),
+        ("p", "Show curves that were kept"),
+        ("9", "Topics to choose from"),
+    ),
+)
 
 
 class PlotPane(PlotQuestions):
@@ -159,8 +166,8 @@ class PlotPane(PlotQuestions):
         if width < 16 or height < 2:
             return
         if not curves:
-            message = [((each.center(width), "dim"),) for each in wrap(self._nothing(), width)][:height]
-            picture.set_lines([()] * ((height - len(message)) // 2) + message)
+            picture.show_placeholder(self._nothing())
+            picture.set_lines(())
             return
         if self._responses.shown:
             picture.set_lines(self._responses.draw(curves, self._chosen, self._timeline.window, (width, height)))
@@ -261,10 +268,11 @@ class PlotPane(PlotQuestions):
     def _waiting(self) -> str:
         return ", ".join(f"{each}: {why}" if why else each for each, why in self._expected.items())
 
-    def _nothing(self) -> str:
+    def _nothing(self) -> Placeholder:
         """Why there is no curve."""
         if self._expected:
-            return sanitize(f"Waits for {self._waiting()}: the curve begins with the first message. a names another.")
+            text = f"Waits for {self._waiting()}: the curve begins with the first message."
+            return Placeholder(text, (("a", "Add another curve"),))
         return EMPTY
 
     def on_picture_resized(self, event: Picture.Resized) -> None:

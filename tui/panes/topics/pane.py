@@ -17,6 +17,7 @@ from bot_console.tui.panes.topics.message import MessageRows
 from bot_console.tui.panes.topics.rows import Kind, Row, matches, rows
 from bot_console.tui.panes.topics.table import TopicRows, heading
 from bot_console.tui.text.figures import age_text, rate_text
+from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Fill, Option
 from bot_console.tui.widgets.row_list import RowList
@@ -197,14 +198,8 @@ class TopicsPane(ListPane):
         """What is listed, and all about the row at the cursor."""
         shown, row = self._list, self._list.current
         self.report_filter(len(shown.rows), self._every, "hidden ones too" if self._hidden else "")
-        if row is not None:
-            text = self._about(row)
-        elif self._problem:
-            text = self._problem
-        elif self.words:
-            text = "Nothing matches the filter; escape takes it away."
-        else:
-            text = f"No {self._kind.value} yet; m lists {_next(self._kind).value}."
+        shown.show_placeholder(FILTERED_OUT if self.words else _empty(self._kind))
+        text = self._about(row) if row is not None else self._problem
         status = self.query_one("#topics-status", StaticText)
         status.show_text(text)
 
@@ -373,3 +368,9 @@ def _paths(paths: list[str], typed: str) -> list[Option]:
     """The paths that have all the words typed."""
     words = typed.lower().split()
     return [Option(each) for each in paths if all(word in each.lower() for word in words)]
+
+
+def _empty(kind: Kind) -> Placeholder:
+    """What is said while nothing of a kind is there."""
+    actions = (("m", f"List {_next(kind).value}"), ("8", "Start nodes"), ("?", "Help"))
+    return Placeholder(f"All {kind.value} of the system, with rates and messages: there are none yet.", actions)

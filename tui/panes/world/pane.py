@@ -14,6 +14,7 @@ from bot_console.tui.format import clock_text, figure, sanitize
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.live_figures import LiveFigures
 from bot_console.tui.widgets.picture import Picture
+from bot_console.tui.widgets.placeholder import Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from rich.cells import cell_len
 from textual.app import ComposeResult
@@ -27,6 +28,11 @@ ZOOMS = (1.0, 2.0, 4.0, 8.0)
 
 HITS_EVERY = 3
 """Every so many drawings the LIDAR hits are drawn anew."""
+
+EMPTY = Placeholder(
+    "The robot on its map: there is no map and no pose yet (no OccupancyGrid, no Odometry).",
+    (("9", "Topics that are there"), ("8", "Start nodes"), ("?", "Help")),
+)
 
 
 class WorldMap(Picture):
@@ -182,12 +188,12 @@ class WorldPane(Pane):
     def _facts(self, live: bool = False) -> None:
         snapshot, world = self._snapshot, self._snapshot.world
         drawn = self.query_one(WorldMap)
+        drawn.show_placeholder(EMPTY)
         more = f"  n: next of {len(drawn.places)} places" if len(drawn.places) > 1 else ""
         if drawn.field:
             text = _of_turtles(drawn.field) + more
         elif world.pose is None and world.map is None:
-            text = snapshot.capabilities.world or "No map and no pose yet: no OccupancyGrid, no Odometry."
-            text = snapshot.problem or text
+            text = snapshot.problem or snapshot.capabilities.world
         else:
             pose = self._then or world.pose
             near = "free" if world.nearest is None else f"{figure(world.nearest)} m"

@@ -1,0 +1,44 @@
+"""A pane that would stay empty gives its place in a layout to another."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.robot.robot_model import Pose, WorldInfo
+from bot_console.tui.layout.arrangement import Arrangement
+from bot_console.tui.layout.tree import panes
+from bot_console.tui.layout.unused import PATIENCE_S, UnusedPanes
+from piloting import Clock
+
+NODES = GraphInfo(nodes=(NodeInfo("/talker"),))
+WITHOUT = ConsoleSnapshot(graph=NODES)
+
+
+def test_a_world_that_nobody_publishes_is_given_up_after_a_while() -> None:
+    clock = Clock()
+    unused = UnusedPanes(clock)
+    assert not unused.panes(WITHOUT)
+    clock.now += PATIENCE_S
+    assert unused.panes(WITHOUT) == {"world"}
+    assert not unused.panes(replace(WITHOUT, world=WorldInfo(pose=Pose()))), "it comes back with a pose"
+
+
+def test_a_world_is_not_given_up_before_there_are_nodes_or_while_odometry_is_offered() -> None:
+    odometry = GraphInfo(NODES.nodes, (Endpoint("/odom", ("nav_msgs/msg/Odometry",)),))
+    for graph in (GraphInfo(), odometry):
+        clock = Clock()
+        unused = UnusedPanes(clock)
+        assert not unused.panes(replace(WITHOUT, graph=graph))
+        clock.now += PATIENCE_S
+        assert not unused.panes(replace(WITHOUT, graph=graph))
+
+
+def test_the_graph_takes_the_place_of_an_empty_world_or_its_neighbours_do() -> None:
+    for size in ((60, 20), (80, 24), (120, 40)):
+        arrangement = Arrangement()
+        before = panes(arrangement.tree(*size) or "")
+        arrangement.empty = frozenset(("world",))
+        assert panes(arrangement.tree(*size) or "") == tuple({"world": "graph"}.get(each, each) for each in before)
+    wide = panes(arrangement.tree(200, 60) or "")
+    assert "world" not in wide and wide.count("graph") == 1

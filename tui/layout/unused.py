@@ -1,0 +1,36 @@
+"""Which panes would stay empty in a system: a world that no node publishes."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+from bot_console.tui.console.model import ConsoleSnapshot
+
+WORLD = "world"
+WORLD_TYPES = ("nav_msgs/msg/OccupancyGrid", "nav_msgs/msg/Odometry", "turtlesim/msg/Pose")
+PATIENCE_S = 3.0
+"""How long (s) nodes are there before a pane without anything to show is given up: a robot starts one by one."""
+
+
+class UnusedPanes:
+    """Follows the snapshots."""
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
+        self._graph: object = None
+        self._published = False
+        self._since: float | None = None
+
+    def panes(self, snapshot: ConsoleSnapshot) -> frozenset[str]:
+        """The panes that would stay empty, as far as this and the earlier snapshots tell."""
+        world = snapshot.world
+        if snapshot.graph is not self._graph:
+            self._graph = snapshot.graph
+            self._published = any(kind in WORLD_TYPES for topic in snapshot.graph.topics for kind in topic.types)
+        if not snapshot.graph.nodes or self._published or world.map or world.pose or world.fields:
+            self._since = None
+            return frozenset()
+        if self._since is None:
+            self._since = self._clock()
+        return frozenset((WORLD,)) if self._clock() - self._since >= PATIENCE_S else frozenset()

@@ -1,0 +1,45 @@
+"""What an empty part of a pane says in its middle: what it is for, and keys that lead on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from textwrap import wrap
+from typing import NamedTuple
+
+from bot_console.tui.text.sanitize import sanitize
+
+MARGIN = 2
+"""Columns left free on both sides."""
+MAX_COLUMNS = 64
+
+Line = tuple[tuple[str, str], ...]
+"""Pieces of text with the names of their styles."""
+
+
+class Placeholder(NamedTuple):
+    """A sentence, and keys with what they do."""
+
+    sentence: str = ""
+    actions: Sequence[tuple[str, str]] = ()
+
+
+NO_PLACEHOLDER = Placeholder()
+FILTERED_OUT = Placeholder("Nothing matches the filter.", (("esc", "Clear the filter"), ("/", "Change it")))
+
+
+def placeholder_lines(placeholder: Placeholder, width: int, height: int) -> Sequence[Line]:
+    """The lines of a placeholder in the middle of so many cells; keys are left out where there is no room for them."""
+    columns = min(width - 2 * MARGIN, MAX_COLUMNS)
+    if not placeholder.sentence or columns < 8 or height < 1:
+        return ()
+    sentence = wrap(sanitize(placeholder.sentence), columns)[:height]
+    lines: list[Line] = [((" " * ((width - len(line)) // 2) + line, "dim"),) for line in sentence]
+    actions = [each for each in placeholder.actions if len(" ".join(each)) + 1 <= columns]
+    if actions and len(lines) + 2 <= height:
+        actions = actions[: height - len(lines) - 1]
+        key_width = max(len(key) for key, _ in actions)
+        block = key_width + 2 + max(len(text) for _, text in actions)
+        indent = " " * max(0, (width - block) // 2)
+        lines.append(())
+        lines += [((f"{indent}{key:>{key_width}}  ", "accent"), (text, "")) for key, text in actions]
+    return [*[()] * ((height - len(lines)) // 2), *lines]
