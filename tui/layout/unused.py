@@ -9,7 +9,7 @@ from bot_console.tui.console.model import ConsoleSnapshot
 
 WORLD = "world"
 WORLD_TYPES = ("nav_msgs/msg/OccupancyGrid", "nav_msgs/msg/Odometry", "turtlesim/msg/Pose")
-PATIENCE_S = 3.0
+GIVE_UP_AFTER_S = 3.0
 """How long (s) nodes are there before a pane without anything to show is given up: a robot starts one by one."""
 
 
@@ -33,4 +33,4 @@ class UnusedPanes:
             return frozenset()
         if self._since is None:
             self._since = self._clock()
-        return frozenset((WORLD,)) if self._clock() - self._since >= PATIENCE_S else frozenset()
+        return frozenset((WORLD,)) if self._clock() - self._since >= GIVE_UP_AFTER_S else frozenset()

@@ -8,7 +8,7 @@ from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, 
 from bot_console.tui.console.robot.robot_model import Pose, WorldInfo
 from bot_console.tui.layout.arrangement import Arrangement
 from bot_console.tui.layout.tree import panes
-from bot_console.tui.layout.unused import PATIENCE_S, UnusedPanes
+from bot_console.tui.layout.unused import GIVE_UP_AFTER_S, UnusedPanes
 from piloting import Clock
 
 NODES = GraphInfo(nodes=(NodeInfo("/talker"),))
@@ -19,7 +19,7 @@ def test_a_world_that_nobody_publishes_is_given_up_after_a_while() -> None:
     clock = Clock()
     unused = UnusedPanes(clock)
     assert not unused.panes(WITHOUT)
-    clock.now += PATIENCE_S
+    clock.now += GIVE_UP_AFTER_S
     assert unused.panes(WITHOUT) == {"world"}
     assert not unused.panes(replace(WITHOUT, world=WorldInfo(pose=Pose()))), "it comes back with a pose"
 
@@ -30,7 +30,7 @@ def test_a_world_is_not_given_up_before_there_are_nodes_or_while_odometry_is_off
         clock = Clock()
         unused = UnusedPanes(clock)
         assert not unused.panes(replace(WITHOUT, graph=graph))
-        clock.now += PATIENCE_S
+        clock.now += GIVE_UP_AFTER_S
         assert not unused.panes(replace(WITHOUT, graph=graph))
 
 
