@@ -70,7 +70,7 @@ def read_before_declared(name: str, declared: Iterable[str]) -> str:
 
 
 def key_of_another_node(node: str, key: str) -> str:
-    """The hint for a parameter file none of whose keys means the node."""
+    """The hint for a parameter file without a section for the node."""
     return f"{node} gets no parameter of this file: its key '{key}' does not mean it; did you mean '{node}'?"
 
 
