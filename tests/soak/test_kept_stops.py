@@ -1,4 +1,4 @@
-"""A stop holds until a person releases it, whatever ends and starts meanwhile; judged by a witness of the ground truth.
+"""A stop holds until a person releases it, whatever ends and starts meanwhile; a witness judges by ground truth.
 
 In one process: `tests/unit/tui/console/test_kept_stops.py`. Many runs beside busy processes: `witnessed_runs.py`.
 """
@@ -8,7 +8,6 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -16,20 +15,20 @@ import pytest
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
-from processes.kept_stops import WAYS, Way, held_through
-from processes.live_robot import LiveRobot, live_robot
+from processes.kept_stops import Way, held_through
+from processes.live_robot import BackgroundRobot, LiveRobot, live_robot
+from processes.ways_to_lose_stops import WAYS
 
 pytestmark = pytest.mark.soak
 
 
-@pytest.fixture
-def robot(tmp_path: Path) -> Iterator[LiveRobot]:
+@pytest.mark.parametrize("way", WAYS, ids=lambda each: each.name)
+def test_a_stop_holds_until_it_is_released_and_then_does_not_come_back(tmp_path: Path, way: Way) -> None:
     sockets = Path(tempfile.mkdtemp(prefix="bcs"))
-    with live_robot(tmp_path, sockets, domain=78) as made:
-        yield made
-    shutil.rmtree(sockets, ignore_errors=True)
-
-
-@pytest.mark.parametrize("way", WAYS, ids=lambda each: each.__name__)
-def test_stop_holds_until_released_and_does_not_return(robot: LiveRobot, way: Way) -> None:
-    held_through(way, robot)
+    try:
+        with live_robot(
+            tmp_path, sockets, domain=78, kind=BackgroundRobot if way.in_background else LiveRobot
+        ) as robot:
+            held_through(way, robot)
+    finally:
+        shutil.rmtree(sockets, ignore_errors=True)

@@ -1,10 +1,10 @@
 """Live runs beside busy processes in which a robot is stopped, or loses its operator or its safety monitor.
 
-    python tests/soak/witnessed_runs.py --runs 50 --busy 2 [--only person]
+    python tests/soak/witnessed_runs.py --runs 50 --busy 2 [--only kept] [--way "link cut"]
 
-Judged by a witness of the ground truth in a separate process. Prints one JSON object: for each of the groups `stop`,
-`person`, `monitor` and `kept` (stops that outlive locks and consoles) how many runs there were, how many of them moved
-when they had to stand, and how long (s) the robot went on.
+Judged by a witness of the ground truth in a separate process. Prints one JSON object: for each of the groups
+`stop`, `person`, `monitor`, and `kept` and `kept in background` (ways to lose a stop, of two kinds of robots) how many
+runs there were, how many of them failed, and how long (s) the robot went on.
 """
 
 from __future__ import annotations
@@ -14,31 +14,45 @@ import json
 import shutil
 import signal
 import statistics
+import subprocess
 import sys
 import tempfile
+import traceback
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 sys.path.insert(0, str(Path(__file__).parent))
 from headless_under_load import busy_processes
-from processes.kept_stops import KEPT
-from processes.live_robot import LiveRobot, live_robot
+from processes.kept_stops import held_through
+from processes.live_robot import BackgroundRobot, LiveRobot, live_robot
 from processes.losses import GROUPS as LOSSES
+from processes.ways_to_lose_stops import WAYS
 
-GROUPS = {**LOSSES, "kept": KEPT}
+Run = Callable[[LiveRobot], float]
+"""Returns how long (s) the robot went on; raises `AssertionError` where it moved."""
+KEPT = "kept"
+IN_BACKGROUND = "kept in background"
+GROUPS: dict[str, dict[str, Run]] = {
+    **{group: {each.__name__: each for each in runs} for group, runs in LOSSES.items()},
+    KEPT: {each.name: partial(held_through, each) for each in WAYS if not each.in_background},
+    IN_BACKGROUND: {each.name: partial(held_through, each) for each in WAYS if each.in_background},
+}
 
 
-def witnessed(group: str, runs: int, robot: LiveRobot) -> dict[str, Any]:
-    """Go through the losses of a group in turn; a failed run is printed and counted, and the robot is released."""
-    went_on: dict[str, list[float]] = {each.__name__: [] for each in GROUPS[group]}
+def witnessed(group: str, ways: Sequence[str], runs: int, robot: LiveRobot) -> dict[str, Any]:
+    """Go through the runs of a group in turn; one that fails is counted, and the robot is released."""
+    went_on: dict[str, list[float]] = {each: [] for each in ways}
     failed: list[str] = []
     for number in range(runs):
-        loss = GROUPS[group][number % len(GROUPS[group])]
+        way = ways[number % len(ways)]
         try:
-            went_on[loss.__name__].append(round(loss(robot), 3))
-        except AssertionError as error:
-            failed.append(f"run {number}, {loss.__name__}: {str(error)[:300]}")
+            went_on[way].append(round(GROUPS[group][way](robot), 3))
+        except (AssertionError, subprocess.TimeoutExpired) as error:
+            failed.append(f"run {number}, {way}: {str(error)[:300]}")
+            traceback.print_exc()
             robot.typed("release", "--all")
         print(f"{group}: {number + 1} of {runs}, {len(failed)} failed", file=sys.stderr, flush=True)
     summary = {
@@ -50,11 +64,12 @@ def witnessed(group: str, runs: int, robot: LiveRobot) -> dict[str, Any]:
 
 
 def main() -> None:
-    """Run with the command line's options."""
+    """Run as the words of the command say."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--runs", type=int, default=50, help="in each group")
     parser.add_argument("--busy", type=int, default=2)
-    parser.add_argument("--only", choices=list(GROUPS))
+    parser.add_argument("--only", choices=list(GROUPS), help="this group alone")
+    parser.add_argument("--way", action="append", default=[], help="only runs with this name; repeatable")
     options = parser.parse_args()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # So that the robot's processes end as well.
     report: dict[str, Any] = {}
@@ -62,8 +77,12 @@ def main() -> None:
     try:
         with busy_processes(options.busy):
             for group in [options.only] if options.only else GROUPS:
-                with live_robot(folder, sockets) as robot:
-                    report[group] = witnessed(group, options.runs, robot)
+                ways = [each for each in GROUPS[group] if not options.way or each in options.way]
+                if not ways:
+                    continue
+                kind = BackgroundRobot if group == IN_BACKGROUND else LiveRobot
+                with live_robot(folder, sockets, kind=kind) as robot:
+                    report[group] = witnessed(group, ways, options.runs, robot)
     finally:
         for each in (folder, sockets):
             shutil.rmtree(each, ignore_errors=True)

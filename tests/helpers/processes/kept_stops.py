@@ -1,131 +1,143 @@
-"""Ways in which a stop could get lost while a second program drives the robot, each checked by the witness.
+"""A stop that must hold, and a release that must last, whatever happens; judged by the witness.
 
-`held_through` stops the robot, performs one of these ways, and returns how long the witness saw it move after that.
-Then somebody else releases it, and it has to stay released when the same is done again.
+`held_through` stops a robot that a second program drives, lets something happen to it (a `Way` in which the stop could
+get lost), and watches the robot stand. Then somebody else releases it, and it has to drive on through the same once
+more. The ways are in `ways_to_lose_stops.py`.
 """
 
 from __future__ import annotations
 
 import contextlib
-import signal
-import subprocess
 import time
 from collections.abc import Callable, Iterator
-from functools import partial
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
 
-from processes.live_robot import DRIVER, RESTING, TIMEOUT_S, LiveRobot
+from processes.live_robot import DRIVER, MOVING, RESTING, TIMEOUT_S, LiveRobot
 from processes.losses import BRAKING, CONSOLE, WATCHED, Terminal, console, is_alive
 
-RECORDED = ("/emergency_stop/request", "/emergency_stop/arbiter", "/emergency_stop/base")
-Way = Callable[[LiveRobot, "Terminal | None"], None]
+Disturbance = Callable[[LiveRobot, Terminal], AbstractContextManager[None]]
+"""What happens to a stopped robot; inside the block it has begun, after the block it is over."""
 
 
-def _kill(*processes: subprocess.Popen[bytes]) -> None:
-    for each in processes:
-        each.kill()
-    for each in processes:
-        each.wait()
+def press(robot: LiveRobot, person: Terminal) -> None:
+    """Press the stop key in the console."""
+    person.type("!")
 
 
-def monitor_killed(robot: LiveRobot, person: Terminal | None) -> None:
-    """The safety monitor is killed (-9), and started again when that was seen."""
-    _kill(robot.monitor)
-    _wait(person, 1.0)
-    robot.start_monitor()
+@contextlib.contextmanager
+def unchanged(robot: LiveRobot) -> Iterator[list[str]]:
+    """A robot as it is, and a console on this machine; yields the console's arguments."""
+    yield CONSOLE
 
 
-def monitor_restarted(robot: LiveRobot, person: Terminal | None) -> None:
-    """The safety monitor is killed and restarted at once."""
-    _kill(robot.monitor)
-    robot.start_monitor()
+@contextlib.contextmanager
+def unrecorded(robot: LiveRobot) -> Iterator[None]:
+    """Nothing beside an earlier stop and its release."""
+    yield
 
 
-def base_restarted(robot: LiveRobot, person: Terminal | None) -> None:
-    """The base is killed and restarted at once."""
-    _kill(robot.base)
-    robot.start_base()
+@dataclass(frozen=True, kw_only=True)
+class Way:
+    """One way in which a stop could get lost.
 
+    `prepare` changes the robot and yields the arguments of the console, `beside_earlier_stop` surrounds a stop and a
+    release of the same console before, `stop` stops the robot. With `releases_within`, the release that has to last
+    also comes while the disturbance lasts. `in_background`: the robot is that of `bot-console up`.
+    """
 
-def both_restarted(robot: LiveRobot, person: Terminal | None) -> None:
-    """Both locks are killed before one of them is restarted."""
-    _kill(robot.monitor, robot.base)
-    robot.start_base()
-    robot.start_monitor()
-
-
-def both_ended(robot: LiveRobot, person: Terminal | None) -> None:
-    """Both locks shut down cleanly, as with `down`, and are restarted."""
-    for each in (robot.monitor, robot.base):
-        each.send_signal(signal.SIGINT)
-    for each in (robot.monitor, robot.base):
-        each.wait(TIMEOUT_S)
-    robot.start_base()
-    robot.start_monitor()
-
-
-def console_killed(robot: LiveRobot, person: Terminal | None) -> None:
-    """The console that has stopped the robot is killed, then both locks."""
-    if person is not None:
-        person.process.kill()
-        person.process.wait()
-    both_restarted(robot, None)
-
-
-def console_frozen(robot: LiveRobot, person: Terminal | None) -> None:
-    """The console that has stopped the robot is frozen while both locks restart."""
-    if person is not None:
-        person.process.send_signal(signal.SIGSTOP)
-    both_restarted(robot, None)
-    _wait(None, WATCHED)
-    if person is not None:
-        person.process.send_signal(signal.SIGCONT)
-
-
-def simulator_reset(robot: LiveRobot, person: Terminal | None) -> None:
-    """The world is reset."""
-    assert robot.typed("service", "call", "/reset", "std_srvs/srv/Trigger") == 0
-
-
-def bag_played(robot: LiveRobot, person: Terminal | None) -> None:
-    """All recorded stops and releases are replayed."""
-    assert robot.typed("bag", "play", str(robot.folder / "stops"), "--topics", *RECORDED) == 0
-
-
-WAYS: tuple[Way, ...] = (
-    monitor_killed, monitor_restarted, base_restarted, both_restarted, both_ended, console_killed, console_frozen,
-    simulator_reset, bag_played,
-)  # fmt: skip
+    name: str
+    disturb: Disturbance
+    prepare: Callable[[LiveRobot], AbstractContextManager[list[str]]] = unchanged
+    beside_earlier_stop: Callable[[LiveRobot], AbstractContextManager[None]] = unrecorded
+    stop: Callable[[LiveRobot, Terminal], None] = press
+    releases_within: bool = False
+    in_background: bool = False
 
 
 def held_through(way: Way, robot: LiveRobot) -> float:
-    """How long (s) the robot moved after it was stopped; raises if it moves later, or if a stop comes back."""
-    driver = robot.program(DRIVER, "cmd_vel")
-    try:
+    """How long (s) the robot went on after the stop; raises if it moves later, or if a released stop comes back."""
+    with contextlib.ExitStack() as ended_last:
+        words = ended_last.enter_context(way.prepare(robot))
+        driver = robot.program(DRIVER, "cmd_vel")
+        ended_last.callback(driver.wait)
+        ended_last.callback(driver.kill)
         robot.drives()
-        with recording(robot) if way is bag_played else contextlib.nullcontext():
-            assert robot.typed("stop", "an earlier stop") == 0
-            assert robot.typed("release") == 0
-        robot.drives()
-        with console(robot, CONSOLE) as person:
-            person.type("!")
-            person.read_until(lambda: b"held" in person.output, "the acknowledged stop")
-            held = time.monotonic()
-            way(robot, person)
-            _wait(person, WATCHED)
-            went_on = stands_since(robot, held)
-            assert robot.typed("release", "--all") == 0
-            robot.drives()
-            way(robot, person)
-            _wait(person, WATCHED)
-            robot.typed("release")  # the stop that a node of the robot made because of its restart
-            robot.drives()
-    finally:
-        driver.kill()
+        person = ended_last.enter_context(console(robot, words))
+        with way.beside_earlier_stop(robot):
+            _stop_and_release(robot, person)
+        way.stop(robot, person)
+        held = time.monotonic()
+        _until_rests(robot, person)
+        with way.disturb(robot, person):
+            wait(person, WATCHED)
+            stands_since(robot, held)
+        wait(person, WATCHED)
+        went_on = stands_since(robot, held)
+        release(robot)
+        with way.disturb(robot, person):
+            wait(person, WATCHED)
+        wait(person, WATCHED)
+        drives_after_restart(robot)
+        if way.releases_within:
+            way.stop(robot, person)
+            _until_rests(robot, person)
+            with way.disturb(robot, person):
+                wait(person, WATCHED)
+                drives_after_restart(robot, "--all")
+            wait(person, WATCHED)
+            drives_after_restart(robot)
     return went_on
 
 
+def _stop_and_release(robot: LiveRobot, person: Terminal) -> None:
+    """Press the stop key twice, as a person does who sees that the robot stands before it is released."""
+    person.type("!")
+    _until_rests(robot, person)
+    person.type("!")
+    began = time.monotonic()
+    robot.until(lambda: _drained(person) and any(speed > MOVING for _, speed in robot.speeds(began)), "driving robot")
+
+
+def _until_rests(robot: LiveRobot, person: Terminal) -> None:
+    """Wait until the witness has seen the robot stand for half a second."""
+
+    def rests() -> bool:
+        seen = robot.speeds(time.monotonic() - 0.5)
+        return _drained(person) and bool(seen) and all(speed <= RESTING for _, speed in seen)
+
+    robot.until(rests, "robot at rest")
+
+
+def _drained(person: Terminal) -> bool:
+    person.drain(0.05)
+    return True
+
+
+def release(robot: LiveRobot) -> None:
+    """Release everybody's stops from a shell, and wait until the robot drives."""
+    assert robot.typed("release", "--all") == 0
+    robot.drives()
+
+
+def drives_after_restart(robot: LiveRobot, *options: str) -> None:
+    """Release what nodes have stopped because of a restart, as often as one starts late, until the robot drives.
+
+    Without `--all`, no person's stop is released by this.
+    """
+    deadline = time.monotonic() + TIMEOUT_S
+    while True:
+        robot.typed("release", *options)
+        began = time.monotonic()
+        while time.monotonic() < began + WATCHED:
+            if any(speed > MOVING for _, speed in robot.speeds(began)):
+                return
+            time.sleep(0.05)
+        assert time.monotonic() < deadline, f"the stop came back: {robot.answer('status')} {robot.log()[-2000:]}"
+
+
 def stands_since(robot: LiveRobot, held: float) -> float:
-    """How long (s) it moved after a time; raises if it moves longer than it needs to brake, or is not seen."""
+    """How long (s) it went on after a moment; raises if it moves later than it needs to brake, or is not seen."""
     seen_until = time.monotonic()
     robot.until(lambda: any(moment > seen_until for moment, _ in robot.speeds(held)), "ground truth")
     moving = [moment - held for moment, speed in robot.speeds(held) if speed > RESTING]
@@ -133,32 +145,11 @@ def stands_since(robot: LiveRobot, held: float) -> float:
     return max(moving, default=0.0)
 
 
-@contextlib.contextmanager
-def recording(robot: LiveRobot) -> Iterator[None]:
-    """Record all messages about stops."""
-    recorder = robot.console("bag", "record", "--output", str(robot.folder / "stops"), *RECORDED)
-    _wait(None, WATCHED)
-    yield
-    _wait(None, 1.0)
-    recorder.send_signal(signal.SIGINT)
-    recorder.wait(TIMEOUT_S)
-
-
-def _wait(person: Terminal | None, seconds: float) -> None:
-    """Let time pass; a console's screen is read meanwhile, or its terminal would block."""
+def wait(person: Terminal | None, seconds: float) -> None:
+    """Let time go by; a console's screen is read meanwhile, or its terminal would stall."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         if person is not None and is_alive(person.process.pid):
             person.drain(0.1)
         else:
             time.sleep(0.1)
-
-
-def _named(way: Way) -> Callable[[LiveRobot], float]:
-    made = partial(held_through, way)
-    made.__name__ = way.__name__  # pyright: ignore[reportAttributeAccessIssue] -- a partial takes any attribute
-    return made
-
-
-KEPT = tuple(map(_named, WAYS))
-"""The ways, each as what `witnessed_runs` runs."""

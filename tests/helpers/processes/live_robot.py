@@ -19,16 +19,34 @@ TIMEOUT_S = 90.0
 WITNESS = """
 import time
 import rclpy
+from diagnostic_msgs.msg import DiagnosticStatus
 from nav_msgs.msg import Odometry
+from rclpy.qos import DurabilityPolicy, QoSProfile
 
 rclpy.init()
 node = rclpy.create_node("witness")
-def tell(message):
+
+def moved(message):
     twist = message.twist.twist
-    print(time.monotonic(), max(abs(twist.linear.x), abs(twist.angular.z)), flush=True)
-node.create_subscription(Odometry, "ground_truth", tell, 10)
+    print("speed", time.monotonic(), max(abs(twist.linear.x), abs(twist.angular.z)), flush=True)
+
+def requested(message):
+    values = {each.key: each.value for each in message.values}
+    if values.get("request") == "release":
+        print("release", values.get("ids", "").replace(" ", ""), flush=True)
+
+def reported(message):
+    values = {each.key: each.value for each in message.values}
+    print("lock", message.hardware_id, values.get("instance"), flush=True)
+
+node.create_subscription(Odometry, "ground_truth", moved, 10)
+node.create_subscription(DiagnosticStatus, "emergency_stop/request", requested, 100)
+latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+for each in ("arbiter", "base"):
+    node.create_subscription(DiagnosticStatus, "emergency_stop/" + each, reported, latched)
 rclpy.spin(node)
 """
+"""Prints the robot's speed, the releases that are requested, and which start of each lock reports."""
 
 DRIVER = """
 import sys
@@ -89,27 +107,47 @@ class LiveRobot:
         self.folder = folder
         self.environment = {**os.environ, **environment}
         self._seen: list[tuple[float, float]] = []
+        self.releases: list[str] = []
+        """The ids in each release that the witness has seen, as JSON."""
+        self.instances: dict[str, list[str]] = {}
+        """By lock, its starts that the witness has seen."""
         self._started: list[subprocess.Popen[bytes]] = []
         self._log = (folder / "robot.log").open("ab")
-        (folder / "system.launch.py").write_text(SYSTEM)
-        self.console("--headless", "--duration", "1e9", "--launch", str(folder / "system.launch.py"), "--no-simulator")
-        self.base = self.start_base()
-        self.monitor = self.start_monitor()
+        self.start()
         witness = self.program(WITNESS, stdout=subprocess.PIPE)
         threading.Thread(target=self._read, args=(witness,), daemon=True).start()
+
+    def start(self) -> None:
+        """Start everything but the witness."""
+        path = self.folder / "system.launch.py"
+        path.write_text(SYSTEM)
+        self.console("--headless", "--duration", "1e9", "--launch", str(path), "--no-simulator")
+        self.base = self.start_base()
+        self.monitor = self.start_monitor()
 
     def _read(self, witness: subprocess.Popen[bytes]) -> None:
         assert witness.stdout is not None
         for line in witness.stdout:
-            moment, speed = line.split()
-            self._seen.append((float(moment), float(speed)))
+            match line.decode().split():
+                case ["speed", moment, speed]:
+                    self._seen.append((float(moment), float(speed)))
+                case ["release", ids]:
+                    self.releases.append(ids)
+                case ["lock", name, instance]:
+                    known = self.instances.setdefault(name, [])
+                    if instance not in known:
+                        known.append(instance)
+                case _:
+                    pass  # the runtime's own lines
 
-    def console(self, *words: str, stdout: int | None = None) -> subprocess.Popen[bytes]:
-        """Start a `bot-console` command line."""
+    def console(
+        self, *words: str | bytes, stdout: int | None = None, environment: Mapping[str, str] | None = None
+    ) -> subprocess.Popen[bytes]:
+        """Start a command line of the program."""
         line = [sys.executable, "-m", "bot_console.tui", *words]
         process = subprocess.Popen(
-            line, cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL, stderr=self._log,
-            stdout=self._log if stdout is None else stdout, start_new_session=True,
+            line, cwd=self.folder, env={**self.environment, **(environment or {})}, stdin=subprocess.DEVNULL,
+            stdout=self._log if stdout is None else stdout, stderr=self._log, start_new_session=True,
         )  # fmt: skip
         self._started.append(process)
         return process
@@ -130,9 +168,13 @@ class LiveRobot:
         self.monitor = self.console("run", "bot_console_robot", "safety_node")
         return self.monitor
 
-    def typed(self, *words: str) -> int:
+    def typed(self, *words: str | bytes, environment: Mapping[str, str] | None = None) -> int:
         """Run a command line to its end; returns its exit code."""
-        return self.console(*words).wait(TIMEOUT_S)
+        return self.console(*words, environment=environment).wait(TIMEOUT_S)
+
+    def answer(self, *words: str) -> str:
+        """Run a command line to its end; returns what it prints."""
+        return self.console(*words, stdout=subprocess.PIPE).communicate(timeout=TIMEOUT_S)[0].decode()
 
     def speeds(self, since: float, until: float = float("inf")) -> list[tuple[float, float]]:
         """What the witness has seen between two times of `time.monotonic`."""
@@ -142,7 +184,7 @@ class LiveRobot:
         """Wait for a condition."""
         deadline = time.monotonic() + TIMEOUT_S
         while not true():
-            assert time.monotonic() < deadline, f"no {what}: {(self.folder / 'robot.log').read_text()[-3000:]}"
+            assert time.monotonic() < deadline, f"no {what}: {self.log()[-3000:]}"
             time.sleep(0.02)
 
     def drives(self) -> None:
@@ -162,6 +204,10 @@ class LiveRobot:
         assert last <= within, f"it moves {last:.2f} s after it was to stand"
         return last
 
+    def log(self) -> str:
+        """What all its processes have printed."""
+        return (self.folder / "robot.log").read_text(errors="replace")
+
     def close(self) -> None:
         """End all processes."""
         for each in self._started:
@@ -172,13 +218,26 @@ class LiveRobot:
         self._log.close()
 
 
+class BackgroundRobot(LiveRobot):
+    """The robot that `up` starts, with both locks in one process."""
+
+    def start(self) -> None:
+        """Start it."""
+        assert self.typed("up", "indoor") == 0, self.log()
+
+    def close(self) -> None:
+        """End it, and everything else."""
+        self.typed("down")
+        super().close()
+
+
 @contextlib.contextmanager
-def live_robot(folder: Path, sockets: Path, domain: int = 77) -> Iterator[LiveRobot]:
-    """A driving robot, in a separate domain; `sockets` must be a short path."""
+def live_robot(folder: Path, sockets: Path, domain: int = 77, kind: type[LiveRobot] = LiveRobot) -> Iterator[LiveRobot]:
+    """A driving robot, in a domain of its own; `sockets` must be a short path."""
     sockets.mkdir(mode=0o700, exist_ok=True)
-    robot = LiveRobot(
+    robot = kind(
         folder, {"BOT_CONSOLE_SOCKET_DIR": str(sockets), "ROS_DOMAIN_ID": str(domain), "ROS_HOME": str(folder),
-                 "XDG_STATE_HOME": str(folder), "OMP_NUM_THREADS": "1"},
+                 "XDG_STATE_HOME": str(folder), "XDG_CONFIG_HOME": str(folder), "OMP_NUM_THREADS": "1"},
     )  # fmt: skip
     try:
         robot.drives()

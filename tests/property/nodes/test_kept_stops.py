@@ -155,6 +155,26 @@ class Stops(RuleBasedStateMachine):
         self.release(name, everybody=True)
         self.deliver_all()
 
+    @rule(name=CONSOLES, count=st.integers(1, 3), at_once=st.booleans())
+    def type_letters(self, name: str, count: int, at_once: bool) -> None:
+        """Keys hold the robot until they turn out to be letters; then none of them does."""
+        link, ids = self.consoles[name][1], list[str]()
+        for _ in range(count):
+            ids.append(link.add_stop("a letter"))
+            if not at_once:
+                self.withdraw(link, ids[-1:])
+        if at_once:
+            self.withdraw(link, ids)
+        for _ in range(count + 1):
+            self.now += 0.1
+            self.deliver_all()
+        assert not any(lock.lock.ids.intersection(ids) for _, lock in self.locks.values())
+
+    def withdraw(self, link: StopLink, ids: list[str]) -> None:
+        self.named |= set(ids)
+        for each in ids:
+            link.withdraw(each)
+
     @precondition(lambda self: self.bus.pending)
     @rule(index=ANY)
     def lose(self, index: int) -> None:

@@ -83,6 +83,8 @@ class StopLink:
         self.holder = encodable(holder) or f"bot-console of {user()} (pid {os.getpid()})"
         self._key = encodable(key) or uuid.uuid4().hex
         self._watching: dict[str, Any] = {}
+        self._watches: dict[str, object] = {}
+        """By topic, what distinguishes its present subscription from earlier ones."""
         self._states: dict[str, LockState] = {}
         self._reported_at: dict[str, float] = {}
         self._requests: dict[str, Any] = {}
@@ -93,6 +95,7 @@ class StopLink:
         self._releasing: frozenset[str] = frozenset()
         """The ids of stops to release; for older locks the keys of their requesters."""
         self._releasing_own: frozenset[str] = frozenset()
+        """Those of them that are this requester's own."""
         self._release_until = 0.0
         self._steered_at = 0.0
         self.steering = False
@@ -104,21 +107,28 @@ class StopLink:
         """Watch the locks among these topics of type `DiagnosticStatus`."""
         found = {each for each in topics if is_lock(each)}
         for gone in set(self._watching) - found:
+            with self._changed:
+                self._watches.pop(gone)
+                self._states.pop(gone, None)
+                self._reported_at.pop(gone, None)
             self._node.destroy_subscription(self._watching.pop(gone))
-            self._states.pop(gone, None)
-            self._reported_at.pop(gone, None)
         for topic in found - set(self._watching):
             requests = topic.rpartition("/")[0] + "/" + REQUEST
             if requests not in self._requests:
                 self._requests[requests] = self._node.create_publisher(DiagnosticStatus, requests, 10)
+            self._watches[topic] = watch = object()
             self._watching[topic] = self._node.create_subscription(
-                DiagnosticStatus, topic, partial(self._on_state, topic), LATCHED
+                DiagnosticStatus, topic, partial(self._on_state, topic, watch), LATCHED
             )
         self._update()
 
-    def _on_state(self, topic: str, message: DiagnosticStatus) -> None:
-        self._states[topic] = LockState.of({each.key: each.value for each in message.values})
-        self._reported_at[topic] = time.monotonic()
+    def _on_state(self, topic: str, watch: object, message: DiagnosticStatus) -> None:
+        state = LockState.of({each.key: each.value for each in message.values})
+        with self._changed:
+            if self._watches.get(topic) is not watch:
+                return  # from a subscription that is gone: nothing would ever replace this state
+            self._states[topic] = state
+            self._reported_at[topic] = time.monotonic()
         self._update()
         if self.stopping and time.monotonic() - self._sent_at >= MIN_REPEAT_S:
             self._send_stops()
@@ -161,7 +171,7 @@ class StopLink:
         held = bool(states) and all(each.locked for each in states)
         confirmed = held and all(state.holds(id, self._key) for state in states for id in self._requested)
         confirmed = confirmed and not self._silent_locks()
-        if states and all(each.heard and not self._lacks_release(each) for each in states):
+        if states and all(each.heard and self._has_released(each) for each in states):
             self._releasing = frozenset()
         known = {each.id: each for state in states for each in state.stops}
         stops = tuple(
@@ -188,15 +198,14 @@ class StopLink:
     def _is_own(self, id: str, key: str) -> bool:
         return key == self._key or id in self._requested
 
-    def _lacks_release(self, state: LockState) -> bool:
-        """Whether a lock still has to receive the release.
+    def _has_released(self, state: LockState) -> bool:
+        """Whether a lock has acknowledged a release. That it lacks the stops is not enough: they may be on their way.
 
-        A lock that does not hold one of our own stops may only not have received it yet, so it has to report that stop
-        as released. An older lock cannot, and does not distinguish stops of one key.
+        An older lock reports no releases, and does not tell the stops of a key apart.
         """
-        if any(each.id in self._releasing or not each.id for each in state.stops):
-            return True
-        return state.released is not None and not self._releasing_own <= state.released.keys()
+        if state.released is not None:
+            return self._releasing - {self._key} <= state.released.keys()
+        return not any(each.id in self._releasing or not each.id for each in state.stops)
 
     def stop(self, reason: str, *, kept: bool = True) -> str:
         """Lock until released; returns the id of the stop, which is the same while a stop of its kind holds.
@@ -220,7 +229,8 @@ class StopLink:
     def _request(self, id: str, stop: RequestedStop) -> str:
         with self._changed:
             self._requested.setdefault(id, stop)
-            self._releasing = frozenset()  # an older lock would take it for a release of this stop, too
+            # Not our key, which an older lock would take for a release of this stop too, nor what others hold.
+            self._releasing &= self._releasing_own
         self._send_stops()
         self._update()
         return id
@@ -231,20 +241,21 @@ class StopLink:
             own = {each.id for state in self._states.values() for each in state.stops if each.key == self._key}
             left = {id: each for id, each in self._requested.items() if each.alone}
             ids = {*self._requested, *own, *others} - left.keys()
-            self._releasing_own = frozenset(self._requested.keys() - left.keys())
             self._requested = left
-        self._release(ids)
+        self._release(ids, ids - set(others))
 
     def withdraw(self, id: str) -> None:
         """Withdraw a single one of our own stops."""
         with self._changed:
             self._requested.pop(id, None)
-            self._releasing_own = frozenset({id})
-        self._release({id})
+        self._release({id}, {id})
 
-    def _release(self, ids: Collection[str]) -> None:
-        # For an older lock our key stands for all our stops, so it is released with the last of them.
-        self._releasing = frozenset(ids if self._requested else {*ids, self._key})
+    def _release(self, ids: Collection[str], own: Collection[str]) -> None:
+        """Release these stops beside those of an earlier release that no lock has acknowledged yet."""
+        with self._changed:
+            # For an older lock our key stands for all our stops: it is released with the last of them.
+            self._releasing = self._releasing.union(ids if self._requested else {*ids, self._key})
+            self._releasing_own = self._releasing & self._releasing_own.union(own)
         self._release_until = time.monotonic() + RELEASE_TIMEOUT_S
         self._send_release()
         self._update()

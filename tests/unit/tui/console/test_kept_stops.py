@@ -6,11 +6,17 @@ import json
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
-from bot_console.tui.console.robot.stop_link import StopLink
-from bot_console_robot.safety.emergency_stop import BASE, LATCHED, EmergencyStop
+from bot_console.tui.console.robot import stop_link
+from bot_console.tui.console.robot.stop_link import REPORT_TIMEOUT_S, StopLink
+from bot_console_robot.safety.emergency_stop import ARBITER, BASE, LATCHED, EmergencyStop
+from bot_console_robot.safety.lock import Lock, Stop
+from bot_console_robot.safety.stop_messages import State, state_message
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from fakes.lossy_bus import BusNode, LossyBus
 from stop_rig import REQUEST, StopRig
 
 Disturbance = Callable[[StopRig], object]
@@ -166,6 +172,23 @@ def test_a_lock_that_no_longer_reports_confirms_nothing(rig: StopRig, monkeypatc
     assert anna.info.confirmed
 
 
+def test_a_report_that_comes_after_its_lock_has_gone_counts_for_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    bus, now = LossyBus(), [0.0]
+    monkeypatch.setattr(stop_link, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    arbiter, base = f"/{ARBITER}", f"/{BASE}"
+    anna = StopLink(cast(Any, BusNode(bus, "anna")), "anna", "anna")
+    anna.follow({arbiter, base})
+    held = Lock().with_stop(Stop(anna.stop("the arm swings"), "anna"))
+    report = state_message(State(held, instance="1", challenge="any"), "lock")
+    bus.send(base, report)
+    anna.follow({arbiter})
+    bus.settle()
+    now[0] = 2 * REPORT_TIMEOUT_S
+    bus.send(arbiter, report)
+    bus.settle()
+    assert anna.info.locks == 1 and anna.info.confirmed
+
+
 def test_a_stop_without_locks_is_unconfirmed_and_sent_to_new_locks(
     rig: StopRig,
 ) -> None:
@@ -193,6 +216,20 @@ def test_one_of_two_stops_of_a_console_can_be_withdrawn_alone(rig: StopRig) -> N
     anna.withdraw(first)
     rig.settle(2)
     assert not held(rig)
+
+
+@pytest.mark.parametrize("interleaved", [False, True])
+def test_stops_that_are_withdrawn_one_after_the_other_are_all_released(rig: StopRig, interleaved: bool) -> None:
+    """Each release changes the challenge that the next one has to quote."""
+    anna = rig.links["anna"]
+    if interleaved:
+        for _ in range(3):
+            anna.withdraw(anna.add_stop("! typed while keys were waiting"))
+    else:
+        for each in [anna.add_stop("! typed while keys were waiting") for _ in range(3)]:
+            anna.withdraw(each)
+    rig.settle(4)
+    assert not held(rig) and not anna.releasing
 
 
 def test_a_stop_made_by_the_console_itself_ends_with_robot_and_console(rig: StopRig) -> None:

@@ -1,0 +1,391 @@
+"""The ways in which a stop could get lost, as `kept_stops.held_through` goes through them."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from bot_console.tui.console.parameters.history import History
+
+from processes.bad_link import BadLink
+from processes.kept_stops import Way, drives_after_restart, wait
+from processes.live_robot import TIMEOUT_S, LiveRobot
+from processes.losses import CONSOLE, WATCHED, Terminal, console
+from processes.ports import free_port
+
+RECORDED = ("/emergency_stop/request", "/emergency_stop/arbiter", "/emergency_stop/base")
+MONITOR, BASE = "safety_monitor", "simulator"
+ESCAPE = "\x1b"
+MOVES = "".join(f"\x1b[<35;{10 + at % 90};{5 + at % 30}M" for at in range(15_000))
+FLOOD = MOVES + "\x1b[<65;60;20M" * 2000 + "12345678" * 200 + MOVES
+"""Mouse moves, wheel steps and keys that change the pane."""
+UNREADABLE_ROW = """
+    (run, stamp, node, name, old, new, source, accepted, reason, part_of)
+    VALUES (1, 1, '/robot', 'speed', '0.5', '1.0', 'edit', 1, CAST(x'ff41' AS TEXT), '')
+"""
+FAKETIME = Path("/usr/lib/x86_64-linux-gnu/faketime/libfaketimeMT.so.1")
+JUMPS = ("+7h", "-7h", "+0")
+RESPAWNED = """
+import sys
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess
+
+START = "import os, sys; open(sys.argv[1], 'w').write(str(os.getpid())); os.execv(sys.executable, sys.argv[2:])"
+
+
+def lock(name, executable):
+    line = [sys.executable, "-m", "bot_console.tui", "run", "bot_console_robot", executable]
+    return ExecuteProcess(cmd=[sys.executable, "-c", START, name + ".pid", *line], respawn=True, respawn_delay=0.2)
+
+
+def generate_launch_description():
+    return LaunchDescription([lock("safety_monitor", "safety_node"), lock("simulator", "simulator_node")])
+"""
+"""Both locks, which launch starts again when they end."""
+
+
+def instant(happen: Callable[[LiveRobot, Terminal], None]) -> Callable[..., contextlib.AbstractContextManager[None]]:
+    """A disturbance that is over when it has happened."""
+
+    @contextlib.contextmanager
+    def disturb(robot: LiveRobot, person: Terminal) -> Iterator[None]:
+        happen(robot, person)
+        yield
+
+    return disturb
+
+
+def kill(*processes: subprocess.Popen[bytes]) -> None:
+    """Kill (-9) all of them before one is waited for."""
+    for each in processes:
+        each.kill()
+    for each in processes:
+        each.wait()
+
+
+def monitor_killed(robot: LiveRobot, person: Terminal) -> None:
+    """The safety monitor is killed (-9), and started again when that was seen."""
+    kill(robot.monitor)
+    wait(person, 1.0)
+    robot.start_monitor()
+
+
+def monitor_restarted(robot: LiveRobot, person: Terminal) -> None:
+    """The safety monitor is killed and started at once."""
+    kill(robot.monitor)
+    robot.start_monitor()
+
+
+def base_restarted(robot: LiveRobot, person: Terminal) -> None:
+    """The base is killed and started at once."""
+    kill(robot.base)
+    robot.start_base()
+
+
+def both_restarted(robot: LiveRobot, person: Terminal | None) -> None:
+    """Both locks are killed before one of them starts."""
+    kill(robot.monitor, robot.base)
+    robot.start_base()
+    robot.start_monitor()
+
+
+def both_ended(robot: LiveRobot, person: Terminal) -> None:
+    """Both locks end in order and start again."""
+    for each in (robot.monitor, robot.base):
+        each.send_signal(signal.SIGINT)
+    for each in (robot.monitor, robot.base):
+        each.wait(TIMEOUT_S)
+    robot.start_base()
+    robot.start_monitor()
+
+
+@contextlib.contextmanager
+def respawning(robot: LiveRobot) -> Iterator[list[str]]:
+    """The locks are processes of a launch file that starts them again."""
+    kill(robot.monitor, robot.base)
+    file = robot.folder / "respawned.launch.py"
+    file.write_text(RESPAWNED)
+    launched = robot.console("launch", str(file))
+    try:
+        robot.drives()
+        yield CONSOLE
+    finally:
+        launched.send_signal(signal.SIGINT)
+        launched.wait(TIMEOUT_S)
+        robot.start_base()
+        robot.start_monitor()
+
+
+def both_respawned(robot: LiveRobot, person: Terminal) -> None:
+    """Both locks are killed, and their launch file starts them again."""
+    with starting_again(robot, person):
+        for each in (MONITOR, BASE):
+            os.kill(int((robot.folder / f"{each}.pid").read_text()), signal.SIGKILL)
+
+
+@contextlib.contextmanager
+def starting_again(robot: LiveRobot, person: Terminal) -> Iterator[None]:
+    """Raises unless both locks are started again because of what is done in the block."""
+    before = {name: len(robot.instances[name]) for name in (MONITOR, BASE)}
+    yield
+    deadline = time.monotonic() + TIMEOUT_S
+    while any(len(robot.instances[name]) == count for name, count in before.items()):
+        assert time.monotonic() < deadline, f"the locks were not started again: {person.output[-800:]!r}"
+        wait(person, 0.1)
+
+
+def relaunched(robot: LiveRobot, person: Terminal) -> None:
+    """Another console restarts everything that was launched, from its pane Launch."""
+    with starting_again(robot, person), console(robot, [*CONSOLE, "--pane", "launch"]) as other:
+        wait(other, 1.0)
+        other.type("g")
+        wait(other, 0.3)
+        other.type("r")
+        wait(other, 1.5)
+        other.type("y")
+        wait(other, 3.0)
+
+
+def another_world(robot: LiveRobot, person: Terminal) -> None:
+    """Another console applies another profile and resets the simulator into its world."""
+    before = _world(robot, person)
+    name = "outdoor" if "warehouse" in before else "warehouse"
+    with console(robot, [*CONSOLE, "--pane", "profiles"]) as other:
+        wait(other, 2.0)
+        other.type(f"/{name}\r")
+        wait(other, 1.0)
+        other.type("w")
+        deadline = time.monotonic() + TIMEOUT_S
+        while name not in _world(robot, other):
+            assert time.monotonic() < deadline, f"no other world: {other.output[-800:]!r}"
+            other.type("y")  # to the question whether limits may be raised, once it is there
+
+
+def _world(robot: LiveRobot, meanwhile: Terminal) -> str:
+    """The world of the simulator; the screen of a console is read until it is known."""
+    asked = robot.console("param", "get", "/simulator", "world", stdout=subprocess.PIPE)
+    while asked.poll() is None:
+        wait(meanwhile, 0.1)
+    return asked.communicate()[0].decode()
+
+
+def up_again(robot: LiveRobot, person: Terminal) -> None:
+    """Somebody starts the system again while it runs, which is refused."""
+    assert [robot.typed("up"), robot.typed("up", "warehouse")] == [1, 1]
+
+
+def down_and_up(robot: LiveRobot, person: Terminal) -> None:
+    """The system ends and starts again."""
+    with starting_again(robot, person):
+        assert robot.typed("down") == 0
+        assert robot.typed("up", "indoor") == 0
+
+
+def console_killed(robot: LiveRobot, person: Terminal) -> None:
+    """The console that has stopped it is killed, and then both locks."""
+    kill(person.process)
+    both_restarted(robot, person)
+
+
+@contextlib.contextmanager
+def console_frozen(robot: LiveRobot, person: Terminal) -> Iterator[None]:
+    """The console that has stopped it is frozen while both locks restart, and goes on later."""
+    person.process.send_signal(signal.SIGSTOP)
+    both_restarted(robot, person)
+    yield
+    person.process.send_signal(signal.SIGCONT)
+
+
+class FarConsole:
+    """A console that reaches the robot through a router and a link that can be cut."""
+
+    def __init__(self) -> None:
+        self._link: BadLink | None = None
+
+    @contextlib.contextmanager
+    def prepare(self, robot: LiveRobot) -> Iterator[list[str]]:
+        """Open the router and the link."""
+        port = free_port()
+        router = robot.console("router", "--mesh", "--listen", f"tcp/127.0.0.1:{port}")
+        self._link = BadLink(port)
+        try:
+            yield [*CONSOLE, "--connect", f"tcp/127.0.0.1:{self._link.port}"]
+        finally:
+            self._link.close()
+            kill(router)
+
+    @contextlib.contextmanager
+    def cut(self, robot: LiveRobot, person: Terminal) -> Iterator[None]:
+        """The link is cut while both locks restart, and passes again later."""
+        assert self._link is not None
+        self._link.cut()
+        both_restarted(robot, person)
+        yield
+        self._link.hint()
+
+
+def simulator_reset(robot: LiveRobot, person: Terminal) -> None:
+    """The world starts again."""
+    assert robot.typed("service", "call", "/reset", "std_srvs/srv/Trigger") == 0
+
+
+@contextlib.contextmanager
+def recording(robot: LiveRobot) -> Iterator[None]:
+    """Record what is sent about stops."""
+    bag = robot.folder / "stops"
+    shutil.rmtree(bag, ignore_errors=True)
+    recorder = robot.console("bag", "record", "--output", str(bag), *RECORDED)
+    wait(None, WATCHED)
+    yield
+    wait(None, 1.0)
+    recorder.send_signal(signal.SIGINT)
+    recorder.wait(TIMEOUT_S)
+
+
+def bag_played(robot: LiveRobot, person: Terminal) -> None:
+    """All that was recorded of an earlier stop and its release is sent again; the witness must see the release."""
+    before = list(robot.releases)
+    assert robot.typed("bag", "play", str(robot.folder / "stops"), "--topics", *RECORDED) == 0
+    robot.until(lambda: len(robot.releases) > len(before), "release of the bag")
+    assert set(robot.releases[len(before) :]) <= set(before), "another release than the recorded one"
+
+
+class Clocks:
+    """The system clock of all the robot's processes and consoles, which jumps."""
+
+    def __init__(self) -> None:
+        self._file = Path()
+
+    @contextlib.contextmanager
+    def prepare(self, robot: LiveRobot) -> Iterator[list[str]]:
+        """Start the locks and the console with a clock that can be set; monotonic clocks go on."""
+        self._file, before = robot.folder / "clock", dict(robot.environment)
+        self._set("+0")
+        robot.environment |= {
+            "LD_PRELOAD": str(FAKETIME), "FAKETIME_TIMESTAMP_FILE": str(self._file), "FAKETIME_NO_CACHE": "1",
+            "FAKETIME_DONT_FAKE_MONOTONIC": "1",
+        }  # fmt: skip
+        try:
+            both_restarted_and_free(robot)
+            yield CONSOLE
+        finally:
+            robot.environment.clear()
+            robot.environment.update(before)
+            both_restarted_and_free(robot)
+
+    def _set(self, offset: str) -> None:
+        self._file.write_text(f"{offset}\n")
+
+    def jump(self, robot: LiveRobot, person: Terminal) -> None:
+        """The clock jumps by hours in both directions, and both locks restart between the jumps."""
+        for each in JUMPS:
+            self._set(each)
+            line = [sys.executable, "-c", "import time; print(time.time())"]
+            shown = float(subprocess.run(line, env=robot.environment, capture_output=True, check=True).stdout)
+            assert each == "+0" or abs(shown - time.time()) > 6 * 3600, "the clock does not jump"
+            wait(person, 1.0)
+            both_restarted(robot, person)
+            wait(person, 1.0)
+
+
+def both_restarted_and_free(robot: LiveRobot) -> None:
+    """Restart both locks, and release what they hold because of it."""
+    both_restarted(robot, None)
+    drives_after_restart(robot)
+
+
+def send(person: Terminal, text: str) -> None:
+    """Type much, reading the screen meanwhile."""
+    for at in range(0, len(text), 2048):
+        person.type(text[at : at + 2048])
+        person.drain(0.001)
+
+
+def press_behind_flood(robot: LiveRobot, person: Terminal) -> None:
+    """Press the stop key behind thousands of mouse moves, wheel steps and keys."""
+    send(person, FLOOD + "!")
+
+
+def flood(robot: LiveRobot, person: Terminal) -> None:
+    """Thousands of mouse moves, wheel steps and keys."""
+    send(person, FLOOD)
+
+
+def press_on_help(robot: LiveRobot, person: Terminal) -> None:
+    """Press the stop key while another screen covers the panes."""
+    person.type("?")
+    wait(person, 1.0)
+    person.type("!")
+
+
+def typed_in_prompt(robot: LiveRobot, person: Terminal) -> None:
+    """The stop key is a letter of a line that is typed, alone and behind other input."""
+    person.type(ESCAPE)
+    wait(person, 0.3)
+    person.type(":")
+    wait(person, 0.5)
+    person.type("!")
+    wait(person, 0.5)
+    send(person, MOVES + "echo !!! !")
+    wait(person, 1.0)
+    person.type(ESCAPE)
+    wait(person, 0.5)
+
+
+@contextlib.contextmanager
+def unreadable_stores(robot: LiveRobot) -> Iterator[list[str]]:
+    """What the console keeps for itself contains something else."""
+    folder = robot.folder / "bot-console"
+    History(folder / "history.sqlite", 1).close()
+    with contextlib.closing(sqlite3.connect(folder / "history.sqlite")) as link, link:
+        link.execute(f"INSERT INTO changes {UNREADABLE_ROW}")
+    for each in folder.glob("*.*"):
+        if each.suffix in (".json", ".yaml"):
+            each.write_bytes(b"\xff{")
+    yield CONSOLE
+
+
+def stop_with_undecodable_text(robot: LiveRobot, person: Terminal) -> None:
+    """Stop from a shell for a reason, and as a user, that are not UTF-8."""
+    environment = {name: "\udcff" for name in ("LOGNAME", "USER")}
+    assert robot.typed("stop", b"\xff too close", environment=environment) == 0
+
+
+def damaged_stop_file(robot: LiveRobot, person: Terminal) -> None:
+    """The file in which stops are kept is damaged, and both locks restart."""
+    (robot.folder / "bot-console" / "stops" / f"domain-{robot.environment['ROS_DOMAIN_ID']}.json").write_bytes(b"\xff{")
+    both_restarted(robot, person)
+
+
+_far, _clocks = FarConsole(), Clocks()
+WAYS: tuple[Way, ...] = (
+    Way(name="monitor killed", disturb=instant(monitor_killed)),
+    Way(name="monitor restarted", disturb=instant(monitor_restarted)),
+    Way(name="base restarted", disturb=instant(base_restarted)),
+    Way(name="both restarted", disturb=instant(both_restarted)),
+    Way(name="both ended", disturb=instant(both_ended)),
+    Way(name="both respawned", disturb=instant(both_respawned), prepare=respawning),
+    Way(name="console killed", disturb=instant(console_killed)),
+    Way(name="console frozen", disturb=console_frozen, releases_within=True),
+    Way(name="link cut", disturb=_far.cut, prepare=_far.prepare, releases_within=True),
+    Way(name="simulator reset", disturb=instant(simulator_reset)),
+    Way(name="bag played", disturb=instant(bag_played), beside_earlier_stop=recording),
+    Way(name="clock jump", disturb=instant(_clocks.jump), prepare=_clocks.prepare),
+    Way(name="mouse flood", disturb=instant(flood), stop=press_behind_flood),
+    Way(name="key in a prompt", disturb=instant(typed_in_prompt), stop=press_on_help),
+    Way(name="unreadable store", disturb=instant(both_restarted), prepare=unreadable_stores),
+    Way(name="unreadable stop file", disturb=instant(damaged_stop_file)),
+    Way(name="undecodable text", disturb=instant(both_restarted), stop=stop_with_undecodable_text),
+    Way(name="relaunched", disturb=instant(relaunched), in_background=True),
+    Way(name="another world", disturb=instant(another_world), in_background=True),
+    Way(name="up again", disturb=instant(up_again), in_background=True),
+    Way(name="down and up", disturb=instant(down_and_up), in_background=True),
+)
