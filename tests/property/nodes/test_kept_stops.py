@@ -156,7 +156,7 @@ class Stops(RuleBasedStateMachine):
         self.deliver_all()
 
     @rule(name=CONSOLES, count=st.integers(1, 3), at_once=st.booleans())
-    def type_letters(self, name: str, count: int, at_once: bool) -> None:
+    def type_in_text_field(self, name: str, count: int, at_once: bool) -> None:
         """Keys hold the robot until they turn out to be letters; then none of them does."""
         link, ids = self.consoles[name][1], list[str]()
         for _ in range(count):
