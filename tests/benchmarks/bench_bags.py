@@ -1,8 +1,8 @@
 """What keeping and recording cost: `python tests/benchmarks/bench_bags.py [SECONDS]`, JSON out. Linux; four minutes.
 
 The default robot and its console in a pseudo-terminal of 120x40: percent of a processor that console, nodes and
-simulator take together while nothing is kept, while the last minutes are (`Z`), and while all topics are recorded as
-well (`R`). Each is the mean of two runs, in turn, and `more` is what it takes beside nothing.
+simulator use together while nothing is kept, while the last minutes are kept (`Z`), and while all topics are recorded
+as well (`R`). Each is the mean of two alternating runs, and `more` is the difference to keeping nothing.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def cost(minutes: int, recorded: bool, seconds: float) -> float:
 
 
 def _cpu(root: int) -> float:
-    """Processor time (s) of a process and all below it."""
+    """Processor time (s) of a process and its descendants."""
     used = 0.0
     for pid in _tree(root):
         with open(f"/proc/{pid}/stat", "rb") as file:

@@ -1,8 +1,8 @@
 """How much faster than real time the complete system runs: `python tests/benchmarks/bench_headless.py`, JSON out.
 
-Each run is `bot-console --headless --fast` in a process of its own. `factor` is simulated seconds by CPU seconds of the
-whole process, its start included; `steady_factor` leaves the start out: the difference of a long run and a short one.
-Medians of some runs, with the lowest and the highest.
+Each run is a separate `bot-console --headless --fast`. `factor` is simulated seconds divided by CPU seconds of the
+whole process, including its start; `steady_factor` excludes the start: it is computed from the difference between a
+long run and a short one. Medians of several runs, with the lowest and the highest.
 """
 
 from __future__ import annotations

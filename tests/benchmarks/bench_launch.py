@@ -1,8 +1,9 @@
 """What large launches cost: `python tests/benchmarks/bench_launch.py [--repeats N]`, JSON out.
 
-Each run is a launch in a process of its own; its CPU seconds include the start of the interpreter, which `start` shows
-alone. `nodes` starts 200 nodes and stops them when all have said that they are up: each must end cleanly. `includes_*`
-reads 1000 launch files in 20 chains, each 50 deep. Medians of some runs, with the lowest and the highest.
+Each run is a launch in a separate process; its CPU seconds include the start of the interpreter, which `start` shows
+alone. `nodes` starts 200 nodes and stops them when all have reported that they are up: each must end cleanly.
+`includes_*` reads 1000 launch files in 20 chains, each 50 deep. Medians of several runs, with the lowest and the
+highest.
 """
 
 from __future__ import annotations
@@ -112,7 +113,9 @@ GOALS = {"nodes": 3.0, "includes_python": 5.0, "includes_xml": 5.0}
 
 
 def cpu_of_launch(make: Callable[[Path], Path], message: str, times: int) -> float:
-    """CPU seconds of a launch to its end; raises `RuntimeError` unless it ends well and says something so often."""
+    """CPU seconds of a launch to its end; raises `RuntimeError` unless it succeeds and prints `message` so many
+    times.
+    """
     with tempfile.TemporaryDirectory() as folder:
         path = make(Path(folder))
         environment = {**os.environ, "ROS_LOG_DIR": folder, "PYTHONDONTWRITEBYTECODE": "1"}

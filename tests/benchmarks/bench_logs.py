@@ -1,7 +1,7 @@
 """What the log costs: `python tests/benchmarks/bench_logs.py [RECORDS]`, JSON out.
 
-Processor time in ms for so many records (default 1,000,000), medians with spread; the ratio is to one pass of numpy
-over as many bytes as the texts have, so that machines can be compared. `goal` is for a million.
+Processor time in ms for so many records (default 1,000,000), medians with spread; the ratio is to one numpy pass over
+as many bytes as the texts have, so that machines can be compared. `goal` is for a million.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from bot_console.tui.console.model import LogFilter, Severity
 RUNS = 5
 GOALS = {"severity": 3, "rare word": 40, "rare regex": 100}
 MANY = 600
-"""The goal of filters with many hits."""
+"""The goal (ms) for filters with many hits."""
 FILTERS = {
     "severity": LogFilter(minimum=Severity.ERROR),
     "rare word": LogFilter(words="zebra"),
@@ -69,7 +69,7 @@ def summary(times: list[float], unit: float) -> dict[str, float]:
 
 
 def first_screenful(store: LogStore, which: LogFilter) -> list[float]:
-    """Wall time (ms) from asking to the newest 50 that pass."""
+    """Wall time (ms) from the query to the newest 50 matches."""
     times: list[float] = []
     for _ in range(RUNS):
         views = LogViews(store)
@@ -83,7 +83,7 @@ def first_screenful(store: LogStore, which: LogFilter) -> list[float]:
 
 
 def slowest_add(store: LogStore) -> float:
-    """The longest time (ms) that adding a record took while a search that finds half of them was going on."""
+    """The longest time (ms) for adding a record during a search that matches half of them."""
     done, slowest = threading.Event(), [0.0]
 
     def add() -> None:

@@ -1,7 +1,7 @@
 """What messages cost: `python tests/benchmarks/bench_messages.py [RUNS]`, JSON out.
 
-Processor time in microseconds, medians of some runs with spread; ratios are within one run. The floor of making and of
-copying is a plain object with as many attributes and sequences; that of CDR is the codec of rosbags.
+Processor time in microseconds, medians of several runs with spread; ratios are within one run. The floor for creating
+and copying is a plain object with as many attributes and sequences; the floor for CDR is the codec of rosbags.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def per_call(action: Callable[[], Any]) -> float:
 
 
 def plain(value: Any) -> Any:
-    """A message as an object without any rule."""
+    """A message as an object without validation."""
     if hasattr(value, "get_fields_and_field_types"):
         return SimpleNamespace(**{name: plain(getattr(value, name)) for name in value.get_fields_and_field_types()})
     return value

@@ -1,9 +1,9 @@
-"""What nodes in processes of their own cost: `python tests/benchmarks/bench_own_processes.py [COUNT...]`, JSON out.
+"""What nodes in separate processes cost: `python tests/benchmarks/bench_own_processes.py [COUNT...]`, JSON out.
 
-Each count is a `bot-console launch` of as many nodes, with a timer of 1 Hz each, in a domain of its own: wall time till
-the last has said that it is up (`ready_s`), processor time of all processes until then (`cpu_s`), memory of its own for
-each node (`own_mb`, what it shares with none), and the share of a processor that all of them take at rest, threads
-counted (`idle_share`). Verbs are asked meanwhile, with their wall and processor time (s, medians).
+Each count is a `bot-console launch` of as many nodes, with a timer of 1 Hz each, in a separate domain: wall time until
+the last has reported that it is up (`ready_s`), processor time of all processes until then (`cpu_s`), unshared memory
+per node (`own_mb`), and the share of a processor that all of them use at rest, including threads (`idle_share`). Verbs
+are run meanwhile, with their wall and processor time (s, medians).
 """
 
 from __future__ import annotations
@@ -56,10 +56,10 @@ def generate_launch_description():
 
 
 def tree(root: int) -> Iterator[int]:
-    """A process and all below it."""
+    """A process and its descendants."""
     yield root
     children: list[str] = []
-    with contextlib.suppress(OSError):  # it has ended
+    with contextlib.suppress(OSError):  # It has ended.
         for thread in os.listdir(f"/proc/{root}/task"):
             with contextlib.suppress(OSError):
                 children += Path(f"/proc/{root}/task/{thread}/children").read_text().split()

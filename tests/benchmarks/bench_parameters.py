@@ -1,7 +1,7 @@
 """What parameters cost: `python tests/benchmarks/bench_parameters.py [RUNS]`, JSON out.
 
-Processor time in microseconds, medians of some runs with spread; ratios are within one run. The floor is the cost of
-the messages that one change must make and send, without any rule around them.
+Processor time in microseconds, medians of several runs with spread; ratios are within one run. The floor is the cost
+of creating and sending the messages of one change, without any rules.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def per_call(action: Callable[[int], Any], count: int) -> float:
 
 
 def floor_of_a_change() -> float:
-    """The result of the callback, the result of the call and the event, made and copied as the bus copies it."""
+    """The results of the callback and of the call, and the event, created and copied as the bus copies them."""
 
     def make(number: int) -> None:
         SetParametersResult(successful=True)
@@ -75,7 +75,7 @@ def floor_of_a_change() -> float:
 
 
 def local_set(watched: bool) -> float:
-    """`set_parameters` of one parameter with range and callback; a subscription hears the event if `watched`."""
+    """`set_parameters` of one parameter with range and callback; a subscription receives the event if `watched`."""
     node = node_with_speed()
     if watched:
         node.create_subscription(ParameterEvent, "/parameter_events", lambda event: None, 10)
@@ -86,7 +86,9 @@ def local_set(watched: bool) -> float:
 
 
 def together(count: int, heard: bool = False) -> float:
-    """`set_parameters_atomically` of so many, for each of them; if `heard`, another node takes each event, too."""
+    """`set_parameters_atomically` of `count` parameters, per parameter; if `heard`, another node receives each
+    event, too.
+    """
     node = rclpy.create_node("together")
     for number in range(count):
         node.declare_parameter(f"p{number}", 0.0)
@@ -155,7 +157,7 @@ def read() -> float:
 
 
 def parameter_file() -> float:
-    """Reading a file of many values and declaring them, for each value."""
+    """Reading a file of many values and declaring them, per value."""
     lines = "".join(f"    group{number // 50}.p{number}: {number / 8}\n" for number in range(ENTRIES))
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "many.yaml"

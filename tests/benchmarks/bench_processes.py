@@ -1,16 +1,16 @@
 """What messages cost between two processes: `python tests/benchmarks/bench_processes.py [COUNT]`, JSON out.
 
-Each kind of message goes through a bare Zenoh session and through rclpy, which writes each one as CDR on this side and
-reads it on the other. Both in the same run and with nothing dropped (KEEP_ALL): messages/s until the last one is there,
-processor time of each process for one (us), and the round trip (us); medians of alternating rounds. What rclpy does
-beyond the bare session is all in its figures: its executor's thread on the way in, and with KEEP_ALL a thread on the
-way out, for nobody who publishes may wait for a reader.
+Each kind of message goes through a bare Zenoh session and through rclpy, which serializes each one as CDR on this side
+and deserializes it on the other. Both are measured in the same run with nothing dropped (KEEP_ALL): messages/s until
+the last one has arrived, processor time per message of each process (us), and the round trip (us); medians of
+alternating rounds. The figures include all that rclpy does beyond the bare session: its executor's thread for
+receiving, and with KEEP_ALL a thread for sending, since publishers must not wait for readers.
 The bare session is used in three ways. `bare` sends bytes that are made once and reads nothing; it calls back as Zenoh
-does by default for a plain function, from a thread of Python's for all that has come meanwhile. `written` does the same
-and writes and reads the CDR of each message, as rclpy must. `direct` is `bare` called back at once from Zenoh's own
-threads, as rclpy's subscriptions are. `share` is rclpy's throughput as a part of theirs, `longer` its round trip in
-theirs; `ros_10` is rclpy with a depth of 10, as nodes use it, where nothing waits to be sent.
-A service call costs the processor time of both sides (us, the median of ten times fifty).
+does by default for a plain function, from a Python thread for everything that has arrived meanwhile. `written` does the
+same and also writes and reads the CDR of each message, as rclpy must. `direct` is `bare` with callbacks from Zenoh's
+own threads, as in rclpy's subscriptions. `share` is rclpy's throughput divided by theirs, `longer` its round trip
+divided by theirs; `ros_10` is rclpy with a depth of 10, as nodes use it, where nothing waits to be sent.
+A service call is given as the processor time of both sides (us, the median of ten times fifty).
 """
 
 from __future__ import annotations
@@ -49,12 +49,12 @@ SAMPLES = {
     "LaserScan": (LaserScan(ranges=[1.0] * 360, intensities=[2.0] * 360), 2),
     "Image": (Image(height=1000, width=1000, step=1000, data=bytes(1_000_000)), 250),
 }
-"""Messages, and by how much their number is divided."""
+"""Messages, and the divisor for their number."""
 
 ALL = QoSProfile(history=HistoryPolicy.KEEP_ALL, depth=0)
 BARE = ("bare", "written", "direct")
 PROFILES = {"ros": ALL, "ros_10": QoSProfile(depth=10)}
-"""Bare Zenoh's ways, and the profiles of rclpy's."""
+"""The ways to use bare Zenoh, and the profiles for rclpy."""
 BARE_DOMAIN, ROS_DOMAIN = 1, 0
 ROUNDS = 3
 ROUND_TRIPS = 100
@@ -64,7 +64,7 @@ Send = Callable[[], Any]
 
 
 class Bare:
-    """Messages through Zenoh's own Python API, in a session with the settings and links of ours."""
+    """Messages through Zenoh's own Python API, in a session with our settings and links."""
 
     def __init__(self) -> None:
         self.session = open_session(BARE_DOMAIN)
@@ -118,8 +118,9 @@ class Ros:
 
 
 def other(way: Bare | Ros, kinds: Sequence[str]) -> None:
-    """The other process: counts, sends back, adds. Each line has a number of messages: once so many have come, it says
-    how many did and its processor time (s). Nobody asks meanwhile, which would cost the slower way more.
+    """The other process: counts, sends back, adds. Each line it reads is a number of messages: once so many have
+    arrived, it prints how many did and its processor time (s). It is not queried meanwhile, which would slow the
+    slower way more.
     """
     counts = [0]
     wanted = [0]
@@ -147,7 +148,7 @@ def other(way: Bare | Ros, kinds: Sequence[str]) -> None:
 
 
 class Other:
-    """That process as it is asked."""
+    """The other process, as seen from here."""
 
     def __init__(self, way: str) -> None:
         command = [sys.executable, __file__, "--other", way]
@@ -175,7 +176,7 @@ def until(true: Callable[[], bool]) -> None:
 
 
 class Pair:
-    """One kind of message on one way between the two processes."""
+    """One kind of message between the two processes, sent in one way."""
 
     def __init__(self, way: Bare | Ros, kind: str, name: str, there: Other) -> None:
         self._there = there
@@ -184,7 +185,7 @@ class Pair:
         self._back = threading.Event()
         way.subscribe(kind, name, "pong", self._back.set)
         before = there.state()[0]
-        until(lambda: bool(self._send()) or there.state()[0] > before)  # until the two are linked
+        until(lambda: bool(self._send()) or there.state()[0] > before)  # Until the two are connected.
         until(lambda: (self._ping(), self._back.wait(0.05))[1])
         time.sleep(0.3)
         self._times: list[float] = []
@@ -254,7 +255,7 @@ def main(count: int) -> None:
         pairs |= {kind: Pair(ros, kind, name, others["ros"]) for kind in PROFILES}
         for _ in range(ROUNDS):
             for kind, pair in pairs.items():
-                if kind != "ros_10":  # it would drop
+                if kind != "ros_10":  # It would drop messages.
                     pair.throughput(max(50, count // divided))
                 pair.round_trips()
         figures[name] = compared(pairs)
@@ -263,7 +264,7 @@ def main(count: int) -> None:
     for each in others.values():
         each.process.kill()
     shutil.rmtree(folder, ignore_errors=True)
-    os._exit(0)  # as the verbs end: without waiting for the sessions
+    os._exit(0)  # Like the verbs, without waiting for the sessions.
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """What the rclpy core costs: `python tests/benchmarks/bench_rclpy.py [RUNS]`, JSON out.
 
-Each run is a process of its own, medians and spread are over the runs. Processor time, but for latencies. `floor` is
+Each run is a separate process; medians and spread are over the runs. Processor time, except for latencies. `floor` is
 the same work in plain Python (copy the object, append it to a deque, notify a condition, call); `ratio` is to the
 floor of the same run.
 """
@@ -126,7 +126,7 @@ def in_flight(nodes: int, message: Any, *, spin_once: bool = False, threads: int
 
 
 def end(*nodes: Any) -> None:
-    """Let nothing of a measurement reach the next one."""
+    """Clean up, so that no measurement affects the next one."""
     import rclpy
 
     for node in nodes:
@@ -158,7 +158,7 @@ def latency() -> tuple[float, float]:
 
 
 def latency_between_threads() -> tuple[float, float]:
-    """The same with the executor in a thread of its own, which the publisher's thread has to wake."""
+    """The same with the executor in a separate thread, which the publisher's thread has to wake."""
     import rclpy
     from std_msgs.msg import Float64
 
@@ -288,7 +288,7 @@ def many_nodes() -> tuple[float, float, float]:
 
 
 def resident() -> float:
-    """Resident memory in kilobytes, without what the collector would free."""
+    """Resident memory in kilobytes, after garbage collection."""
     import gc
 
     gc.collect()
@@ -338,7 +338,7 @@ def one_run() -> dict[str, float]:
 
 
 def main(runs: int) -> None:
-    """Run, and print medians, spread and the bars of those figures that have one."""
+    """Run, and print medians, spread and goals."""
     command = [sys.executable, __file__, "--one"]
     results = [json.loads(subprocess.run(command, check=True, capture_output=True).stdout) for _ in range(runs)]
     table: dict[str, dict[str, Any]] = {}

@@ -1,6 +1,7 @@
 """What grows with the system, and how: `python tests/benchmarks/bench_scale.py [CURVE ...]`, JSON out.
 
-Processor time, the least of some runs; each curve's last entry over its first is its `growth`, within one run.
+Processor time, the minimum of several runs; the `growth` of a curve is its last entry divided by its first, within one
+run.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ MILLI, MICRO = 1e3, 1e6
 
 
 def least(action: Callable[[], Any], count: int) -> float:
-    """Seconds of processor time for one of `count` in an action, the least of some runs."""
+    """Seconds of processor time per item of an action on `count` items, the minimum of several runs."""
     found: list[float] = []
     for _ in range(RUNS):
         start = time.process_time()
@@ -42,7 +43,7 @@ def least(action: Callable[[], Any], count: int) -> float:
 
 
 def set_atomically(count: int) -> float:
-    """Microseconds for a parameter of a `set_parameters_atomically` that somebody hears of."""
+    """Microseconds per parameter of a `set_parameters_atomically` whose event somebody receives."""
     node, executor = rclpy.create_node("tuned"), SingleThreadedExecutor()
     node.declare_parameters("", [(f"p{number}", 0.0) for number in range(count)])
     node.create_subscription(ParameterEvent, "/parameter_events", lambda event: None, 10)
@@ -61,7 +62,7 @@ def set_atomically(count: int) -> float:
 
 
 def fan_out(count: int) -> float:
-    """Microseconds for a subscription that gets a scan of 360 ranges and intensities, callback included."""
+    """Microseconds per subscription that receives a scan of 360 ranges and intensities, callback included."""
     executor = SingleThreadedExecutor()
     nodes = [rclpy.create_node(f"listener{number}") for number in range(count)]
     for node in nodes:
@@ -83,7 +84,9 @@ def fan_out(count: int) -> float:
 
 
 class Watched:
-    """So many nodes of two publishers, two subscriptions and the services of every node, and the console's look."""
+    """`count` nodes with two publishers, two subscriptions and the usual services each, and the console's graph
+    poll.
+    """
 
     def __init__(self, count: int) -> None:
         self.nodes = [rclpy.create_node(f"node{number}") for number in range(count)]
@@ -95,14 +98,14 @@ class Watched:
         self.watch = GraphWatch(self.console, lambda graph: None, graph_events)
 
     def end(self) -> None:
-        """Let nothing reach the next curve."""
+        """Clean up, so that no curve affects the next one."""
         self.watch.close()
         for node in (*self.nodes, self.console):
             node.destroy_node()
 
 
 def first_poll(count: int) -> float:
-    """Milliseconds of the console's first look at a graph."""
+    """Milliseconds of the console's first poll of a graph."""
     watched = Watched(count)
     cost = least(lambda: GraphWatch(watched.console, lambda graph: None).poll(), 1)
     watched.end()
@@ -110,7 +113,7 @@ def first_poll(count: int) -> float:
 
 
 def poll_after_change(count: int) -> float:
-    """Milliseconds of a look after one publisher came or went."""
+    """Milliseconds of a poll after one publisher came or went."""
     watched, costs = Watched(count), []
     watched.watch.poll()
     for number in range(2 * RUNS):
@@ -124,7 +127,9 @@ def poll_after_change(count: int) -> float:
 
 
 def parameters_read(count: int) -> float:
-    """Seconds of processor time until a console that has just come has read 20 parameters of each node, theirs too."""
+    """Seconds of processor time until a new console has read 20 parameters of each node, including the nodes' own
+    time.
+    """
     executor = SingleThreadedExecutor()
     nodes = [rclpy.create_node(f"node{number}") for number in range(count)]
     for node in nodes:
@@ -149,7 +154,7 @@ def parameters_read(count: int) -> float:
 
 
 def end(executor: Any, nodes: list[Any]) -> None:
-    """Let nothing of a curve reach the next one."""
+    """Clean up, so that no curve affects the next one."""
     executor.shutdown()
     for node in nodes:
         node.destroy_node()
@@ -165,7 +170,7 @@ CURVES: dict[str, tuple[Callable[[int], float], tuple[int, ...]]] = {
 
 
 def main(wanted: list[str]) -> None:
-    """Measure the curves that were named, else all."""
+    """Measure the named curves, or all of them."""
     rclpy.init(args=[])
     table: dict[str, Any] = {}
     for name in wanted or CURVES:

@@ -44,14 +44,14 @@ LINKS = {
 }
 PARAMETERS, LOG, ROBOT = re.compile("max_speed"), re.compile(r"\d\d:\d\d:\d\d\.\d+ [IWE] "), re.compile("[←↑→↓↖↗↘↙]")
 CURSOR = "48;2;43;74;107"
-"""The background of the row that the keys are for."""
+"""The background of the selected row."""
 PRESSES = 20
 LOST = 4
-"""Keys without an answer after which no more are pressed."""
+"""Unanswered keys after which no more are pressed."""
 
 
 def first_frame(command: list[str]) -> dict[str, float]:
-    """What comes before the end of the first frame."""
+    """The cost until the end of the first frame."""
     terminal = Terminal(command, WIDE, shown=False)
     terminal.run(60, lambda: terminal.frames_ended)
     took, used = time.monotonic() - terminal.began, sum(terminal.threads().values())
@@ -62,7 +62,7 @@ def first_frame(command: list[str]) -> dict[str, float]:
 
 
 def first_frames() -> dict[str, float]:
-    """The console's, and how it compares with the least that Textual shows."""
+    """The console's first frame, and its ratio to the smallest Textual app."""
     least, ours = first_frame(TRIVIAL), first_frame(CONSOLE)
     return {
         **ours,
@@ -73,7 +73,7 @@ def first_frames() -> dict[str, float]:
 
 
 def drawing() -> dict[str, float]:
-    """What the thread that draws takes, pane by pane; 0 is the overview."""
+    """The processor share of the drawing thread, pane by pane; 0 is the overview."""
     terminal = Terminal(CONSOLE, WIDE, shown=False)
     terminal.run(8)
     found: dict[str, float] = {}
@@ -88,7 +88,7 @@ def drawing() -> dict[str, float]:
 
 
 def started(options: list[str], size: tuple[int, int], *wanted: re.Pattern[str]) -> dict[str, float]:
-    """How long the start takes until all of that is on the screen."""
+    """The time and bytes until all `wanted` texts are on the screen."""
     terminal = Terminal([*CONSOLE, *options], size)
     seen = terminal.run(20, lambda: all(each.search(terminal.text()) for each in wanted))
     found = {"s": time.monotonic() - terminal.began if seen else float("nan"), "bytes": terminal.received}
@@ -97,7 +97,7 @@ def started(options: list[str], size: tuple[int, int], *wanted: re.Pattern[str])
 
 
 def live(command: list[str], size: tuple[int, int], warm: float) -> dict[str, float]:
-    """What a screen costs that shows a robot under way."""
+    """The cost of a screen that shows a driving robot."""
     terminal = Terminal(command, size, shown=False)
     terminal.run(warm)
     began, cpu, received, frames = time.monotonic(), terminal.cpu(), terminal.received, terminal.frames
@@ -113,7 +113,7 @@ def live(command: list[str], size: tuple[int, int], warm: float) -> dict[str, fl
 
 
 def keys(command: list[str], link: Link, pressed: str, shown: Callable[[Terminal], object]) -> dict[str, float]:
-    """How long keys take that are pressed in turn."""
+    """The response times of keys pressed in turn."""
     terminal = Terminal(command, WIDE, link)
     terminal.run(5)
     took: list[float] = []
@@ -155,7 +155,7 @@ def cursor(terminal: Terminal) -> object:
 
 
 def counted(terminal: Terminal) -> object:
-    """The count of the stock screen's keys."""
+    """The number of keys counted by the stock screen."""
     return re.findall(r"K(\d+)#", terminal.text())
 
 
@@ -188,7 +188,7 @@ def _at(values: list[float], share: float) -> float:
 
 
 def summary(runs: list[dict[str, Any]]) -> dict[str, Any]:
-    """Median, least and most of every figure."""
+    """Median, minimum and maximum of every figure."""
     return {
         name: {
             figure: [round(pick([each[name][figure] for each in runs]), 3) for pick in (statistics.median, min, max)]
@@ -200,6 +200,6 @@ def summary(runs: list[dict[str, Any]]) -> dict[str, Any]:
 
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as home:
-        os.environ["HOME"] = home  # no setting of the person who runs this
+        os.environ["HOME"] = home  # Ignores the settings of the person who runs this.
         runs = [run() for _ in range(int(sys.argv[1]) if len(sys.argv) > 1 else 3)]
     print(json.dumps(summary(runs), indent=2))

@@ -25,7 +25,7 @@ from bot_console_robot.simulation.world_file import load_world, parse_world
 
 WORLDS = Path(__file__).resolve().parents[2] / "profiles" / "worlds"
 BUDGET = 0.15
-"""CPU seconds that one measurement takes at least."""
+"""Minimum CPU seconds of one measurement."""
 
 
 def crowded(shapes: int) -> Simulation:

@@ -1,7 +1,7 @@
 """What turns, waits and starts of node processes cost: `python tests/benchmarks/bench_stepping.py [RUNS]`, JSON out.
 
-Processor time in microseconds unless a name says otherwise, medians of some runs with spread. The floor of a turn: two
-threads that wake each other with one lock each, on one processor as the stepped run is.
+Processor time in microseconds unless a name says otherwise, medians of several runs with spread. The floor of a turn:
+two threads that wake each other with one lock each, on one processor like the stepped run.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ def turn_by_wakeups() -> float:
 
 
 def turn_by_timers(count: int) -> float:
-    """Processes that sleep 10 ms again and again."""
+    """Processes that repeatedly sleep 10 ms."""
     with stepped() as clock:
 
         def run() -> None:
@@ -88,7 +88,7 @@ def turn_by_timers(count: int) -> float:
 
 
 def wait_that_need_not_hand_on() -> float:
-    """A sleep of the only thread there is: time jumps, nobody else runs."""
+    """A sleep of the only thread: time jumps, and no other thread runs."""
     with stepped() as clock:
         start = cpu()
         for _ in range(TURNS):

@@ -1,12 +1,12 @@
-"""From the byte in the terminal to the base's word that it is locked; JSON.
+"""From the byte in the terminal to the acknowledgement by the base that it is locked; JSON.
 
     python tests/benchmarks/bench_stopping.py [--presses 50] [--floods 5] [--busy 2] [--only logs plot]
         [--wanted-nice -10]
 
-A console attached to a live robot in processes of their own, driven over a pseudo-terminal; the base's answer is heard
-by another process. Wall time in ms: p50, p99 and the longest of so many presses of `!`, alone, beside loads and behind
-floods of input, and of the first key and of `q` in fresh consoles. `--wanted-nice` is the priority of all that is
-measured, for machines that others work on; busy processes have the usual one.
+A console attached to a live robot, in separate processes, driven over a pseudo-terminal; another process receives the
+base's answer. Wall time in ms: p50, p99 and the longest of so many presses of `!`, alone, beside loads and behind
+floods of input, and of the first key and of `q` in new consoles. `--wanted-nice` is the priority of everything that is
+measured, for shared machines; busy processes have the usual one.
 """
 
 from __future__ import annotations
@@ -110,16 +110,16 @@ FLOODS: dict[str, tuple[list[str], float, int]] = {
     "200 keys of all kinds": ([*"12345678?\x1bjkgG" * 14], 0.0, 0),
     "a paste of 30 kB": ([PASTE], 0.0, 0),
 }
-"""What is typed before the key, the seconds between two of them, and after how many the terminal is resized."""
+"""What is typed before the key, the seconds between two inputs, and after how many the terminal is resized."""
 TIMEOUT_S = 60.0
 BETWEEN = 0.15
 """Seconds between two presses."""
 MORE = 5
-"""How often a release is pressed again."""
+"""How often a release may be pressed again."""
 
 
 class Base:
-    """What the base says of its lock, as another process hears it."""
+    """The state of the base's lock, as received by another process."""
 
     def __init__(self, robot: LiveRobot) -> None:
         self._last_message: list[tuple[float, bool]] = []
@@ -134,11 +134,11 @@ class Base:
 
     @property
     def locked(self) -> bool:
-        """Whether it is locked, as far as it has said."""
+        """Whether it is locked, by its last report."""
         return bool(self._last_message) and self._last_message[-1][1]
 
     def message_of(self, locked: bool, since: float) -> float | None:
-        """When it first said so after a moment; None when it has not."""
+        """When it first reported that state after a moment; None if it has not."""
         return next(
             (moment for moment, message in list(self._last_message) if moment >= since and message is locked), None
         )
@@ -146,7 +146,7 @@ class Base:
 
 @contextlib.contextmanager
 def console(robot: LiveRobot) -> Iterator[Terminal]:
-    """A console whose screen is read all the time."""
+    """A console whose output is read all the time."""
     with _environment(robot.environment):
         terminal = Terminal(CONSOLE, robot.folder)
     over = threading.Event()
@@ -167,7 +167,7 @@ def console(robot: LiveRobot) -> Iterator[Terminal]:
 
 
 def wait(true: Callable[[], Any], timeout_s: float = TIMEOUT_S) -> Any:
-    """What is true at last; None when it does not come about."""
+    """The result of `true` once it is truthy; None if it does not become so."""
     deadline = time.monotonic() + timeout_s
     while time.monotonic() < deadline:
         if found := true():
@@ -177,7 +177,7 @@ def wait(true: Callable[[], Any], timeout_s: float = TIMEOUT_S) -> Any:
 
 
 def presses(robot: LiveRobot, base: Base, load: str, count: int) -> dict[str, Any]:
-    """Press `!` again and again beside a load."""
+    """Press `!` repeatedly beside a load."""
     program, keys = LOADS[load]
     stops: list[float] = []
     releases: list[float] = []
@@ -205,7 +205,7 @@ def presses(robot: LiveRobot, base: Base, load: str, count: int) -> dict[str, An
 
 
 def flooded(robot: LiveRobot, base: Base, flood: str, count: int) -> dict[str, Any]:
-    """Press `!` again and again right behind a flood of input, each time on a robot that is not held."""
+    """Press `!` repeatedly right behind a flood of input, each time on a robot that is not held."""
     pieces, pause, resized = FLOODS[flood]
     times: list[float] = []
     lost = 0
@@ -223,7 +223,7 @@ def flooded(robot: LiveRobot, base: Base, flood: str, count: int) -> dict[str, A
                 lost += 1
             else:
                 times.append(taken)
-            time.sleep(1.0)  # the key may still have its turn to come
+            time.sleep(1.0)  # The key may still be waiting for its turn.
             while base.locked:
                 robot.typed("release", "--all")
                 wait(lambda: not base.locked, 5.0)
@@ -231,10 +231,11 @@ def flooded(robot: LiveRobot, base: Base, flood: str, count: int) -> dict[str, A
 
 
 def press(terminal: Terminal, base: Base, locked: bool, timeout_s: float = 10.0) -> tuple[float | None, int]:
-    """Press `!` until the base is as wanted: ms from the last press, None where that did not come; presses in between.
+    """Press `!` until the base is as wanted; returns ms from the last press (None if it never was), and the extra
+    presses.
 
-    A console that has not heard of a stop's acknowledgement sends the stop again instead of releasing, so a release
-    may take a second press. A stop may not.
+    A console that has not received a stop's acknowledgement sends the stop again instead of releasing, so a
+    release may take a second press. A stop may not.
     """
     for extra in range(1 if locked else 1 + MORE):
         began = time.monotonic()
@@ -246,7 +247,7 @@ def press(terminal: Terminal, base: Base, locked: bool, timeout_s: float = 10.0)
 
 
 def first_key_and_quit(robot: LiveRobot, count: int) -> dict[str, Any]:
-    """The first key of a fresh console, until its answer is on the screen, and `q`, until the process has ended."""
+    """The first key of a new console, until its effect is on the screen, and `q`, until the process has ended."""
     first: list[float] = []
     last: list[float] = []
     for _ in range(count):
@@ -265,10 +266,10 @@ def first_key_and_quit(robot: LiveRobot, count: int) -> dict[str, Any]:
 
 
 def prefer(nice: int) -> None:
-    """Give all that this program starts from now on a priority, session by session.
+    """Set the priority of everything that this program starts from now on, session by session.
 
     Linux shares processors among the sessions of terminals first (`sched_autogroup_enabled`), and every program here
-    has a session of its own, so that a priority within one would change nothing.
+    has its own session, so that a priority within one would change nothing.
     """
     os.nice(nice)
     known: set[str] = {str(os.getpid())}
@@ -288,7 +289,7 @@ def _is_below(process: Path, known: set[str]) -> bool:
 
 
 def summary(times: list[float]) -> dict[str, Any]:
-    """Median, the 99th of a hundred, the longest."""
+    """Median, 99th percentile and maximum."""
     if not times:
         return {"count": 0}
     ordered = sorted(times)
@@ -298,7 +299,7 @@ def summary(times: list[float]) -> dict[str, Any]:
 
 
 def main() -> None:
-    """Run as the words of the command say."""
+    """Run with the command line's options."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--presses", type=int, default=50)
     parser.add_argument("--floods", type=int, default=5, help="presses behind each flood")

@@ -1,7 +1,7 @@
 """What the topics pane costs: `python tests/benchmarks/bench_topics.py [RUNS]`, JSON out. Linux; a minute a run.
 
-A process with 300 topics, 50 of them at 100 Hz, and a console beside it in a pseudo-terminal of 120x40, with the topics
-pane on the screen, and with another pane: percent of a processor, bytes per second, and the differences.
+A process with 300 topics, 50 of them at 100 Hz, and a console in a pseudo-terminal of 120x40, with the topics pane on
+the screen, and with another pane: percent of a processor, bytes per second, and the differences.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ WARM, SPAN = 8.0, 10.0
 
 
 def cost(pane: str, keys: str = "") -> dict[str, float]:
-    """What a console costs that shows a pane."""
+    """The cost of a console that shows a pane."""
     terminal = Terminal([*CONSOLE, "attach", "--pane", pane], SIZE)
     terminal.run(WARM)
     for key in keys:

@@ -1,6 +1,6 @@
-"""CPU time of the buffer of transforms: 1,000 frames at 100 Hz, and lookups; prints JSON.
+"""CPU time of the transform buffer: 1,000 frames at 100 Hz, and lookups; prints JSON.
 
-The first share of a core is that of taking the messages; the second has their way from a broadcaster with it.
+The first share of a core is for adding the messages; the second includes their transport from a broadcaster.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def cpu(act: Callable[[], Any], times: int = 1) -> float:
 
 
 def through_a_topic(messages: list[Any]) -> float:
-    """Share of a core that broadcasting, delivering and taking messages needs at their rate."""
+    """Share of a core for broadcasting, delivering and adding messages at their rate."""
     rclpy.init()
     node = rclpy.create_node("bench_transforms")
     listener = TransformListener(Buffer(), node)
@@ -69,7 +69,7 @@ def through_a_topic(messages: list[Any]) -> float:
 def main() -> None:
     """Measure and print."""
     messages = [message(1 + index / RATE) for index in range(RATE * SECONDS)]
-    gc.freeze()  # no program holds millions of messages: the collector is not to walk through those of the benchmark
+    gc.freeze()  # No program holds millions of messages: the collector must not traverse those of the benchmark.
     buffer = Buffer()
     begun = time.process_time()
     for each in messages:

@@ -1,8 +1,8 @@
 """What thousands of parameters cost the screen: `python tests/benchmarks/bench_tree.py [RUNS]`, JSON out.
 
-Processor time in ms, medians of some runs with the worst: the whole tree of 5,000 parameters of 200 nodes at once, a
-key of the filter, and one changed value, with how many rows were drawn for it. The app runs without a terminal.
-`idle_ms` is what waiting for the screen costs where nothing has changed; it is in each of the others, too.
+Processor time in ms, medians of several runs with the maximum: the whole tree of 5,000 parameters of 200 nodes at once,
+a key in the filter, and one changed value, with the number of rows drawn for it. The app runs without a terminal.
+`idle_ms` is the cost of waiting for the screen when nothing has changed; the others include it.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class Counted(ParameterRows):
     drawn = 0
 
     def row(self, index: int, width: int) -> Any:
-        """Count one."""
+        """Count a row."""
         Counted.drawn += 1
         return super().row(index, width)
 
@@ -101,7 +101,7 @@ async def measure() -> dict[str, float]:
 
 def main(runs: int) -> None:
     """Print the medians."""
-    gc.freeze()  # as the program does
+    gc.freeze()  # As the program does.
     rows = [asyncio.run(measure()) for _ in range(runs)]
     found = {
         name: {

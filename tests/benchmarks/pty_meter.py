@@ -1,4 +1,4 @@
-"""A program in a pseudo-terminal at the far end of a link, and what it costs there. Linux."""
+"""A program in a pseudo-terminal at the far end of a link, and its cost there. Linux."""
 
 from __future__ import annotations
 
@@ -19,19 +19,20 @@ from dataclasses import dataclass
 from emulator import Emulator
 
 ANSWERS = {b"\x1b[6n": b"\x1b[1;1R", b"\x1b[?2026$p": b"\x1b[?2026;2$y"}
-"""Questions that the terminal answers: where is the cursor, and does it know synchronized output."""
+"""Queries that the terminal answers: the cursor's position, and support for synchronized output."""
 FRAME, FRAME_END = b"\x1b[?2026h", b"\x1b[?2026l"
 CUT_OFF = re.compile(r"\x1b(\[[\d;?<>=$]*|\][^\x07\x1b]*)?$")
 UNSHOWN = re.compile(r"\x1b\][^\x07\x1b]*(\x07|\x1b\\)|\x1b\[[?<>=][\d;$]*[@-~]|[\x00-\x1a\x7f]")
-"""Sequences that change no cell: titles, modes, questions; single control letters."""
+"""Sequences that change no cell: titles, modes, queries; single control characters."""
 CHUNK = 1024
 TICK = 0.002
 
 
 @dataclass(frozen=True)
 class Link:
-    """What lies between program and terminal: `rate` in bytes per second (0: no limit), so many bytes may wait in it,
-    and `delay` in seconds, each way."""
+    """The link between program and terminal: `rate` in bytes per second (0: no limit), the bytes that may wait in
+    it, and `delay` in seconds, each way.
+    """
 
     rate: float = 0.0
     buffer: int = 262144
@@ -39,7 +40,7 @@ class Link:
 
 
 class Terminal:
-    """Runs a program; counts what it sends, shows it on an emulated screen, answers its questions."""
+    """Runs a program; counts what it sends, shows it on an emulated screen, and answers its queries."""
 
     def __init__(
         self, command: Sequence[str], size: tuple[int, int], link: Link = Link(), *, shown: bool = True
@@ -63,7 +64,7 @@ class Terminal:
         os.set_blocking(self._pty, False)
 
     def run(self, seconds: float, until: Callable[[], object] = lambda: False) -> bool:
-        """Let it run for so long, or until something is so; whether that came."""
+        """Let it run for so long, or until a condition holds; returns whether it did."""
         end = time.monotonic() + seconds
         while not self.over and not until():
             now = time.monotonic()
@@ -81,14 +82,14 @@ class Terminal:
         return "\n".join(self.screen.lines()) if self.screen else ""
 
     def cpu(self) -> float:
-        """Processor time (s) that the program has used, and the processes that it has started and that live."""
+        """Processor time (s) of the program and its living descendants."""
         used: dict[int, int] = {}
         parents: dict[int, int] = {}
         for each in filter(str.isdigit, os.listdir("/proc")):
             try:
                 with open(f"/proc/{each}/stat", "rb") as file:
                     fields = file.read().rpartition(b")")[2].split()
-            except OSError:  # it has ended meanwhile
+            except OSError:  # It has ended meanwhile.
                 continue
             parents[int(each)], used[int(each)] = int(fields[1]), int(fields[11]) + int(fields[12])
         family = [self.pid]
@@ -97,18 +98,18 @@ class Terminal:
         return sum(used.get(each, 0) for each in family) / os.sysconf("SC_CLK_TCK")
 
     def threads(self) -> dict[int, float]:
-        """Processor time (s) of each thread that lives, to the nanosecond; the one that draws has the program's id."""
+        """Processor time (s) of each living thread, to the nanosecond; the drawing thread has the program's id."""
         found: dict[int, float] = {}
         for each in os.listdir(f"/proc/{self.pid}/task"):
             try:
                 with open(f"/proc/{self.pid}/task/{each}/schedstat") as file:
                     found[int(each)] = int(file.read().split()[0]) / 1e9
-            except OSError:  # it has ended meanwhile
+            except OSError:  # It has ended meanwhile.
                 continue
         return found
 
     def close(self, grace: float = 5.0) -> float:
-        """End it as a closing session does; seconds until it was gone."""
+        """End it as a closing session does; returns the seconds until it was gone."""
         began = time.monotonic()
         os.kill(self.pid, signal.SIGTERM)
         while not os.waitpid(self.pid, os.WNOHANG)[0]:
@@ -135,7 +136,7 @@ class Terminal:
         self._pass_on(time.monotonic())
 
     def _pass_on(self, now: float) -> None:
-        """Let through what the rate of the link allows, then take in what has arrived."""
+        """Pass on what the rate of the link allows, then process what has arrived."""
         count = len(self._waiting)
         if self._link.rate:
             self._credit = min(self._credit + (now - self._last) * self._link.rate, self._link.rate * 0.05 + CHUNK)

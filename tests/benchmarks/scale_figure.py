@@ -1,7 +1,8 @@
 """The figure of what grows, in one command: `python tests/benchmarks/scale_figure.py docs/images/scaling.svg`.
 
-Measures every curve of `bench_scale.py` and `scale_of_screen.py` and draws them, both axes logarithmic; prints what was
-measured as JSON. `--from FILE` draws what an earlier call printed. A dashed line is a stock widget with as many rows.
+Measures every curve of `bench_scale.py` and `scale_of_screen.py` and draws them on logarithmic axes; prints the
+measurements as JSON. `--from FILE` draws the output of an earlier call. A dashed line is a stock widget with as many
+rows.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ Table = dict[str, dict[str, float]]
 HERE = Path(__file__).parent
 COLUMNS, WIDTH, HEIGHT = 3, 300, 210
 LEFT, RIGHT, TOP, BOTTOM = 52, 16, 46, 34
-"""What a panel leaves free around its lines, in pixels."""
+"""Margins of a panel around its lines, in pixels."""
 
 TITLES = {
     "first_look_ms": ("First look at a graph", "nodes", "ms"),
@@ -35,7 +36,7 @@ TITLES = {
     "topic_rows_ms": ("Rows of the topics pane", "topics", "ms"),
     "robots_ms": ("A simulated second, with scans", "robots", "ms"),
 }
-"""What is drawn: title, what is counted, unit of the cost."""
+"""The panels: title, what is counted, unit of the cost."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +90,7 @@ def panel(name: str, table: Table) -> str:
 
 
 def figure(table: Table) -> str:
-    """All panels that were measured, as a picture in SVG that is read on light and dark pages alike."""
+    """All measured panels as an SVG that is legible on light and dark pages."""
     names = [name for name in TITLES if name in table]
     high = HEIGHT * math.ceil(len(names) / COLUMNS)
     panels = "\n".join(
@@ -106,7 +107,7 @@ def figure(table: Table) -> str:
 
 
 def measured() -> Table:
-    """Every curve; each program runs for itself, so that none finds what another has left."""
+    """Every curve; each program runs separately, so that none is affected by another."""
     table: Table = {}
     for program in ("bench_scale.py", "scale_of_screen.py"):
         run = subprocess.run([sys.executable, str(HERE / program)], stdout=subprocess.PIPE, check=True)

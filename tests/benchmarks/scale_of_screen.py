@@ -1,7 +1,7 @@
 """What grows on the screen, and how: `python tests/benchmarks/scale_of_screen.py [CURVE ...]`, JSON out.
 
-Processor time, the least of some runs. `stock` curves are widgets of Textual with as many rows: what a screen that is
-written the first way has to pay. Robots are simulators side by side in one process.
+Processor time, the minimum of several runs. `stock` curves are Textual's widgets with as many rows: the cost of a
+straightforward screen. Robots are simulators side by side in one process.
 """
 
 from __future__ import annotations
@@ -52,12 +52,12 @@ MILLI = 1e3
 EACH = 25
 """Parameters of a node."""
 SAMPLES = 10_000
-"""Of each plotted curve."""
+"""Samples of each plotted curve."""
 Measure = Callable[[int], float]
 
 
 def least(action: Callable[[], Any]) -> float:
-    """Milliseconds of processor time of an action, the least of some runs."""
+    """Milliseconds of processor time of an action, the minimum of several runs."""
     found: list[float] = []
     for _ in range(RUNS):
         start = time.process_time()
@@ -77,7 +77,7 @@ async def shown(app: App[None], work: Callable[[], object]) -> float:
 
 
 def once_or_more(measured: Callable[[], Awaitable[float]]) -> float:
-    """The least of some runs of a screen."""
+    """The minimum of several runs of a screen."""
 
     async def run() -> float:
         return await measured()
@@ -86,7 +86,7 @@ def once_or_more(measured: Callable[[], Awaitable[float]]) -> float:
 
 
 def parameter_tree(count: int) -> float:
-    """Milliseconds until the parameter pane shows so many parameters that came at once."""
+    """Milliseconds until the parameter pane shows `count` parameters that arrived at once."""
     trees: dict[str, ParameterTree] = {}
     for number in range(count // EACH):
         node = f"/robot{number // 20}/n{number}"
@@ -108,14 +108,14 @@ def parameter_tree(count: int) -> float:
 
 
 class StockTable(App[None]):
-    """A table of Textual's."""
+    """A Textual table."""
 
     def compose(self) -> ComposeResult:
         """One table."""
         yield DataTable[str]()
 
     def fill(self, count: int) -> None:
-        """Add so many rows, as one does it first."""
+        """Add rows in the straightforward way."""
         table = self.query_one(DataTable)
         table.add_columns("parameter", "value")
         for number in range(count):
@@ -123,21 +123,21 @@ class StockTable(App[None]):
 
 
 class StockLog(App[None]):
-    """A log of Textual's."""
+    """A Textual log."""
 
     def compose(self) -> ComposeResult:
         """One log."""
         yield RichLog()
 
     def fill(self, count: int) -> None:
-        """Write so many lines."""
+        """Write lines."""
         log = self.query_one(RichLog)
         for number in range(count):
             log.write(f"[INFO] [robot_navigator]: scan of {number % 997 / 100:.2f} m, cycle {number}")
 
 
 def stock_table(count: int) -> float:
-    """Milliseconds until a stock table shows so many rows."""
+    """Milliseconds until a stock table shows `count` rows."""
 
     async def measured() -> float:
         app = StockTable()
@@ -147,7 +147,7 @@ def stock_table(count: int) -> float:
 
 
 def stock_log(count: int) -> float:
-    """Milliseconds to write so many lines to a stock log: it has no filter, so those that pass are written again."""
+    """Milliseconds to write lines to a stock log: it has no filter, so those that pass are written again."""
 
     async def measured() -> float:
         app = StockLog()
@@ -157,26 +157,26 @@ def stock_log(count: int) -> float:
 
 
 def severity_filter(count: int) -> float:
-    """Milliseconds to find the errors among so many records."""
+    """Milliseconds to find the errors among `count` records."""
     store = filled(count)
     return least(lambda: matching(store, LogFilter(minimum=Severity.ERROR)))
 
 
 def rare_word(count: int) -> float:
-    """Milliseconds to find a rare word among so many records."""
+    """Milliseconds to find a rare word among `count` records."""
     store = filled(count)
     return least(lambda: matching(store, LogFilter(words="zebra")))
 
 
 def plotted(count: int) -> float:
-    """Milliseconds to draw so many curves, of 10,000 samples each, into 120x40 cells."""
+    """Milliseconds to draw `count` curves, of 10,000 samples each, into 120x40 cells."""
     times = np.linspace(0.0, 100.0, SAMPLES)
     curves = [Curve(f"/topic{at}/data", at, times, np.sin(times * (1 + at / 7))) for at in range(count)]
     return least(lambda: framed(curves, (), Axes(0.0, 100.0), 120, 40))
 
 
 def topic_rows(count: int) -> float:
-    """Milliseconds to make the rows of so many topics, anew after a change."""
+    """Milliseconds to rebuild the rows of `count` topics after a change."""
     nodes = tuple(
         NodeInfo(
             f"/node{at}",
@@ -190,7 +190,7 @@ def topic_rows(count: int) -> float:
 
 
 def robots(count: int) -> float:
-    """Milliseconds for a simulated second of so many robots, each in a world of its own, with scans at 10 Hz."""
+    """Milliseconds for a simulated second of `count` robots, each in its own world, with scans at 10 Hz."""
     driven = [Simulation(load_world(WORLDS / "indoor.yaml"), seed) for seed in range(count)]
 
     def second() -> None:
@@ -217,7 +217,7 @@ CURVES: dict[str, tuple[Measure, tuple[int, ...]]] = {
 
 
 def main(wanted: list[str]) -> None:
-    """Measure the curves that were named, else all."""
+    """Measure the named curves, or all of them."""
     table: dict[str, dict[str, float]] = {}
     for name in wanted or CURVES:
         measure, sizes = CURVES[name]

@@ -1,6 +1,6 @@
-"""The screen as one writes it first: stock widgets of Textual over the same kind of data, ten times a second.
+"""A straightforward screen: stock widgets of Textual over the same kind of data, ten times a second.
 
-A table of parameters, a picture of the world, a curve, a log, a sparkline and a line of status. `K<n>#` in that line
+A table of parameters, a picture of the world, a curve, a log, a sparkline and a status line. `K<n>#` in that line
 counts presses of `j`.
 """
 
@@ -23,7 +23,7 @@ BLANK = "\u2800"
 
 
 class StockScreen(App[None]):
-    """Everything is drawn anew when it has changed, and sent at once."""
+    """Everything is redrawn when it has changed, and sent at once."""
 
     CSS = """
     Static, RichLog, DataTable { height: 1fr; }
@@ -86,7 +86,9 @@ class StockScreen(App[None]):
 
 
 def picture(width: int, height: int, filled: Callable[[float, float], bool]) -> Text:
-    """Braille letters of what is filled, in coordinates from 0 to 1, with a colour for every letter as shaders have."""
+    """Braille characters for the filled parts, in coordinates from 0 to 1, with a colour for every character as shaders
+    have.
+    """
     text = Text()
     for row in range(height):
         for column in range(width):

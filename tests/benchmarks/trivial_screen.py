@@ -1,4 +1,4 @@
-"""The least that Textual shows: one word, and it ends when it is told to."""
+"""The smallest Textual app: one word; it ends on request."""
 
 from __future__ import annotations
 

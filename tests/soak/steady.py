@@ -1,17 +1,17 @@
 """Whether a long run stays flat: memory, threads and descriptors of all its processes, sampled; JSON.
 
-    python tests/soak/steady.py --simulated 24    hours of the default robot without a screen, as fast as it goes
+    python tests/soak/steady.py --simulated 24    hours of the default robot without a screen, as fast as possible
     python tests/soak/steady.py --live 30         minutes of a console with its robot in a terminal of 120x40
     python tests/soak/steady.py --live 30 --filled 20    the same, sampled after 20 minutes
 
-A line is fitted to the samples of each, the first fifth left out: what a program reads, compiles and fills once is
-start-up. `slope` is in MB, threads or descriptors for each simulated hour or live minute, `slope_last_half` that of the
-second half alone; `first` and `last` are the means of a tenth of the samples at either end. Linux.
+A line is fitted to the samples of each quantity, without the first fifth, in which programs start and fill caches.
+`slope` is in MB, threads or descriptors per simulated hour or live minute, `slope_last_half` that of the second half
+alone; `first` and `last` are the means of a tenth of the samples at either end. Linux.
 
-What is kept up to a limit fills meanwhile, at the rates of the default robot: the last two minutes for a bag (2 min); a
-plotted curve, 20,000 samples (17 min at 20 Hz), 1 MB with what the pane holds of it; 12,000 poses, 0.4 MB (20 min); the
-last 1,000 lines of a node for who comes later (the navigator's in 17 min, the safety monitor's in 2 h); the lengths of
-4,096 texts that were drawn (some 20 min); about 75 bytes of each line of the log, up to a million lines.
+Bounded buffers fill meanwhile, at the rates of the default robot: the last two minutes for a bag (2 min); a plotted
+curve, 20,000 samples (17 min at 20 Hz), 1 MB with what the pane holds of it; 12,000 poses, 0.4 MB (20 min); the last
+1,000 lines of a node for late subscribers (the navigator's in 17 min, the safety monitor's in 2 h); the lengths of
+4,096 texts that were drawn (about 20 min); about 75 bytes for each line of the log, up to a million lines.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ Sample = tuple[float, int, int]
 
 
 def descendants(pid: int) -> list[int]:
-    """A process and all that have come from it."""
+    """A process and all its descendants."""
     found = [pid]
     for each in found:
         with contextlib.suppress(OSError):
@@ -84,7 +84,7 @@ def _slope(moments: Any, figures: Any) -> float:
 
 
 def simulated(hours: float, folder: Path) -> dict[str, Any]:
-    """Run the default robot headless, stepped, for so many simulated hours."""
+    """Run the default robot headless and stepped for `hours` of simulated time."""
     words = ["-m", "bot_console.tui", "--headless", "--fast", "--seed", "1", "--duration", str(hours * 3600)]
     with (folder / "log").open("wb") as log, (folder / "report.json").open("wb") as report:
         process = subprocess.Popen([sys.executable, *words], cwd=folder, stdout=report, stderr=log)
