@@ -10,6 +10,7 @@ from typing import Any
 import launch.logging
 from launch.event_queue import EventQueue
 from launch.handler_registry import HandlerRegistry
+from launch.inherited_arguments import Includes
 
 
 class LaunchContext:
@@ -28,6 +29,7 @@ class LaunchContext:
         self.__configurations: dict[str, Any] = {}
         self.__environment_stack: list[dict[str, str]] = []
         self.declared_arguments: set[str] = set()
+        self.includes = Includes()
         self.read_configurations: set[str] = set()
         self.names_without_namespace: dict[str, str] = {}
         self.resolving = False

@@ -18,8 +18,11 @@ from rclpy.clock import Clock, ClockType
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from ros2cli.advice import advise
 
 HIDDEN = "_"
+HINT_POLLS = 4
+"""Checks without an answer after which a person is told what is waited for."""
 SERVER_POLL_S = 0.5
 """Seconds between checks whether a request can still be answered."""
 GONE_POLLS = 20
@@ -172,7 +175,11 @@ def answer(node: Node, client: Any, future: Any) -> Any:
     gone = 0
     ended_polls = polls_until_ended()
     has_ended = node.context.bus.watch_servers(client.endpoint)
+    polls = 0
     while not spin_until(node, future.done, SERVER_POLL_S):
+        polls += 1
+        if polls == HINT_POLLS:
+            advise(lambda: f"waiting for an answer of {service}: its node is busy, or does not spin; Ctrl-C ends this")
         gone = 0 if client.service_is_ready() else gone + 1
         if gone > GONE_POLLS or (gone >= ended_polls and has_ended()):
             raise NoAnswer(f"nobody answers {service}: its node has ended since it was asked; see what it printed")

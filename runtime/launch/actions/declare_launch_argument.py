@@ -97,6 +97,15 @@ class DeclareLaunchArgument(Action, DeclaresArgument):
         """The valid values; None: any."""
         return self.__choices
 
+    def __check_inherited(self, context: LaunchContext) -> None:
+        def default() -> str | None:
+            try:
+                return None if self.default_value is None else perform_substitutions(context, self.default_value)
+            except Exception:  # a default that is not used may name what does not exist
+                return None
+
+        context.includes.check(self.name, context.launch_configurations[self.name], default)
+
     def execute(self, context: LaunchContext) -> None:
         """Set the default if needed; raises `RuntimeError` for a missing or invalid value."""
         context.declared_arguments.add(self.name)
@@ -106,7 +115,11 @@ class DeclareLaunchArgument(Action, DeclaresArgument):
                     f'Required launch argument "{self.name}" (description: "{self.description}") was not provided'
                 )
                 raise RuntimeError(f'Required launch argument "{self.name}" was not provided.')
-            context.launch_configurations[self.name] = perform_substitutions(context, self.default_value)
+            value = perform_substitutions(context, self.default_value)
+            context.launch_configurations[self.name] = value
+            context.includes.default_set(self.name, value)
+        else:
+            self.__check_inherited(context)
         value = context.launch_configurations[self.name]
         if self.__choices is not None and value not in self.__choices:
             message = (

@@ -11,6 +11,7 @@ from launch.action import Action
 from launch.actions.set_launch_configuration import SetLaunchConfiguration
 from launch.argument_discovery import IncludesDescription
 from launch.frontend.expose import expose_action
+from launch.inherited_arguments import Included
 from launch.launch_description_source import LaunchDescriptionSource
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -78,8 +79,15 @@ class IncludeLaunchDescription(Action, IncludesDescription):
         """Read the file, check its required arguments, and return its entities to visit."""
         description = self.__source.get_launch_description(context)
         self._set_locals(context)
-        self._check_required(description, self._given_names(context))
-        return [*(SetLaunchConfiguration(name, value) for name, value in self.__arguments), description]
+        given = self._given_names(context)
+        include = Included(self.__source.location, self.origin, frozenset(given))
+        self._check_required(description, given)
+        return [
+            *(SetLaunchConfiguration(name, value) for name, value in self.__arguments),
+            _EnterInclude(include),
+            description,
+            _LeaveInclude(),
+        ]
 
     def _check_required(self, description: Any, given: list[str]) -> None:
         """Raise `RuntimeError` for a required argument not given; names given by nested includes accumulate."""
@@ -112,3 +120,23 @@ class IncludeLaunchDescription(Action, IncludesDescription):
         context.extend_locals({"current_launch_file_path": path})
         folder = os.path.dirname(path) if os.path.exists(path) else self.__source.location
         context.extend_locals({"current_launch_file_directory": folder})
+
+
+class _EnterInclude(Action):
+    """Visited after an include has set its arguments, before its description."""
+
+    def __init__(self, include: Included) -> None:
+        super().__init__()
+        self._include = include
+
+    def execute(self, context: LaunchContext) -> None:
+        """Begin the include."""
+        context.includes.enter(self._include, context.launch_configurations)
+
+
+class _LeaveInclude(Action):
+    """Visited after the description of an include."""
+
+    def execute(self, context: LaunchContext) -> None:
+        """End the include."""
+        context.includes.leave()

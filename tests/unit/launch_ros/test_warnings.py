@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
+from launch.actions import DeclareLaunchArgument, GroupAction, IncludeLaunchDescription, SetLaunchConfiguration
 from launch.substitutions import LaunchConfiguration
 from launch.undeclared_arguments import WarnOfUndeclaredArguments
 from launch_ros.actions import Node, SetParameter
 from launch_ros.parameter_warnings import changes_in_file, changes_in_yaml
 from launching import Launch, Outcome
+
+from launch import LaunchDescription
 
 
 def warnings(outcome: Outcome) -> list[str]:
@@ -23,7 +27,7 @@ def node(**options: Any) -> Node:
 
 
 def test_undeclared_launch_arguments_are_warned_about(run: Launch) -> None:
-    from launch.actions import DeclareLaunchArgument, LogInfo
+    from launch.actions import LogInfo
 
     entities = [
         DeclareLaunchArgument("speed", default_value="1"),
@@ -125,3 +129,75 @@ def test_duplicate_names_without_namespace_are_warned_about(run: Launch) -> None
     assert warnings(run([first, second, node(), node()])) == [
         f"{second.origin}: this node and the one of {first.origin} have the same name /n"
     ]
+
+
+CHILD = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, LogInfo
+from launch.substitutions import LaunchConfiguration
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument("speed", default_value={default!r}), LogInfo(msg=LaunchConfiguration("speed"))])
+"""
+
+
+def include(path: Path, **arguments: str) -> IncludeLaunchDescription:
+    return IncludeLaunchDescription(str(path), launch_arguments=arguments.items())
+
+
+@pytest.fixture
+def children(tmp_path: Path) -> tuple[Path, Path]:
+    """Two launch files that declare an argument of the same name with different defaults."""
+    for name, default in (("a", "1"), ("b", "2")):
+        (tmp_path / f"{name}.launch.py").write_text(CHILD.format(default=default))
+    return tmp_path / "a.launch.py", tmp_path / "b.launch.py"
+
+
+INHERITING: dict[str, tuple[Any, list[str]]] = {
+    "from a sibling's argument": (lambda a, b: [include(a, speed="9"), include(b)], ["9", "9"]),
+    "from a sibling's default": (lambda a, b: [include(a), include(b)], ["1", "1"]),
+    "of the same file": (lambda a, b: [include(a, speed="9"), include(a)], ["9", "9"]),
+    "only once": (lambda a, b: [include(a, speed="9"), (again := include(b)), again], ["9", "9", "9"]),
+    "in a group of its own": (lambda a, b: [include(a, speed="9"), GroupAction([include(b)])], ["9", "9"]),
+    "through a file between": (lambda a, b: [include(a, speed="9"), LaunchDescription([include(b)])], ["9", "9"]),
+}
+
+
+@pytest.mark.parametrize("how", INHERITING)
+def test_argument_inherited_from_a_sibling_include_is_reported_once(run: Launch, children: Any, how: str) -> None:
+    entities, said = INHERITING[how]
+    outcome = run(entities(*children))
+    assert outcome.message == said, "as in ROS 2"
+    found = [each for each in warnings(outcome) if "inherits" in each]
+    assert len(found) == 1
+    assert re.match(
+        rf"{re.escape(__file__)}:\d+: .*/[ab]\.launch\.py is not given the argument 'speed', and inherits '{said[-1]}' "
+        r"from the include of .*/a\.launch\.py: .* GroupAction$",
+        found[0],
+    )
+
+
+NOT_INHERITING: dict[str, Any] = {
+    "given": lambda a, b: [include(a, speed="9"), include(b, speed="8")],
+    "a scope": lambda a, b: [GroupAction([include(a, speed="9")]), include(b)],
+    "the same default": lambda a, b: [include(a), include(a)],
+    "set in between": lambda a, b: [include(a, speed="9"), SetLaunchConfiguration("speed", "7"), include(b)],
+    "declared around": lambda a, b: [DeclareLaunchArgument("speed", default_value="5"), include(a), include(b)],
+}
+
+
+@pytest.mark.parametrize("how", NOT_INHERITING)
+def test_arguments_that_are_meant_are_not_reported(run: Launch, children: Any, how: str) -> None:
+    assert not [each for each in warnings(run(NOT_INHERITING[how](*children))) if "inherits" in each]
+
+
+def test_argument_of_the_including_file_is_meant_for_the_included_one(run_file: Launch, children: Any) -> None:
+    outer = f"""
+    from launch import LaunchDescription
+    from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
+    def generate_launch_description():
+        return LaunchDescription([
+            DeclareLaunchArgument("speed", default_value="3"), IncludeLaunchDescription({str(children[0])!r})])
+    """
+    outcome = run_file(outer)
+    assert outcome.message == ["3"] and not [each for each in warnings(outcome) if "inherits" in each]

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from ros2cli import direct_node
+from ros2cli import advice, direct_node
 from ros2cli.direct_node import NoAnswer, answer
 
 
@@ -92,3 +92,16 @@ def test_node_missing_in_a_single_poll_is_waited_for() -> None:
     it = Asking(answers=True)
     it.gone_at = (1,)
     assert asked(it) == "answer"
+
+
+@pytest.mark.parametrize(("polls", "hints"), [(1, 1), (2, 1), (3, 0)])
+def test_person_is_told_once_what_is_waited_for(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], polls: int, hints: int
+) -> None:
+    monkeypatch.setattr(direct_node, "HINT_POLLS", polls)
+    monkeypatch.setattr(advice, "is_read", lambda: True)
+    assert asked(Asking(answers=True)) == "answer"
+    assert capsys.readouterr().err.count("waiting for an answer of /robot/get: its node is busy") == hints
+    monkeypatch.setattr(advice, "is_read", lambda: False)
+    assert asked(Asking(answers=True)) == "answer"
+    assert capsys.readouterr().err == ""

@@ -1,0 +1,58 @@
+"""Launch arguments that an included file inherits from an include beside it: what Jazzy does, with a warning."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import launch.logging
+
+
+class Included(NamedTuple):
+    """An include that is being visited."""
+
+    file: str
+    origin: str
+    """The line of the include; empty if unknown."""
+    given: frozenset[str]
+    """The names of the arguments that it gives."""
+
+
+class Includes:
+    """The includes being visited, outermost first, and who has set which argument to which value."""
+
+    def __init__(self) -> None:
+        self._open: list[Included] = []
+        self._set: dict[str, tuple[Included, Any]] = {}
+        self._warned: set[tuple[str, Included]] = set()
+
+    def enter(self, include: Included, configurations: dict[str, Any]) -> None:
+        """Begin an include whose arguments have just been set."""
+        self._open.append(include)
+        for name in include.given:
+            self._set[name] = (include, configurations.get(name))
+
+    def leave(self) -> None:
+        """End the innermost include."""
+        self._open.pop()
+
+    def default_set(self, name: str, value: Any) -> None:
+        """Note that a declaration of the innermost include has set its default."""
+        if self._open:
+            self._set[name] = (self._open[-1], value)
+
+    def check(self, name: str, value: Any, default: Callable[[], str | None]) -> None:
+        """Warn of an argument declared in the innermost include whose value is that of an include beside it."""
+        setter, set_value = self._set.get(name, (None, None))
+        if not self._open or setter is None or set_value != value:
+            return
+        include = self._open[-1]
+        if setter in self._open or name in include.given or (name, include) in self._warned or value == default():
+            return
+        self._warned.add((name, include))
+        where = f"{include.origin}: " if include.origin else ""
+        launch.logging.get_logger("launch").warning(
+            f"{where}{include.file} is not given the argument '{name}', and inherits '{value}' from the include of "
+            f"{setter.file}: arguments stay set after an include. Give it a value of its own, or put the other include "
+            "into a GroupAction"
+        )
