@@ -21,6 +21,7 @@ from launch.actions import (
     SetEnvironmentVariable,
     SetLaunchConfiguration,
 )
+from launch.actions.include_launch_description import IncludeBoundary
 from launch.launch_context import LaunchContext
 from launch.launch_description import LaunchDescription
 from launch.utilities import perform_substitutions
@@ -64,6 +65,9 @@ class _Resolver:
         """Return an entity's own lines, then those of the entities it leads to."""
         if isinstance(entity, LaunchDescription):
             yield from self._below(entity.visit(self._context), depth)
+            return
+        if isinstance(entity, IncludeBoundary):
+            entity.visit(self._context)
             return
         condition = getattr(entity, "condition", None)
         if condition is not None and not condition.evaluate(self._context):

@@ -122,7 +122,11 @@ class IncludeLaunchDescription(Action, IncludesDescription):
         context.extend_locals({"current_launch_file_directory": folder})
 
 
-class _EnterInclude(Action):
+class IncludeBoundary(Action):
+    """What an include visits before and after its description; not a part of the launch file."""
+
+
+class _EnterInclude(IncludeBoundary):
     """Visited after an include has set its arguments, before its description."""
 
     def __init__(self, include: Included) -> None:
@@ -134,7 +138,7 @@ class _EnterInclude(Action):
         context.includes.enter(self._include, context.launch_configurations)
 
 
-class _LeaveInclude(Action):
+class _LeaveInclude(IncludeBoundary):
     """Visited after the description of an include."""
 
     def execute(self, context: LaunchContext) -> None:

@@ -64,6 +64,7 @@ class Parser:
         cls.load_launch_extensions()
         path = file if isinstance(file, str) else getattr(file, "name", "")
         extension = os.path.splitext(path)[1].removeprefix(".")
+        known = extension if cls.is_extension_valid(extension) else ""
         errors: list[BaseException] = []
         try:
             text = _read(path) if isinstance(file, str) else file.read()
@@ -71,7 +72,7 @@ class Parser:
             line = error.object.count(b"\n", 0, error.start) + 1
             error.reason += f"; line {line} is not in UTF-8, which launch files are: save it in that encoding"
             report_place(error, path, line)
-            raise InvalidFrontendLaunchFileError(extension or "unknown", likely_errors=[error]) from error
+            raise InvalidFrontendLaunchFileError(known, likely_errors=[error]) from error
         for parser in cls._parsers_for(path):
             try:
                 root, found = parser.load(io.StringIO(text))
@@ -80,7 +81,6 @@ class Parser:
             except Exception as error:  # each library has its own errors; all are reported
                 report_place(error, path, _line_of_parse_error(error))
                 errors.append(error)
-        known = extension if cls.is_extension_valid(extension) else ""
         raise InvalidFrontendLaunchFileError(known, likely_errors=errors)
 
     @classmethod
