@@ -165,13 +165,13 @@ INHERITING: dict[str, tuple[Any, list[str]]] = {
 
 @pytest.mark.parametrize("how", INHERITING)
 def test_argument_inherited_from_a_sibling_include_is_reported_once(run: Launch, children: Any, how: str) -> None:
-    entities, said = INHERITING[how]
+    entities, logged = INHERITING[how]
     outcome = run(entities(*children))
-    assert outcome.message == said, "as in ROS 2"
+    assert outcome.message == logged, "as in ROS 2"
     found = [each for each in warnings(outcome) if "inherits" in each]
     assert len(found) == 1
     assert re.match(
-        rf"{re.escape(__file__)}:\d+: .*/[ab]\.launch\.py is not given the argument 'speed', and inherits '{said[-1]}' "
+        rf"{re.escape(__file__)}:\d+: .*/[ab]\.launch\.py is not given the argument 'speed', and inherits '{logged[-1]}' "
         r"from the include of .*/a\.launch\.py: .* GroupAction$",
         found[0],
     )

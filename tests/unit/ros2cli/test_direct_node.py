@@ -95,7 +95,7 @@ def test_node_missing_in_a_single_poll_is_waited_for() -> None:
 
 
 @pytest.mark.parametrize(("polls", "hints"), [(1, 1), (2, 1), (3, 0)])
-def test_person_is_told_once_what_is_waited_for(
+def test_hint_names_once_what_is_waited_for(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], polls: int, hints: int
 ) -> None:
     monkeypatch.setattr(direct_node, "HINT_POLLS", polls)
