@@ -171,8 +171,8 @@ def test_argument_inherited_from_a_sibling_include_is_reported_once(run: Launch,
     found = [each for each in warnings(outcome) if "inherits" in each]
     assert len(found) == 1
     assert re.match(
-        rf"{re.escape(__file__)}:\d+: .*/[ab]\.launch\.py is not given the argument 'speed', and inherits '{logged[-1]}' "
-        r"from the include of .*/a\.launch\.py: .* GroupAction$",
+        rf"{re.escape(__file__)}:\d+: .*/[ab]\.launch\.py is not given the argument 'speed', and inherits "
+        rf"'{logged[-1]}' from the include of .*/a\.launch\.py: .* GroupAction$",
         found[0],
     )
 
