@@ -155,6 +155,17 @@ class Stops(RuleBasedStateMachine):
         self.release(name, everybody=True)
         self.deliver_all()
 
+    @rule(name=CONSOLES)
+    def release_that_only_locks_receive(self, name: str) -> None:
+        """A release reaches the locks, no console hears of it, and both locks restart."""
+        self.release(name, everybody=True)
+        locks = [node for node, _ in self.locks.values()]
+        while arriving := [at for at, (to, _) in enumerate(self.bus.pending) if to.node in locks]:
+            self.bus.deliver(arriving[0])
+        self.bus.pending.clear()
+        self.restart_both()
+        self.deliver_all()
+
     @rule(name=CONSOLES, count=st.integers(1, 3), at_once=st.booleans())
     def type_in_text_field(self, name: str, count: int, at_once: bool) -> None:
         """Keys hold the robot until they turn out to be letters; then none of them does."""
@@ -222,7 +233,9 @@ class Stops(RuleBasedStateMachine):
                 assert not lock.lock.ids & self.done
         if len(self.locks) == 2:
             assert len({lock.lock.ids for _, lock in self.locks.values()}) == 1
+        released = {each.id for _, lock in self.locks.values() for each in lock.lock.released}
         for name, (_, link) in self.consoles.items():
+            assert not link._requested.keys() & released
             assert link.info.here or not self.requested[name] - self.named
             if self.locks and self.requested[name] - self.named:
                 assert link.info.confirmed
