@@ -229,7 +229,7 @@ class FarConsole:
         self._link.cut()
         both_restarted(robot, person)
         yield
-        self._link.hint()
+        self._link.restore()
 
 
 def simulator_reset(robot: LiveRobot, person: Terminal) -> None:
