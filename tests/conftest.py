@@ -37,6 +37,7 @@ for number in (signal.SIGINT, *(getattr(signal, name) for name in ("SIGQUIT", "S
 _sockets = tempfile.mkdtemp(prefix="bc-", dir="/tmp")
 _folders = itertools.count(1)
 os.environ["BOT_CONSOLE_SOCKET_DIR"] = os.path.join(_sockets, "0")
+os.environ["BOT_CONSOLE_USER_DIR"] = os.path.join(_sockets, "0-user")
 atexit.register(shutil.rmtree, _sockets, ignore_errors=True)
 
 # Workers and a test's programs compile what they import once, also where the environment says that no files are to be

@@ -19,29 +19,31 @@ from rclpy.node import Node
 
 pytest.importorskip("mcap")
 PROGRAM = [sys.executable, "-m", "bot_console.tui"]
+SOCKETS = f"/tmp/bc-bag-{os.getpid()}"
 
 
 @pytest.fixture(scope="module")
 def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     """A robot in its own domain, and a folder for bags."""
     folder = tmp_path_factory.mktemp("bags")
-    os.environ["BOT_CONSOLE_SOCKET_DIR"] = sockets = f"/tmp/bc-bag-{os.getpid()}"
+    environment = os.environ | {"BOT_CONSOLE_SOCKET_DIR": SOCKETS, "BOT_CONSOLE_USER_DIR": f"{SOCKETS}-user"}
     line = [*PROGRAM, "--headless", "--duration", "1000"]
-    system = subprocess.Popen(line, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    system = subprocess.Popen(line, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
     seen = [*PROGRAM, "topic", "echo", "--once", "--timeout", "60", "/odom"]
-    subprocess.run(seen, capture_output=True, timeout=90, check=False)
+    subprocess.run(seen, capture_output=True, timeout=90, check=False, env=environment)
     yield folder
     system.send_signal(signal.SIGINT)
     try:
         system.wait(60)
     except subprocess.TimeoutExpired:
         system.kill()
-    subprocess.run(["rm", "-rf", sockets], check=False)
+    subprocess.run(["rm", "-rf", SOCKETS, f"{SOCKETS}-user"], check=False)
 
 
 @pytest.fixture(autouse=True)
 def domain(robot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"/tmp/bc-bag-{os.getpid()}")
+    monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", SOCKETS)
+    monkeypatch.setenv("BOT_CONSOLE_USER_DIR", f"{SOCKETS}-user")
 
 
 def typed(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:

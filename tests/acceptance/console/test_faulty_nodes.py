@@ -100,6 +100,7 @@ def system(tmp_path_factory: pytest.TempPathFactory) -> Iterator[System]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROS_LOG_DIR", str(folder / "log"))
         patch.setenv("BOT_CONSOLE_SOCKET_DIR", f"/tmp/bcf-{os.getpid()}")
+        patch.setenv("BOT_CONSOLE_USER_DIR", f"/tmp/bcf-{os.getpid()}-user")
         host = start_host(log=folder / "host.log")
         printed: list[tuple[str, str]] = []
         launcher = HostedLauncher(
@@ -112,12 +113,14 @@ def system(tmp_path_factory: pytest.TempPathFactory) -> Iterator[System]:
         launcher.close()
         host.end()
         shutil.rmtree(os.environ["BOT_CONSOLE_SOCKET_DIR"])
+        shutil.rmtree(f"/tmp/bcf-{os.getpid()}-user", ignore_errors=True)
 
 
 @pytest.fixture(autouse=True)
 def same_folder(system: System, monkeypatch: pytest.MonkeyPatch, socket_folder: str) -> None:
     """Make verbs use the system of this file."""
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"/tmp/bcf-{os.getpid()}")
+    monkeypatch.setenv("BOT_CONSOLE_USER_DIR", f"/tmp/bcf-{os.getpid()}-user")
 
 
 ENDS: Mapping[str, tuple[str, ProcessState, int, str]] = {

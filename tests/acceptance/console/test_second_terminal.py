@@ -37,17 +37,20 @@ def console(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
     """One console with its robot; each test leaves it unchanged."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("BOT_CONSOLE_SOCKET_DIR", SOCKETS)
+        patch.setenv("BOT_CONSOLE_USER_DIR", f"{SOCKETS}-user")
         terminal = Terminal([*CONSOLE, "--seed", "1"], tmp_path_factory.mktemp("console"))
         eventually(terminal, lambda: b"robot_navigator" in terminal.output, "the robot's nodes")
         yield terminal
         terminal.close()
     shutil.rmtree(SOCKETS, ignore_errors=True)
+    shutil.rmtree(f"{SOCKETS}-user", ignore_errors=True)
 
 
 @pytest.fixture(autouse=True)
 def same_folder(console: Terminal, monkeypatch: pytest.MonkeyPatch, socket_folder: str) -> None:
     """Make verbs use the console of this file."""
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", SOCKETS)
+    monkeypatch.setenv("BOT_CONSOLE_USER_DIR", f"{SOCKETS}-user")
 
 
 def speed() -> float:
