@@ -171,16 +171,19 @@ def test_step_3_nodes_topics_and_arrows(page: Terminals, robot: Program, publish
     async def play(screen: Screen) -> None:
         await screen.line("ros2 run rqt_graph rqt_graph")
         view = screen.pane(GraphPane).query_one(DiagramView)
-        await screen.until(lambda: {"/data_publisher", "topic:/robot_speed", "/listener"} <= {*view.places}, "graph")
-        await screen.shows("/data_publisher", "/robot_speed", "/listener")
-        assert {("/data_publisher", "topic:/robot_speed"), ("topic:/robot_speed", "/listener")} <= view._links
-        seen = []
-        for _ in range(3):
-            seen.append({each for each in view.places if each.startswith("topic:")})
-            assert {"/data_publisher", "/listener"} <= {*view.places}
+        await screen.until(lambda: {"/data_publisher", "/listener"} <= {*view.places}, "graph")
+        await screen.shows("data_publisher", "robot_speed", "listener")
+        topics = []
+        for mode in ("Nodes only", "Nodes/Topics (active)", "Nodes/Topics (all)"):
             await screen.press("m")
-        nodes, active, every = sorted(seen, key=len)
-        assert not nodes and active < every and "topic:/robot_speed" in active
+            await screen.shows(mode)
+            await screen.until(lambda: {"/data_publisher", "/listener"} <= {*view.places}, "the same nodes")
+            topics.append({each for each in view.places if each.startswith("topic:")})
+            if mode != "Nodes only":
+                links = {("/data_publisher", "topic:/robot_speed"), ("topic:/robot_speed", "/listener")}
+                assert links <= {*view._links}
+        nodes_only, active, every = topics
+        assert not nodes_only and active < every and "topic:/robot_speed" in active
 
     page.show(play)
 

@@ -35,7 +35,7 @@ class Forked:
             os.close(each)
         self.report = Report()
         self.out = self.err = self.reported = ""
-        self._open = {self._report_end: "", self._out: "out", self._err: "err", self._data: "told"}
+        self._open = {self._report_end: "", self._out: "out", self._err: "err", self._data: "reported"}
 
     def until(self, condition: Callable[[], Any]) -> None:
         """Read until the condition holds, or nothing more can come."""

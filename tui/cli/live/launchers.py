@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from bot_console.tui.console.connection.ros_console import RosConsole
 
 HANGS = (
-    "the launch host {0} hangs in {1}, which holds the interpreter's lock: no node that is a thread of it runs. "
+    "the launch host {0} hangs in {1}, which holds the interpreter lock: no node that is a thread of it runs. "
     "kill -9 {0} ends all of them"
 )
 CONNECT_TIMEOUT_S = 20.0

@@ -144,10 +144,13 @@ class TreeRows:
 
 
 def essential_rows(trees: Mapping[str, ParameterTree]) -> list[Row]:
-    """The parameters that decide how the robot drives; where none does, numbers with a range, else all parameters."""
+    """The parameters that decide how the robot drives; where none does, numbers with a range, else all parameters.
+
+    Those in a group, such as the limits of a simulated base, come after the plain ones.
+    """
     found = [each for tree in trees.values() for each in tree.parameters if not _is_built_in(each.name)]
     ranked = [(rank, each) for each in found if (rank := importance(each)) is not None and rank <= DISTANCE]
-    best = [each for _, each in sorted(ranked, key=lambda pair: pair[0])]
+    best = [each for _, each in sorted(ranked, key=lambda pair: ("." in pair[1].name, pair[0]))]
     return [Row(each.node, each.name, 0, each) for each in best or [each for each in found if each.range] or found]
 
 

@@ -70,7 +70,7 @@ def test_environment_is_a_copy(run, monkeypatch):
     def target():
         print(os.environ["WHEELS"], os.getenv("WHEELS"), os.environ.get("DOORS"), "WHEELS" in os.environ)
         os.environ["WHEELS"] = "3"
-        os.environ.update(GATES="2")
+        os.environ.update(DOORS="2")
         print(os.getenv("WHEELS"), os.environ.copy()["DOORS"], dict(os.environ)["DOORS"], len(os.environ) > 1)
         del os.environ["WHEELS"]
         print("WHEELS" in os.environ, os.environ.pop("WHEELS", "gone"), os.path.expandvars("$DOORS"))

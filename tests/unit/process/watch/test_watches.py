@@ -19,7 +19,7 @@ linux_only = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="ot
 def test_busy_loop_is_reported_once(start, monkeypatch):
     monkeypatch.setattr(busy_watch_module, "PERIOD_S", 0.02)
     monkeypatch.setattr(busy_watch_module, "BUSY_SHARE", 0.0)
-    monkeypatch.setattr(busy_watch_module, "TOLD_S", 0.02)
+    monkeypatch.setattr(busy_watch_module, "REPORT_S", 0.02)
     monkeypatch.setattr(busy_watch_module, "busy_watch", BusyWatch())
     reported = threading.Event()
     notices = []
