@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
@@ -11,7 +11,7 @@ from rclpy.node import Node
 
 
 @contextlib.contextmanager
-def initialised(args: list[str] | None) -> Iterator[None]:
+def initialised(args: list[str] | None) -> Generator[None]:
     """Use ROS in a `with` block, until it is interrupted or its context is shut down; `rclpy.init` returns nothing."""
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
         rclpy.init(args=args)

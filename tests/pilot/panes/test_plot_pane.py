@@ -215,6 +215,6 @@ def test_presets_store_thresholds_axes_and_forms(tmp_path: Path, monkeypatch: py
         await session.press("f", "up", "v")
         assert f"against {SPEED}" in str(plot(session).border_subtitle)
         await session.press("t")
-        assert "header time" in session.text()
+        assert "header time" in str(plot(session).border_subtitle)
 
     run(live(), play, (120, 40))

@@ -81,6 +81,7 @@ def test_arrow_keys_select_and_swap_panes() -> None:
         assert session.app.current_pane.id == "plot"
         where = seen(session)["plot"]
         await session.press("K")
+        await session.settle()
         assert seen(session)["world"] == where and session.app.current_pane.id == "plot"
         wide = seen(session)["plot"].width
         await session.press("right_square_bracket", "right_square_bracket")

@@ -182,7 +182,7 @@ class ParametersPane(EditPane):
             shown.begin_at(worth_changing(new))
         self._go_to_left()
         self._report_counts()
-        if self._expected:
+        if self._expected and not view.essential:  # the short list has no rows of nodes
             self._go_to_expected()
         self._describe()
 
@@ -213,7 +213,7 @@ class ParametersPane(EditPane):
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Tell of the parameter at the cursor."""
         event.stop()
-        moved = event.index != worth_changing(self._list.rows)
+        moved = self._list.cursor != worth_changing(self._list.rows)  # the rows may have changed since the event
         self._chosen = self._chosen or moved
         self._left = None if moved else self._left
         self._at_cursor = self._list.key_at_cursor

@@ -36,7 +36,7 @@ def sourced(folder: Path, *, before: str = "") -> str:
 
 def test_setup_file_adds_ros2_and_workspace_to_shell_once(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["build"]) == 0
-    assert "install/setup.bash makes ros2 a command" in capsys.readouterr().out
+    assert "install/setup.bash makes the ros2 command" in capsys.readouterr().out
     names, command = sourced(folder).splitlines()
     assert names == str(folder) and command.endswith("bot-console")
     assert sourced(folder, before="/other").splitlines()[0] == f"{folder}:/other"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from typing import Any
 
@@ -13,13 +14,15 @@ from nav_msgs.msg import Odometry
 from rclpy.context import Context
 from sensor_msgs.msg import LaserScan
 
+_domains = itertools.count(3600)
+
 
 class Nodes:
     """Makes nodes that subscribe to topics and publish them."""
 
     def __init__(self) -> None:
         self._context = Context()
-        rclpy.init(args=[], context=self._context)
+        rclpy.init(args=[], context=self._context, domain_id=next(_domains))
         self._made: list[Any] = []
 
     def __call__(self, name: str, *, wants: Any = (), gives: Any = (), namespace: str = "") -> Any:
