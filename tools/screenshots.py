@@ -176,7 +176,8 @@ async def main(folder: Path) -> None:
     """Start the robot's own system, photograph it as a new user sees it, end it."""
     folder.mkdir(parents=True, exist_ok=True)
     os.environ["BOT_CONSOLE_USER_DIR"] = str(BEGINNER)
-    session = Session(Options(seed=1))
+    BEGINNER.mkdir(exist_ok=True)
+    session = Session(Options(seed=1, workspace=[BEGINNER]))  # not this tree, whose example adds a pane
     try:
         async with session.app.run_test(size=LARGE) as pilot:
             await take_all(Photographer(session, pilot, folder))
