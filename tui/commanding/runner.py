@@ -9,7 +9,7 @@ from concurrent.futures import Future
 from difflib import get_close_matches
 from typing import Any, Protocol
 
-from bot_console.tui.commanding.verbs import VERBS, places, setting_of, wrong_bag, wrong_use
+from bot_console.tui.commanding.verbs import VERBS, curves_of, places, setting_of, wrong_bag, wrong_use
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.command_line import CommandLine, Stream
 from bot_console.tui.console.model import ChangeSource, SetOutcome
@@ -187,7 +187,7 @@ class LineRunner:
         self._host.show_bag(words[1])
 
     def _plot(self, words: Sequence[str]) -> None:
-        self._host.open(Opening("plot", tuple(words)))
+        self._host.open(Opening("plot", tuple(curves_of(words))))
 
     def _stop(self, _: Sequence[str]) -> None:
         self._host.hold_robot(True)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from bot_console.tui.console.model import ConsoleSnapshot, ParameterInfo, Value
 from bot_console.tui.format import parse_value
+from bot_console.tui.text.expression.parse import Incomplete, parse
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,10 @@ def _parameter(node: str, name: str, snapshot: ConsoleSnapshot) -> ParameterInfo
     return found
 
 
+CONTINUATIONS = tuple("+-*^%,)<>=")
+"""First characters of a word that continues an expression; `/` also begins a topic."""
+
+
 def wrong_use(words: Sequence[str]) -> str:
     """What is wrong with the number of arguments of one of our verbs; empty when nothing is."""
     verb = VERBS[words[0]]
@@ -70,6 +75,27 @@ def wrong_bag(words: Sequence[str]) -> str:
     if words[1] != "open":
         return "write it as: bag open FOLDER; record begins and ends one, the rest is for a shell: bot-console bag -h"
     return "" if os.path.exists(words[2]) else f"there is no bag {words[2]}"
+
+
+def curves_of(words: Sequence[str]) -> list[str]:
+    """The expressions in the arguments of `plot`: blanks separate curves, but may also stand within one."""
+    curves: list[str] = []
+    for word in words:
+        if curves and (word in ("/", "//") or word[:1] in CONTINUATIONS or _is_incomplete(curves[-1])):
+            curves[-1] += f" {word}"
+        else:
+            curves.append(word)
+    return curves
+
+
+def _is_incomplete(expression: str) -> bool:
+    try:
+        parse(expression, paths=True)
+    except Incomplete:
+        return True
+    except ValueError:
+        return False
+    return False
 
 
 def places(
