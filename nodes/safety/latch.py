@@ -68,7 +68,7 @@ class Latch:
         if request.ids is not None:
             if self._challenge in request.challenges or not self._lock.ids.intersection(request.ids):
                 return ""
-            return "it answers an earlier state of this lock: a recording, or a copy that came late"
+            return "it does not quote the current challenge: it is a recording, or was sent before the last change"
         if self._unnamed_of(request):
             return ""
         return "it quotes no challenge, so it releases only stops that the same program has requested without an id"
@@ -87,7 +87,7 @@ class Latch:
             return self.steered_by != steered
         if request.verb == HAND_BACK:
             return self._steering.pop(request.key, None) is not None
-        reason = request.reason if request.verb == STOP else f"a request that nobody understands: {request.verb[:40]!r}"
+        reason = request.reason if request.verb == STOP else f"an unknown request: {request.verb[:40]!r}"
         return self._stop(request.holder, reason, request.key, request.id, request.kept)
 
     def _unnamed_of(self, request: Request) -> list[str]:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 NODE = "node"
 """The key of stops made by a node of the robot, not a person; every release that a program makes covers these too."""
 MAX_STOPS = 50
-"""Stops that are distinguished; any beyond share one entry, whose key is `CROWD`."""
+"""Stops that are distinguished; any beyond share one entry, whose key is `OTHERS`."""
 OTHERS = "others"
 MAX_RELEASES = 100
 """The number of latest releases that are remembered; a late copy of a stop released before those locks the robot

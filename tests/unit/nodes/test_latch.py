@@ -66,7 +66,7 @@ def test_release_must_quote_the_challenge_of_its_stops() -> None:
     latch.request(ANNA, 0)
     recorded = Request(RELEASE, "ben", key="b", ids=("a1", "b1"), challenges=(latch.challenge, "another"))
     latch.request(BEN, 0)
-    assert "earlier state" in latch.refusal(recorded)
+    assert "current challenge" in latch.refusal(recorded)
     assert not latch.request(recorded, 0) and len(latch.lock.stops) == 2
     assert not latch.request(Request(RELEASE, "ben", key="b", ids=("a1", "b1")), 0)
     assert len(latch.lock.stops) == 2
