@@ -78,10 +78,10 @@ def apart(socket_folder: str) -> Iterator[None]:
     yield
     if _takes_part() and not before:
         from bot_console.runtime.rmw.zenoh.domain.domain_bus import close_shared_buses
-        from bot_console.tui.cli.system.domain import run_in_worker
+        from bot_console.tui.cli.system.domain import isolate_from_domain
 
         close_shared_buses()
-        run_in_worker()
+        isolate_from_domain()
 
 
 def _takes_part() -> bool:

@@ -45,7 +45,7 @@ class Press:
 class EarlyStop:
     """Holds the robot for stop keys that have to wait, and decides what they mean when their turn comes.
 
-    The thread that reads keys calls `typed` and `look`, the app's thread calls `attach` and `has_acted`.
+    The thread that reads keys calls `typed` and `poll`, the app's thread calls `attach` and `has_acted`.
     """
 
     def __init__(
@@ -76,7 +76,7 @@ class EarlyStop:
 
     @property
     def due(self) -> float | None:
-        """When `look` is to be called, by the clock; None if not at all."""
+        """When `poll` is to be called, by the clock; None if not at all."""
         return min((each.due for each in [*self._presses] if not each.is_held), default=None)
 
     def is_stop(self, event: events.Key) -> bool:

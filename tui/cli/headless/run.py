@@ -24,10 +24,10 @@ from bot_console.tui.cli.interruptible_wait import wait_interruptibly
 from bot_console.tui.cli.system.domain import (
     STOP_FILE_VARIABLE,
     is_in_range,
+    isolate_from_domain,
     report_of_other_start,
     robot_claim,
     robot_there,
-    run_in_worker,
     take_part,
     unusable_domain,
     why_no_robot,
@@ -109,7 +109,7 @@ def _meet_others(options: Options) -> None:
         atexit.register(claim.release)
         if why := why_no_robot(claim.seen(robot_there, report_of_other_start), options.launch_arguments):
             claim.release()
-            run_in_worker()
+            isolate_from_domain()
             problem = f"{why}; so this one runs in isolation"
     if problem:
         print(problem, file=sys.stderr)

@@ -82,7 +82,7 @@ def stop_file() -> Path:
     return state_folder() / "stops" / f"domain-{domain()}.json"
 
 
-def run_in_worker() -> None:
+def isolate_from_domain() -> None:
     """Isolate the contexts initialised from now on, and the programs of launches, from all other programs."""
     from bot_console.runtime.child_discovery import let_children_meet
     from bot_console.runtime.rmw.local import local_bus

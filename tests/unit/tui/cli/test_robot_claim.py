@@ -136,7 +136,7 @@ def test_nodes_with_our_names_alone_are_not_a_robot(program, up, tmp_path, monke
     apart = []
     for name, value in {
         "take_part": lambda: "", "robot_claim": lambda: RobotClaim(tmp_path), "robot_there": list,
-        "run_in_worker": lambda: apart.append(1),
+        "isolate_from_domain": lambda: apart.append(1),
     }.items():  # fmt: skip
         monkeypatch.setattr(headless, name, value)
     monkeypatch.setattr(domain, "same_names_there", lambda arguments: ["/sensor_handler"])
@@ -150,7 +150,7 @@ def test_headless_runs_in_isolation_beside_a_console_that_is_starting_a_robot(tm
     first, polls, apart = RobotClaim(tmp_path), iter([[], ["/simulator"]]), []
     for name, value in {
         "take_part": lambda: "", "robot_claim": lambda: RobotClaim(tmp_path), "robot_there": lambda: next(polls),
-        "run_in_worker": lambda: apart.append(1),
+        "isolate_from_domain": lambda: apart.append(1),
     }.items():  # fmt: skip
         monkeypatch.setattr(headless, name, value)
     headless._meet_others(parse(["--headless"]))
