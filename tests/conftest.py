@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.importer import install
-from bot_console.tui.cli.attach.console_needs import provide_missing
+from bot_console.tui.session.machine.console_needs import provide_missing
 from hypothesis import settings
 from hypothesis.internal.conjecture import providers
 
@@ -78,7 +78,7 @@ def apart(socket_folder: str) -> Iterator[None]:
     yield
     if _takes_part() and not before:
         from bot_console.runtime.rmw.zenoh.domain.domain_bus import close_shared_buses
-        from bot_console.tui.cli.system.domain import isolate_from_domain
+        from bot_console.tui.session.embedded.domain import isolate_from_domain
 
         close_shared_buses()
         isolate_from_domain()

@@ -20,9 +20,9 @@ from bot_console.runtime.importer import install
 install()
 
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.live.session import Session
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.panes.parameters.table import ParameterRows
+from bot_console.tui.session.live import Session
 from textual.pilot import Pilot
 
 FOLDER = Path(__file__).resolve().parents[1] / "docs" / "images"

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.exit_messages import run_and_report
-from bot_console.tui.cli.live.child_host import start_host
-from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH
-from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import ProcessState
+from bot_console.tui.session.embedded.child_host import start_host
+from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH
+from bot_console.tui.session.launch_host.proxy import HostedLauncher
 from launcher_bench import WAITS
 
 TIMEOUT_S = 120.0

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from bot_console.runtime.process import NodeProcess
-from bot_console.tui.cli.live.vitals import find_vitals
 from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo
+from bot_console.tui.session.embedded.vitals import find_vitals
 
 TIMEOUT_S = 15.0
 """Seconds after which a test gives up; the tests measure no time."""

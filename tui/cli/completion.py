@@ -89,7 +89,7 @@ class ShellNames:
 
     def live(self, *words: str) -> list[str]:
         """The same for what is running in the domain; returns nothing, immediately, if the domain is empty."""
-        from bot_console.tui.cli.system.domain import others_take_part, take_part
+        from bot_console.tui.session.embedded.domain import others_take_part, take_part
 
         return self.asked(*words) if others_take_part() and not take_part() else []
 

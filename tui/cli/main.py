@@ -8,9 +8,9 @@ from collections.abc import Callable, Sequence
 from typing import NoReturn
 
 from bot_console.tui import __version__
-from bot_console.tui.cli.system.domain import end_program, others_take_part
 from bot_console.tui.cli.undecodable import undecodable
 from bot_console.tui.cli.verbs import ros2
+from bot_console.tui.session.embedded.domain import end_program, others_take_part
 
 Words = list[str]
 
@@ -120,7 +120,7 @@ def program() -> NoReturn:
 def _program() -> int:
     words = sys.argv[2:] if sys.argv[1:2] == ["ros2"] else sys.argv[1:]
     if words[:1] == ["launch"]:
-        from bot_console.tui.cli.system.own_processes import prefork
+        from bot_console.tui.session.embedded.own_processes import prefork
 
         prefork(words[1:], from_here=True)
     return main()

@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.live.child_host import Host, start_host
-from bot_console.tui.cli.live.session import Session
 from bot_console.tui.cli.open_files import too_few_files
-from bot_console.tui.cli.system.domain import (
+from bot_console.tui.files.folders import state_folder
+from bot_console.tui.session.embedded.child_host import Host, start_host
+from bot_console.tui.session.embedded.domain import (
     domain,
     is_in_range,
     others_take_part,
@@ -27,12 +27,12 @@ from bot_console.tui.cli.system.domain import (
     unusable_domain,
     why_alone,
 )
-from bot_console.tui.cli.system.named_launch import with_launch_file
-from bot_console.tui.files.folders import state_folder
+from bot_console.tui.session.live import Session
+from bot_console.tui.session.named_launch import with_launch_file
 from bot_console.tui.settings.settings import read_settings
 
 if TYPE_CHECKING:
-    from bot_console.tui.cli.system.connected import Connected
+    from bot_console.tui.session.composition import Connected
 
 ATTACHED = "Attached to ROS domain {}: q ends only the console, and what was started from it."
 HOST_LOG = "launch-host.log"
@@ -76,7 +76,7 @@ def run(options: Options) -> int:
 def _prepare(options: Options) -> None:
     """Install the runtime under the ROS names, and join the domain."""
     from bot_console.runtime.importer import install
-    from bot_console.tui.cli.system.workspaces import choose
+    from bot_console.tui.session.embedded.workspaces import choose
 
     install()
     choose(options.workspace)
@@ -86,10 +86,10 @@ def _prepare(options: Options) -> None:
 def _connect(options: Options, alone: str, own: Host | None, start: Callable[[], Host]) -> Connected:
     """Build what is shown, after the first frame: these imports take longer than everything before it."""
     _prepare(options)
-    from bot_console.tui.cli.live.launchers import attached, embedded, hosted
-    from bot_console.tui.cli.live.snapshot_buffer import HostedSnapshotBuffer, overhear
-    from bot_console.tui.cli.system.connected import Connected
     from bot_console.tui.console.model import Severity
+    from bot_console.tui.session.composition import Connected
+    from bot_console.tui.session.launchers import attached, embedded, hosted
+    from bot_console.tui.session.snapshot_buffer import HostedSnapshotBuffer, overhear
 
     message = [(Severity.WARN, f"Other terminals cannot reach this system: {alone}")] if alone else []
     if options.attach:
@@ -135,7 +135,7 @@ def _attach_instead(there: list[str], *, robot: bool) -> bool:
     Two robots in one domain would obey each other's commands, and two nodes of one name share their parameters and log.
     """
     from bot_console.runtime.workspace.builtin_package import NAME
-    from bot_console.tui.cli.system.workspaces import NAVIGATOR
+    from bot_console.tui.session.embedded.workspaces import NAVIGATOR
 
     number = domain()
     if robot:

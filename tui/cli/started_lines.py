@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from bot_console.tui.cli.programs import program
-from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH
+from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH
 
 
 @dataclass(frozen=True)

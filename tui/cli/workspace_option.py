@@ -38,7 +38,7 @@ def without_workspace(words: Sequence[str], is_command: Callable[[str], object])
 
 def use_folders(folders: Collection[str]) -> None:
     """Make these folders the workspace of this run; raises `NoWorkspaceError`."""
-    from bot_console.tui.cli.system.workspaces import choose
+    from bot_console.tui.session.embedded.workspaces import choose
 
     for each in folders:
         if not Path(each).is_dir():

@@ -20,10 +20,10 @@ if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
-from bot_console.tui.console.launch_host.address import connect_to_host, host_addresses
-from bot_console.tui.console.launch_host.combined import CombinedLauncher, OtherHosts
-from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import ProcessInfo, ProcessState
+from bot_console.tui.session.launch_host.address import connect_to_host, host_addresses
+from bot_console.tui.session.launch_host.combined import CombinedLauncher, OtherHosts
+from bot_console.tui.session.launch_host.proxy import HostedLauncher
 from launcher_bench import WAITS
 
 TIMEOUT_S = 90.0

@@ -17,8 +17,8 @@ from processes.ports import free_port
 TIMEOUT_S = 100
 ENDING = """
 import sys
-from bot_console.tui.cli.system.connecting import connect_to
-from bot_console.tui.cli.system.domain import end_program
+from bot_console.tui.session.embedded.connecting import connect_to
+from bot_console.tui.session.embedded.domain import end_program
 
 class Finalized:
     def __del__(self):

@@ -17,9 +17,9 @@ import pytest
 if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
 
-from bot_console.tui.cli.live.child_host import start_host
-from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import ProcessState
+from bot_console.tui.session.embedded.child_host import start_host
+from bot_console.tui.session.launch_host.proxy import HostedLauncher
 from launcher_bench import HEAD, WAITS
 
 TIMEOUT_S = 40.0
@@ -182,8 +182,8 @@ def test_processes_end_with_their_owner(tmp_path: Path) -> None:
     file.write_text(HEAD.format(entities=f"[Node(executable={str(program)!r})]"))
     owner = (
         "import time\n"
-        "from bot_console.tui.cli.live.child_host import start_host\n"
-        "from bot_console.tui.console.launch_host.proxy import HostedLauncher\n"
+        "from bot_console.tui.session.embedded.child_host import start_host\n"
+        "from bot_console.tui.session.launch_host.proxy import HostedLauncher\n"
         "host = start_host()\n"
         "launcher = HostedLauncher(host.connection, lambda *record: None, lambda *line: None)\n"
         f"print(launcher.launch({str(file)!r}, {{}}).result(40).ok, host.process.pid, flush=True)\n"

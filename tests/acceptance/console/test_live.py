@@ -9,8 +9,8 @@ from contextlib import asynccontextmanager
 
 import pytest
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.live.session import Session
 from bot_console.tui.console.model import LogFilter, ProcessState, Severity
+from bot_console.tui.session.live import Session
 
 TIMEOUT_S = 60.0
 """Seconds after which a test gives up; nothing is measured by it."""

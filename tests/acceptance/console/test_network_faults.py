@@ -15,9 +15,9 @@ from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_sessi
 from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
 from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.settings import Serving
-from bot_console.tui.cli.attach.network import LinkWords
 from bot_console.tui.console.model import Severity
 from bot_console.tui.panes.steering.state import Steering
+from bot_console.tui.session.network import LinkWords
 from processes.bad_link import BadLink
 from processes.ports import free_port
 from rclpy.publisher import Publisher

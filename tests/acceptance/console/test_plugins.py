@@ -11,8 +11,8 @@ import pytest
 from bot_console.runtime.workspace.discover import Workspace, default_folders, use, workspace
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.arrangement.plugin_pane import PluginPane
-from bot_console.tui.cli.system.plugins import find_plugins
 from bot_console.tui.panes.broken_pane import BrokenPane
+from bot_console.tui.session.plugins import find_plugins
 from piloting import asyncio
 from samples import live
 from textual.widgets import Button, Label
@@ -83,7 +83,7 @@ def test_example_is_built_installed_and_found(tmp_path: Path) -> None:
     )
     assert built.returncode == 0, built.stderr
     program = (
-        "from bot_console.tui.cli.system.plugins import find_plugins; each, = find_plugins(); print(each.load().TITLE)"
+        "from bot_console.tui.session.plugins import find_plugins; each, = find_plugins(); print(each.load().TITLE)"
     )
     line = [sys.executable, "-c", f"import sys; sys.path.insert(0, {str(tmp_path / 'site')!r}); {program}"]
     found = subprocess.run(line, capture_output=True, text=True, timeout=60, check=False, cwd=tmp_path / "site")

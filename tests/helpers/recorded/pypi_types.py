@@ -8,7 +8,7 @@ import sys
 import types
 
 import test_msgs.action
-from bot_console.tui.cli.attach.console_needs import provide_missing
+from bot_console.tui.session.machine.console_needs import provide_missing
 
 provide_missing()
 example_interfaces = types.ModuleType("example_interfaces")

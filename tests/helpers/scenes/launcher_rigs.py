@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Protocol
 
 import pytest
-from bot_console.tui.cli.attach.launchers import launcher_of_machine
-from bot_console.tui.console.launch_host.combined import CombinedLauncher
-from bot_console.tui.console.launch_host.host import LaunchHost
-from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo
 from bot_console.tui.console.protocol import Launcher
+from bot_console.tui.session.launch_host.combined import CombinedLauncher
+from bot_console.tui.session.launch_host.host import LaunchHost
+from bot_console.tui.session.launch_host.proxy import HostedLauncher
+from bot_console.tui.session.machine.launchers import launcher_of_machine
 from fakes.console import FakeConsole
 from fakes.launcher import FakeLauncher
 from launcher_bench import HEAD, WAITS, Bench

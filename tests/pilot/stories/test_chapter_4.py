@@ -11,13 +11,13 @@ import pytest
 from bot_console.runtime.workspace import discover
 from bot_console.tui.cli.appearance import appearance_of
 from bot_console.tui.cli.arguments import parse
-from bot_console.tui.cli.system.plugins import find_plugins
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.panes.graph.pane import GraphPane
 from bot_console.tui.panes.logs.pane import LogsPane
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.plot.pane import PlotPane
+from bot_console.tui.session.plugins import find_plugins
 from bot_console.tui.widgets.diagram_view import DiagramView
 from course.rows import rows
 from page_terminals import Screen, Terminals, terminals

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from bot_console.tui.cli.check.runner import Outcome, Runner
 from bot_console.tui.cli.check.script import ScriptError, Step, read
-from bot_console.tui.cli.system.reached_console import known, reached_console
 from bot_console.tui.format import counted, sanitize
+from bot_console.tui.session.reached_console import known, reached_console
 
 MAX_SCRIPT_BYTES = 1_000_000
 """The largest script that is accepted."""

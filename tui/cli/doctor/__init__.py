@@ -12,12 +12,12 @@ from pathlib import Path
 from bot_console.runtime.importer import install
 from bot_console.runtime.rmw.zenoh.network.client import Way
 from bot_console.tui import __version__
-from bot_console.tui.cli.attach.choice import NO_ROS
-from bot_console.tui.cli.attach.machine_ros import find_machine_ros, how_to_install
-from bot_console.tui.cli.attach.options import add_network_options, network_way
+from bot_console.tui.cli.attach_options import add_network_options, network_way
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level, as_json, exit_code
 from bot_console.tui.cli.doctor.machine import machine_findings
 from bot_console.tui.cli.doctor.terminal import terminal_findings
+from bot_console.tui.session.machine.choice import NO_ROS
+from bot_console.tui.session.machine.machine_ros import find_machine_ros, how_to_install
 
 EPILOG = """\
 examples:
@@ -106,7 +106,7 @@ def _zenoh(
     way: Way | None, seconds: float, capture: Path | None, report: Callable[[Sequence[DoctorFinding]], None]
 ) -> None:
     from bot_console.runtime.rmw.zenoh.session import SessionError
-    from bot_console.tui.cli.system.domain import others_take_part
+    from bot_console.tui.session.embedded.domain import others_take_part
 
     if way is None and not others_take_part():
         report([DoctorFinding(Level.NOTE, "graph", "no system of bot-console runs in this ROS domain")])

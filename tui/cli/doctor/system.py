@@ -13,9 +13,9 @@ from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 from bot_console.tui.cli.doctor.nodes import node_findings
 from bot_console.tui.cli.doctor.wire import captured, watch_wire, wire_findings
-from bot_console.tui.cli.system.connecting import connect
-from bot_console.tui.cli.system.domain import domain, take_part
-from bot_console.tui.cli.system.type_source import DomainTypes
+from bot_console.tui.session.embedded.connecting import connect
+from bot_console.tui.session.embedded.domain import domain, take_part
+from bot_console.tui.session.embedded.type_source import DomainTypes
 
 FAR_MS = 300
 PROBES = 3

@@ -10,10 +10,10 @@ from typing import Any
 from bot_console.runtime.process import NodeProcess
 from bot_console.runtime.workspace.builtin_package import NAME
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.live import robot_starter
-from bot_console.tui.cli.system.domain import nodes_there
-from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH, launch_environment
 from bot_console.tui.console.launch.delayed_starts import delayed_starts
+from bot_console.tui.session import robot_starter
+from bot_console.tui.session.embedded.domain import nodes_there
+from bot_console.tui.session.embedded.workspaces import SYSTEM_LAUNCH, launch_environment
 
 SIMULATOR = (NAME, "simulator_node")
 """The last two parts of the path of our simulator."""

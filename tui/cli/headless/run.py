@@ -21,7 +21,7 @@ from bot_console.runtime.importer import install
 from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.interruptible_wait import wait_interruptibly
-from bot_console.tui.cli.system.domain import (
+from bot_console.tui.session.embedded.domain import (
     STOP_FILE_VARIABLE,
     is_in_range,
     isolate_from_domain,
@@ -32,8 +32,8 @@ from bot_console.tui.cli.system.domain import (
     unusable_domain,
     why_no_robot,
 )
-from bot_console.tui.cli.system.named_launch import with_launch_file
-from bot_console.tui.cli.system.workspaces import choose
+from bot_console.tui.session.embedded.workspaces import choose
+from bot_console.tui.session.named_launch import with_launch_file
 
 if TYPE_CHECKING:
     from bot_console.tui.cli.headless.launches import Launches
@@ -114,7 +114,7 @@ def _meet_others(options: Options) -> None:
     if problem:
         print(problem, file=sys.stderr)
         return
-    from bot_console.tui.cli.system.own_processes import isolate
+    from bot_console.tui.session.embedded.own_processes import isolate
 
     isolate()
 

@@ -117,7 +117,7 @@ def lint_files(files: Iterable[Path], named: Path | None = None) -> list[LintFin
 
 def _running() -> tuple[str, list[LintFinding]]:
     from bot_console.runtime.importer import install
-    from bot_console.tui.cli.system.domain import take_part
+    from bot_console.tui.session.embedded.domain import take_part
 
     install()
     if alone := take_part():

@@ -6,12 +6,12 @@ import threading
 from dataclasses import replace
 from pathlib import Path
 
-from bot_console.tui.cli.system.workspaces import SYSTEM_NODES
 from bot_console.tui.cli.tune.pool import CAN_FORK, Pool
 from bot_console.tui.cli.tune.saving import save_profile
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.files.folders import state_folder
 from bot_console.tui.files.save_file import NotSaved
+from bot_console.tui.session.embedded.workspaces import SYSTEM_NODES
 from bot_console.tui.tuning.job import Progress, TuningJob
 from bot_console.tui.tuning.journal import TuningJournal
 from bot_console.tui.tuning.specification import TuningSpecification

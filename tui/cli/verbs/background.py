@@ -18,8 +18,10 @@ from pathlib import Path
 from bot_console.runtime.process.session_end import end_session
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import RANGE_VARIABLE
 from bot_console.tui.child_command import child_command
-from bot_console.tui.cli.system.background_system import SWITCH
-from bot_console.tui.cli.system.domain import (
+from bot_console.tui.files.folders import OVERRIDE, state_folder
+from bot_console.tui.files.save_file import NotSaved, save_file
+from bot_console.tui.session.background_system import SWITCH
+from bot_console.tui.session.embedded.domain import (
     domain,
     frozen,
     is_in_range,
@@ -30,12 +32,10 @@ from bot_console.tui.cli.system.domain import (
     take_part,
     why_no_robot,
 )
-from bot_console.tui.cli.system.named_launch import with_launch_file
-from bot_console.tui.cli.system.start_lock import start_lock
-from bot_console.tui.cli.system.system_log import new_log
-from bot_console.tui.console.launch_host.address import ADDRESS_SUFFIX
-from bot_console.tui.files.folders import OVERRIDE, state_folder
-from bot_console.tui.files.save_file import NotSaved, save_file
+from bot_console.tui.session.embedded.start_lock import start_lock
+from bot_console.tui.session.launch_host.address import ADDRESS_SUFFIX
+from bot_console.tui.session.named_launch import with_launch_file
+from bot_console.tui.session.system_log import new_log
 
 STARTING = 60.0
 """Seconds until its nodes must be visible, on a busy machine."""
@@ -246,7 +246,7 @@ def status(words: Sequence[str]) -> int:
 
     Returns 1 if there is neither.
     """
-    from bot_console.tui.cli.system.reaching import named_routers, reach_system
+    from bot_console.tui.session.embedded.reaching import named_routers, reach_system
 
     _no_words("status", "Show what is running.", words)
     if problem := reach_system():

@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.importer import install
-from bot_console.tui.cli.system.domain import take_part
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.format import sanitize
+from bot_console.tui.session.embedded.domain import take_part
 
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.recorder import Ring

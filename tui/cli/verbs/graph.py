@@ -9,13 +9,13 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from bot_console.tui.cli.system.reached_console import reached_console, settled
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.graph.connections import connections, is_hidden, is_own_service, unconnected
 from bot_console.tui.console.graph.expected import Expected, differences, read, written
 from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.format import sanitize
+from bot_console.tui.session.reached_console import reached_console, settled
 from bot_console.tui.settings.settings import read_settings
 
 STILL = 1.0

@@ -9,11 +9,11 @@ from concurrent.futures import Future
 from concurrent.futures import TimeoutError as TooLate
 from typing import TypeVar
 
-from bot_console.tui.cli.system.reached_console import known, reached_console
 from bot_console.tui.cli.verbs.stop import ask
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import ConsoleSnapshot, Value
 from bot_console.tui.format import counted, sanitize, value_text
+from bot_console.tui.session.reached_console import known, reached_console
 
 T = TypeVar("T")
 ANSWER_TIMEOUT_S = 10.0

@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from bot_console.tui.cli.system.domain import take_part
-from bot_console.tui.cli.system.reaching import reach_system, reach_when_asked
+from bot_console.tui.session.embedded.domain import take_part
+from bot_console.tui.session.embedded.reaching import reach_system, reach_when_asked
 
 VERBS = ("action", "component", "interface", "lifecycle", "node", "param", "pkg", "service", "topic")
 ALONE = ("interface", "pkg")
@@ -45,10 +45,10 @@ def taking_part(words: Sequence[str]) -> int:
 
 def launch(words: Sequence[str]) -> int:
     """Run a launch file in the domain that the environment names; a user's nodes get their own processes."""
-    from bot_console.tui.cli.system.own_processes import prefork
+    from bot_console.tui.session.embedded.own_processes import prefork
 
     prefork(words)
-    from bot_console.tui.cli.system.workspaces import report_workspace
+    from bot_console.tui.session.embedded.workspaces import report_workspace
 
     report_workspace(next((each for each in words if not each.startswith("-")), ""))
     problem = take_part()
@@ -56,7 +56,7 @@ def launch(words: Sequence[str]) -> int:
         print(problem, file=sys.stderr)
         return 1
     from bot_console.runtime.importer import install
-    from bot_console.tui.cli.system.own_processes import isolate, watch_threads
+    from bot_console.tui.session.embedded.own_processes import isolate, watch_threads
 
     install()
     isolate()

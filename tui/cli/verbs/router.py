@@ -86,7 +86,7 @@ def warning_of(serving: Serving) -> str:
 def _open(serving: Serving, config: str, *, mesh: bool) -> Session:
     if mesh:
         from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession
-        from bot_console.tui.cli.system.domain import domain
+        from bot_console.tui.session.embedded.domain import domain
 
         session = MeshSession(domain(), serving)
         session.watch()

@@ -7,7 +7,7 @@ import sys
 
 from bot_console.tui.cli.arguments import SIMULATOR_HELP, Options
 from bot_console.tui.cli.programs import program
-from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH, report_workspace
+from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH, report_workspace
 
 
 def run(words: list[str]) -> int:
@@ -22,7 +22,7 @@ def run(words: list[str]) -> int:
         return _prefixed(given.prefix, rest)
     if not (given.watch or given.headless):
         from bot_console.runtime.run import main
-        from bot_console.tui.cli.system.domain import take_part
+        from bot_console.tui.session.embedded.domain import take_part
 
         problem = take_part()
         if problem:
@@ -47,8 +47,8 @@ def run(words: list[str]) -> int:
 
 def _prefixed(prefix: str, words: list[str]) -> int:
     """Run an executable behind a command prefix, in its own process."""
-    from bot_console.tui.cli.system.domain import take_part
     from bot_console.tui.cli.verbs import ros2
+    from bot_console.tui.session.embedded.domain import take_part
 
     problem = take_part()
     if problem:

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 from bot_console.runtime.exit_messages import ended_code
 from bot_console.runtime.importer import install
-from bot_console.tui.cli.system.reached_stop import ReachedStop
-from bot_console.tui.cli.system.reaching import reach_system
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.format import sanitize
+from bot_console.tui.session.embedded.reaching import reach_system
+from bot_console.tui.session.reached_stop import ReachedStop
 
 if TYPE_CHECKING:
     from bot_console.tui.console.robot.stop_link import StopInfo

@@ -21,8 +21,8 @@ from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, pack, unpack
 from bot_console.runtime.rmw.zenoh.wire.keys import data_key
 from bot_console.runtime.rmw.zenoh.wire.tokens import parse_token
-from bot_console.tui.cli.system.connecting import connect
 from bot_console.tui.console.graph.pairs import unheard
+from bot_console.tui.session.embedded.connecting import connect
 from processes.ports import free_port
 from rcl_interfaces.msg import Log
 from rclpy.context import Context

@@ -6,8 +6,8 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from bot_console.tui.cli.system import system_log
 from bot_console.tui.cli.verbs import background
+from bot_console.tui.session import system_log
 
 
 def test_router_does_not_write_to_a_rotating_log(

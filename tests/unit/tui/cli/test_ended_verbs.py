@@ -8,8 +8,8 @@ import pytest
 import rclpy
 from bot_console.runtime.exit_messages import run_and_report
 from bot_console.tui.cli.main import main
-from bot_console.tui.cli.system import reached_stop
 from bot_console.tui.cli.verbs import background
+from bot_console.tui.session import reached_stop
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from ros2cli.direct_node import DirectNode

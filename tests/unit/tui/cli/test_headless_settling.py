@@ -5,8 +5,8 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import pytest
-from bot_console.tui.cli.system import reached_console
-from bot_console.tui.cli.system.reached_console import POLL_S, settled
+from bot_console.tui.session import reached_console
+from bot_console.tui.session.reached_console import POLL_S, settled
 
 
 @pytest.fixture

@@ -12,8 +12,9 @@ from bot_console.tui.cli import robot_claim, screen
 from bot_console.tui.cli.arguments import parse
 from bot_console.tui.cli.headless import run as headless
 from bot_console.tui.cli.robot_claim import NAME, RobotClaim
-from bot_console.tui.cli.system import domain, system_log
 from bot_console.tui.cli.verbs import background
+from bot_console.tui.session import system_log
+from bot_console.tui.session.embedded import domain
 
 
 @pytest.fixture(autouse=True)

@@ -7,10 +7,10 @@ from collections import Counter
 
 import pytest
 from bot_console.runtime.importer import install
-from bot_console.tui.cli.live.launching import Launching
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.model import LogFilter
+from bot_console.tui.session.embedded.launching import Launching
 from launcher_bench import HEAD
 
 TIMEOUT_S = 120.0

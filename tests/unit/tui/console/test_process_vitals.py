@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 
 import pytest
-from bot_console.tui.cli.live.vitals import SystemVitals
 from bot_console.tui.console.launch.vitals import FROZEN, HANGS, Usage
+from bot_console.tui.session.embedded.vitals import SystemVitals
 
 
 class Reported:

@@ -176,7 +176,7 @@ def test_wrong_usage_exits_with_2() -> None:
 
 
 def test_closed_pipe_is_not_blamed_on_the_capture(monkeypatch, capsys):
-    monkeypatch.setattr("bot_console.tui.cli.system.domain.others_take_part", lambda: True)
+    monkeypatch.setattr("bot_console.tui.session.embedded.domain.others_take_part", lambda: True)
     monkeypatch.setattr(
         "bot_console.tui.cli.doctor.system.examine", lambda *words: [DoctorFinding(Level.OK, "link", "is")]
     )

@@ -4,8 +4,8 @@ import itertools
 
 import pytest
 import rclpy
-from bot_console.tui.cli.system.connected import graph_events
 from bot_console.tui.console.graph.watch import GraphWatch
+from bot_console.tui.session.composition import graph_events
 from rclpy.context import Context
 from std_msgs.msg import Float64
 

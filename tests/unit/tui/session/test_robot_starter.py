@@ -1,0 +1,60 @@
+"""When a launch counts as up, so that a missing robot may be started: nodes of other programs do not count."""
+
+import pytest
+import rclpy
+from bot_console.tui.session.robot_starter import GRAPH_POLL_S, SETTLED_S, RobotStarter, System
+from geometry_msgs.msg import Twist
+from rclpy.context import Context
+
+POLLS = int(SETTLED_S / GRAPH_POLL_S) + 2
+"""Polls of an unchanged graph until its nodes count as up."""
+
+
+@pytest.fixture
+def make():
+    """Makes nodes of one graph."""
+    context = Context()
+    context.init([])
+    nodes = []
+
+    def made(name):
+        nodes.append(rclpy.create_node(name, context=context))
+        return nodes[-1]
+
+    yield made
+    for each in nodes:
+        each.destroy_node()
+    context.try_shutdown()
+
+
+def polled(beside, node):
+    for _ in range(POLLS):
+        beside._poll(node)
+    return beside.started
+
+
+@pytest.fixture
+def beside():
+    """Makes a starter for a launch of so many processes, with so many nodes of other programs before it."""
+    return lambda processes, others: RobotStarter(
+        System(lambda: (processes, 0), lambda text: None, lambda arguments: None, others), {}
+    )
+
+
+def test_node_of_another_program_does_not_stand_in_for_a_starting_process(make, beside):
+    make("driver").create_publisher(Twist, "/cmd_vel", 10)
+    looker = make("_looker")
+    launched = beside(1, 1)
+    assert not polled(launched, looker)
+    make("blind")
+    assert polled(launched, looker)
+
+
+def test_nothing_is_decided_before_the_first_process_runs(make, beside):
+    make("driver").create_publisher(Twist, "/cmd_vel", 10)
+    assert not polled(beside(0, 1), make("_looker"))
+
+
+def test_own_nodes_get_a_robot(make, beside):
+    make("driver").create_publisher(Twist, "/cmd_vel", 10)
+    assert polled(beside(1, 0), make("_looker"))

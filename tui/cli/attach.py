@@ -1,0 +1,52 @@
+"""`bot-console attach`: the console on a running system: an embedded one, the machine's ROS 2, or a remote one."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from bot_console.tui.cli.attach_options import AttachOptions, parse
+from bot_console.tui.session.embedded.domain import others_take_part
+from bot_console.tui.session.machine.choice import choose
+
+
+def run(words: Sequence[str]) -> int:
+    """Show the console on the chosen system; exit code 2 when the choice is unclear and nobody can be asked."""
+    options = parse(words)
+    if options.way is not None:
+        return _needs_terminal() or _network(options)
+    kind = choose(ros=options.ros, embedded=options.embedded, system_there=others_take_part())
+    if kind.code:
+        print(kind.text, file=sys.stderr)
+        return kind.code
+    if kind.ros is not None:
+        return _needs_terminal() or _ros(options, str(kind.ros))
+    from bot_console.tui.cli.screen import run as show
+
+    return show(options.appearance)
+
+
+def _needs_terminal() -> int:
+    if sys.stdout.isatty() and sys.stdin.isatty():
+        return 0
+    print("bot-console needs a terminal; without one, use `bot-console doctor` or the `ros2` commands", file=sys.stderr)
+    return 1
+
+
+def _network(options: AttachOptions) -> int:
+    from bot_console.tui.session.network import run_network
+
+    return run_network(options)
+
+
+def _ros(options: AttachOptions, place: str) -> int:
+    from bot_console.tui.session.machine.console_needs import missing_messages, provide_missing
+
+    missing = missing_messages()
+    if missing:
+        print(missing, file=sys.stderr)
+        return 1
+    provide_missing()
+    from bot_console.tui.session.machine.ros import run_ros
+
+    return run_ros(options, place)

@@ -1,1 +1,0 @@
-"""A console session: what runs alongside the app."""

@@ -1,1 +1,0 @@
-"""A program's environment: its domain, its workspace, its processes, and the background system."""

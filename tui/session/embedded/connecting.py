@@ -1,0 +1,37 @@
+"""Connects a program without a screen to a robot's router, as a client."""
+
+from __future__ import annotations
+
+import atexit
+from collections.abc import Sequence
+
+from bot_console.runtime.importer import install
+from bot_console.runtime.rmw.middleware import bus_of, choose_middleware
+from bot_console.runtime.rmw.qos_matching import RMW_ZENOH
+from bot_console.runtime.rmw.zenoh.network.client import Way, with_environment
+from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
+from bot_console.runtime.rmw.zenoh.network.reachability import place_of
+from bot_console.runtime.rmw.zenoh.session import SessionError
+from bot_console.tui.session.embedded.domain import domain, note_connection
+
+
+def connect(way: Way) -> NetworkBuses:
+    """Make the contexts of this process clients of a router from now on; raises `SessionError` with the reason."""
+    install()
+    buses = NetworkBuses(with_environment(way))
+    choose_middleware(buses, RMW_ZENOH)
+    atexit.register(buses.close)
+    bus_of(domain())  # Connect now, so that a failure is reported before there is a screen.
+    note_connection()
+    return buses
+
+
+def connect_to(endpoints: Sequence[str]) -> str:
+    """Connect to these routers; returns why that fails in one line, or an empty text on success."""
+    try:
+        for each in endpoints:
+            place_of(each)
+        connect(Way(tuple(endpoints)))
+    except (SessionError, ValueError) as error:
+        return str(error)
+    return ""

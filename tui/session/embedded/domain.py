@@ -1,0 +1,212 @@
+"""A program's membership of its ROS domain, whose graph spans all programs of the user on this machine.
+
+Only the composition root calls this: what a verb, `run` or `launch` starts is then visible to the others, and vice
+versa.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, NoReturn
+
+from bot_console.runtime.domain_id import domain_id
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from bot_console.tui.cli.robot_claim import RobotClaim
+
+_taking_part = False
+_connected = False
+
+STOP_FILE_VARIABLE = "BOT_CONSOLE_STOP_FILE"
+"""Where the robots of this domain keep their stops, for all nodes that this program starts: see `docs/safety.md`."""
+CONNECT_VARIABLE = "BOT_CONSOLE_CONNECT"
+"""The router that `--connect` would name, for verbs, and for shells that work with one robot."""
+
+
+def unusable_domain() -> str:
+    """Why the environment does not name a valid domain, in one line; empty if it does."""
+    try:
+        domain_id()
+    except ValueError as error:
+        return f"{error}: unset it, or set 0 to 101"
+    return ""
+
+
+def why_alone() -> str:
+    """Why this program cannot find others in its domain, in one line; empty if it can."""
+    from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
+
+    if problem := unusable_domain():
+        return problem
+    try:
+        domain_folder(domain())
+    except FolderRefusedError as refused:
+        return str(refused)
+    return ""
+
+
+def take_part(*, starts_nodes: bool = True) -> str:
+    """Make contexts initialised from now on share the graph of their domain; never in a stepped run.
+
+    A program that starts nodes also tells them where the stops of a robot are kept. Returns why joining fails in one
+    line, or an empty text on success.
+    """
+    global _taking_part
+    if alone := why_alone():
+        return alone
+    from bot_console.runtime.child_discovery import let_children_meet
+    from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
+
+    share_domains()
+    let_children_meet(True)
+    if starts_nodes:
+        os.environ[STOP_FILE_VARIABLE] = str(stop_file())
+    _taking_part = True
+    return ""
+
+
+def note_connection() -> None:
+    """Record that this program is a client of a robot's router, instead of a member of this machine's domain."""
+    global _connected
+    _connected = True
+
+
+def stop_file() -> Path:
+    """The file with the unreleased stops of this domain's robots, and with releases."""
+    from bot_console.tui.files.folders import state_folder
+
+    return state_folder() / "stops" / f"domain-{domain()}.json"
+
+
+def isolate_from_domain() -> None:
+    """Isolate the contexts initialised from now on, and the programs of launches, from all other programs."""
+    from bot_console.runtime.child_discovery import let_children_meet
+    from bot_console.runtime.rmw.local import local_bus
+    from bot_console.runtime.rmw.middleware import choose_middleware
+
+    choose_middleware(local_bus)
+    let_children_meet(False)
+    os.environ.pop(STOP_FILE_VARIABLE, None)  # An isolated system is another robot.
+
+
+def is_in_range() -> bool:
+    """Whether the environment lets programs of this machine find each other, as it does by default."""
+    from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
+
+    return is_in_range()
+
+
+def others_take_part() -> bool:
+    """Whether another process of this user is in the domain, judging by the folder of their sockets."""
+    from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
+    from bot_console.runtime.rmw.zenoh.domain.sockets import lives, sockets
+
+    try:
+        found = sockets(domain_folder(domain()))
+    except FolderRefusedError:
+        return False
+    return any(each.pid != os.getpid() and lives(each.pid) for each in found)
+
+
+def frozen() -> list[int]:
+    """The pids of this user's processes in the domain that are stopped (SIGSTOP, Ctrl-Z, a debugger)."""
+    from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
+    from bot_console.runtime.rmw.zenoh.domain.sockets import sockets
+
+    try:
+        found = sockets(domain_folder(domain()))
+    except FolderRefusedError:
+        return []
+    return sorted({each.pid for each in found if each.is_stopped()})
+
+
+def robot_there() -> list[str]:
+    """The nodes of other processes that form a robot: they obey velocities, or publish scans or odometry.
+
+    Tools and consoles, whose names begin with an underscore, only watch what a robot is sent and do not count. Call
+    this after `take_part` and before anything runs in this process.
+    """
+    from bot_console.runtime.rmw.middleware import bus_of
+    from bot_console.tui.console.robot.robot_needed import SOURCES, VELOCITY
+
+    if not (_connected or others_take_part()):
+        return []
+    tables = bus_of(domain()).tables()
+    found = [end for each in tables for topic in SOURCES for end in each.publishers.on(topic)]
+    found += [end for each in tables for end in each.subscriptions.on(VELOCITY)]
+    robots = (each.node for each in found if not each.node.name.startswith("_"))
+    return sorted({each.full_name for each in robots})
+
+
+def nodes_there() -> list[str]:
+    """The full names of all nodes in the domain, without tools and consoles. Call this after `take_part`."""
+    from bot_console.runtime.rmw.middleware import bus_of
+
+    nodes = [each for table in bus_of(domain()).tables() for each in table.nodes()]
+    return sorted(each.full_name for each in nodes if not each.name.startswith("_"))
+
+
+def robot_claim() -> RobotClaim:
+    """Claim the robot of this domain, for programs that start one; only if `why_alone` is empty."""
+    from pathlib import Path
+
+    from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
+    from bot_console.tui.cli.robot_claim import RobotClaim
+
+    return RobotClaim(Path(domain_folder(domain())))
+
+
+def same_names_there(arguments: Mapping[str, str]) -> list[str]:
+    """The nodes of other processes that have the same names as those of our system, launched with these arguments.
+
+    Parameters, logs and commands of two nodes of one name cannot be told apart. The rules of `robot_there` apply.
+    """
+    from bot_console.tui.session.embedded.workspaces import NAVIGATOR, SYSTEM_NODES
+
+    ours = SYSTEM_NODES - {NAVIGATOR} if "navigator" in arguments else SYSTEM_NODES
+    return sorted(ours.intersection(nodes_there())) if others_take_part() else []
+
+
+def why_no_robot(robot: Sequence[str], arguments: Mapping[str, str]) -> str:
+    """Why our system, launched with these arguments, must not join this domain, in one line; empty if it may.
+
+    `robot` is the running one. The rules of `robot_there` apply.
+    """
+    if robot:
+        return f"a robot is already running in ROS domain {domain()}: {', '.join(robot)}"
+    if there := same_names_there(arguments):
+        return f"nodes named like our robot's run already in ROS domain {domain()}: {', '.join(there)}"
+    return ""
+
+
+def report_of_other_start() -> None:
+    """Print, on standard error, that this program waits for a robot that another one is starting."""
+    print(f"Another bot-console is starting a robot in ROS domain {domain()}: waiting for it ...", file=sys.stderr)
+
+
+def domain() -> int:
+    """The domain id from the environment; a text that is not a number is reported when a context is made."""
+    try:
+        return domain_id()
+    except ValueError:
+        return 0
+
+
+def end_program(code: int) -> NoReturn:
+    """End the process; at once if it has joined a domain or a router.
+
+    Closing waits up to 0.5 s for a frozen process, and a thread that is in Zenoh while the interpreter is finalized
+    would abort the process.
+    """
+    if _taking_part or "zenoh" in sys.modules:
+        try:
+            from bot_console.runtime.process.ending import exit_functions_run
+        except (MemoryError, ImportError):  # Too little memory even to end; the cause has already been reported.
+            os._exit(code)
+        # Exit functions remove its sockets and temporary folders, as at any other end.
+        os._exit(exit_functions_run(code))
+    sys.exit(code)

@@ -1,0 +1,39 @@
+"""How a verb reaches its system: in the domain, or through named routers."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from bot_console.tui.session.embedded.domain import CONNECT_VARIABLE, take_part
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rmw.bus import Bus
+
+
+def named_routers() -> list[str]:
+    """The endpoints of the robot's router that the environment names; empty if it names none."""
+    return os.environ.get(CONNECT_VARIABLE, "").split()
+
+
+def reach_system() -> str:
+    """Join the domain of this machine, or become a client of the robot's router named by the environment."""
+    endpoints = named_routers()
+    if not endpoints:
+        return take_part(starts_nodes=False)
+    from bot_console.tui.session.embedded.connecting import connect_to
+
+    return connect_to(endpoints)
+
+
+def reach_when_asked() -> None:
+    """Connect with the first context, for verbs that rarely make one; if that fails, the verb runs isolated."""
+    from bot_console.runtime.rmw.local import local_bus
+    from bot_console.runtime.rmw.middleware import bus_of, choose_middleware
+
+    def reach(domain: int) -> Bus:
+        if reach_system():
+            choose_middleware(local_bus)
+        return bus_of(domain)
+
+    choose_middleware(reach)

@@ -1,0 +1,101 @@
+"""A console session: the app, the launched system, and how both end."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.cli.appearance import appearance_of
+from bot_console.tui.cli.foreground.foreground import Foreground
+from bot_console.tui.cli.interpreter import collect_from_now_on
+from bot_console.tui.cli.slow_exit import report_slow_exit
+
+if TYPE_CHECKING:
+    from bot_console.tui.arrangement.arrival import System
+    from bot_console.tui.cli.arguments import Options
+    from bot_console.tui.console.connection.ros_console import RosConsole
+    from bot_console.tui.pane_table import PaneEntry
+    from bot_console.tui.session.composition import Connected
+    from bot_console.tui.session.launchers import ConsoleLauncher
+
+
+class Session:
+    """Holds the parts together."""
+
+    def __init__(self, options: Options, connect: Callable[[], Connected] | None = None) -> None:
+        """`connect` makes what is shown, all in this process unless it is given; it is called after the first frame."""
+        self._options = options
+        self._connect = connect or self._embedded
+        self._closed = False
+        appearance = appearance_of(options)
+        self.app = BotConsoleApp(
+            reach=self._reach,
+            opening=options.opening._replace(notes=(*options.opening.notes, *appearance.notes)),
+            on_first_frame=collect_from_now_on,
+            appearance=appearance,
+            plugins=self._plugins,
+        )
+        self._foreground = Foreground(self.app, self._printed, self._end)
+
+    @cached_property
+    def connected(self) -> Connected:
+        """The console and what it has started; made on first use."""
+        return self._connect()
+
+    @property
+    def console(self) -> RosConsole:
+        """The console of the robot."""
+        return self.connected.console
+
+    @property
+    def launcher(self) -> ConsoleLauncher:
+        """What starts processes."""
+        return self.connected.launcher
+
+    def _embedded(self) -> Connected:
+        from bot_console.tui.session.composition import Connected
+
+        return Connected(self._options)
+
+    def _reach(self) -> System:
+        self._foreground.begin()
+        self.app.tuner = self.connected.tuner
+        return self.connected.begin()
+
+    def _plugins(self) -> Sequence[PaneEntry]:
+        return self.connected.plugins()
+
+    def _is_connected(self) -> bool:
+        return "connected" in self.__dict__
+
+    def _printed(self, severity: int, label: str, text: str) -> None:
+        if self._is_connected():  # Before that, nobody reads the log.
+            self.console.printed(severity, label, text)
+
+    def run(self) -> int:
+        """Show the console until it is quit; the robot stands still when this returns, however the console ended."""
+        return self._foreground.run(self._close_reporting)
+
+    def _close_reporting(self) -> None:
+        with report_slow_exit():
+            self.close()
+
+    def _end(self, number: int) -> None:
+        """Stop the robot, then end the app: on SIGINT from outside, SIGTERM and SIGHUP (a closed terminal)."""
+        try:
+            if not self._options.attach and self._is_connected():
+                self.console.all_stop(True, f"bot-console was ended by {signal.Signals(number).name}")
+        finally:
+            self.app.exit(return_code=128 + number)
+
+    def close(self) -> None:
+        """Send zero velocity, end the launched processes, then leave the graph; a second call does nothing.
+
+        A robot that was attached to keeps running. If this console steers it, leaving the graph locks it.
+        """
+        if not self._closed and self._is_connected():
+            self.connected.close()
+        self._closed = True

@@ -1,0 +1,1 @@
+"""The console on this machine's ROS 2."""

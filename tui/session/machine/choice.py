@@ -1,0 +1,64 @@
+"""Which system of this machine the console attaches to, if there may be two."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from bot_console.tui.session.machine.machine_ros import MachineRos, find_machine_ros, how_to_install
+
+NO_ROS = (
+    "this Python finds no rclpy of a ROS 2: source it first (`source /opt/ros/jazzy/setup.bash`), and "
+    "install bot-console for the same Python (docs/your-robot.md)"
+)
+
+
+@dataclass(frozen=True)
+class Kind:
+    """The choice: the machine's ROS 2, or an embedded system; an exit code other than 0 if nothing was chosen."""
+
+    ros: MachineRos | None = None
+    code: int = 0
+    text: str = ""
+
+
+def choose(
+    *,
+    ros: bool,
+    embedded: bool,
+    system_there: bool,
+    find: Callable[[], MachineRos | None] = find_machine_ros,
+    ask: Callable[[str], str] = input,
+    interactive: Callable[[], bool] = lambda: sys.stdin.isatty() and sys.stdout.isatty(),
+) -> Kind:
+    """Choose a system. `ros` and `embedded` are explicit requests; `system_there`: an embedded system runs in the
+    domain.
+    """
+    if embedded:
+        return Kind()
+    found = find()
+    if ros:
+        if found is None:
+            return Kind(code=1, text=NO_ROS)
+        return Kind(found) if found.usable else Kind(code=1, text=how_to_install(found))
+    if found is None:
+        return Kind()
+    if not system_there:
+        return Kind(found) if found.usable else Kind(code=1, text=how_to_install(found))
+    if not found.usable:
+        return Kind()
+    listed = f"There are two systems here:\n  1  {found}\n  2  a system of bot-console in this ROS domain\n"
+    if not interactive():
+        return Kind(code=2, text=f"{listed}Choose one with --ros or --embedded.")
+    return _asked(found, listed, ask)
+
+
+def _asked(found: MachineRos, listed: str, ask: Callable[[str], str]) -> Kind:
+    try:
+        answer = ask(f"{listed}Attach to which? [1/2] ").strip()
+    except (EOFError, KeyboardInterrupt):
+        return Kind(code=1, text="")
+    if answer == "1":
+        return Kind(found)
+    return Kind() if answer == "2" else Kind(code=1, text="neither 1 nor 2: nothing was done")

@@ -1,0 +1,51 @@
+"""What the console needs from the machine's ROS 2 besides `rclpy`, which comes with few message packages."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import sys
+from collections.abc import Iterable, Sequence
+from importlib.machinery import ModuleSpec, PathFinder
+from types import ModuleType
+
+from bot_console.tui.session.machine.machine_ros import RUNTIME
+
+MESSAGES = ("diagnostic_msgs", "geometry_msgs", "nav_msgs", "rcl_interfaces", "sensor_msgs")
+BUNDLED_PACKAGE = ("rosidl_runtime_py", "launch", "launch_ros", "launch_xml", "launch_yaml")
+"""Pure Python packages on top of the machine's `rclpy` and `rosidl_parser`, of which PyPI has no releases."""
+
+
+class LentPackages:
+    """A finder for the end of `sys.meta_path` that provides our copies of packages that the machine does not have."""
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        """The spec of a bundled package; None for any other name."""
+        if fullname not in BUNDLED_PACKAGE:
+            return None
+        folder = RUNTIME / fullname
+        return importlib.util.spec_from_file_location(
+            fullname, folder / "__init__.py", submodule_search_locations=[str(folder)]
+        )
+
+
+def provide_missing() -> None:
+    """Make the bundled packages importable if they are not installed; the machine's own take precedence."""
+    if not any(isinstance(each, LentPackages) for each in sys.meta_path):
+        sys.meta_path.append(LentPackages())
+
+
+def missing_messages(path: Iterable[str] | None = None) -> str:
+    """One line that names the message packages the console lacks; empty if none is missing."""
+    where = None if path is None else list(path)
+    missing = [each for each in MESSAGES if PathFinder.find_spec(each, where) is None]
+    if not missing:
+        return ""
+    distro = os.environ.get("ROS_DISTRO", "") or "<distro>"
+    packages = " ".join(f"ros-{distro}-{each.replace('_', '-')}" for each in missing)
+    return (
+        f"this ROS 2 lacks {', '.join(missing)}, which the console needs: install the packages {packages}, or, if they "
+        "are built from source, source the workspace that contains them"
+    )

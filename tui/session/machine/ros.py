@@ -1,0 +1,41 @@
+"""The console on this machine's ROS 2: uses its rclpy, launch and `ros2`, and nothing of the embedded runtime."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from bot_console.tui.cli.attach_options import AttachOptions
+from bot_console.tui.console.connection.ros_console import RosConsole
+from bot_console.tui.console.model import Capabilities, LaunchInfo, Severity
+from bot_console.tui.session.attached import AttachedSession
+from bot_console.tui.session.machine.launchers import launcher_of_machine
+from bot_console.tui.session.machine.ros2_command_line import MachineCommandLine
+from bot_console.tui.settings.settings import read_settings
+
+PROFILES = Path(__file__).resolve().parents[3] / "profiles"
+CAPABILITIES = Capabilities(
+    launched_elsewhere="What others have launched is not known here; its nodes are in the Graph pane. o launches more."
+)
+OUTPUT = "On {}, RMW {}: q ends the console and what it has launched, not the robot."
+
+
+def run_ros(options: AttachOptions, described: str) -> int:
+    """Show the console; ROS package names refer to the machine's packages."""
+
+    def launched() -> LaunchInfo:
+        return launchers.info()
+
+    console = RosConsole(
+        launch_info=launched,
+        profile_folders=[PROFILES],
+        capabilities=CAPABILITIES,
+        foreign=True,
+        stop_means=read_settings().stop_means,
+    )
+    launchers = launcher_of_machine(console.record, console.printed)
+    message = [(Severity.INFO, OUTPUT.format(described, os.environ.get("RMW_IMPLEMENTATION", "as installed")))]
+    session = AttachedSession(
+        console, MachineCommandLine(), options.appearance, launcher=launchers, message=message, on_close=launchers.close
+    )
+    return session.run()

@@ -1,0 +1,82 @@
+"""A console without a screen, for verbs that read and change what is running in the domain."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+import time
+from collections.abc import Callable, Generator
+from typing import TypeVar
+
+from bot_console.runtime.importer import install
+from bot_console.tui.console.connection.ros_console import RosConsole
+from bot_console.tui.session.embedded.reaching import reach_system
+
+LINK = 10.0
+"""Seconds to connect."""
+STILL = 0.5
+"""Seconds without any change after which the system counts as known."""
+POLL_S = 0.05
+T = TypeVar("T")
+
+
+@contextlib.contextmanager
+def reached_console(*, learning: bool = False) -> Generator[RosConsole | None]:
+    """A console on the system of this domain, or behind the routers in the environment; None, after printing why.
+
+    With `learning`, the launch hosts of the domain report what nodes have declared.
+    """
+    alone = reach_system()
+    if alone:
+        print(alone, file=sys.stderr)
+        yield None
+        return
+    install()
+    console = RosConsole()
+    console.start()
+    with contextlib.ExitStack() as stack:
+        stack.callback(console.close)
+        if not console.wait_ready(LINK):
+            print(f"no ROS system: {console.snapshot().problem or 'no answer'}", file=sys.stderr)
+            yield None
+            return
+        if learning:
+            _listen_to_hosts(console, stack)
+        yield console
+
+
+def _listen_to_hosts(console: RosConsole, stack: contextlib.ExitStack) -> None:
+    from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
+    from bot_console.tui.session.embedded.domain import domain
+    from bot_console.tui.session.launch_host.address import connect_to_host, host_addresses
+    from bot_console.tui.session.launch_host.proxy import HostedLauncher
+
+    for gate in host_addresses(domain_folder(domain())):
+        connection = connect_to_host(gate)
+        if connection is not None:
+            host = HostedLauncher(connection, console.record, console.printed, owner=False, learn=console.learn)
+            stack.callback(host.close)
+
+
+def known(console: RosConsole, timeout_s: float) -> bool:
+    """Wait until nodes and parameters stop changing, at most `timeout_s`; returns whether there are any nodes."""
+
+    def counts() -> tuple[int, int, int]:
+        snapshot = console.snapshot()
+        trees = snapshot.parameters
+        nodes = sum(not each.hidden for each in snapshot.graph.nodes)
+        return nodes, len(trees), sum(len(each.parameters) for each in trees.values())
+
+    return bool(settled(counts, lambda found: bool(found[0]), STILL, timeout_s)[0])
+
+
+def settled(poll: Callable[[], T], is_there: Callable[[T], bool], still: float, timeout_s: float) -> T:
+    """A value, once it exists and has not changed for `still` seconds; at the latest after `timeout_s`."""
+    deadline = time.monotonic() + timeout_s
+    seen, since = poll(), time.monotonic()
+    while time.monotonic() < deadline and not (is_there(seen) and time.monotonic() - since >= still):
+        time.sleep(POLL_S)
+        now = poll()
+        if now != seen:
+            seen, since = now, time.monotonic()
+    return seen
