@@ -197,6 +197,9 @@ class Task(Future[T]):
             self.set_result(stop.value)
         except Exception as error:  # boundary of a user callback: the executor raises it out of spin
             self.set_exception(error)
+        except BaseException:  # such as KeyboardInterrupt, for the thread that runs the task: there is no outcome
+            self._handler = None
+            raise
 
     def _run(self) -> None:
         try:

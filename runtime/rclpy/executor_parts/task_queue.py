@@ -47,7 +47,11 @@ class TaskQueue:
             self._wakeup.set()
 
     def _run_task(self, task: Task[Any]) -> None:
-        task()
+        try:
+            task()
+        except BaseException:  # a Ctrl-C, SystemExit, asyncio's CancelledError: the coroutine has ended with it
+            self._forget(task)
+            raise
         if not task.done():
             if task.cancelled():
                 self._forget(task)

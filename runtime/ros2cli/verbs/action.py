@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 from typing import Any
 
@@ -134,26 +135,53 @@ def _send_goal(arguments: argparse.Namespace) -> Result:
         uninstall_signal_handlers()
         client = ActionClient(node, kind, arguments.action_name)
         try:
-            return _follow(node, client, goal, arguments.feedback)
+            with _Interrupt() as interrupt:
+                return _follow(node, client, goal, arguments.feedback, interrupt)
         finally:
             client.destroy()
 
 
-def _follow(node: Node, client: ActionClient, goal: Any, feedback: bool) -> Result:
+class _Interrupt:
+    """A Ctrl-C that is raised by `check`, not wherever it arrives: the answer that is being taken would be lost."""
+
+    def __init__(self) -> None:
+        self.came = False
+
+    def __enter__(self) -> _Interrupt:
+        self._before = signal.signal(signal.SIGINT, self._notice)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        signal.signal(signal.SIGINT, self._before)
+
+    def _notice(self, signum: int, frame: object) -> None:
+        if self.came:
+            raise KeyboardInterrupt
+        self.came = True
+
+    def check(self) -> None:
+        """Raise `KeyboardInterrupt` if Ctrl-C was pressed since the last check."""
+        if self.came:
+            self.came = False
+            raise KeyboardInterrupt
+
+
+def _follow(node: Node, client: ActionClient, goal: Any, feedback: bool, interrupt: _Interrupt) -> Result:
     """Send the goal and wait for its result; Ctrl-C cancels the goal."""
     print("Waiting for an action server to become available...")
-    spin_until(node, client.server_is_ready)
+    spin_until(node, lambda: interrupt.came or client.server_is_ready())
+    interrupt.check()
     print(f"Sending goal:\n     {message_to_yaml(goal)}")
     show = (lambda message: print(f"Feedback:\n    {message_to_yaml(message.feedback)}")) if feedback else None
-    handle: Any = _outcome(node, client, client.send_goal_async(goal, show))
+    handle: Any = _outcome(node, client, client.send_goal_async(goal, show), interrupt)
     if not handle.accepted:
         print("Goal was rejected.")
         return None
     print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
     try:
-        answer: Any = _outcome(node, client, handle.get_result_async())
+        answer: Any = _outcome(node, client, handle.get_result_async(), interrupt)
     except KeyboardInterrupt:
-        problem = _cancel(node, client, handle)
+        problem = _cancel(node, client, handle, interrupt)
         if problem:
             return problem
         raise
@@ -162,25 +190,29 @@ def _follow(node: Node, client: ActionClient, goal: Any, feedback: bool) -> Resu
     return None
 
 
-def _outcome(node: Node, client: ActionClient, future: Any) -> Any:
-    """Wait for the server's part of the work; raises `NoAnswer` if it has left, where upstream waits forever."""
+def _outcome(node: Node, client: ActionClient, future: Any, interrupt: _Interrupt) -> Any:
+    """Wait for the server's part of the work; raises `KeyboardInterrupt` on Ctrl-C.
+
+    Raises `NoAnswer` if the server has left, where upstream waits forever.
+    """
     gone = 0
     ended_polls = polls_until_ended()
     has_ended = node.context.bus.watch_servers(client._endpoints.goal)
-    while not spin_until(node, future.done, SERVER_POLL_S):
+    while not spin_until(node, lambda: interrupt.came or future.done(), SERVER_POLL_S):
         gone = 0 if client.server_is_ready() else gone + 1
         if gone > GONE_POLLS or (gone >= ended_polls and has_ended()):
             name = client._action_name
             raise NoAnswer(f"nobody answers {name}: its server has ended since it was asked; see what it printed")
+    interrupt.check()
     return future.result()
 
 
-def _cancel(node: Node, client: ActionClient, handle: Any) -> str | None:
+def _cancel(node: Node, client: ActionClient, handle: Any, interrupt: _Interrupt) -> str | None:
     """Request the cancellation of a goal that has not ended; returns an error message if the server refuses."""
     if handle.status not in (GoalStatus.STATUS_ACCEPTED, GoalStatus.STATUS_EXECUTING):
         return None
     print("Canceling goal...")
-    answer = _outcome(node, client, handle.cancel_goal_async())
+    answer = _outcome(node, client, handle.cancel_goal_async(), interrupt)
     cancelling = [bytes(each.goal_id.uuid) for each in answer.goals_canceling]
     if not cancelling:
         return "Failed to cancel goal"

@@ -1,7 +1,8 @@
-"""`ros2 action send_goal` ends if the server that it waits for has ended."""
+"""`ros2 action send_goal` ends if the server that it waits for has ended, and raises a Ctrl-C between callbacks."""
 
 from __future__ import annotations
 
+import signal
 from types import SimpleNamespace
 from typing import Any
 
@@ -40,7 +41,7 @@ def outcome(monkeypatch: pytest.MonkeyPatch) -> Any:
 
     def waited(server: Server) -> Any:
         monkeypatch.setattr(action, "spin_until", server.polled)
-        return action._outcome(NODE, server, FUTURE)  # type: ignore[arg-type]
+        return action._outcome(NODE, server, FUTURE, action._Interrupt())  # type: ignore[arg-type]
 
     return waited
 
@@ -60,5 +61,39 @@ def test_server_known_to_have_ended_is_reported_at_the_second_poll(monkeypatch: 
     monkeypatch.setattr(action, "spin_until", server.polled)
     monkeypatch.setattr(action, "polls_until_ended", lambda: 2)
     with pytest.raises(NoAnswer, match="has ended since it was asked"):
-        action._outcome(NODE, server, FUTURE)  # type: ignore[arg-type]
+        action._outcome(NODE, server, FUTURE, action._Interrupt())  # type: ignore[arg-type]
     assert server.polls == 4
+
+
+def test_ctrl_c_is_raised_by_the_next_check() -> None:
+    before = signal.getsignal(signal.SIGINT)
+    with action._Interrupt() as interrupt:
+        interrupt.check()
+        signal.raise_signal(signal.SIGINT)
+        with pytest.raises(KeyboardInterrupt):
+            interrupt.check()
+        interrupt.check()
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_second_ctrl_c_is_raised_at_once() -> None:
+    with action._Interrupt():
+        signal.raise_signal(signal.SIGINT)
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+
+
+def test_ctrl_c_while_a_server_answers_keeps_the_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The signal comes in the callback that takes the answer: the wait ends with it, and the answer is there."""
+    answers: list[str] = []
+
+    def spin(node: Any, done: Any, seconds: float) -> bool:
+        signal.raise_signal(signal.SIGINT)
+        answers.append("taken")
+        return bool(done())
+
+    monkeypatch.setattr(action, "spin_until", spin)
+    future: Any = SimpleNamespace(done=lambda: bool(answers), result=answers.copy)
+    with action._Interrupt() as interrupt, pytest.raises(KeyboardInterrupt):
+        action._outcome(NODE, Server(range(0), 1), future, interrupt)  # type: ignore[arg-type]
+    assert answers == ["taken"]
