@@ -1,7 +1,7 @@
 """The settings of a Zenoh session on this machine; all figures are measured.
 
-Multicast and gossip are off: the folder lists the processes. `open` connects in the background, and a frozen process
-blocks nobody: with Zenoh's defaults opening, closing and leaving take up to 10 s next to one.
+Multicast is off: the folder lists the processes. `open` connects in the background, and a frozen process blocks nobody:
+with Zenoh's defaults opening, closing and leaving take up to 10 s next to one.
 """
 
 from __future__ import annotations
@@ -57,6 +57,17 @@ SMALL_BATCH = 8192
 ROOM_OF_A_NETWORK = 2
 """How many of those batches a link queues for messages of one priority."""
 
+MESH_REGION = "bot_console"
+"""Name of the Zenoh region of a domain's processes, which link to each other."""
+ADMITTED_REGIONS = (
+    {"filters": [{"region_names": [MESH_REGION]}]},
+    {"filters": [{"modes": ["peer", "client"]}]},
+)
+"""The regions between which a router of the mesh forwards; a session belongs to the first that fits.
+
+Zenoh forwards nothing between the peers of one region, and a node of rmw_zenoh is a peer by default.
+"""
+
 INSEPARABLE = ("connect/retry",)
 """Settings that Zenoh accepts only as a whole."""
 
@@ -85,15 +96,18 @@ def session_settings(
     `auth` holds the credentials each link must present (`transport/auth`), if the file system does not protect the
     endpoints.
 
-    A session that admits other machines is a router, as clients expect; all others of the mesh are linked directly, so
-    that it routes nothing between them.
+    A session that admits other machines is a router, as nodes of rmw_zenoh and clients expect. It forwards between them
+    and the mesh, and tells peers of each other by gossip; the mesh's own processes are linked directly.
     """
     beside = serving.endpoints if serving else ()
     room = ROOM_OF_A_NETWORK if serving else ROOM_OF_A_LINK
     return {
-        "mode": "router" if serving else "peer",
         "id": zid,
-        "routing": {"router": {"peers_failover_brokering": False}},
+        **(
+            {"mode": "router", "gateway": {"south": list(ADMITTED_REGIONS)}}
+            if serving
+            else {"mode": "peer", "region_name": MESH_REGION}
+        ),
         "listen": {"endpoints": [listen, *beside], "exit_on_failure": True},
         "connect": {
             "endpoints": list(connect),
@@ -101,7 +115,7 @@ def session_settings(
             "exit_on_failure": False,
             "retry": {"period_init_ms": 100, "period_max_ms": 2000, "period_increase_factor": 2},
         },
-        "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": False}},
+        "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": bool(serving)}},
         "open": {"return_conditions": {"connect_scouted": False, "declares": False}},
         "timestamping": {"enabled": True},
         "transport": {

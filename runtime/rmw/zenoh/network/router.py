@@ -16,7 +16,6 @@ def router_settings(zid: str, serving: Serving) -> dict[str, Any]:
         "listen": {"endpoints": list(serving.endpoints), "exit_on_failure": True},
         "connect": {"endpoints": []},
         "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": True}},
-        "routing": {"router": {"peers_failover_brokering": False}},
         "timestamping": {"enabled": True},
         "transport": {
             "shared_memory": {"enabled": False},
