@@ -100,6 +100,8 @@ def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
             notes.append(f"{option}{f' {value}' if takes_value else ''} of {program} is not taken over")
         elif option in ("--args", "--ros-args"):
             pass
+        elif option.endswith((".yaml", ".yml")):
+            left.append(rest[at])  # A profile by its path, which has slashes as a curve has.
         elif program == "rqt_plot" and "/" in option and not option.startswith("-"):
             curves += _curves(rest[at])
         elif program == "rqt_reconfigure" and ":=" not in option and not option.startswith("-"):

@@ -12,6 +12,13 @@ from typing import Any
 from bot_console.tui import __version__
 from bot_console.tui.opening import Opening, is_rqt, rqt_opening
 from bot_console.tui.pane_table import PANES
+from bot_console.tui.session.named_profile import (
+    NamedProfile,
+    NoProfileError,
+    bundled_names,
+    named_profile,
+    profile_names,
+)
 from bot_console.tui.settings.names import THEME_NAMES
 
 EXAMPLES = """\
@@ -39,6 +46,8 @@ class Options:
     """The options given."""
 
     profile: str = "indoor"
+    profile_file: str = ""
+    """The absolute path of the profile's file; empty if it comes with the robot."""
     launch: str = ""
     """The path of a launch file; with `launch_file`, the package that contains it."""
     launch_file: str = ""
@@ -67,6 +76,11 @@ class Options:
     read_only: bool = False
     """Whether the console may not change anything."""
 
+    @property
+    def profile_arguments(self) -> dict[str, str]:
+        """The arguments of the robot's launch file that choose the profile."""
+        return {"config_file": self.profile_file} if self.profile_file else {"profile": self.profile}
+
 
 def attach_parser() -> argparse.ArgumentParser:
     """The options that all ways of attaching have in common."""
@@ -77,6 +91,7 @@ def attach_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--pane", default="overview", help="pane to open first")
     parser.add_argument("--workspace", action="append", type=Path, metavar="DIR", help="folder with packages")
+    add_profile_folders(parser)
     parser.add_argument("--read-only", action="store_true", help="only watch: set, drive, start and end nothing")
     _add_appearance(parser)
     return parser
@@ -89,7 +104,12 @@ def parse_attach(words: Sequence[str], parser: argparse.ArgumentParser) -> tuple
     _check_pane(parser, given.pane)
     opening = _with_perspective(opening or Opening(given.pane), given)
     options = Options(
-        opening=opening, workspace=given.workspace or [], attach=True, read_only=given.read_only, **_appearance(given)
+        opening=opening,
+        workspace=given.workspace or [],
+        profile_folders=given.profiles or [],
+        attach=True,
+        read_only=given.read_only,
+        **_appearance(given),
     )
     return options, given
 
@@ -124,6 +144,8 @@ def parse(words: Sequence[str]) -> Options:
     given = parser.parse_args(words)
     _check_pane(parser, given.pane)
     profile, name, pairs = _words(parser, given)
+    if profile.launch:
+        given.launch, pairs = profile.launch, {**profile.arguments, **pairs}
     if given.simulator is not None and not given.launch:
         parser.error("--simulator and --no-simulator go with --launch: the robot system brings its own robot")
     if given.launch is not None and not given.launch.strip():
@@ -137,7 +159,8 @@ def parse(words: Sequence[str]) -> Options:
     if given.duration is not None and not given.duration > 0:
         parser.error(f"--duration must be positive, not {given.duration:g} s")
     return Options(
-        profile=profile,
+        profile=profile.name,
+        profile_file=profile.path,
         launch=given.launch or "",
         launch_file=name,
         launch_arguments=pairs,
@@ -160,7 +183,7 @@ def _check_pane(parser: argparse.ArgumentParser, pane: str) -> None:
         parser.error(f"there is no pane '{pane}'; panes: {', '.join(sorted(named))}")
 
 
-def _words(parser: argparse.ArgumentParser, given: argparse.Namespace) -> tuple[str, str, dict[str, str]]:
+def _words(parser: argparse.ArgumentParser, given: argparse.Namespace) -> tuple[NamedProfile, str, dict[str, str]]:
     """The profile, the name of a package's launch file, and the arguments NAME:=VALUE."""
     pairs: dict[str, str] = {}
     profiles: list[str] = [] if given.profile is None else [given.profile]
@@ -170,22 +193,28 @@ def _words(parser: argparse.ArgumentParser, given: argparse.Namespace) -> tuple[
             pairs[name] = value
         else:
             profiles.append(word)
-    known = profile_names()
     if given.launch:
-        return "indoor", _launch_file(parser, profiles, given), pairs
-    if len(profiles) == 2 and not {*profiles} & {*known}:
+        return NamedProfile("indoor"), _launch_file(parser, profiles, given), pairs
+    if len(profiles) == 2 and not {*profiles} & {*profile_names(given.profiles or ())}:
         how = "--headless" if given.headless else "--watch"
         parser.error(f"a node of a package runs with `bot-console run {how} {' '.join(profiles)}`")
     if len(profiles) > 1:
         parser.error(f"one profile at a time, not {', '.join(profiles)}")
-    if profiles and profiles[0] not in known:
-        parser.error(f"there is no profile and no command '{profiles[0]}'; profiles: {', '.join(known)}")
-    return (profiles[0] if profiles else "indoor"), "", pairs
+    try:
+        profile = named_profile(
+            profiles[0] if profiles else "indoor",
+            given.profiles or (),
+            given.workspace or (),
+            expected="profile and no command",
+        )
+    except NoProfileError as error:
+        parser.error(str(error))
+    return profile, "", pairs
 
 
 def _launch_file(parser: argparse.ArgumentParser, words: Sequence[str], given: argparse.Namespace) -> str:
     """The launch file named after a package; a path has none, and nothing else may follow either."""
-    if given.profile is not None or (words and words[0] in profile_names()):
+    if given.profile is not None or (words and words[0] in bundled_names()):
         parser.error("a launch file brings its own settings: give either a profile or --launch")
     left = [*words] if os.path.isfile(given.launch) else words[1:]  # `Path` raises where the name is too long
     if left:
@@ -193,10 +222,15 @@ def _launch_file(parser: argparse.ArgumentParser, words: Sequence[str], given: a
     return words[0] if words else ""
 
 
-def profile_names() -> list[str]:
-    """The profiles that come with the robot."""
-    folder = Path(__file__).resolve().parents[2] / "profiles"
-    return sorted(path.stem for path in folder.glob("*.yaml"))
+def add_profile_folders(parser: argparse.ArgumentParser) -> None:
+    """Add the option for folders with more profiles."""
+    parser.add_argument(
+        "--profiles",
+        action="append",
+        type=Path,
+        metavar="DIR",
+        help="folder with more profiles, for the Profiles pane and by name; may be repeated",
+    )
 
 
 SIMULATOR_HELP = "run the simulated robot beside it, or not; default: if its nodes need a robot and there is none"
@@ -211,20 +245,19 @@ def option_parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add = parser.add_argument
-    add("words", nargs="*", metavar="PROFILE | NAME:=VALUE", help=f"a profile ({', '.join(profile_names())})")
+    add(
+        "words",
+        nargs="*",
+        metavar="PROFILE | NAME:=VALUE",
+        help=f"a profile: {', '.join(bundled_names())}, one of yours by name, or a parameter file",
+    )
     add("--launch", metavar="FILE", help="open the console on this launch file instead; also: --launch PACKAGE FILE")
     add("--pane", default="overview", help="pane to open first")
     add("--workspace", action="append", type=Path, metavar="DIR", help="folder with packages; may be repeated")
     add("--headless", action="store_true", help="no screen: logs on stderr, a JSON report on stdout at the end")
     add("--fast", action="store_true", help="with --headless: simulated time, as fast as possible, reproducible")
-    add(
-        "--profiles",
-        action="append",
-        type=Path,
-        metavar="DIR",
-        help="folder with more profiles for the Profiles pane; may be repeated",
-    )
-    add("--profile", metavar="NAME", help="the same as PROFILE")
+    add_profile_folders(parser)
+    add("--profile", metavar="PROFILE", help="the same as PROFILE")
     add("--duration", type=float, metavar="S", help="with --headless: seconds to run")
     add("--seed", type=int, metavar="N", help="seed of the world")
     add("--world", metavar="NAME", help="world of the simulated robot")

@@ -10,9 +10,11 @@ import contextlib
 import io
 import os
 from collections.abc import Callable, Iterable, Sequence
+from itertools import pairwise
+from pathlib import Path
 from typing import Protocol
 
-from bot_console.tui.cli.arguments import profile_names
+from bot_console.tui.session.named_profile import profile_names
 
 
 class Names(Protocol):
@@ -53,8 +55,10 @@ def _offered(names: Names, before: list[str], begun: str) -> Iterable[str]:
     install()
     from ros2cli.command_line import COMMANDS, load
 
+    if before[-1:] == ["--profile"]:
+        return _profiles(before)
     if not before:
-        return [*COMMANDS, *_OURS]
+        return [*COMMANDS, *_OURS, *_profiles(before)]
     command = load(before[0])
     if command is None:
         return _OUR_SOURCES[before[0]](names, before[1:]) if before[0] in _OUR_SOURCES else _OURS.get(before[0], ())
@@ -100,6 +104,12 @@ def _names(*words: str) -> Source:
 
 def _running(*words: str) -> Source:
     return lambda names, given: names.live(*words)
+
+
+def _profiles(before: Sequence[str]) -> Iterable[str]:
+    """The profiles that can be named, with those of the folders that `--profiles` gives."""
+    given = pairwise(before)
+    return profile_names([Path(folder).expanduser() for option, folder in given if option == "--profiles"])
 
 
 def _parameters(names: Names, given: Sequence[str]) -> Iterable[str]:
@@ -180,7 +190,7 @@ _OURS: dict[str, Sequence[str]] = {
 _OUR_SOURCES: dict[str, Source] = {
     "rqt_plot": _TOPIC,
     "rqt_reconfigure": _NODE,
-    "up": lambda names, given: profile_names(),
+    "up": lambda names, given: _profiles(given),
 }
 """Of these, the ones that names of running things may follow."""
 

@@ -64,7 +64,7 @@ def _run(options: Options, file: Path) -> int:
     [launcher] = made
     arguments = dict(options.launch_arguments)
     if not options.launch:
-        arguments = {"profile": options.profile, **robot_starter.arguments(options), **arguments}
+        arguments = {**options.profile_arguments, **robot_starter.arguments(options), **arguments}
 
     def report(text: str) -> None:
         host.printed(Severity.INFO, "bot-console", text)

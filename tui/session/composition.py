@@ -56,7 +56,7 @@ class Connected:
         self.console = RosConsole(
             launch_info=self._launch_info,
             profile_folders=[ROOT / "profiles", *options.profile_folders],
-            active_profile="" if options.launch or options.attach else options.profile,
+            active_profile="" if options.launch or options.attach else options.profile_file or options.profile,
             graph_events=graph_events,
             frozen=frozen_nodes,
             history=state_folder() / HISTORY,
@@ -102,7 +102,7 @@ class Connected:
             system = robot_starter.System(self._processes, self._report, self._start_robot, others)
             self._watching = robot_starter.begin(options, system)
             return
-        arguments = {"profile": options.profile, **robot_starter.arguments(options), **options.launch_arguments}
+        arguments = {**options.profile_arguments, **robot_starter.arguments(options), **options.launch_arguments}
         self.launcher.launch(SYSTEM_LAUNCH, arguments)
 
     def _report(self, text: str) -> None:

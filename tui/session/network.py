@@ -11,13 +11,14 @@ from bot_console.runtime.rmw.zenoh.session import SessionError
 from bot_console.tui.cli.attach_options import AttachOptions
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import Capabilities, LinkInfo, Severity
+from bot_console.tui.files.folders import config_folder
 from bot_console.tui.session.attached import AttachedSession
 from bot_console.tui.session.embedded.connecting import connect
 from bot_console.tui.session.embedded.domain import domain
 from bot_console.tui.session.embedded.process_reports import log_process_reports
 from bot_console.tui.session.embedded.ros2_command_line import Ros2CommandLine
 from bot_console.tui.session.embedded.type_source import DomainTypes
-from bot_console.tui.session.embedded.workspaces import choose
+from bot_console.tui.session.embedded.workspaces import choose, config_folders
 from bot_console.tui.settings.settings import read_settings
 
 CAPABILITIES = Capabilities(
@@ -41,6 +42,9 @@ def run_network(options: AttachOptions) -> int:
     from bot_console.tui.session.composition import frozen_nodes, graph_events
 
     console = RosConsole(
+        profile_folders=options.appearance.profile_folders,
+        own_profiles=config_folder() / "profiles",
+        workspace_profiles=config_folders,
         capabilities=CAPABILITIES,
         graph_events=graph_events,
         link=LinkWords(buses).info,

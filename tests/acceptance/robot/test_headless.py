@@ -45,6 +45,13 @@ def test_report_contains_the_options(runs):
     assert set(report) >= {"min_clearance", "stops", "collisions"}
 
 
+def test_profile_of_a_folder_is_run_by_name(tmp_path):
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "crate.yaml").write_text("simulator:\n  ros__parameters:\n    world: warehouse\n")
+    report = headless(tmp_path, "--profiles", "mine", "--profile", "crate", "--duration", "1")
+    assert report["world"] == "warehouse"
+
+
 def test_logs_are_formatted_as_in_ros(runs):
     assert "[simulator_node-1] [INFO] [1700000000.000000000] [simulator]: Office" in runs[0]["log"]
 

@@ -55,7 +55,7 @@ class Launches:
         options = self._options
         arguments = dict(options.launch_arguments)
         if not options.launch:
-            arguments = {"profile": options.profile, **robot_starter.arguments(options), **arguments}
+            arguments = {**options.profile_arguments, **robot_starter.arguments(options), **arguments}
         others = len(nodes_there())
         self._start(self._launch, self._file, arguments)
         system = robot_starter.System(self._processes, _report, self._start_robot, others)

@@ -9,11 +9,12 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from bot_console.tui.cli.arguments import profile_names
+from bot_console.tui.cli.arguments import add_profile_folders
 from bot_console.tui.cli.tune.describing import result_line, result_of, tunables_of
-from bot_console.tui.cli.tune.pool import Pool, profile_yaml
+from bot_console.tui.cli.tune.pool import Pool
 from bot_console.tui.files.folders import state_folder
 from bot_console.tui.files.save_file import NotSaved
+from bot_console.tui.session.named_profile import NoProfileError, named_profile
 from bot_console.tui.tuning.job import Progress, TuningJob
 from bot_console.tui.tuning.journal import TuningJournal
 from bot_console.tui.tuning.score import FIGURES, READY, parse_score
@@ -44,25 +45,28 @@ def run(words: Sequence[str]) -> int:
     named = [each for each in given.parameters if ":=" not in each]
     try:
         score = parse_score(given.score)
-        profile_yaml(given.profile)
-    except (ValueError, OSError) as error:
-        problem = error.strerror if isinstance(error, OSError) else error
-        known = f"; profiles: {', '.join(profile_names())}" if isinstance(error, OSError) else ""
-        parser.error(f"{given.profile if isinstance(error, OSError) else '--score'}: {problem}{known}")
+    except ValueError as error:
+        parser.error(f"--score: {error}")
+    try:
+        profile = named_profile(given.profile, given.profiles or ())
+    except NoProfileError as error:
+        parser.error(str(error))
+    if profile.launch:
+        parser.error(f"{given.profile} launches {profile.launch}: only a parameter file can be tuned")
     try:
         pool = Pool(given.jobs)
     except OSError as error:
         print(error, file=sys.stderr)
         return 1
     try:
-        system = pool.probe(given.profile, arguments).result()
+        system = pool.probe(profile.path or profile.name, arguments).result()
         if problem := system.get("problem"):
             print(f"the system does not start: {problem}", file=sys.stderr)
             return 1
         specification = TuningSpecification(
             _found(parser, named, system),
             score,
-            profile=given.profile,
+            profile=profile.path or profile.name,
             worlds=tuple(given.worlds.split(",")) if given.worlds else ("",),
             runs=given.runs,
             seeds=given.seeds,
@@ -169,7 +173,8 @@ def command_parser() -> argparse.ArgumentParser:
     add("--seed", type=int, default=1, metavar="N", help="first seed (1)")
     add("--duration", type=float, default=60.0, metavar="S", help="simulated seconds of a run (60)")
     add("--search", default="adaptive", choices=sorted(SEARCHES), help="how settings are chosen (adaptive)")
-    add("--profile", default="indoor", metavar="PROFILE", help="profile, or parameter file, to tune (indoor)")
+    add("--profile", default="indoor", metavar="PROFILE", help="profile, by name or path, to tune (indoor)")
+    add_profile_folders(parser)
     add("--worlds", default="", metavar="A,B", help="worlds for each setting; default: the profile's")
     add("--jobs", type=int, default=0, metavar="N", help="concurrent runs; default: one per processor")
     add("--resume", action="store_true", help="resume a tuning that was stopped")

@@ -78,11 +78,11 @@ class RosConsole(ConsoleRelay):
         types: TypeSource | None = None,
         stop_means: Sequence[ConfiguredMeans] = (),
     ) -> None:
-        """`own_profiles` is where profiles are saved; `workspace_profiles` finds further folders with profiles.
+        """`own_profiles` is where profiles are saved; `workspace_profiles` finds further folders with profiles;
+        `active_profile` is the name, or the absolute path, of the one with which the system starts.
 
-        `history` is the file that keeps parameter changes for later runs; None: they are not kept.
-
-        `fetch` returns the local copy of a remote parameter file, or raises `OSError`; it may run in any thread.
+        `history` is the file that keeps parameter changes for later runs; None: they are not kept. `fetch` returns the
+        local copy of a remote parameter file, or raises `OSError`; it may run in any thread.
 
         `link` returns the state of the network; `foreign`: see `ConsoleNode`; `buffer` keeps the last minutes; `frozen`
         returns nodes of stopped processes; `types` builds missing message types; `stop_means` stop robots without lock.
@@ -177,6 +177,9 @@ class RosConsole(ConsoleRelay):
         self._views = LogViews(logs)
         history = self._guarded("the history", self._history)
         profile_store = self._guarded("the profiles", self._profile_store) or ProfileStore(())
+        active = self._active_profile
+        if os.path.isabs(active) and (opened := profile_store.open(active)).ok:
+            active = opened.text
         self._profile_names = {os.path.realpath(each.path): each.name for each in profile_store.profiles}
         node = ConsoleNode(
             *(robot, logs.add, self._graph_events, self._provenance, history),
@@ -187,7 +190,7 @@ class RosConsole(ConsoleRelay):
         if node.journal.state.problem:
             self._warn(node.journal.state.problem)
         self._learn = node.learn
-        node.setter.profile = self._active_profile
+        node.setter.profile = active
         self._heard = node.loggers
         return node, LinkedConsole(node, logs, self._views, profile_store, self._capabilities, self._buffer)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from bot_console.tui.cli.attach_options import AttachOptions
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import Capabilities, LaunchInfo, Severity
+from bot_console.tui.files.folders import config_folder
 from bot_console.tui.session.attached import AttachedSession
 from bot_console.tui.session.machine.launchers import launcher_of_machine
 from bot_console.tui.session.machine.ros2_command_line import MachineCommandLine
@@ -28,7 +29,8 @@ def run_ros(options: AttachOptions, described: str) -> int:
 
     console = RosConsole(
         launch_info=launched,
-        profile_folders=[PROFILES],
+        profile_folders=[PROFILES, *options.appearance.profile_folders],
+        own_profiles=config_folder() / "profiles",
         capabilities=CAPABILITIES,
         foreign=True,
         stop_means=read_settings().stop_means,

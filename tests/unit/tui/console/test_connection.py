@@ -87,6 +87,16 @@ def test_closing_before_it_is_connected_leaves_no_thread(console):
     assert not console._thread.is_alive()
 
 
+def test_system_started_from_a_file_has_the_profile_of_that_file(domain, tmp_path):
+    (tmp_path / "slow.yaml").write_text("robot_navigator:\n  ros__parameters:\n    max_speed: 0.3\n")
+    console = RosConsole(active_profile=str(tmp_path / "slow.yaml"))
+    console.start()
+    assert console.wait_ready(TIMEOUT_S)
+    snapshot = console.snapshot()
+    console.close()
+    assert snapshot.active_profile == "slow" and [each.name for each in snapshot.profiles] == ["slow"]
+
+
 def test_a_stop_requested_before_connecting_is_sent_once_connected(console):
     console.all_stop(True, "at the first key")
     console.start()

@@ -26,7 +26,7 @@ BUMPED = SettingResult((4.0,), -1.0, (-1.0, -1.0), 3)
     ("words", "why"),
     [
         (["max_speed", "--score", "spede"], "--score: 'spede' is no score"),
-        (["max_speed", "--profile", "moon"], "moon: No such file or directory; profiles: competition"),
+        (["max_speed", "--profile", "moon"], "there is no profile 'moon'; profiles: competition"),
         (["max_speed", "--search", "luck"], "invalid choice"),
         ([], "required"),
     ],
