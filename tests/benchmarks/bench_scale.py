@@ -21,7 +21,7 @@ install()
 import rclpy
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.graph.watch import GraphWatch
-from bot_console.tui.session.composition import graph_events
+from bot_console.tui.session.embedded.hooks import graph_events
 from rcl_interfaces.msg import ParameterEvent
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.open_files import too_few_files
 from bot_console.tui.files.folders import state_folder
-from bot_console.tui.session.embedded.child_host import Host, start_host
+from bot_console.tui.session.embedded.child_host import start_host
 from bot_console.tui.session.embedded.domain import (
     domain,
     is_in_range,
@@ -27,12 +27,13 @@ from bot_console.tui.session.embedded.domain import (
     unusable_domain,
     why_alone,
 )
+from bot_console.tui.session.embedded.named_launch import with_launch_file
+from bot_console.tui.session.launch_host.child import Host
 from bot_console.tui.session.live import Session
-from bot_console.tui.session.named_launch import with_launch_file
 from bot_console.tui.settings.settings import read_settings
 
 if TYPE_CHECKING:
-    from bot_console.tui.session.composition import Connected
+    from bot_console.tui.session.connected import Connected
 
 ATTACHED = "Attached to ROS domain {}: q ends only the console, and what was started from it."
 HOST_LOG = "launch-host.log"
@@ -87,9 +88,9 @@ def _connect(options: Options, alone: str, own: Host | None, start: Callable[[],
     """Build what is shown, after the first frame: these imports take longer than everything before it."""
     _prepare(options)
     from bot_console.tui.console.model import Severity
-    from bot_console.tui.session.composition import Connected
-    from bot_console.tui.session.launchers import attached, embedded, hosted
-    from bot_console.tui.session.snapshot_buffer import HostedSnapshotBuffer, overhear
+    from bot_console.tui.session.composition import attached, embedded, hosted, overhear
+    from bot_console.tui.session.connected import Connected
+    from bot_console.tui.session.launch_host.snapshot_buffer import HostedSnapshotBuffer
 
     message = [(Severity.WARN, f"Other terminals cannot reach this system: {alone}")] if alone else []
     if options.attach:

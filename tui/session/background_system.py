@@ -9,10 +9,19 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from bot_console.runtime.importer import install
 from bot_console.tui.cli.arguments import Options, parse
+from bot_console.tui.console.launch.process_output import Add
+from bot_console.tui.console.model import Severity
+from bot_console.tui.session import robot_starter
+from bot_console.tui.session.composition import become_host, launcher_here, node_process, serve
+from bot_console.tui.session.embedded.domain import end_program, nodes_there
+from bot_console.tui.session.embedded.named_launch import with_launch_file
+from bot_console.tui.session.embedded.process_reports import log_process_reports
+from bot_console.tui.session.embedded.workspaces import SIMULATOR_LAUNCH, SYSTEM_LAUNCH
+from bot_console.tui.session.launch_host.host import LaunchHost
+from bot_console.tui.session.protocol import ClosableLauncher
+from bot_console.tui.session.system_log import SystemLog
 
-SWITCH = "bot_console.tui.session.background_system"
 ROBOT_SEARCH_TIMEOUT_S = 5.0
 """Seconds that the search for a robot may take to end."""
 
@@ -21,41 +30,19 @@ def main(words: Sequence[str] | None = None) -> int:
     """Run the system until it is asked to end; 1 if it could not be launched, which the log explains."""
     log, *rest = sys.argv[1:] if words is None else words
     options = parse(["--headless", *rest])
-    install()
-    from bot_console.tui.session.embedded.domain import take_part
-    from bot_console.tui.session.embedded.own_processes import isolate, watch_threads
-    from bot_console.tui.session.embedded.workspaces import choose
-    from bot_console.tui.session.named_launch import with_launch_file
-
-    choose(options.workspace)
-    options, problem = with_launch_file(options)
-    if problem := problem or take_part():
+    problem = become_host(options.workspace)
+    options, no_file = with_launch_file(options)
+    if problem := no_file or problem:
         print(problem, file=sys.stderr)
         return 1
-    isolate()
-    watch_threads()
     return _run(options, Path(log))
 
 
 def _run(options: Options, file: Path) -> int:
-    from bot_console.tui.console.launch.launcher import RosLauncher
-    from bot_console.tui.console.launch.process_output import Add
-    from bot_console.tui.console.model import Severity
-    from bot_console.tui.session import robot_starter
-    from bot_console.tui.session.embedded.domain import nodes_there
-    from bot_console.tui.session.embedded.process_reports import log_process_reports
-    from bot_console.tui.session.embedded.rotating_file import rotate_launch_files
-    from bot_console.tui.session.embedded.workspaces import SYSTEM_LAUNCH
-    from bot_console.tui.session.host_program import serve
-    from bot_console.tui.session.launch_host.host import LaunchHost
-    from bot_console.tui.session.launchers import launcher_here
-    from bot_console.tui.session.system_log import SystemLog
-
     log = SystemLog(file)
-    rotate_launch_files()
-    made: list[RosLauncher] = []
+    made: list[ClosableLauncher] = []
 
-    def make(record: Add, printed: Callable[[int, str, str], None]) -> RosLauncher:
+    def make(record: Add, printed: Callable[[int, str, str], None]) -> ClosableLauncher:
         made.append(launcher_here(record, printed, every=log.logged))
         return made[0]
 
@@ -70,7 +57,7 @@ def _run(options: Options, file: Path) -> int:
         host.printed(Severity.INFO, "bot-console", text)
 
     def start_robot(arguments: Mapping[str, str]) -> None:
-        launcher.launch(robot_starter.LAUNCH_FILE, arguments)
+        launcher.launch(SIMULATOR_LAUNCH, arguments)
 
     others = len(nodes_there())
     answer = launcher.launch(options.launch or SYSTEM_LAUNCH, arguments).result()
@@ -79,7 +66,7 @@ def _run(options: Options, file: Path) -> int:
         host.close()
         return 1
     system = robot_starter.System(lambda: robot_starter.processes(launcher.info()), report, start_robot, others)
-    watching = robot_starter.begin(options, system)
+    watching = robot_starter.begin(options, system, node_process)
     serve(host, options.duration, forget)
     if watching is not None:
         watching.stop(ROBOT_SEARCH_TIMEOUT_S)
@@ -88,6 +75,4 @@ def _run(options: Options, file: Path) -> int:
 
 
 if __name__ == "__main__":
-    from bot_console.tui.session.embedded.domain import end_program
-
     end_program(main())

@@ -1,153 +1,214 @@
-"""What a console shows, and what is launched for it; imported after the first frame."""
+"""Builds what a session runs with: the one file that imports both the runtime and the console.
+
+A launcher for a console in this process, in a launch host that it owns, or in those of other programs; and the launch
+host itself.
+"""
 
 from __future__ import annotations
 
+import os
+import signal
+import socket
+import sys
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING
 
+from bot_console.runtime.hints import SHOW
+from bot_console.runtime.importer import install
 from bot_console.runtime.process import NodeProcess
-from bot_console.runtime.process.virtual.install import reinstall_stdio
-from bot_console.tui.arrangement.arrival import System
-from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.tune.tuner import LocalTuner
-from bot_console.tui.console.connection.ros_console import RosConsole
-from bot_console.tui.console.model import LaunchInfo, Severity
-from bot_console.tui.console.recording import Keeper
-from bot_console.tui.files.folders import config_folder, state_folder
-from bot_console.tui.pane_table import PaneEntry
-from bot_console.tui.session import robot_starter
-from bot_console.tui.session.embedded.domain import nodes_there
+from bot_console.runtime.process.session_end import end_session
+from bot_console.runtime.rmw.middleware import bus_of
+from bot_console.runtime.rmw.zenoh.domain.sockets import lives
+from bot_console.tui.cli.interruptible_wait import wait_interruptibly
+from bot_console.tui.console.launch.process_output import Add
+from bot_console.tui.console.recording import RingSize
+from bot_console.tui.session.embedded.child_host import why_it_hangs
+from bot_console.tui.session.embedded.domain import domain, socket_folder, take_part
+from bot_console.tui.session.embedded.own_processes import isolate, watch_threads
 from bot_console.tui.session.embedded.process_reports import log_process_reports
-from bot_console.tui.session.embedded.ros2_command_line import Ros2CommandLine
-from bot_console.tui.session.embedded.type_source import DomainTypes
-from bot_console.tui.session.embedded.workspaces import SYSTEM_LAUNCH, config_folders
-from bot_console.tui.session.launchers import ConsoleLauncher, embedded
-from bot_console.tui.session.pane_dependencies import for_panes
-from bot_console.tui.session.plugins import find_plugins
-from bot_console.tui.settings.settings import read_settings
+from bot_console.tui.session.embedded.rotating_file import rotate_launch_files
+from bot_console.tui.session.embedded.vitals import find_vitals
+from bot_console.tui.session.embedded.workspaces import choose, launch_environment, launch_files
+from bot_console.tui.session.launch_host.address import (
+    HostListener,
+    address_of,
+    connect_to_host,
+    host_addresses,
+    pid_of_address,
+    remove_addresses_of_dead_hosts,
+)
+from bot_console.tui.session.launch_host.child import Host
+from bot_console.tui.session.launch_host.combined import CombinedLauncher, OtherHosts
+from bot_console.tui.session.launch_host.host import LaunchHost, Printed
+from bot_console.tui.session.launch_host.launch_lines import launch_variables, notifier
+from bot_console.tui.session.launch_host.proxy import HostedLauncher
 
-ROOT = Path(__file__).resolve().parents[2]
-LAST_WORD = 0.2
-"""Seconds for a robot to acknowledge its stop, or to receive its last zero, before anything is shut down."""
-READY = 20.0
-HISTORY = "history.sqlite"
-"""The database with the parameter changes of all runs, in the user's state folder."""
+if TYPE_CHECKING:
+    from bot_console.tui.console.bags.snapshot_buffer import SnapshotBuffer
+    from bot_console.tui.console.connection.ros_console import RosConsole
+    from bot_console.tui.console.launch.launcher import RosLauncher
+    from bot_console.tui.session.launch_host.snapshot_buffer import HostedSnapshotBuffer
 
-
-class Connected:
-    """The console, the launcher, and the system that it starts."""
-
-    def __init__(
-        self,
-        options: Options,
-        message: Sequence[tuple[Severity, str]] = (),
-        system: Callable[[RosConsole], ConsoleLauncher] = embedded,
-        buffer: Keeper | None = None,
-    ) -> None:
-        """`said` are early lines for the log; `system` makes the launcher, in this process by default.
-
-        `buffer` keeps the last minutes.
-        """
-        self._options = options
-        self._last_message = message
-        self._watching: NodeProcess | None = None
-        self._forget_notices: Callable[[], None] = lambda: None
-        self.console = RosConsole(
-            launch_info=self._launch_info,
-            profile_folders=[ROOT / "profiles", *options.profile_folders],
-            active_profile="" if options.launch or options.attach else options.profile_file or options.profile,
-            graph_events=graph_events,
-            frozen=frozen_nodes,
-            history=state_folder() / HISTORY,
-            own_profiles=config_folder() / "profiles",
-            workspace_profiles=config_folders,
-            fetch=_fetched,
-            buffer=buffer,
-            types=DomainTypes(),
-            stop_means=read_settings().stop_means,
-        )
-        self.launcher = system(self.console)
-        self._local_tuner = LocalTuner()
-        self.tuner = None if options.read_only else self._local_tuner
-
-    def _launch_info(self) -> LaunchInfo:
-        return self.launcher.info()
-
-    def begin(self) -> System:
-        """Connect, and start the system as soon as that is done; returns the services for the panes."""
-        reinstall_stdio()
-        self.console.start()
-        threading.Thread(target=self._launch, name="start", daemon=True).start()
-        lines = Ros2CommandLine(self.launcher)
-        return System(*for_panes(self.console, self.launcher, lines, read_only=self._options.read_only))
-
-    def plugins(self) -> Sequence[PaneEntry]:
-        """The panes of other packages."""
-        return find_plugins()
-
-    def _launch(self) -> None:
-        """Start the system once the console listens, so that not even its first log line is lost."""
-        if not self.console.wait_ready(READY):
-            return
-        self._forget_notices = log_process_reports(self.console.printed, self.console.learn)
-        options = self._options
-        for severity, line in self._last_message:
-            self.console.printed(severity, "bot-console", line)
-        if options.attach:
-            return
-        if options.launch:
-            others = len(nodes_there())
-            self.launcher.launch(options.launch, options.launch_arguments)
-            system = robot_starter.System(self._processes, self._report, self._start_robot, others)
-            self._watching = robot_starter.begin(options, system)
-            return
-        arguments = {**options.profile_arguments, **robot_starter.arguments(options), **options.launch_arguments}
-        self.launcher.launch(SYSTEM_LAUNCH, arguments)
-
-    def _report(self, text: str) -> None:
-        self.console.printed(Severity.INFO, "bot-console", text)
-
-    def _start_robot(self, arguments: Mapping[str, str]) -> None:
-        self.launcher.launch(robot_starter.LAUNCH_FILE, arguments)
-
-    def _processes(self) -> tuple[int, int]:
-        return robot_starter.processes(self.launcher.info())
-
-    def close(self) -> None:
-        """Send zero velocity, end the launched processes, then leave the graph.
-
-        A robot that was attached to keeps running. If this console steers it, leaving the graph locks it.
-        """
-        if not self._options.attach:
-            self.console.all_stop(True, "bot-console was quit")
-            self.console.await_standing(LAST_WORD)
-            # Otherwise its silence would be a stop that the robot still has at its next start.
-            self.console.steer(False)
-        if self._watching is not None:
-            self._watching.stop()
-        self.launcher.close()
-        self._local_tuner.close()
-        self._forget_notices()
-        self.console.close()  # Its own zero is the last command to a robot that outlives this program.
+CONNECT_TIMEOUT_S = 20.0
+"""Seconds after which other hosts are searched for even though the console has not connected."""
 
 
-def graph_events(domain: int, changed: Callable[[tuple[str, str]], None]) -> Callable[[], None]:
-    """Call back after each change of a domain's graph, with name and namespace; returns a function that ends this."""
-    from bot_console.runtime.rmw.middleware import bus_of
+class Launching:
+    """One running launch, as a node process: its output goes to the log, not to the screen."""
 
-    return bus_of(domain).on_graph_change(changed)
+    def __init__(self, target: Callable[[], None], printed: Printed, env: dict[str, str]) -> None:
+        self._process = NodeProcess("launch")
+        report = notifier(printed)
+        self._process.start(target, env=launch_variables(env), stdout=report, stderr=report)
+
+    def join(self, timeout: float | None = None) -> object:
+        """Wait for the end, at most `timeout` seconds."""
+        return self._process.wait(timeout)
 
 
-def _fetched(address: str) -> Path:
-    """The local copy of a parameter file on a server."""
-    from bot_console.runtime.remote_parameters import local_copy
-
-    return local_copy(address)
+def node_process(name: str) -> NodeProcess:
+    """A node process of this program, which runs in real time."""
+    return NodeProcess(name)
 
 
-def frozen_nodes(domain: int) -> Mapping[int, Sequence[str]]:
-    """The stopped processes of a domain, by pid, with their nodes."""
-    from bot_console.runtime.rmw.middleware import bus_of
+def launcher_here(
+    record: Add,
+    printed: Printed,
+    heard: Callable[[str], bool] = lambda name: True,
+    every: Add | None = None,
+) -> RosLauncher:
+    """A launcher in this process."""
+    from bot_console.tui.console.launch.launcher import RosLauncher  # `launch` can be imported once it is installed.
 
-    return bus_of(domain).stopped()
+    def spawn(target: Callable[[], None], path: str) -> Launching:
+        return Launching(target, printed, launch_environment(path))
+
+    return RosLauncher(record, printed, launch_files, spawn, find_vitals, heard, every)
+
+
+def embedded(console: RosConsole) -> RosLauncher:
+    """Everything in this process, with the nodes as threads: for pilot tests, and where programs cannot find each
+    other.
+    """
+    return launcher_here(console.record, console.printed, console.heard)
+
+
+def hosted(host: Host, buffer: HostedSnapshotBuffer | None) -> Callable[[RosConsole], HostedLauncher]:
+    """Through a launch host that this process owns, and that keeps the last minutes of traffic."""
+
+    def make(console: RosConsole) -> HostedLauncher:
+        launcher = _of_own(host, console)
+        if buffer is not None:
+            buffer.host = launcher
+        return launcher
+
+    return make
+
+
+def _of_own(host: Host, console: RosConsole) -> HostedLauncher:
+    return HostedLauncher(
+        host.connection,
+        console.record,
+        console.printed,
+        learn=console.learn,
+        hangs=why_it_hangs(host.process.pid),
+        thaw=host.thaw,
+    )
+
+
+def attached(start_own: Callable[[], Host]) -> Callable[[RosConsole], CombinedLauncher]:
+    """Through the hosts of all other programs in the domain, and one of its own once it launches something itself."""
+
+    def make(console: RosConsole) -> CombinedLauncher:
+        def enter(address: str) -> HostedLauncher | None:
+            connection = connect_to_host(address)
+            hangs = why_it_hangs(pid_of_address(address))
+            return connection and HostedLauncher(
+                connection, console.record, console.printed, owner=False, learn=console.learn, hangs=hangs
+            )
+
+        def own() -> tuple[str, HostedLauncher]:
+            host = start_own()
+            return address_of(folder, host.process.pid), _of_own(host, console)
+
+        folder = socket_folder()
+        others = OtherHosts(lambda: host_addresses(folder), enter, partial(console.wait_ready, CONNECT_TIMEOUT_S))
+        return CombinedLauncher(own, launch_files, others)
+
+    return make
+
+
+def become_host(workspaces: Sequence[Path]) -> str:
+    """Make this process one that starts nodes of its domain; why it cannot, in one line, or an empty text."""
+    install()
+    choose(workspaces)
+    if problem := take_part():
+        return problem
+    isolate()
+    watch_threads()
+    rotate_launch_files()
+    return ""
+
+
+def host_launches(owner: socket.socket, workspaces: Sequence[Path], kept: RingSize | None) -> int:
+    """Serve the console that owns this process, and further ones, until everything has ended.
+
+    `kept` is how much recorded traffic stays in memory.
+    """
+    os.environ[SHOW] = "1"  # what launched programs report is for the log, which a person reads
+    if problem := become_host(workspaces):
+        print(problem, file=sys.stderr)
+        return 1
+    buffer = overhear(kept) if kept is not None else None
+    host = LaunchHost(launcher_here, buffer=buffer)
+    host.connect(owner, owner=True)
+    serve(host)
+    if buffer is not None:
+        buffer.close()
+    return 0
+
+
+def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], None] | None = None) -> None:
+    """Also serve further consoles of the user, until everything was ended, or for at most `seconds`.
+
+    `forget` stops the reporting of process facts if that has already started.
+    """
+    from launch.child import close_fork_server
+
+    forget = forget or log_process_reports(host.noticed, host.learn)
+    close_on_signals(host.close)
+    folder = socket_folder()
+    remove_addresses_of_dead_hosts(folder, lives)
+    listener = HostListener(folder, host.connect)
+    wait_interruptibly(host.over, seconds)
+    listener.close()
+    forget()
+    host.close()
+    close_fork_server()
+    if os.getsid(0) == os.getpid():
+        end_session(os.getpid())  # What launched programs have started themselves.
+
+
+def close_on_signals(close: Callable[[], None]) -> None:
+    """End everything on SIGINT and SIGTERM, as at a console's request."""
+
+    def end(number: int, frame: FrameType | None) -> None:
+        threading.Thread(target=close, name="close").start()
+
+    for each in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(each, end)
+
+
+def overhear(size: RingSize) -> SnapshotBuffer:
+    """Keep what the nodes of this process publish and receive."""
+    from bot_console.runtime.rosidl import type_hash
+    from bot_console.runtime.rosidl.cdr import serialize
+    from bot_console.tui.console.bags.snapshot_buffer import SnapshotBuffer
+
+    buffer = SnapshotBuffer(size, serialize, type_hash.text)
+    bus_of(domain()).overhear(buffer.hear)
+    return buffer

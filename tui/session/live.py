@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from bot_console.tui.cli.arguments import Options
     from bot_console.tui.console.connection.ros_console import RosConsole
     from bot_console.tui.pane_table import PaneEntry
-    from bot_console.tui.session.composition import Connected
-    from bot_console.tui.session.launchers import ConsoleLauncher
+    from bot_console.tui.session.connected import Connected
+    from bot_console.tui.session.protocol import ClosableLauncher
 
 
 class Session:
@@ -51,12 +51,12 @@ class Session:
         return self.connected.console
 
     @property
-    def launcher(self) -> ConsoleLauncher:
+    def launcher(self) -> ClosableLauncher:
         """What starts processes."""
         return self.connected.launcher
 
     def _embedded(self) -> Connected:
-        from bot_console.tui.session.composition import Connected
+        from bot_console.tui.session.connected import Connected
 
         return Connected(self._options)
 

@@ -8,9 +8,11 @@ import time
 from collections.abc import Callable, Generator
 from typing import TypeVar
 
-from bot_console.runtime.importer import install
 from bot_console.tui.console.connection.ros_console import RosConsole
-from bot_console.tui.session.embedded.reaching import reach_system
+from bot_console.tui.session.embedded.domain import socket_folder
+from bot_console.tui.session.embedded.reaching import reach_ros
+from bot_console.tui.session.launch_host.address import connect_to_host, host_addresses
+from bot_console.tui.session.launch_host.proxy import HostedLauncher
 
 LINK = 10.0
 """Seconds to connect."""
@@ -26,12 +28,11 @@ def reached_console(*, learning: bool = False) -> Generator[RosConsole | None]:
 
     With `learning`, the launch hosts of the domain report what nodes have declared.
     """
-    alone = reach_system()
+    alone = reach_ros()
     if alone:
         print(alone, file=sys.stderr)
         yield None
         return
-    install()
     console = RosConsole()
     console.start()
     with contextlib.ExitStack() as stack:
@@ -46,13 +47,8 @@ def reached_console(*, learning: bool = False) -> Generator[RosConsole | None]:
 
 
 def _listen_to_hosts(console: RosConsole, stack: contextlib.ExitStack) -> None:
-    from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
-    from bot_console.tui.session.embedded.domain import domain
-    from bot_console.tui.session.launch_host.address import connect_to_host, host_addresses
-    from bot_console.tui.session.launch_host.proxy import HostedLauncher
-
-    for gate in host_addresses(domain_folder(domain())):
-        connection = connect_to_host(gate)
+    for address in host_addresses(socket_folder()):
+        connection = connect_to_host(address)
         if connection is not None:
             host = HostedLauncher(connection, console.record, console.printed, owner=False, learn=console.learn)
             stack.callback(host.close)

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
-from bot_console.runtime.process import NodeProcess
-from bot_console.runtime.workspace.builtin_package import ROOT
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.console.robot.robot_needed import drives_stamped, endpoints, robot_wanted, visible_nodes
 
@@ -15,7 +13,7 @@ if TYPE_CHECKING:
     from bot_console.tui.console.model import LaunchInfo
     from rclpy.node import Node
 
-LAUNCH_FILE = str(ROOT / "launch" / "simulator.launch.py")
+Process = TypeVar("Process", bound="RobotProcess")
 GRAPH_POLL_S = 0.25
 """Seconds between two polls of the graph."""
 SETTLED_S = 1.0
@@ -24,6 +22,18 @@ NODE_TIMEOUT_S = 10.0
 """Seconds to wait for a process to create a node; it may not be a ROS program."""
 MAX_DELAY_S = 30.0
 """Seconds to wait for starts that the launch file delays: one of them may bring a robot."""
+
+
+class RobotProcess(Protocol):
+    """The node process that polls the graph."""
+
+    def start(self, target: Callable[[], None], *, argv: Sequence[str]) -> object:
+        """Run a function in it."""
+        ...
+
+    def stop(self, grace: float = ...) -> object:
+        """End it, with at most `grace` s between the steps."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -35,7 +45,7 @@ class System:
     report: Callable[[str], None]
     """Writes a line to the log."""
     start: Callable[[Mapping[str, str]], None]
-    """Launches `LAUNCH_FILE` with arguments."""
+    """Launches `SIMULATOR_LAUNCH` with arguments."""
     others: int = 0
     """Visible nodes that were in the domain before the launch, and so belong to none of its processes."""
 
@@ -110,20 +120,23 @@ def processes(info: LaunchInfo) -> tuple[int, int]:
     return sum(each.state is ProcessState.RUNNING for each in info.processes), info.delayed
 
 
-def begin(options: Options, system: System, clock: Any = None) -> NodeProcess | None:
-    """Start a robot now, if one is needed, or never, as the options say; returns the polling node process, if any."""
+def begin(options: Options, system: System, make: Callable[[str], Process]) -> Process | None:
+    """Start a robot now, if one is needed, or never, as the options say; returns the polling node process, if any.
+
+    `make` makes a node process of that name.
+    """
     if options.simulator is False or not options.launch:  # Our own system includes a robot.
         return None
     if options.simulator:
         system.report("the simulated robot runs beside it, as --simulator requests")
         system.start(arguments(options))
         return None
-    process = NodeProcess("robot_beside", clock)
+    process = make("robot_beside")
     process.start(RobotStarter(system, arguments(options)).watch, argv=["robot_beside"])
     return process
 
 
 def arguments(options: Options) -> dict[str, str]:
-    """The arguments with which `LAUNCH_FILE` is launched."""
+    """The arguments with which `SIMULATOR_LAUNCH` is launched."""
     given = {"world": options.world, "seed": "" if options.seed is None else str(options.seed)}
     return {name: value for name, value in given.items() if value}

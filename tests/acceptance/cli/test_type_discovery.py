@@ -12,7 +12,7 @@ import pytest
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.traffic import Payload, Slot, Traffic
 from bot_console.tui.session.embedded.domain import take_part
-from bot_console.tui.session.embedded.type_source import DomainTypes
+from bot_console.tui.session.embedded.hooks import DomainTypes
 from rigs import until
 
 if os.name == "nt":

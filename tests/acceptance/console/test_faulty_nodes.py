@@ -23,10 +23,9 @@ if not Path("/proc/self/schedstat").exists():
     pytest.skip("needs /proc and fork", allow_module_level=True)
 
 from bot_console.tui.console.model import ProcessInfo, ProcessState
-from bot_console.tui.session.embedded.child_host import start_host
+from bot_console.tui.session.embedded.child_host import start_host, why_it_hangs
 from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH, SYSTEM_LAUNCH
 from bot_console.tui.session.launch_host.proxy import HostedLauncher
-from bot_console.tui.session.launchers import why_it_hangs
 from launcher_bench import WAITS
 
 TIMEOUT_S = 90.0

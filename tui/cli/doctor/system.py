@@ -15,7 +15,7 @@ from bot_console.tui.cli.doctor.nodes import node_findings
 from bot_console.tui.cli.doctor.wire import captured, watch_wire, wire_findings
 from bot_console.tui.session.embedded.connecting import connect
 from bot_console.tui.session.embedded.domain import domain, take_part
-from bot_console.tui.session.embedded.type_source import DomainTypes
+from bot_console.tui.session.embedded.hooks import DomainTypes
 
 FAR_MS = 300
 PROBES = 3

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from bot_console.tui.cli.arguments import Options
 from bot_console.tui.console.launch.delayed_starts import delayed_starts
 from bot_console.tui.session import robot_starter
 from bot_console.tui.session.embedded.domain import nodes_there
-from bot_console.tui.session.embedded.workspaces import SYSTEM_LAUNCH, launch_environment
+from bot_console.tui.session.embedded.workspaces import SIMULATOR_LAUNCH, SYSTEM_LAUNCH, launch_environment
 
 SIMULATOR = (NAME, "simulator_node")
 """The last two parts of the path of our simulator."""
@@ -59,7 +60,7 @@ class Launches:
         others = len(nodes_there())
         self._start(self._launch, self._file, arguments)
         system = robot_starter.System(self._processes, _report, self._start_robot, others)
-        self._watching = robot_starter.begin(options, system, self._clock)
+        self._watching = robot_starter.begin(options, system, partial(NodeProcess, clock=self._clock))
 
     def on_end(self, call: Callable[[], None]) -> None:
         """Call back when the launch ends before a robot has started, or when the simulator ends: no report can
@@ -82,7 +83,7 @@ class Launches:
 
     def _start_robot(self, arguments: Mapping[str, str]) -> None:
         self._robot = NodeProcess("launch", self._clock)
-        self._start(self._robot, robot_starter.LAUNCH_FILE, arguments)
+        self._start(self._robot, SIMULATOR_LAUNCH, arguments)
 
     def _start(self, process: NodeProcess, file: str, arguments: Mapping[str, str]) -> None:
         process.start(

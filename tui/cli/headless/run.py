@@ -32,8 +32,8 @@ from bot_console.tui.session.embedded.domain import (
     unusable_domain,
     why_no_robot,
 )
+from bot_console.tui.session.embedded.named_launch import with_launch_file
 from bot_console.tui.session.embedded.workspaces import choose
-from bot_console.tui.session.named_launch import with_launch_file
 
 if TYPE_CHECKING:
     from bot_console.tui.cli.headless.launches import Launches

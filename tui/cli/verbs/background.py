@@ -20,7 +20,6 @@ from bot_console.runtime.rmw.zenoh.domain.discovery_range import RANGE_VARIABLE
 from bot_console.tui.child_command import child_command
 from bot_console.tui.files.folders import OVERRIDE, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
-from bot_console.tui.session.background_system import SWITCH
 from bot_console.tui.session.embedded.domain import (
     domain,
     frozen,
@@ -32,11 +31,13 @@ from bot_console.tui.session.embedded.domain import (
     take_part,
     why_no_robot,
 )
+from bot_console.tui.session.embedded.named_launch import with_launch_file
 from bot_console.tui.session.embedded.start_lock import start_lock
 from bot_console.tui.session.launch_host.address import ADDRESS_SUFFIX
-from bot_console.tui.session.named_launch import with_launch_file
 from bot_console.tui.session.system_log import new_log
 
+SYSTEM_MODULE = "bot_console.tui.session.background_system"
+"""The program of a background system."""
 STARTING = 60.0
 """Seconds until its nodes must be visible, on a busy machine."""
 ENDING = 15.0
@@ -55,7 +56,7 @@ class Background:
 
     def runs(self) -> bool:
         """Whether its pid still belongs to that program."""
-        return _is_program(self.pid, SWITCH.encode())
+        return _is_program(self.pid, SYSTEM_MODULE.encode())
 
     def close_way_in(self) -> None:
         """End the router for other machines."""
@@ -100,7 +101,7 @@ def up(words: Sequence[str]) -> int:
             why = f"the log cannot be kept in {state_folder()}: {error.strerror}"
             print(f"not started: {why}; {OVERRIDE} names another folder", file=sys.stderr)
             return 1
-        line = [*child_command(SWITCH), str(log), *words]
+        line = [*child_command(SYSTEM_MODULE), str(log), *words]
         with log.open("ab") as output:
             process = subprocess.Popen(
                 line, stdin=subprocess.DEVNULL, stdout=output, stderr=output, start_new_session=True, close_fds=True,

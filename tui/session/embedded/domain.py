@@ -188,6 +188,13 @@ def report_of_other_start() -> None:
     print(f"Another bot-console is starting a robot in ROS domain {domain()}: waiting for it ...", file=sys.stderr)
 
 
+def socket_folder() -> str:
+    """The folder with the sockets of the domain's programs; raises `FolderRefusedError`."""
+    from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
+
+    return domain_folder(domain())
+
+
 def domain() -> int:
     """The domain id from the environment; a text that is not a number is reported when a context is made."""
     try:

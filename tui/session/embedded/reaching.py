@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
+from bot_console.runtime.importer import install
 from bot_console.tui.session.embedded.domain import CONNECT_VARIABLE, take_part
 
 if TYPE_CHECKING:
@@ -24,6 +25,13 @@ def reach_system() -> str:
     from bot_console.tui.session.embedded.connecting import connect_to
 
     return connect_to(endpoints)
+
+
+def reach_ros() -> str:
+    """Like `reach_system`, for a program that imports ROS names itself."""
+    problem = reach_system()
+    install()
+    return problem
 
 
 def reach_when_asked() -> None:

@@ -1,16 +1,63 @@
-"""CPU time of launched processes, and whether a process's code kept running after it was killed."""
+"""CPU time and memory of launched processes, and whether a process's code kept running after it was killed."""
 
 from __future__ import annotations
 
+import os
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bot_console.runtime.process import ProcessState
 from bot_console.runtime.process.node.running import running_process
+from bot_console.runtime.process.watch.gil_holder import GilHolder
+from bot_console.runtime.process.watch.processor_time import wanted_seconds
 from bot_console.tui.console.launch.vitals import Vitals
-from bot_console.tui.session.embedded.system_vitals import SystemVitals
 
 if TYPE_CHECKING:
     from bot_console.runtime.process.roles import RunningProcess
+
+
+class SystemVitals:
+    """The vitals of one process; nothing is known without `/proc`."""
+
+    def __init__(self, pid: int) -> None:
+        self._pid = pid
+        self._lock = GilHolder(pid)
+        self._stat = Path(f"/proc/{pid}/stat")
+        self._statm = Path(f"/proc/{pid}/statm")
+
+    def cpu_seconds(self) -> float | None:
+        """CPU time (s) of the process."""
+        try:
+            fields = self._stat.read_bytes().rpartition(b")")[2].split()
+        except OSError:  # It has ended, or the system has no such file.
+            return None
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def wanted_seconds(self) -> float | None:
+        """How long (s) its main thread has run or waited for a CPU, but for nothing else."""
+        return wanted_seconds(str(self._pid))
+
+    def memory_bytes(self) -> int | None:
+        """Resident memory, as `top`'s RES: includes what it shares with the fork server, if that started it."""
+        try:
+            return int(self._statm.read_bytes().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+        except OSError:
+            return None
+
+    def is_stopped(self) -> bool:
+        """Whether it is frozen."""
+        try:
+            return self._stat.read_bytes().rpartition(b")")[2].split()[0] in (b"T", b"t")
+        except (OSError, IndexError):
+            return False
+
+    def holds_lock_in(self) -> str:
+        """The line of code that holds its interpreter lock."""
+        return self._lock.held_in()
+
+    def hangs_in(self) -> str:
+        """Always empty: nothing survives a SIGKILL here."""
+        return ""
 
 
 class NodeVitals:

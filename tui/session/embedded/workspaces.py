@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
+import importlib
 import os
-from collections.abc import Sequence
+import sys
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 from bot_console.runtime.workspace.builtin_package import FIRST_VARIABLE, NAME, PAGE_NAME, ROOT, is_own
 from bot_console.runtime.workspace.choices import launch_file_paths
 from bot_console.runtime.workspace.demos import is_demo
 from bot_console.runtime.workspace.discover import Workspace, default_folders, use, workspace
+from bot_console.runtime.workspace.package import Package
+from bot_console.runtime.workspace.setup_py import PANES
 from bot_console.tui.cli.foreground.once_per_shell import report_once
 
 PROGRAM_LAUNCH = ROOT / "launch" / "program.launch.py"
 """Runs what the user has named, which is not ours."""
+SIMULATOR_LAUNCH = str(ROOT / "launch" / "simulator.launch.py")
+"""Starts the simulated robot beside something else."""
 SYSTEM_LAUNCH = str(ROOT / "launch" / "robot_system.launch.py")
 """What `bot-console` starts."""
+PANE_GROUP = PANES
+"""The entry points by which packages offer panes."""
 SYSTEM_NODES = frozenset(
     (
         "/motion_controller",
@@ -56,6 +65,24 @@ def report_workspace(package: str) -> None:
     if found is not None and not is_own(found):
         built_in = f"; the bundled robot is '{NAME}'" if package != NAME else ", not the bundled one"
         report_once(f"[INFO] [bot-console]: package '{package}' is the one in {found.folder}{built_in}")
+
+
+def panes() -> Iterator[tuple[str, Callable[[], Any], str]]:
+    """The panes of the workspace's packages: name, a function that imports the pane, and its source."""
+    for package in workspace().packages.values():
+        for name, point in package.panes.items():
+            yield name, _importing(package, point.module, point.function), f"package {package.name}"
+
+
+def _importing(package: Package, module: str, name: str) -> Callable[[], Any]:
+    def find() -> Any:
+        top = package.modules.get(module.partition(".")[0])
+        folder = str(top.parent) if top is not None else str(package.folder)
+        if folder not in sys.path:
+            sys.path.append(folder)
+        return getattr(importlib.import_module(module), name)
+
+    return find
 
 
 def config_folders() -> tuple[Path, ...]:

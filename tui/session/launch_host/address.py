@@ -20,7 +20,7 @@ class HostListener:
 
     def __init__(self, folder: str, enter: Callable[[socket.socket], None]) -> None:
         """`enter` receives each connection; raises `OSError` if the folder cannot hold a socket."""
-        self.path = door_of(folder, os.getpid())
+        self.path = address_of(folder, os.getpid())
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self._enter = enter
         early = f"{self.path}.new"
@@ -29,7 +29,7 @@ class HostListener:
         self._socket.bind(early)
         self._socket.listen(BACKLOG)
         os.rename(early, self.path)  # from now on anyone who sees the name can connect
-        threading.Thread(target=self._serve, name="door", daemon=True).start()
+        threading.Thread(target=self._serve, name="further consoles", daemon=True).start()
 
     def _serve(self) -> None:
         while True:
@@ -48,7 +48,7 @@ class HostListener:
         self._socket.close()
 
 
-def door_of(folder: str, pid: int) -> str:
+def address_of(folder: str, pid: int) -> str:
     """The path of the socket of a process."""
     return os.path.join(folder, f"{pid}{ADDRESS_SUFFIX}")
 

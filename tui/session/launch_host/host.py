@@ -5,17 +5,18 @@ from __future__ import annotations
 import socket
 import threading
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from functools import partial
-from typing import Any, Protocol
+from typing import Any
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.launch.process_output import Add
-from bot_console.tui.console.model import LaunchArgument, LaunchInfo
+from bot_console.tui.console.model import LaunchInfo
 from bot_console.tui.console.recording import Keeper
 from bot_console.tui.session.launch_host.channel import Channel, Message
 from bot_console.tui.session.launch_host.plain_data import of_arguments, of_info
+from bot_console.tui.session.protocol import ClosableLauncher
 
 LAUNCHER_POLL_S = 0.1
 """Seconds between two checks for changes."""
@@ -25,30 +26,6 @@ MAX_FACTS = 10_000
 """Past facts, one per declared parameter, that are sent to such a console."""
 
 Printed = Callable[[int, str, str], None]
-
-
-class HostedService(Protocol):
-    """What a host serves: a launcher that reports its state and can be closed."""
-
-    def info(self) -> LaunchInfo:
-        """The current state; the same object until something changes."""
-        ...
-
-    def arguments(self, path: str) -> Sequence[LaunchArgument]:
-        """The arguments of a launch file; raises `ValueError`."""
-        ...
-
-    def files(self) -> Sequence[str]:
-        """Launch files to choose from."""
-        ...
-
-    def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
-        """Run another launch file."""
-        ...
-
-    def close(self) -> None:
-        """End everything."""
-        ...
 
 
 class _Console:
@@ -66,7 +43,7 @@ class LaunchHost:
 
     def __init__(
         self,
-        make: Callable[[Add, Printed], HostedService],
+        make: Callable[[Add, Printed], ClosableLauncher],
         also: Printed | None = None,
         buffer: Keeper | None = None,
     ) -> None:
@@ -86,7 +63,7 @@ class LaunchHost:
         self._wake = threading.Event()
         self._ended = False
         self._service = make(self._record, self.printed)
-        threading.Thread(target=self._poll, name="look", daemon=True).start()
+        threading.Thread(target=self._poll, name="launcher state", daemon=True).start()
 
     def connect(self, connection: socket.socket, *, owner: bool = False) -> None:
         """Serve one more console; when an owner disconnects, everything ends."""

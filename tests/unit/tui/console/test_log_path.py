@@ -10,7 +10,7 @@ from bot_console.runtime.importer import install
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.model import LogFilter
-from bot_console.tui.session.embedded.launching import Launching
+from bot_console.tui.session.composition import Launching
 from launcher_bench import HEAD
 
 TIMEOUT_S = 120.0
@@ -56,7 +56,7 @@ def run(console, folder, entities):
     launcher = RosLauncher(
         console.record,
         console.printed,
-        spawn=lambda target, file: Launching(target, console.printed, os.environ),
+        spawn=lambda target, file: Launching(target, console.printed, dict(os.environ)),
         heard=console.heard,
     )
     try:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from bot_console.runtime.workspace.discover import use, workspace
 from bot_console.tui.cli.arguments import parse
-from bot_console.tui.session.named_launch import with_launch_file
+from bot_console.tui.session.embedded.named_launch import with_launch_file
 from ros2cli.command_line import main
 
 PACKAGE = "<package format='3'><name>mine</name><version>0.0.0</version></package>"

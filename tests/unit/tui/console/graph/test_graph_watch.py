@@ -5,7 +5,7 @@ import itertools
 import pytest
 import rclpy
 from bot_console.tui.console.graph.watch import GraphWatch
-from bot_console.tui.session.composition import graph_events
+from bot_console.tui.session.embedded.hooks import graph_events
 from rclpy.context import Context
 from std_msgs.msg import Float64
 

@@ -1,0 +1,35 @@
+"""The state of the link to a robot's router, for the status line."""
+
+from __future__ import annotations
+
+import time
+
+from bot_console.runtime.rmw.zenoh.link_probe import LinkState
+from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
+from bot_console.tui.console.model import LinkInfo
+
+
+class LinkWords:
+    """The state of the link, in steps worth drawing; returns the same object until it changes."""
+
+    def __init__(self, buses: NetworkBuses) -> None:
+        self._buses = buses
+        self._info = LinkInfo()
+
+    def info(self) -> LinkInfo:
+        """What is known now."""
+        info = words_of(self._buses.link(), time.monotonic())
+        if info != self._info:
+            self._info = info
+        return self._info
+
+
+def words_of(state: LinkState, now: float) -> LinkInfo:
+    """The state of the link at a given time; delays are rounded to about a tenth of their value so that the display is
+    calm.
+    """
+    silent = 0 if state.heard is None else int(now - state.heard)
+    delay = None if state.delay is None else max(1, round(state.delay * 1000))
+    if delay is not None and delay > 20:
+        delay = round(delay, -1)
+    return LinkInfo(state.to, delay, silent, state.lost)
