@@ -12,7 +12,7 @@ from typing import Any
 from bot_console.tui import __version__
 from bot_console.tui.opening import Opening, is_rqt, rqt_opening
 from bot_console.tui.pane_table import PANES
-from bot_console.tui.session.named_profile import (
+from bot_console.tui.session.embedded.named_profile import (
     NamedProfile,
     NoProfileError,
     bundled_names,

@@ -14,7 +14,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Protocol
 
-from bot_console.tui.session.named_profile import profile_names
+from bot_console.tui.session.embedded.named_profile import profile_names
 
 
 class Names(Protocol):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from bot_console.runtime.importer import install
 from bot_console.tui.session.embedded.domain import CONNECT_VARIABLE, take_part
 
 if TYPE_CHECKING:
@@ -29,6 +28,8 @@ def reach_system() -> str:
 
 def reach_ros() -> str:
     """Like `reach_system`, for a program that imports ROS names itself."""
+    from bot_console.runtime.importer import install
+
     problem = reach_system()
     install()
     return problem

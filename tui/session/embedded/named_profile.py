@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 ENDINGS = (".yaml", ".yml")
-BUNDLED = Path(__file__).resolve().parents[2] / "profiles"
+BUNDLED = Path(__file__).resolve().parents[3] / "profiles"
 """The folder of the profiles that come with the robot."""
 
 

@@ -9,8 +9,8 @@ from bot_console.runtime.workspace import discover
 from bot_console.tui.cli.arguments import Options, attach_parser, parse, parse_attach
 from bot_console.tui.cli.completion import candidates
 from bot_console.tui.files.folders import OVERRIDE
+from bot_console.tui.session.embedded.named_profile import NoProfileError, named_profile
 from bot_console.tui.session.embedded.workspaces import choose
-from bot_console.tui.session.named_profile import NoProfileError, named_profile
 
 VALUES = "# Slow: for a narrow room\nrobot_navigator:\n  ros__parameters:\n    max_speed: 0.3\n"
 LAUNCHES = "launch: my.launch.py\narguments:\n  speed: 3\n  careful: true\n"
