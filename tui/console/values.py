@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,9 +9,6 @@ from bot_console.tui.console.model import Kind, ParameterInfo, Range, Value
 from bot_console.tui.console.parameter_types import ARRAYS, TYPES, field_of
 from bot_console.tui.console.parameters.origin import START
 from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterValue
-
-STEP_TOLERANCE = 1e-6
-"""Relative tolerance with which a double counts as a multiple of the step, as rclpy's `Node.PARAM_REL_TOL`."""
 
 
 def from_message(message: ParameterValue) -> Value:
@@ -58,16 +54,17 @@ def info(
     node: str, value: ParameterValue, descriptor: ParameterDescriptor, first: ParameterInfo | None
 ) -> ParameterInfo:
     """The parameter as shown in the console; `first` is its earlier state, for the default."""
-    now = from_message(value)
+    now, kind = from_message(value), _kind(value.type) or _kind(descriptor.type)
+    ranges = {Kind.DOUBLE: descriptor.floating_point_range, Kind.INTEGER: descriptor.integer_range}
     return ParameterInfo(
         node=node,
         name=descriptor.name,
-        kind=_kind(value.type) or _kind(descriptor.type),
+        kind=kind,
         value=now,
         description=descriptor.description,
         read_only=descriptor.read_only,
         dynamic=descriptor.dynamic_typing,
-        range=_range(descriptor.floating_point_range) or _range(descriptor.integer_range),
+        range=_range(ranges.get(kind, ())),
         constraints=descriptor.additional_constraints,
         default=first.default if first else now,
         origin=first.origin if first else START,
@@ -96,17 +93,5 @@ def refusal(parameter: ParameterInfo | None, value: Value) -> tuple[str, str]:
     limits = parameter.range
     if not limits or not isinstance(value, (int, float)) or isinstance(value, bool):
         return "", ""
-    if not limits.low <= value <= limits.high:
-        return "descriptor", f"out of range. Min: {limits.low}, Max: {limits.high}, value: {value}"
-    if not _on_a_step(limits, value):
-        ends = f"Min: {limits.low}, max: {limits.high}, value: {value}, step: {limits.step}"
-        return "descriptor", f"not a valid step. {ends}"
-    return "", ""
-
-
-def _on_a_step(limits: Range, value: float) -> bool:
-    """Whether a value in the range is one of its ends or a whole number of steps above the lower one, as in rclpy."""
-    if not limits.step or value in (limits.low, limits.high):
-        return True
-    nearest = limits.low + round((value - limits.low) / limits.step) * limits.step
-    return value == nearest if isinstance(value, int) else math.isclose(nearest, value, rel_tol=STEP_TOLERANCE)
+    reason = limits.refusal(value)
+    return ("descriptor", reason) if reason else ("", "")

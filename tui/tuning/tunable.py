@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
+from bot_console.tui.console.model import Range
+
 TunableValue: TypeAlias = "bool | int | float"
 Setting: TypeAlias = "tuple[TunableValue, ...]"
 """A value for each dial, in their order."""
@@ -26,6 +28,8 @@ class Tunable:
     now: TunableValue
     """The value that it has without tuning."""
     unit: str = ""
+    allowed: Range | None = None
+    """The descriptor's range, whose step the values keep to."""
 
     @property
     def label(self) -> str:
@@ -36,16 +40,35 @@ class Tunable:
     def levels(self) -> int:
         """How many different values there are."""
         if self.kind == "double":
-            return RESOLUTION if self.high > self.low else 1
-        return int(math.floor(self.high) - math.ceil(self.low)) + 1
+            return min(RESOLUTION, self._points or RESOLUTION) if self.high > self.low else 1
+        return self._points or int(math.floor(self.high) - math.ceil(self.low)) + 1
 
     def at(self, share: float) -> TunableValue:
         """The value at a fraction (0 to 1) of the range."""
         value = self.low + min(1.0, max(0.0, share)) * (self.high - self.low)
         if self.kind == "double":
-            return min(self.high, max(self.low, round(value, self._digits())))
+            return self._on_step(min(self.high, max(self.low, round(value, self._digits()))))
         whole = min(math.floor(self.high), max(math.ceil(self.low), round(value)))
-        return bool(whole) if self.kind == "bool" else whole
+        return bool(whole) if self.kind == "bool" else self._on_step(whole)
+
+    def _on_step(self, value: TunableValue) -> TunableValue:
+        """The nearest value in the range that the node accepts; the same one where there is none."""
+        allowed, whole = self.allowed, self.kind == "integer"
+        if allowed is None or not allowed.step or not allowed.finite:
+            return value
+        found = allowed.at_share(allowed.share(value), whole=whole)
+        if found is not None and not self.low <= found <= self.high:
+            found = allowed.moved(found, -1 if found > self.high else 1, whole=whole)
+        return found if found is not None and self.low <= found <= self.high else value
+
+    @property
+    def _points(self) -> int:
+        """How many points of the descriptor's grid lie in the range; 0 where it has no step."""
+        allowed = self.allowed
+        if allowed is None or not (allowed.step and math.isfinite(allowed.step) and allowed.finite):
+            return 0
+        step = abs(allowed.step)
+        return math.floor((self.high - allowed.low) / step) - math.ceil((self.low - allowed.low) / step) + 1
 
     def share(self, value: TunableValue) -> float:
         """The position of a value in the range, 0 to 1; the middle if the range is a point."""

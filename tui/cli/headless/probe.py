@@ -43,7 +43,7 @@ def _plain(descriptor: ParameterDescriptor, value: Any) -> dict[str, Any]:
     spans = (*descriptor.floating_point_range, *descriptor.integer_range)
     return {
         "value": value if isinstance(value, (bool, int, float, str)) else None,
-        "range": [spans[0].from_value, spans[0].to_value] if spans else None,
+        "range": [spans[0].from_value, spans[0].to_value, spans[0].step] if spans else None,
         "description": descriptor.description,
         "read_only": descriptor.read_only,
     }

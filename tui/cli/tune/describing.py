@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from bot_console.tui.console.model import Kind, ParameterInfo
+from bot_console.tui.console.model import Kind, ParameterInfo, Range
 from bot_console.tui.format import counted, value_text
 from bot_console.tui.tuning.job import Progress, SettingResult
 from bot_console.tui.tuning.specification import TuningSpecification
@@ -24,9 +24,10 @@ def tunables_of(system: Mapping[str, Any]) -> list[Tunable]:
             if message["read_only"] or not isinstance(value, (bool, int, float)) or name == "use_sim_time":
                 continue
             kind = {bool: "bool", int: "integer", float: "double"}[type(value)]
-            low, high = (0, 1) if kind == "bool" else message["range"] or (-math.inf, math.inf)
+            allowed = Range(*message["range"]) if message["range"] and kind != "bool" else None
+            low, high = (allowed.low, allowed.high) if allowed else (0, 1) if kind == "bool" else (-math.inf, math.inf)
             unit = ParameterInfo(node, name, Kind.DOUBLE, value, message["description"]).unit
-            found.append(Tunable(node, name, kind, low, high, value, unit))
+            found.append(Tunable(node, name, kind, low, high, value, unit, allowed))
     return found
 
 

@@ -8,8 +8,9 @@ from bot_console.tui.console.model.changes import RESTARTED, Change, ChangeSourc
 from bot_console.tui.console.model.graph import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
 from bot_console.tui.console.model.launch import LaunchArgument, LaunchEvent, LaunchInfo, ProcessInfo, ProcessState
 from bot_console.tui.console.model.logs import LogFilter, LoggerLevel, LogRecord, LogState, Severity
-from bot_console.tui.console.model.parameters import Kind, ParameterInfo, ParameterTree, Range, Value, same
+from bot_console.tui.console.model.parameters import Kind, ParameterInfo, ParameterTree, Value, same
 from bot_console.tui.console.model.profiles import Profile, ProfileDifference
+from bot_console.tui.console.model.range import Range
 from bot_console.tui.console.model.snapshot import Capabilities, ConsoleSnapshot, LinkInfo
 
 __all__ = [

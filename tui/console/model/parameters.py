@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import TypeAlias
 
+from bot_console.tui.console.model.range import Range
 from bot_console.tui.console.parameters.unit import unit_in_description
 
 Value: TypeAlias = "bool | int | float | str | tuple[bool | int | float | str | bytes, ...] | None"
@@ -40,15 +41,6 @@ class Kind(IntEnum):
     def word(self) -> str:
         """The type word of `ros2 param` (`double`, `string array` ...)."""
         return "boolean" if self is Kind.BOOL else self.name.lower().replace("bool_", "boolean_").replace("_", " ")
-
-
-@dataclass(frozen=True, slots=True)
-class Range:
-    """A descriptor's range, both ends included; `step` 0 means continuous."""
-
-    low: float
-    high: float
-    step: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

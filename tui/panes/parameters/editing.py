@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 
 from bot_console.tui.console.model import Kind, ParameterInfo, Value
+from bot_console.tui.console.model.range import free_step, rounded
 from bot_console.tui.format import cut, parse_value, range_text
 from bot_console.tui.text.expression.numbers import evaluate
 from bot_console.tui.text.expression.parse import NUMBER
 from bot_console.tui.text.units import factor, split_unit
 
 NUMBERS = (Kind.INTEGER, Kind.DOUBLE)
+INTEGER_ENDS = (-(2**63), 2**63 - 1)
+"""The least and the greatest integer that a parameter can hold."""
 
 
 def label(parameter: ParameterInfo) -> str:
@@ -44,7 +47,7 @@ def _calculated(text: str, parameter: ParameterInfo) -> Value:
     nearest = round(value)
     if abs(value - nearest) > 1e-9 * max(1.0, abs(value)):
         raise ValueError(f"{value:g} is not an integer")
-    if not -(2**63) <= nearest < 2**63:
+    if not INTEGER_ENDS[0] <= nearest <= INTEGER_ENDS[1]:
         raise ValueError(f"{nearest} does not fit into 64 bits")
     return nearest
 
@@ -64,36 +67,24 @@ def is_number(value: Value) -> bool:
 
 
 def stepped(parameter: ParameterInfo, value: Value, steps: int) -> Value:
-    """A number moved by steps of its descriptor, or by hundredths of its range; None without either."""
+    """A number moved by steps of its descriptor, or by hundredths of its range; without either, by about a tenth of
+    itself. None if it cannot be moved.
+    """
     if not isinstance(value, (int, float)) or isinstance(value, bool):
         return None
-    limits = parameter.range
-    integer = parameter.kind is Kind.INTEGER
-    step = limits.step if limits and limits.step else ((limits.high - limits.low) / 100 if limits else 0.0)
-    step = step or max(abs(value) / 10, 0.1)
-    step = max(1, round(step)) if integer else _round_step(step)
-    moved = value + steps * step
-    if limits:
-        moved = min(max(moved, limits.low), limits.high)
-    return int(moved) if integer else round(moved, 10)
+    whole = isinstance(value, int)
+    if parameter.range:
+        return parameter.range.moved(value, steps, whole=whole)
+    if isinstance(value, int):
+        return min(max(value + steps * max(1, abs(value) // 10), INTEGER_ENDS[0]), INTEGER_ENDS[1])
+    step = free_step(value)
+    moved = rounded(value + steps * step, step)
+    return moved if math.isfinite(moved) else None
 
 
 def at_share(parameter: ParameterInfo, share: float) -> Value:
-    """The value at a share (0 to 1) of the range, rounded to a step; None without a range."""
+    """The value at a share (0 to 1) of the range, on a step; None without a range."""
     limits = parameter.range
     if limits is None or not is_number(parameter.value):
         return None
-    share = min(1.0, max(0.0, share))
-    value = limits.low + share * (limits.high - limits.low)
-    step = limits.step or (1 if parameter.kind is Kind.INTEGER else _round_step((limits.high - limits.low) / 100))
-    if 0.0 < share < 1.0:
-        value = min(limits.low + round((value - limits.low) / step) * step, limits.high)
-    return int(value) if parameter.kind is Kind.INTEGER else round(value, 10)
-
-
-def _round_step(step: float) -> float:
-    """The nearest of 1, 2, 5 times a power of ten."""
-    if not step > 0:
-        return 0.1
-    power = 10.0 ** math.floor(math.log10(step))
-    return min((1, 2, 5, 10), key=lambda each: abs(each * power - step)) * power
+    return limits.at_share(share, whole=parameter.kind is Kind.INTEGER)

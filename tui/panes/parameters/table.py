@@ -169,8 +169,7 @@ class ParameterRows(ItemList[Row]):
 def bar(parameter: ParameterInfo, cells: int) -> str:
     """Where a number stands in its range, as a slider of some cells."""
     limits, value = parameter.range, parameter.value
-    if limits is None or isinstance(value, (bool, str, tuple)) or value is None or limits.high <= limits.low:
+    if limits is None or not limits.finite or isinstance(value, (bool, str, tuple)) or value is None:
         return ""
-    share = min(1.0, max(0.0, (value - limits.low) / (limits.high - limits.low)))
-    place = round(share * (cells - 1))
+    place = round(limits.share(value) * (cells - 1))
     return "─" * place + "●" + "─" * (cells - 1 - place)

@@ -25,11 +25,11 @@ def tunable_of(parameter: ParameterInfo) -> Tunable | None:
     low, high = (parameter.range.low, parameter.range.high) if parameter.range else (-math.inf, math.inf)
     if kind == "bool":
         low, high = 0, 1
-    return Tunable(parameter.node, parameter.name, kind, low, high, value, parameter.unit)
+    return Tunable(parameter.node, parameter.name, kind, low, high, value, parameter.unit, parameter.range)
 
 
 def ranges_text(tunables: Sequence[Tunable]) -> str:
-    """Dials as they are typed, with their ranges where they have one."""
+    """Tunables as they are typed, with their ranges where they have one."""
     return " ".join(
         each.label
         if each.kind == "bool" or not math.isfinite(each.low)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
+from bot_console.tui.console.model import Range
 from bot_console.tui.tuning.tunable import Tunable, find_tunables, parse_range
 from hypothesis import given
 from hypothesis import strategies as st
@@ -35,6 +36,22 @@ def test_values_have_the_type_of_the_parameter_and_no_more_digits_than_count() -
     assert SAFE.at(0.2) is False
     assert SAFE.at(0.8) is True
     assert (LEVEL.levels, SAFE.levels) == (256, 2)
+
+
+@pytest.mark.parametrize(
+    ("kind", "allowed", "ends", "values"),
+    [
+        ("double", Range(0.0, 1.0, 0.25), (0.0, 1.0), {0.0, 0.25, 0.5, 0.75, 1.0}),
+        ("double", Range(0.1, 1.0, 0.3), (0.3, 0.9), {0.4, 0.7}),
+        ("integer", Range(3, 30, 9), (3, 30), {3, 12, 21, 30}),
+        ("integer", Range(3, 30, 9), (4, 29), {12, 21}),
+    ],
+)
+def test_values_keep_to_the_step_of_the_descriptor(
+    kind: str, allowed: Range, ends: tuple[float, float], values: set[float]
+) -> None:
+    tunable = Tunable("/a", "b", kind, allowed.low, allowed.high, allowed.low, allowed=allowed).between(*ends)
+    assert {tunable.at(index / 100) for index in range(101)} == values and tunable.levels == len(values)
 
 
 def test_tunables_are_named_by_parameter_or_by_node_and_parameter() -> None:

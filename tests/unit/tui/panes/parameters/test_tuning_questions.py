@@ -17,7 +17,7 @@ PATHS = ("/a:speed", "/odom/pose.x", "/odom/twist.x", "/scan/ranges[0]")
 def test_numbers_and_booleans_that_can_be_set_are_tuned() -> None:
     found = [tuning.tunable_of(each) for each in TREE.parameters]
     assert [each.label if each else "" for each in found] == ["/a:speed", "/a:gain", "/a:safe", ""]
-    assert found[0] == Tunable("/a", "speed", "double", 0.1, 5.0, 1.0, "m/s")
+    assert found[0] == Tunable("/a", "speed", "double", 0.1, 5.0, 1.0, "m/s", SPEED.range)
     assert tuning.tunable_of(ParameterInfo("/a", "speed", Kind.DOUBLE, 1.0, read_only=True)) is None
     assert tuning.tunable_of(ParameterInfo("/a", "speeds", Kind.DOUBLE_ARRAY, (1.0,))) is None
 

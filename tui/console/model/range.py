@@ -1,0 +1,157 @@
+"""The range of a descriptor: which values the node accepts, and those that steps and a slider offer. Pure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+TOLERANCE = 1e-6
+"""Relative tolerance of the ends and steps of doubles, as rclpy's `Node.PARAM_REL_TOL`."""
+STEPS_ACROSS = 100
+"""Steps from one end to the other of a range that has no step of its own."""
+MAX_SKIPPED_POINTS = 100
+"""How many points of a grid may be skipped to find one that a double expresses exactly enough."""
+NEGLIGIBLE = Fraction(1, 1000)
+"""The part of a step within which a double counts as on a point of the grid, since doubles are calculated inexactly."""
+MAX_DIGITS = 17
+"""Significant digits that express every double."""
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """Both ends are included. With a `step`, the values are the grid `low + n * step` and the upper end; 0 means
+    continuous. The ends of an integer are integers, since a float cannot hold large ones exactly.
+    """
+
+    low: float
+    high: float
+    step: float = 0.0
+
+    @property
+    def finite(self) -> bool:
+        """Whether both ends are finite and apart, so that a slider can show the range."""
+        return math.isfinite(self.low) and math.isfinite(self.high) and self.low < self.high
+
+    def refusal(self, value: float) -> str:
+        """Why rclpy refuses a value, in its words; empty if it is accepted."""
+        low, high, step = self.low, self.high, self.step
+        whole = isinstance(value, int)
+        if value in (low, high) or (not whole and (_close(value, low) or _close(value, high))):
+            return ""
+        if not low < value < high:
+            return f"out of range. Min: {low}, Max: {high}, value: {value}"
+        on_step = (value - low) % step == 0 if whole and step else _on_step(value, low, step)
+        return "" if on_step else f"not a valid step. Min: {low}, max: {high}, value: {value}, step: {step}"
+
+    def share(self, value: float) -> float:
+        """The place of a value in a finite range, from 0 to 1."""
+        if not self.low < value < self.high:
+            return 1.0 if value >= self.high else 0.0
+        return float((Fraction(value) - Fraction(self.low)) / self._width)
+
+    def at_share(self, share: float, *, whole: bool) -> float | None:
+        """The accepted value nearest to a share (0 to 1) of the range; None if an end is not finite."""
+        if not self.finite or share <= 0.0 or share >= 1.0:
+            end = self.high if share >= 1.0 else self.low
+            return end if math.isfinite(end) and self.low <= self.high else None
+        exact = self._width * Fraction(share)
+        if not whole and not self.step:
+            return self._free(float(self.low + exact), self._hundredth)
+        return self._point(round(exact / self._spacing), whole, upward=True)
+
+    def moved(self, value: float, steps: int, *, whole: bool) -> float | None:
+        """The accepted value a number of steps away, at most an end; None if there is none."""
+        if not (self.low <= value <= self.high and self.low < self.high):
+            end = self.high if value > self.high else self.low
+            return end if math.isfinite(end) and self.low <= self.high else None
+        if not whole and not self.step:
+            step = self._hundredth if self.finite else free_step(value)
+            moved = self._free(value + steps * step, step)
+            beside = math.nextafter(value, math.copysign(math.inf, steps))  # where the range is a few doubles wide
+            return moved if moved != value else min(max(beside, self.low), self.high)
+        if not (math.isfinite(self.low) and math.isfinite(min(abs(self.step), self.high))):
+            return None
+        place = (Fraction(value) - Fraction(self.low)) / self._spacing
+        upward = steps > 0
+        begin = math.floor(place) if upward else math.ceil(place)
+        if not whole and abs(place - round(place)) < NEGLIGIBLE:
+            begin = round(place)
+        stride = max(1, self._width // STEPS_ACROSS) if whole and not self.step else 1
+        return self._point(begin + steps * int(stride), whole, upward=upward)
+
+    @property
+    def _width(self) -> Fraction:
+        return Fraction(self.high) - Fraction(self.low)
+
+    @property
+    def _spacing(self) -> Fraction:
+        """The distance between two points of the grid; that of the ends, where the node accepts nothing else."""
+        if self.step and not math.isfinite(self.step):
+            return self._width
+        return Fraction(abs(self.step) or 1)
+
+    @property
+    def _hundredth(self) -> float:
+        return round_step(self.high / STEPS_ACROSS - self.low / STEPS_ACROSS)
+
+    def _free(self, value: float, step: float) -> float:
+        return min(max(rounded(value, step), self.low), self.high)
+
+    def _point(self, at: int, whole: bool, *, upward: bool) -> float | None:
+        """The value of a point of the grid, or of the next one that is accepted; beyond the last one, the end."""
+        ahead = 1 if upward else -1
+        for each in range(at, at + ahead * MAX_SKIPPED_POINTS, ahead):
+            exact = Fraction(self.low) + each * self._spacing
+            if each <= 0:
+                return self.low
+            if exact > self.high - (0 if whole else self._spacing * NEGLIGIBLE):
+                break
+            for value in (int(exact),) if whole else _spellings(float(exact), self.low, each, self.step):
+                if not self.refusal(value):
+                    return value
+        end = self.high if upward or at > 0 else self.low
+        return end if math.isfinite(end) else None
+
+
+def free_step(value: float) -> float:
+    """The step of a number that has no range: about a tenth of it."""
+    return round_step(max(abs(value) / 10, 0.1))
+
+
+def round_step(step: float) -> float:
+    """The nearest of 1, 2, 5 times a power of ten."""
+    if not 0 < step < math.inf:
+        return 0.1
+    power = 10.0 ** math.floor(math.log10(step))
+    return min((1, 2, 5, 10), key=lambda each: abs(each * power - step)) * power
+
+
+def rounded(value: float, step: float) -> float:
+    """A value without the digits that lie far below a step, so that 0.1 + 0.2 is 0.3."""
+    if not (math.isfinite(value) and value and step):
+        return value
+    places = math.floor(math.log10(abs(value))) - math.floor(math.log10(abs(step)))
+    return float(f"{value:.{min(MAX_DIGITS, max(1, places + 7))}g}")
+
+
+def _spellings(exact: float, low: float, at: int, step: float) -> Iterator[float]:
+    """A point of a grid, as a person would write it, and as rclpy calculates it."""
+    yield rounded(exact, step)
+    yield exact
+    yield low + at * step if at < 2**53 else exact
+
+
+def _close(one: float, other: float) -> bool:
+    return math.isclose(one, other, rel_tol=TOLERANCE)
+
+
+def _on_step(value: float, low: float, step: float) -> bool:
+    """Whether a double is close enough to a step, as rclpy calculates it."""
+    if not step:
+        return True
+    try:
+        return _close(low + round((value - low) / step) * step, value)
+    except (OverflowError, ValueError):  # which rclpy raises, too, for instance where the step is NaN
+        return False
