@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import ast
 import re
+from pathlib import Path
+from string import ascii_letters
 
 import pytest
+from bot_console import tui
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.key import Key
@@ -28,6 +32,7 @@ from bot_console.tui.widgets.diagram_view import DiagramView
 from bot_console.tui.widgets.prompt.filtered import Findable, Narrowed
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.row_list import RowList
+from textual.keys import Keys
 
 SCREENS = {
     "arrange": ArrangeScreen,
@@ -57,6 +62,10 @@ OWNERS = {
     **{each.id: each.load() for each in PANES},
 }
 KEYS = [(scope, key) for scope, keys in TABLE.items() for key in keys]
+ROOT = Path(tui.__path__[0])
+KEY_TABLE = ROOT / "keymap.py"
+HANDLERS = {"on_key", "_on_key", *(f"key_{each.value}" for each in Keys), *map("key_{}".format, ascii_letters)}
+"""Methods that Textual calls with a key."""
 STOLEN = {"ctrl+x", "ctrl+b", "ctrl+a", "ctrl+s", "ctrl+h", "ctrl+i", "ctrl+m", "ctrl+j"}
 
 
@@ -98,3 +107,41 @@ def test_a_pane_names_the_scopes_that_act_in_it_and_overrides_no_key_of_them(eac
         for key in TABLE[scope]:
             for name in key.keys.split(","):
                 assert [binding.id for binding in merged[name]] == [key.id]
+
+
+def outside_of_table(path: Path) -> list[str]:
+    """The places in a file that bind keys without the table."""
+    found: list[str] = []
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        match node:
+            case ast.Call(func=ast.Name(id="Binding") | ast.Attribute(attr="Binding")):
+                found.append(f"{path.name}:{node.lineno} makes a binding")
+            case ast.Assign(targets=[ast.Name(id="BINDINGS")]) | ast.AnnAssign(target=ast.Name(id="BINDINGS")):
+                if not (node.value and is_of_table(node.value)):
+                    found.append(f"{path.name}:{node.lineno} binds keys that are not in the table")
+            case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name) if name in HANDLERS:
+                found.append(f"{path.name}:{node.lineno} handles a key itself")
+            case ast.Compare(left=ast.Attribute(value=ast.Name(id="event"), attr="key"), comparators=[right]) if any(
+                isinstance(each, ast.Constant) for each in ast.walk(right)
+            ):
+                found.append(f"{path.name}:{node.lineno} compares a key")
+    return found
+
+
+def is_of_table(value: ast.expr) -> bool:
+    """Whether an expression consists of `bindings("scope")` only."""
+    match value:
+        case ast.Call(func=ast.Name(id="bindings") | ast.Attribute(attr="bindings")):
+            return True
+        case ast.Starred(value=inside):
+            return is_of_table(inside)
+        case ast.List(elts=parts) | ast.Tuple(elts=parts):
+            return all(map(is_of_table, parts))
+        case ast.BinOp(left=left, right=right):
+            return is_of_table(left) and is_of_table(right)
+    return False
+
+
+def test_no_key_is_bound_outside_the_table() -> None:
+    files = [each for each in sorted(ROOT.rglob("*.py")) if each != KEY_TABLE]
+    assert [place for each in files for place in outside_of_table(each)] == []
