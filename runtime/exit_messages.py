@@ -35,6 +35,23 @@ def place_fault(error: BaseException) -> str:
     """
     if isinstance(error, SystemError) and not _has_folder():  # raised by an import of Python 3.13.0 in a deleted folder
         return DELETED
+    if reached := limit_fault(error):
+        return reached
+    if isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG:
+        return f"{_shortened(error.filename)} cannot be a file: its name is too long"
+    if not isinstance(error, OSError) or error.filename is not None:
+        return ""
+    if error.errno in FULL:
+        return f"the output cannot be written: {error.strerror}"
+    if error.errno == errno.ENOENT and not _has_folder():
+        return DELETED
+    return ""
+
+
+def limit_fault(error: BaseException | None) -> str:
+    """Return the message for an error raised by a limit of this process or machine, or by an error it caused."""
+    if error is None:
+        return ""
     unloaded = isinstance(error, ImportError) and UNMAPPED in str(error)
     if unloaded or isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno == errno.ENOMEM):
         return "there is too little memory (a limit is shown by `ulimit -v`)"
@@ -42,17 +59,9 @@ def place_fault(error: BaseException) -> str:
         return "no more threads can be started (limits are shown by `ulimit -v` and `ulimit -u`)"
     if isinstance(error, OSError) and error.errno == errno.EMFILE:
         return "too many files are open (the limit is shown by `ulimit -n`)"
-    if isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG:
-        return f"{_shortened(error.filename)} cannot be a file: its name is too long"
-    if not isinstance(error, OSError) or error.filename is not None:
-        return ""
-    if NO_TEMPORARY in str(error):
+    if isinstance(error, OSError) and error.filename is None and NO_TEMPORARY in str(error):
         return "no temporary file can be written: the disk is full, or the size of files is limited (`ulimit -f`)"
-    if error.errno in FULL:
-        return f"the output cannot be written: {error.strerror}"
-    if error.errno == errno.ENOENT and not _has_folder():
-        return DELETED
-    return ""
+    return limit_fault(error.__cause__)
 
 
 def _shortened(name: object) -> str:

@@ -14,6 +14,7 @@ from concurrent.futures import Future
 from typing import Any, cast
 
 import launch.logging
+from bot_console.runtime.exit_messages import limit_fault
 from bot_console.runtime.process.stepping.event_loop import new_event_loop
 from launch.event_handlers import OnIncludeLaunchDescription, OnShutdown
 from launch.events import IncludeLaunchDescription, Shutdown
@@ -172,7 +173,7 @@ class LaunchService:
     def __caught(self, error: Exception) -> None:
         self.__failure = self.__failure or error
         self.__logger.debug(traceback.format_exc())
-        message = f"Caught exception in launch (see debug for traceback): {error}"
+        message = f"Caught exception in launch (see debug for traceback): {limit_fault(error) or error}"
         self.__logger.error(message)
         self._shutdown(reason=message, due_to_sigint=False)
         self.__return_code = 1

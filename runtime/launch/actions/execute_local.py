@@ -8,6 +8,7 @@ import traceback
 from typing import TYPE_CHECKING, Any
 
 import launch.logging
+from bot_console.runtime.exit_messages import limit_fault
 from bot_console.runtime.importer import is_installed
 from launch.action import Action
 from launch.child import Child, PythonProgram, start_child
@@ -303,9 +304,9 @@ class ExecuteLocal(Action):
         while not self.__over:
             try:
                 code = await self.__run_once(context)
-            except Exception:  # the command cannot be started
-                text = traceback.format_exc()
-                self.__logger.error(f"exception occurred while executing process:\n{text}")
+            except Exception as error:  # the command cannot be started
+                text = limit_fault(error) or f"\n{traceback.format_exc()}"
+                self.__logger.error(f"exception occurred while executing process: {text}".replace(": \n", ":\n", 1))
                 break
             if code is None or not await self.__respawn.wanted(context, self.__shutdown):
                 break
