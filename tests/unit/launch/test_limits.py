@@ -27,7 +27,7 @@ def reported(monkeypatch):
             "no more threads can be started (limits are shown by `ulimit -v` and `ulimit -u`)",
         ),
         (MemoryError(), "there is too little memory (a limit is shown by `ulimit -v`)"),
-        (OSError(24, "Too many open files", "/dev/null"), "too many files are open (the limit is shown by `ulimit -n`)"),
+        (OSError(24, "Too many", "/dev/null"), "too many files are open (the limit is shown by `ulimit -n`)"),
     ],
 )
 def test_process_that_cannot_be_started_names_the_limit(error, line, monkeypatch, reported):
