@@ -107,17 +107,17 @@ class Subscription(Entity):
     def take(self) -> tuple[Any, dict[str, int | None]] | None:
         """Take the next unexpired message with its info, bypassing executors; None without one."""
         while self._queue:
-            message, stamp, number, expires = self._queue.popleft()
+            message, stamp, received, number, expires = self._queue.popleft()
             if expires is None or current().clock.system_ns() <= expires:
                 taken = own(message)
                 if taken is not None:
-                    return taken, self._info(stamp, number)
+                    return taken, _info(stamp, received, number)
         return None
 
     def run(self) -> Any:
         """Take one message and run the callback."""
         try:
-            message, stamp, number, expires = self._queue.popleft()
+            message, stamp, received, number, expires = self._queue.popleft()
         except IndexError:  # another thread was faster
             return None
         if self._queue:
@@ -128,16 +128,10 @@ class Subscription(Entity):
             message = message.take()
             if message is None:
                 return None
-        result = self._callback(message) if self._message_only else self._callback(message, self._info(stamp, number))
+        result = (
+            self._callback(message) if self._message_only else self._callback(message, _info(stamp, received, number))
+        )
         return result if self._is_async else None
-
-    def _info(self, stamp: int, number: int) -> dict[str, int | None]:
-        return {
-            "source_timestamp": stamp,
-            "received_timestamp": current().clock.system_ns(),
-            "publication_sequence_number": number,
-            "reception_sequence_number": None,
-        }
 
     def destroy(self) -> None:
         """Destroy the subscription."""
@@ -153,6 +147,15 @@ class Subscription(Entity):
 
     def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
         self.destroy()
+
+
+def _info(stamp: int, received: int, number: int) -> dict[str, int | None]:
+    return {
+        "source_timestamp": stamp,
+        "received_timestamp": received,
+        "publication_sequence_number": number,
+        "reception_sequence_number": None,
+    }
 
 
 __getattr__ = reexporting(__name__, "CallbackGroup EventHandler MsgType QoSProfile SubscriptionEventCallbacks")

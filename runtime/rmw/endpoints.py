@@ -156,7 +156,7 @@ class Endpoint:
 
 
 class SubscriptionEndpoint:
-    """Receives messages: `queue` holds entries (message, source ns, sequence number, expiry ns).
+    """Receives messages: `queue` holds entries (message, sent ns, received ns, sequence number, expiry ns).
 
     The message may be `Held`; `own` takes it.
     """

@@ -129,7 +129,7 @@ class LocalPublisher:
         for target in targets:
             if target.raw and data is None:
                 data = _codec().serialize(message)
-            target.queue.append((data if target.raw else given, stamp, number, expires))
+            target.queue.append((data if target.raw else given, stamp, stamp, number, expires))
             target.notify()
         if hear is not None:
             hear(self.endpoint, self.endpoint.gid, number, stamp, message if data is None else data)
@@ -175,7 +175,7 @@ class LocalPublisher:
             expires = stamp + self._lifespan if self._lifespan else None
             if expires is None or now <= expires:
                 given = _codec().serialize(message) if target.raw else message._copy_()
-                target.queue.append((given, stamp, number, expires))
+                target.queue.append((given, stamp, now, number, expires))
         if target.queue:
             target.notify()
 

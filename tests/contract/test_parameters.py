@@ -71,6 +71,7 @@ def test_a_refusal_says_who_and_why_and_changes_nothing(rig: Rig, node: str, nam
     assert outcome.reason
     (change,) = rig.console.changes()
     assert (change.name, change.new, change.accepted, change.reason) == (name, value, False, outcome.reason)
+    assert change.answered is (who != "node")
     assert rig.console.snapshot().parameters[ROBOT] == before
     assert not rig.console.snapshot().journal.can_undo
 

@@ -28,6 +28,7 @@ from bot_console.tui.session.embedded.domain import (
     why_alone,
 )
 from bot_console.tui.session.embedded.named_launch import with_launch_file
+from bot_console.tui.session.embedded.reaching import why_router_is_unused
 from bot_console.tui.session.launch_host.child import Host
 from bot_console.tui.session.live import Session
 from bot_console.tui.settings.settings import read_settings
@@ -93,6 +94,8 @@ def _connect(options: Options, alone: str, own: Host | None, start: Callable[[],
     from bot_console.tui.session.launch_host.snapshot_buffer import HostedSnapshotBuffer
 
     message = [(Severity.WARN, f"Other terminals cannot reach this system: {alone}")] if alone else []
+    if why := why_router_is_unused():
+        message.append((Severity.WARN, why))
     if options.attach:
         message.append((Severity.INFO, ATTACHED.format(domain())))
         return Connected(options, message, attached(start))

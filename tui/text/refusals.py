@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from bot_console.tui.console.model import SetOutcome
+from bot_console.tui.console.model import Change, SetOutcome
 from bot_console.tui.format import sanitize, value_text
 
 BY = {"descriptor": "by its descriptor", "callback": "by the node", "console": "here"}
@@ -14,6 +14,11 @@ BY = {"descriptor": "by its descriptor", "callback": "by the node", "console": "
 def verdict(outcome: SetOutcome) -> str:
     """Whether a value was refused, or not set since its node did not answer or lacks the parameter."""
     return "not set" if outcome.refused_by == "node" else "refused"
+
+
+def verdict_of_change(change: Change) -> str:
+    """The same for an entry of the journal; empty if the value was accepted."""
+    return "" if change.accepted else "refused" if change.answered else "not set"
 
 
 def beside_row(refused: SetOutcome) -> str:

@@ -59,7 +59,7 @@ class RemotePublisher(deque[Any]):
 
     def append(self, entry: Any) -> None:
         """Send one message, which the publisher has serialized."""
-        data, stamp, number, _ = entry
+        data, stamp, _, number, _ = entry
         out = self._out or self._open()
         attachment = pack(number, stamp, self.gid, data)
         if self._blocking:

@@ -114,7 +114,7 @@ class RemoteSubscription:
         queue = subscription.queue
         if self._counted and stamp >= self._opened and len(queue) == queue.maxlen:
             self._overrun()
-        queue.append((message, stamp, number, expires))
+        queue.append((message, stamp, time.time_ns(), number, expires))
         subscription.notify()
         hear = self._tap.hear
         if hear is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from rclpy.clock import Clock, ClockType
@@ -67,7 +67,7 @@ def delay_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser, daemon=False)
 
 
-def _subscribe(node: Node, topic: str, take: Callable[[Any], None], *, raw: bool = False) -> str:
+def _subscribe(node: Node, topic: str, take: Callable[..., None], *, raw: bool = False) -> str:
     """Wait for the topic and subscribe to it; returns why that is impossible, or an empty string."""
     name = topic if topic.startswith("/") else f"/{topic}"
     if name not in dict(node.get_topic_names_and_types()):
@@ -101,14 +101,13 @@ def spread(values: Sequence[float]) -> tuple[float, float, float, float]:
 class _Rate:
     """Gaps (ns) between messages; a report is due with the first message 1 s (1e9 ns) or more after the last report."""
 
-    def __init__(self, window: int, now: Callable[[], int]) -> None:
+    def __init__(self, window: int) -> None:
         self.gaps: deque[int] = deque(maxlen=window)
-        self._now = now
         self._last = self._reported = 0
 
-    def take(self) -> str:
-        """Count a message; returns the report if one is due, else an empty string."""
-        now, last = self._now(), self._last
+    def take(self, now: int) -> str:
+        """Count a message received `now` (ns); returns the report if one is due, else an empty string."""
+        last = self._last
         if now == 0:
             text = "time has reset, resetting counters" if self.gaps else ""
             self.gaps.clear()
@@ -138,12 +137,14 @@ def rate(arguments: argparse.Namespace) -> Result:
     passes = message_filter(arguments.filter_expr)
     arguments.no_daemon = True
     with DirectNode(arguments) as node:
-        wall = Clock(clock_type=ClockType.SYSTEM_TIME)
-        clock = wall if arguments.wall_time else node.get_clock()
-        measured = _Rate(arguments.window_size, lambda: clock.now().nanoseconds)
+        clock = node.get_clock()
+        simulated = arguments.use_sim_time and not arguments.wall_time
+        measured = _Rate(arguments.window_size)
 
-        def take(message: Any) -> None:
-            if passes(message) and (text := measured.take()):
+        def take(message: Any, info: Mapping[str, int]) -> None:
+            # Messages may have waited while the type of the topic was learned.
+            now = clock.now().nanoseconds if simulated else info["received_timestamp"]
+            if passes(message) and (text := measured.take(now)):
                 print(text)
 
         problem = _subscribe(node, arguments.topic_name, take)

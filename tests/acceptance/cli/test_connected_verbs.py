@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
@@ -15,6 +17,18 @@ from bot_console.runtime.rmw.zenoh.wire.tokens import TokenNode, entity_token, n
 from processes.ports import free_port
 
 TIMEOUT_S = 100
+TALKER = """
+import rclpy
+from std_msgs.msg import String
+rclpy.init()
+node = rclpy.create_node("talker")
+talker = node.create_publisher(String, "chatter", 1)
+while not talker.get_subscription_count():
+    rclpy.spin_once(node, timeout_sec=0.1)
+talker.publish(String(data="hello"))
+print("heard")
+rclpy.spin(node)
+"""
 ENDING = """
 import sys
 from bot_console.tui.session.embedded.connecting import connect_to
@@ -62,3 +76,25 @@ def test_status_reports_the_robot_behind_the_named_router(place: str) -> None:
         session.close()
     assert seen.returncode == 0, seen.stderr
     assert seen.stdout.splitlines()[0] == f"robot in ROS domain 0 at {place}: /base"
+
+
+def test_run_starts_a_node_and_bag_records_behind_the_named_router(place: str, tmp_path: Path) -> None:
+    file, bag = tmp_path / "talker.py", tmp_path / "bag"
+    file.write_text(TALKER)
+    program = [sys.executable, "-m", "bot_console.tui"]
+    environment = dict(os.environ, BOT_CONSOLE_CONNECT=place, ROS_DOMAIN_ID="0")
+    with subprocess.Popen([*program, "run", str(file)], env=environment, stdout=subprocess.PIPE) as talker:
+        with subprocess.Popen([*program, "bag", "record", "-o", str(bag), "/chatter"], env=environment) as recorder:
+            assert talker.stdout is not None and talker.stdout.readline() == b"heard\n"
+            recorder.send_signal(signal.SIGINT)
+        talker.kill()
+    assert recorder.returncode == 0
+    assert "/chatter | Type: std_msgs/msg/String" in run(place, *program[1:], "bag", "info", str(bag)).stdout
+
+
+def test_launch_says_that_it_starts_nodes_on_this_machine(place: str, tmp_path: Path) -> None:
+    file = tmp_path / "empty.launch.py"
+    file.write_text("import launch\n\ndef generate_launch_description():\n    return launch.LaunchDescription([])\n")
+    started = run(place, "-m", "bot_console.tui", "launch", str(file))
+    assert started.returncode == 0, started.stderr
+    assert f"BOT_CONSOLE_CONNECT names {place}, but what is started here runs in ROS domain 0" in started.stderr

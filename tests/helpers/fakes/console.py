@@ -157,7 +157,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
         for each in outcomes:
             entry = Change(
                 self._end, START, node, each.name, self._value(node, each.name), each.value, source,
-                each.accepted, each.reason, by,
+                each.accepted, each.reason, by, answered=each.refused_by != "node",
             )  # fmt: skip
             self.journal.append(entry)
         taken = {each.name: each.value for each in outcomes if each.accepted}

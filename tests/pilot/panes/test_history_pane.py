@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from bot_console.tui.console.model import ChangeSource, Severity
@@ -107,6 +108,19 @@ def test_changes_are_filtered_by_words_and_by_refusal() -> None:
         assert shown(session) == [("max_speed", 10.0)]
         await session.press("escape")
         assert len(shown(session)) == 3
+
+    run(live(), play)
+
+
+def test_value_whose_node_did_not_answer_differs_from_refused_one() -> None:
+    async def play(session: Session) -> None:
+        session.console.journal[-1] = replace(session.console.journal[-1], answered=False, reason="no answer in 5 s")
+        await session.press("H")
+        assert "? max_speed" in session.text() and "? 10.0 was not set: no answer in 5 s" in session.text()
+        await session.press("slash")
+        await session.type("refused")
+        await session.press("enter")
+        assert shown(session) == []
 
     run(live(), play)
 

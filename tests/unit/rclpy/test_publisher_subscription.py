@@ -217,6 +217,17 @@ def test_callback_may_take_message_info(stepped_ros: Any) -> None:
     assert all(info["received_timestamp"] >= start for _, info in got)
 
 
+def test_message_that_waits_was_received_when_it_was_published(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    subscription = node.create_subscription(Int32, "t", lambda message: None, 10)
+    publisher = node.create_publisher(Int32, "t", 10)
+    sent = node.get_clock().now().nanoseconds
+    publisher.publish(Int32(data=7))
+    Clock().sleep_for(Duration(seconds=0.5), node.context)
+    _, info = subscription.take()
+    assert info["received_timestamp"] == sent
+
+
 @pytest.mark.parametrize("callback", [lambda: None, lambda a, b, c: None])
 def test_callbacks_with_other_signatures_are_rejected(ros: Any, callback: Any) -> None:
     with pytest.raises(RuntimeError, match="callback should be either be callable with one argument"):

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 
 import pytest
+from rclpy.clock import Clock, ClockType
+from rclpy.duration import Duration
 
 COUNTER = """
 from std_msgs.msg import Int32
@@ -154,6 +157,26 @@ def test_hz_prints_the_average_rate(ros) -> None:
 def test_hz_counts_filtered_messages_only(ros) -> None:
     ros.node(COUNTER)
     assert "average rate: 2.000\n" in ros.ask("topic", "hz", "/count", "--filter", "m.data % 2", stop_after=3.0).stdout
+
+
+def test_hz_measures_arrivals_when_messages_waited_to_be_taken(ros, monkeypatch) -> None:
+    from ros2cli.verbs import topic_rate
+
+    def busy_at_first(node, topic, take, **how):
+        def delayed(message, info):
+            if not held:  # what comes during a second waits, as while a type is being imported
+                Clock(clock_type=ClockType.SYSTEM_TIME).sleep_for(Duration(seconds=1))
+            held.append(message)
+            take(message, info)
+
+        held = []
+        return subscribe(node, topic, delayed, **how)
+
+    subscribe = topic_rate._subscribe
+    monkeypatch.setattr(topic_rate, "_subscribe", busy_at_first)
+    ros.node(COUNTER)
+    measured = ros.ask("topic", "hz", "/count", stop_after=3.6).stdout
+    assert set(re.findall("average rate: (.*)", measured)) == {"4.000"}
 
 
 def test_bw_prints_bandwidth_and_message_sizes(ros) -> None:

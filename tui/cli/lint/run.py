@@ -117,11 +117,11 @@ def lint_files(files: Iterable[Path], named: Path | None = None) -> list[LintFin
 
 def _running() -> tuple[str, list[LintFinding]]:
     from bot_console.runtime.importer import install
-    from bot_console.tui.session.embedded.domain import take_part
+    from bot_console.tui.session.embedded.reaching import reach_system
 
     install()
-    if alone := take_part():
-        return alone, []
+    if unreachable := reach_system():
+        return unreachable, []
     import time
 
     from bot_console.tui.console.connection.ros_console import RosConsole

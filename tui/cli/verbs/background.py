@@ -77,6 +77,9 @@ def up(words: Sequence[str]) -> int:
     if options.fast:
         print("a system in the background runs in real time: leave --fast out", file=sys.stderr)
         return 2
+    from bot_console.tui.session.embedded.reaching import report_unused_router
+
+    report_unused_router()
     alone = take_part() or _unreachable()
     options, problem = with_launch_file(options)
     if problem := problem or alone:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.runtime.importer import install
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.format import sanitize
-from bot_console.tui.session.embedded.domain import take_part
+from bot_console.tui.session.embedded.reaching import reach_system
 
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.recorder import Ring
@@ -317,12 +317,12 @@ def _new_folder(near: Path | None = None) -> Path:
 
 
 def _node(name: str) -> Any:
-    """A node in the domain; None, after printing why, if the domain cannot be joined."""
+    """A node in the domain, or behind the robot's router; None, after printing why, if neither can be reached."""
     import rclpy
 
-    alone = take_part()
-    if alone:
-        print(alone, file=sys.stderr)
+    unreachable = reach_system()
+    if unreachable:
+        print(unreachable, file=sys.stderr)
         return None
     rclpy.init(args=[])
     return rclpy.create_node(name, start_parameter_services=False)

@@ -7,6 +7,7 @@ import sys
 
 from bot_console.tui.cli.arguments import SIMULATOR_HELP, Options
 from bot_console.tui.cli.programs import program
+from bot_console.tui.session.embedded.reaching import report_unused_router
 from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH, report_workspace
 
 
@@ -23,8 +24,9 @@ def run(words: list[str]) -> int:
     if not (given.watch or given.headless):
         from bot_console.runtime.run import main
         from bot_console.tui.session.embedded.domain import take_part
+        from bot_console.tui.session.embedded.reaching import named_routers, reach_system
 
-        problem = take_part()
+        problem = reach_system() if named_routers() else take_part()
         if problem:
             print(problem, file=sys.stderr)
             return 1
@@ -36,6 +38,7 @@ def run(words: list[str]) -> int:
         print(problem, file=sys.stderr)
         return 1
     options = _options(given, arguments)
+    report_unused_router()
     if given.headless:
         from bot_console.tui.cli.headless.run import run as run_headless
 
@@ -50,6 +53,7 @@ def _prefixed(prefix: str, words: list[str]) -> int:
     from bot_console.tui.cli.verbs import ros2
     from bot_console.tui.session.embedded.domain import take_part
 
+    report_unused_router()
     problem = take_part()
     if problem:
         print(problem, file=sys.stderr)

@@ -58,6 +58,8 @@ class Change:
     """The operation it was part of: the name of a profile or a file."""
     run: int = 0
     """The run in which it was recorded, by its start (ns since the epoch); 0 is the current run."""
+    answered: bool = True
+    """False if it was not set because its node did not answer, or lacks the parameter, rather than refused."""
 
 
 @dataclass(frozen=True, slots=True)

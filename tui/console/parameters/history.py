@@ -23,6 +23,8 @@ TIMEOUT_S = 0.5
 SAME = 2_000_000_000
 """Nanoseconds within which equal changes recorded by two consoles count as one."""
 BROKEN = ".broken"
+NOT_ANSWERED = -1
+"""In the column `accepted`: neither accepted (1) nor refused (0)."""
 UNSTORABLE = (
     ValueError,
     OverflowError,
@@ -118,7 +120,7 @@ class History:
         row = (
             *(self._run, change.stamp, encodable(change.node), encodable(change.name)),
             *(written(change.old), written(change.new)),
-            *(change.source.value, int(change.accepted), encodable(change.reason), encodable(change.by)),
+            *(change.source.value, _outcome(change), encodable(change.reason), encodable(change.by)),
         )
         with self._lock:
             if self._link is None:
@@ -212,9 +214,14 @@ def _change(seq: int, row: tuple[Any, ...]) -> Change | None:
     if not all(isinstance(each, int) for each in (stamp, accepted, run)):
         return None
     try:
-        return Change(seq, stamp, node, name, read(old), read(new), _source(source), bool(accepted), reason, by, run)
+        of = stamp, node, name, read(old), read(new), _source(source)
+        return Change(seq, *of, accepted > 0, reason, by, run, accepted != NOT_ANSWERED)
     except (ValueError, TypeError, LookupError, RecursionError):
         return None
+
+
+def _outcome(change: Change) -> int:
+    return int(change.accepted) if change.answered else NOT_ANSWERED
 
 
 def _source(word: str) -> ChangeSource:

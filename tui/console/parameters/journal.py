@@ -84,13 +84,15 @@ class Journal:
         source: ChangeSource,
         refusal: str = "",
         by: str = "",
+        *,
+        answered: bool = True,
     ) -> None:
-        """Add one entry; `values` are the old and the new one, `refusal` the reason if it was refused.
+        """Add one entry; `values` are the old and the new one, `refusal` the reason if it was refused or not answered.
 
         The entry is queued for the disk before it becomes visible. Called by one thread at a time.
         """
         old, new = values
-        change = Change(self._end, stamp, node, name, old, new, source, not refusal, refusal, by)
+        change = Change(self._end, stamp, node, name, old, new, source, not refusal, refusal, by, answered=answered)
         if self._history:
             try:
                 self._history.add(change)  # outside the lock, so that readers do not wait for the disk

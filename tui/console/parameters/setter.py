@@ -144,20 +144,19 @@ class ParameterSetter:
         self._expected.forget(request)
         why = reason or "the node gave no reason"
         by = refusal(self._mirror.get(request.node, request.name), request.value)[0] or "callback"
-        self._refused(request, old, why)
+        self._refused(request, old, why, by)
         return SetOutcome(request.node, request.name, request.value, False, why, by)
 
     def _all_refused(
         self, requests: Sequence[ParameterRequest], before: Mapping[str, Value], why: tuple[str, str]
     ) -> tuple[SetOutcome, ...]:
         for each in requests:
-            self._refused(each, before[each.name], why[1])
+            self._refused(each, before[each.name], why[1], why[0])
         return tuple(SetOutcome(each.node, each.name, each.value, False, why[1], why[0]) for each in requests)
 
-    def _refused(self, request: ParameterRequest, old: Value, why: str) -> None:
-        self._journal.record(
-            time.time_ns(), request.node, request.name, (old, request.value), request.source, why, request.by
-        )
+    def _refused(self, request: ParameterRequest, old: Value, why: str, by: str) -> None:
+        of = request.node, request.name, (old, request.value), request.source
+        self._journal.record(time.time_ns(), *of, why, request.by, answered=by != "node")
 
     def _value(self, node: str, name: str) -> Value:
         known = self._mirror.get(node, name)

@@ -41,15 +41,17 @@ class Meter:
         self._first = self._last = 0.0
         self._polls: deque[tuple[float, float, int, int, int, int]] = deque([(time.monotonic(), 0.0, 0, 0, 0, 0)])
 
-    def take(self, data: bytes) -> None:
-        """Count one serialized message."""
-        now = time.monotonic()
+    def take(self, data: bytes, info: Mapping[str, int | None]) -> None:
+        """Count one serialized message, at the time it was received rather than taken: others may have waited too."""
+        received = info["received_timestamp"] or self._clock()
+        waited = min(max(self._clock() - received, 0) / 1e9, WINDOW)
+        now = max(time.monotonic() - waited, self._last)
         self._count += 1
         self._size += len(data)
         self._first, self._last = self._first or now, now
         if self._stamped and len(data) >= STAMP_AT + 8:
             seconds, nanoseconds = (LITTLE if data[1] & 1 else BIG).unpack_from(data, STAMP_AT)
-            self._late += self._clock() - seconds * 1_000_000_000 - nanoseconds
+            self._late += received - seconds * 1_000_000_000 - nanoseconds
             self._stamps += 1
 
     def poll(self) -> Measure:

@@ -13,6 +13,7 @@ from bot_console.tui.console.model import Change, Value
 from bot_console.tui.files.save_file import NotSaved, save_file
 from bot_console.tui.format import value_text
 from bot_console.tui.panes.history.rows import command, who
+from bot_console.tui.text.refusals import verdict_of_change
 from bot_console.tui.text.yaml_flow import quoted
 
 COLUMNS = ("time", "node", "parameter", "old", "new", "who", "accepted", "reason")
@@ -67,12 +68,14 @@ def as_yaml(changes: Sequence[Change]) -> str:
 
 
 def as_script(changes: Sequence[Change]) -> str:
-    """`ros2 param set` lines that make the accepted changes again; what was refused stands as a comment."""
+    """`ros2 param set` lines that make the accepted changes again; what was not set stands as a comment."""
     lines = ["#!/bin/sh", "# Parameter changes, oldest first, as they were made."]
     for each in changes:
         lines.append(f"# {moment(each.stamp)} {_one_line(who(each))}")
         line = command(each, each.new)
-        lines.append(line if each.accepted else f"# refused: {_one_line(each.reason)}: {_one_line(line)}")
+        lines.append(
+            line if each.accepted else f"# {verdict_of_change(each)}: {_one_line(each.reason)}: {_one_line(line)}"
+        )
     return "\n".join(lines) + "\n"
 
 

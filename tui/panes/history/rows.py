@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from bot_console.tui.console.model import Change, ChangeSource, Kind, ParameterInfo, Value
 from bot_console.tui.console.query import Query
 from bot_console.tui.format import clock_text, command_of, cut, sanitize, value_text
+from bot_console.tui.text.refusals import verdict_of_change
 from bot_console.tui.widgets.item_list import ItemList
 from rich.segment import Segment
 from rich.style import Style
@@ -23,6 +24,8 @@ WHO = {
     ChangeSource.ROLLBACK: "taken back",
     ChangeSource.OTHER: "another program or the node",
 }
+MARKS = {"": " ", "refused": "✗", "not set": "?"}
+"""What stands before an entry, by its verdict."""
 GAP = "  "
 NODE, NAME, VALUES = 18, 24, 22
 """Cells that node, name and values take at most."""
@@ -44,7 +47,7 @@ def who(change: Change) -> str:
 
 def words(change: Change) -> str:
     """What a filter looks at, besides the node."""
-    verdict = "taken" if change.accepted else "refused"
+    verdict = verdict_of_change(change) or "taken"
     values = f"{value_text(change.old)} {value_text(change.new)}"
     return f"{change.name} {values} {who(change)} {verdict} {change.reason}"
 
@@ -70,7 +73,8 @@ def details(change: Change) -> Text:
     """All that is known of a change."""
     text = Text(no_wrap=False, overflow="fold")
     if not change.accepted:
-        text.append(f"✗ {sanitize(value_text(change.new))} was not set: {sanitize(change.reason)}\n", "bold")
+        verdict = f"{value_text(change.new)} was {verdict_of_change(change)}: {change.reason}"
+        text.append(f"{MARKS[verdict_of_change(change)]} {sanitize(verdict)}\n", "bold")
     at = time.strftime("%Y-%m-%d ", time.localtime(change.stamp // 10**9)) + clock_text(change.stamp)
     text.append(f"{sanitize(change.node)} {sanitize(change.name)}  {changed_text(change)}\n")
     text.append(f"{at} · {sanitize(who(change))}{' · an earlier run' if change.seq < 0 else ''}\n", "dim")
@@ -130,7 +134,7 @@ class ChangeRows(ItemList[Change]):
         if of_node:
             head.append(Segment(node + GAP, dim))
         name = cut(sanitize(change.name), of_name, pad=True)
-        mark = " " if change.accepted else "✗"
+        mark = MARKS[verdict_of_change(change)]
         values = cut(changed_text(change), of_values, pad=True)
         refused = self._style("error")
         tail = f"{sanitize(change.reason)} ({sanitize(who(change))})" if not change.accepted else sanitize(who(change))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from bot_console.tui.console.model import Change, LaunchEvent
 from bot_console.tui.format import value_text
+from bot_console.tui.text.refusals import verdict_of_change
 from bot_console.tui.widgets.prompt.question import Option
 
 MAX_EVENTS = 20
@@ -43,7 +44,8 @@ def options_of(found: Sequence[PrecedingEvent], stamp: int, typed: str) -> list[
 
 
 def _change_text(change: Change) -> str:
-    verb = "" if change.accepted else f", refused: {change.reason}"
+    verdict = verdict_of_change(change)
+    verb = f", {verdict}: {change.reason}" if verdict else ""
     return f"{change.node} {change.name}: {value_text(change.old)} → {value_text(change.new)}{verb}"
 
 

@@ -49,11 +49,10 @@ def why_alone() -> str:
     return ""
 
 
-def take_part(*, starts_nodes: bool = True) -> str:
+def join_domain() -> str:
     """Make contexts initialised from now on share the graph of their domain; never in a stepped run.
 
-    A program that starts nodes also tells them where the stops of a robot are kept. Returns why joining fails in one
-    line, or an empty text on success.
+    Returns why joining fails in one line, or an empty text on success.
     """
     global _taking_part
     if alone := why_alone():
@@ -63,10 +62,16 @@ def take_part(*, starts_nodes: bool = True) -> str:
 
     share_domains()
     let_children_meet(True)
-    if starts_nodes:
-        os.environ[STOP_FILE_VARIABLE] = str(stop_file())
     _taking_part = True
     return ""
+
+
+def take_part() -> str:
+    """Join the domain as `join_domain` does, and tell nodes that this program starts where stops are kept."""
+    alone = join_domain()
+    if not alone:
+        os.environ[STOP_FILE_VARIABLE] = str(stop_file())
+    return alone
 
 
 def note_connection() -> None:

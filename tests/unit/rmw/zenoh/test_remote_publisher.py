@@ -36,5 +36,5 @@ def test_publisher_with_a_deep_queue_sends_through_the_sender_thread(topic, qos,
     link = Link()
     endpoint = SimpleNamespace(topic=topic, qos=qos, gid=bytes(16))
     remote_publisher = RemotePublisher(link, link, SimpleNamespace(endpoint=endpoint, history=None), "key")
-    remote_publisher.append((b"data", 1, 1, None))
+    remote_publisher.append((b"data", 1, 1, 1, None))
     assert link.sent == [who] and link.waits == (who == "thread")

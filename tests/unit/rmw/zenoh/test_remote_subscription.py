@@ -37,7 +37,7 @@ def test_gap_in_sequence_numbers_is_an_event(received, notices):
     remote_subscription, queue, events = received
     for number in (7, 8, 11):
         give(remote_subscription, number)
-    assert [(own(message).data, stamp, number) for message, stamp, number, _ in queue] == [
+    assert [(own(message).data, stamp, number) for message, stamp, _, number, _ in queue] == [
         ("7", 5, 7),
         ("8", 5, 8),
         ("11", 5, 11),
@@ -50,7 +50,7 @@ def test_dropped_log_lines_are_counted_and_reported_once(received, notices, topi
     remote_subscription, queue, events = received
     for number in range(1, 13):
         give(remote_subscription, number)
-    assert [number for _, _, number, _ in queue] == list(range(3, 13))
+    assert [number for _, _, _, number, _ in queue] == list(range(3, 13))
     assert remote_subscription._session.lost == lost and events == [("lost", 1)] * lost
     reported = "messages of '/rosout' come faster than they are taken; of more than 10 the oldest go"
     assert notices == [reported] * (lost > 0)

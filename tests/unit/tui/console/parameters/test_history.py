@@ -50,6 +50,18 @@ def test_changes_of_a_run_appear_in_the_next_one_with_negative_numbers(tmp_path:
     assert (second.state.first, second.state.end, second.state.problem) == (0, 1, "")
 
 
+def test_no_answer_still_differs_from_refusal_in_next_run(tmp_path: Path) -> None:
+    file = tmp_path / "history.sqlite"
+    journal = Journal(history=History(file, 1))
+    journal.record(SECOND, "/robot", "speed", (0.5, 9.0), ChangeSource.EDIT, "too fast")
+    journal.record(SECOND, "/robot", "speed", (0.5, 9.0), ChangeSource.EDIT, "no answer", answered=False)
+    journal.record(SECOND, "/robot", "speed", (0.5, 1.0), ChangeSource.EDIT)
+    expected = [(False, True), (False, False), (True, True)]
+    assert [(each.accepted, each.answered) for each in journal.after(0)] == expected
+    journal.close()
+    assert [(each.accepted, each.answered) for each in kept(file)] == expected
+
+
 VALUES: list[Value] = [
     *(None, True, 0, -(2**63), 1.0, float("nan"), float("-inf"), "größe\n'\"", ()),
     *((1, 2), (1.0, 2.5), ("a", ""), (True, False), (b"\x00", b"\xff")),

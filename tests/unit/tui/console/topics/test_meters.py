@@ -35,12 +35,17 @@ def message(stamp: float, size: int = 100) -> bytes:
     return head.ljust(size, b"\0")
 
 
+def received(time: Time) -> dict[str, int | None]:
+    """The info of a message that arrives now."""
+    return {"received_timestamp": time.time_ns()}
+
+
 def play(meter: Meter, time: Time, rate: float, seconds: float, late: float = 0.0) -> None:
     """Send messages at a rate, polling once a second."""
     polled = time.now
     for _ in range(round(seconds * rate)):
         time.now += 1 / rate
-        meter.take(message(time.now - late))
+        meter.take(message(time.now - late), received(time))
         if time.now - polled >= 1.0:
             polled = time.now
             meter.poll()
@@ -76,9 +81,31 @@ def test_nothing_is_known_before_the_first_message(time: Time) -> None:
 
 
 def test_stamps_of_another_clock_give_no_latency(time: Time) -> None:
-    meter = Meter(True, lambda: int(1.7e18))
-    play(meter, time, 10, 3)
+    meter = Meter(True, time.time_ns)
+    play(meter, time, 10, 3, late=1e4)
     assert meter.poll().latency is None
+
+
+def test_messages_that_waited_count_when_they_were_received(time: Time) -> None:
+    meter = Meter(True, time.time_ns)
+    waiting: list[tuple[bytes, dict[str, int | None]]] = []
+    for _ in range(5):
+        time.now += 0.1
+        waiting.append((message(time.now - 0.004), received(time)))
+    time.now += 0.05
+    for each in waiting:
+        meter.take(*each)
+    found = meter.poll()
+    assert found.rate == pytest.approx(10) and found.latency == pytest.approx(0.004, abs=1e-6)
+    assert found.age == pytest.approx(0.05)
+
+
+def test_a_middleware_without_time_of_reception_has_the_time_of_taking(time: Time) -> None:
+    meter = Meter(True, time.time_ns)
+    for _ in range(5):
+        time.now += 0.1
+        meter.take(message(time.now), {"received_timestamp": 0})
+    assert meter.poll().rate == pytest.approx(10)
 
 
 def test_a_message_without_a_header_has_no_latency(time: Time) -> None:

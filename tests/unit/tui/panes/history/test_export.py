@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import shlex
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -32,6 +33,12 @@ def test_changes_are_exported_as_csv(tmp_path: Path) -> None:
     assert (rows[0]["old"], rows[0]["new"], rows[0]["who"]) == ("1.0", "2.5", "profile indoor")
     assert rows[3]["new"] == VALUES[3][1]
     assert (rows[-1]["accepted"], rows[-1]["reason"]) == ("false", REFUSED.reason)
+
+
+def test_script_distinguishes_no_answer_from_refusal(tmp_path: Path) -> None:
+    export(tmp_path / "h.sh", [REFUSED, replace(REFUSED, answered=False, reason="no answer")])
+    comments = [each for each in (tmp_path / "h.sh").read_text().splitlines() if "ros2 param set" in each]
+    assert comments[0].startswith("# refused: 'no") and comments[1].startswith("# not set: no answer: ros2")
 
 
 def test_changes_are_exported_as_yaml(tmp_path: Path) -> None:
