@@ -6,6 +6,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any, cast
 
 from bot_console.runtime.rmw.parameter_types import ARRAYS, BY_CLASS, BY_CODE, STRING
+from rclpy.impl.parameter_file_sections import chosen_values
 from rclpy.impl.parameter_values import FIELDS, infer, value_fits
 from rclpy.impl.reexports import reexporting
 
@@ -156,8 +157,10 @@ def parameter_dict_from_yaml_file(
     target_nodes: list[str] | None = None,
     namespace: str = "",
 ) -> dict[str, ParameterMsg]:
-    """The parameters of a file as of `ros2 param dump`, by name; without `target_nodes` those of all nodes.
+    """The parameters of a file, by name; without `target_nodes` those of all nodes.
 
+    Nodes are named as in any parameter file (`talker`, `/robot1/talker`, `/robot1:` over `talker:`); keys with a
+    wildcard (`/**`, `/*/talker`) count if `use_wildcard` is true, and the others override them.
     Raises `RuntimeError` for a file without the wanted parameters, `OSError` and `yaml.YAMLError`.
     """
     import yaml
@@ -172,26 +175,7 @@ def parameter_dict_from_yaml_file(
             OverflowError,
         ):  # raised by the library's constructors of tagged values
             raise RuntimeError(f"{parameter_file}: a value does not match its tag") from None
-    keys = ["/**"] if use_wildcard and "/**" in content else []
-    if target_nodes:
-        for node in target_nodes:
-            if node not in content.keys():  # noqa: SIM118 -- what is no mapping fails as upstream does
-                raise RuntimeError(
-                    f"Param file does not contain parameters for {node},only for nodes: {list(content.keys())} "
-                )
-            keys.append(node)
-    else:
-        keys.extend(key for key in content.keys() if key != "/**")  # noqa: SIM118 -- as upstream
-    if not keys:
-        raise RuntimeError("Param file does not contain selected parameters")
-    found: dict[str, Any] = {}
-    for key in keys:
-        section: Any = content[key]
-        if not isinstance(section, dict) or "ros__parameters" not in section:
-            raise RuntimeError(f"YAML file is not a valid ROS parameter file for node {key}")
-        values = cast("dict[str, Any]", section["ros__parameters"])
-        found.update(values)
-    return _unpack_parameter_dict(namespace, found)
+    return _unpack_parameter_dict(namespace, chosen_values(content, use_wildcard, target_nodes))
 
 
 def _unpack_parameter_dict(namespace: str, parameter_dict: dict[str, Any]) -> dict[str, ParameterMsg]:

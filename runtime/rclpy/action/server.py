@@ -63,8 +63,8 @@ def default_cancel_callback(cancel_request: Any) -> CancelResponse:
 class ActionServer(ActionEntity):
     """Serves an action; callbacks may be functions or coroutine functions.
 
-    `execute_callback(goal_handle)` returns the result. Results are kept for `result_timeout` (s) after the end of
-    their goal. Raises `ValueError` for an invalid name, `TypeError` for an execute callback that is not callable.
+    `execute_callback(goal_handle)` returns the result; without it, `handle_accepted_callback` keeps the handle of a goal
+    for whatever executes it. Results are kept for `result_timeout` (s) after the end of their goal. Raises `ValueError` for an invalid name, `TypeError` for an execute callback that is not callable.
     """
 
     def __init__(
@@ -72,7 +72,7 @@ class ActionServer(ActionEntity):
         node: Any,
         action_type: Any,
         action_name: str,
-        execute_callback: Callable[..., Any],
+        execute_callback: Callable[..., Any] | None = None,
         *,
         callback_group: Any = None,
         goal_callback: Callable[..., Any] = default_goal_callback,
@@ -90,11 +90,15 @@ class ActionServer(ActionEntity):
         self.register_handle_accepted_callback(handle_accepted_callback)
         self.register_goal_callback(goal_callback)
         self.register_cancel_callback(cancel_callback)
-        self.register_execute_callback(execute_callback)
+        self._execute_callback: Callable[..., Any] | None = None
+        if execute_callback is not None:
+            self.register_execute_callback(execute_callback)
         self._check("server")
         names = action_names(node, action_name, "server")
         self._goals = Goals(int(result_timeout * NANO))
         self._logger = node.get_logger().get_child("action_server")
+        if execute_callback is None and handle_accepted_callback in (None, default_handle_accepted_callback):
+            self._logger.warning("Not handling nor executing the goal, this server will do nothing")
         self._clock = node.get_clock()
         feedback_qos = feedback_pub_qos_profile or QoSProfile(depth=10)
         self._endpoints = ServerEndpoints(
@@ -218,8 +222,11 @@ class ActionServer(ActionEntity):
         self._node._ros_bus.respond(client, number, future.result())
 
     def notify_execute(self, goal_handle: ServerGoalHandle, execute_callback: Callable[..., Any] | None) -> None:
-        """Schedule a callback, the server's own by default, for a goal in the node's executor."""
+        """Schedule a callback, the server's own by default, for a goal in the node's executor; none without either."""
         callback = self._execute_callback if execute_callback is None else execute_callback
+        if callback is None:
+            return
+        goal_handle._is_run_by_callback = True
         self._node.executor.create_task(self._execute_goal, callback, goal_handle)
 
     async def _execute_goal(self, callback: Callable[..., Any], handle: ServerGoalHandle) -> None:
@@ -231,16 +238,13 @@ class ActionServer(ActionEntity):
             result = self._action_type.Result()
             self._logger.error(f"Error raised in execute callback: {error}")
             traceback.print_exc()
-        if not isinstance(result, self._action_type.Result):
+        if not isinstance(result, self._action_type.Result) and not handle._result_future.done():
             self._warn_of_result(callback, result)
         if handle.is_active:
             self._logger.warning(f"Goal state not set, assuming aborted. Goal ID: {uuid}")
             handle.abort()
         self._debug("Goal with ID {} finished with state {}", uuid, handle.status)
-        response = self._action_type.Impl.GetResultService.Response()
-        response.status = handle.status
-        response.result = result
-        handle._result_future.set_result(response)
+        handle._set_result(result)
 
     def _warn_of_result(self, callback: Callable[..., Any], result: Any) -> None:
         """Warn of a result of a wrong type; upstream fails only at a request for it, without naming the callback."""

@@ -26,6 +26,8 @@ class ServerGoalHandle:
         self._destroyed = False
         self._lock = threading.Lock()
         self._result_future: Future[Any] = Future()
+        self._is_run_by_callback = False
+        """Whether an execute callback runs, which returns the result."""
         self.terminal_ns: int | None = None
         """When the goal ended, by the node's clock (ns)."""
 
@@ -77,9 +79,13 @@ class ServerGoalHandle:
 
         A goal that is being cancelled keeps its state: the callback then has to end it.
         """
+        self.executing()
+        self._action_server.notify_execute(self, execute_callback)
+
+    def executing(self) -> None:
+        """Mark the goal as executing, for a server without an execute callback; one being cancelled keeps its state."""
         if not self.is_cancel_requested:
             self._update_state(GoalEvent.EXECUTE)
-        self._action_server.notify_execute(self, execute_callback)
 
     def publish_feedback(self, feedback: Any) -> None:
         """Send feedback to the clients; raises `TypeError` for anything but the action's `Feedback`."""
@@ -93,17 +99,31 @@ class ServerGoalHandle:
             message.feedback = feedback
             self._action_server._publish_feedback(message)
 
-    def succeed(self) -> None:
-        """Mark the goal as reached."""
-        self._update_state(GoalEvent.SUCCEED)
+    def succeed(self, response: Any = None) -> None:
+        """Mark the goal as reached; `response` is its result, as is what an execute callback returns."""
+        self._end(GoalEvent.SUCCEED, response)
 
-    def abort(self) -> None:
-        """Mark the goal as aborted by the server."""
-        self._update_state(GoalEvent.ABORT)
+    def abort(self, response: Any = None) -> None:
+        """Mark the goal as aborted by the server; `response` is its result."""
+        self._end(GoalEvent.ABORT, response)
 
-    def canceled(self) -> None:
-        """Mark the goal as cancelled at its client's request."""
-        self._update_state(GoalEvent.CANCELED)
+    def canceled(self, response: Any = None) -> None:
+        """Mark the goal as cancelled at its client's request; `response` is its result."""
+        self._end(GoalEvent.CANCELED, response)
+
+    def _end(self, event: GoalEvent, response: Any) -> None:
+        self._update_state(event)
+        if response is not None or not self._is_run_by_callback:
+            self._set_result(self._action_server.action_type.Result() if response is None else response)
+
+    def _set_result(self, result: Any) -> None:
+        """Send the result to whoever requests it; the first one counts."""
+        if self._result_future.done():
+            return
+        response = self._action_server.action_type.Impl.GetResultService.Response()
+        response.status = self.status
+        response.result = result
+        self._result_future.set_result(response)
 
     def destroy(self) -> None:
         """Release the goal; later calls do nothing."""

@@ -205,6 +205,61 @@ def test_parameters_are_read_from_a_file(tmp_path: Path) -> None:
     assert str(missing.value) == words
 
 
+SECTION = {"ros__parameters": {"speed": 2}}
+FORMS: dict[str, tuple[Any, list[str], list[str]]] = {
+    # form of a file: its content, nodes it is for, nodes it is not for
+    "name": ({"talker": SECTION}, ["talker", "/talker"], ["/robot1/talker", "/talk"]),
+    "full name": ({"/robot1/talker": SECTION}, ["/robot1/talker"], ["/talker", "/robot2/talker"]),
+    "full name without slash": ({"robot1/talker": SECTION}, ["/robot1/talker"], ["/talker"]),
+    "namespace over name": ({"/robot1": {"talker": SECTION}}, ["/robot1/talker"], ["/talker", "/robot1"]),
+    "namespace without slash": ({"robot1": {"talker": SECTION}}, ["/robot1/talker"], ["/talker"]),
+    "root over name": ({"/": {"talker": SECTION}}, ["/talker"], ["/robot1/talker"]),
+    "nested namespaces": ({"fleet": {"robot1": {"talker": SECTION}}}, ["/fleet/robot1/talker"], ["/robot1/talker"]),
+    "any one namespace": ({"/*": {"talker": SECTION}}, ["/robot1/talker"], ["/talker", "/a/b/talker"]),
+    "any namespaces": ({"/**/talker": SECTION}, ["/talker", "/robot1/talker", "/a/b/talker"], ["/robot1/listener"]),
+    "any node below": ({"/robot1/*": SECTION}, ["/robot1/talker"], ["/robot2/talker"]),
+    "any namespaces over name": ({"/**": {"talker": SECTION}}, ["/talker", "/a/talker"], ["/listener"]),
+}
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_file_names_nodes_in_every_form_that_rcl_reads(form: str, tmp_path: Path) -> None:
+    content, nodes, others = FORMS[form]
+    path = tmp_path / "f.yaml"
+    path.write_text(yaml.safe_dump(content))
+    assert loaded(path, use_wildcard=True) == {"speed": 2}
+    for node in nodes:
+        assert loaded(path, True, [node]) == {"speed": 2}, node
+    for node in others:
+        with pytest.raises(RuntimeError, match="does not contain parameters for"):
+            loaded(path, True, [node])
+
+
+@pytest.mark.parametrize("form", [each for each in FORMS if "any" in each])
+def test_wildcards_count_only_if_wanted(form: str, tmp_path: Path) -> None:
+    path = tmp_path / "f.yaml"
+    path.write_text(yaml.safe_dump(FORMS[form][0]))
+    with pytest.raises(RuntimeError, match="does not contain selected parameters"):
+        loaded(path)
+
+
+def test_named_node_overrides_wildcards_wherever_they_are(tmp_path: Path) -> None:
+    path = tmp_path / "f.yaml"
+    path.write_text(
+        "/robot1:\n  talker:\n    ros__parameters: {speed: 3}\n"
+        "/*/talker:\n  ros__parameters: {speed: 2, wild: true}\n/**:\n  ros__parameters: {rate: 5}\n"
+    )
+    assert loaded(path, True, ["/robot1/talker"]) == {"speed": 3, "wild": True, "rate": 5}
+
+
+def test_section_of_another_node_may_be_invalid(tmp_path: Path) -> None:
+    path = tmp_path / "f.yaml"
+    path.write_text("/robot1:\n  talker:\n    ros__parameters: {speed: 3}\n  listener: {speed: 4}\n")
+    assert loaded(path, False, ["/robot1/talker"]) == {"speed": 3}
+    with pytest.raises(RuntimeError, match="not a valid ROS parameter file for node /robot1"):
+        loaded(path)
+
+
 @pytest.mark.parametrize(
     ("content", "kind", "words"),
     [
