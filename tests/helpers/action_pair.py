@@ -18,7 +18,7 @@ def succeed(handle: Any) -> Any:
 class Pair:
     """A server of `/fib` on the node `server`, and its client on the node `client`."""
 
-    def __init__(self, ros: Any, execute: Callable[[Any], Any] = succeed, **server: Any) -> None:
+    def __init__(self, ros: Any, execute: Callable[[Any], Any] | None = succeed, **server: Any) -> None:
         self.ros = ros
         self.server_node = ros.node("server")
         self.client_node = ros.node("client")

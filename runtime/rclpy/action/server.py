@@ -63,8 +63,9 @@ def default_cancel_callback(cancel_request: Any) -> CancelResponse:
 class ActionServer(ActionEntity):
     """Serves an action; callbacks may be functions or coroutine functions.
 
-    `execute_callback(goal_handle)` returns the result; without it, `handle_accepted_callback` keeps the handle of a goal
-    for whatever executes it. Results are kept for `result_timeout` (s) after the end of their goal. Raises `ValueError` for an invalid name, `TypeError` for an execute callback that is not callable.
+    `execute_callback(goal_handle)` returns the result; without it, `handle_accepted_callback` keeps the handle of a
+    goal for whatever executes it. Results are kept for `result_timeout` (s) after the end of their goal. Raises
+    `ValueError` for an invalid name, `TypeError` for an execute callback that is not callable.
     """
 
     def __init__(

@@ -206,7 +206,7 @@ def test_feedback_of_another_class_is_rejected(ros: Any) -> None:
 
 def test_execute_callback_must_be_callable(ros: Any) -> None:
     with pytest.raises(TypeError, match=r"^Failed to register goal execution callback: not callable$"):
-        ActionServer(ros.node(), Fibonacci, "fib", None)  # type: ignore[arg-type]
+        ActionServer(ros.node(), Fibonacci, "fib", 5)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(("kind", "error"), [(String, RuntimeError), (int, AttributeError)])
