@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from enum import Enum
 from typing import Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import Held, SubscriptionEndpoint, own
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.impl.callables import is_coroutine_function, takes
 from rclpy.impl.destroyable import SubscriptionHandle
 from rclpy.impl.entity import SUBSCRIPTION, Entity
 from rclpy.impl.reexports import reexporting
+from rclpy.subscription_content_filter_options import ContentFilterOptions
 
 DOUBLE_ARGUMENT, SINGLE_ARGUMENT = 2, 1
 
@@ -48,6 +50,7 @@ class Subscription(Entity):
         self.event_handlers = event_handlers
         self.endpoint: SubscriptionEndpoint
         self._queue: deque[Any] = deque()
+        self._content_filter: ContentFilterOptions | None = None
         self.callback = callback
 
     def _join(self, endpoint: SubscriptionEndpoint) -> None:
@@ -94,6 +97,59 @@ class Subscription(Entity):
     def logger_name(self) -> str:
         """The name of the node's logger."""
         return self._node.get_logger().name
+
+    @property
+    def is_cft_enabled(self) -> bool:
+        """Whether a content filter is set."""
+        self.use()
+        return self._content_filter is not None
+
+    def set_content_filter(self, filter_expression: str, expression_parameters: Sequence[str]) -> None:
+        """Keep only messages for which the expression is true; an empty one ends the filtering.
+
+        Raises `RCLError` for an invalid expression, which leaves the filter as it was, and `TypeError`.
+        """
+        self.use()
+        self._set_filter(ContentFilterOptions(filter_expression, list(expression_parameters)), "set")
+
+    def get_content_filter(self) -> ContentFilterOptions:
+        """The filter in effect; raises `RCLError` without one."""
+        self.use()
+        if self._content_filter is None:
+            raise RCLError(
+                "Failed to get cft expression parameters: this subscriber has not created a ContentFilteredTopic"
+            )
+        return self._content_filter
+
+    def _set_filter(self, wanted: ContentFilterOptions, verb: str) -> None:
+        from bot_console.runtime.rmw.content_filter import MAX_PARAMETERS, ContentFilterError, FilteredQueue, compiled
+
+        expression, parameters = wanted
+        if not isinstance(expression, str) or not all(isinstance(each, str) for each in parameters):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's arguments
+            raise TypeError(f"{verb}_content_filter(): the expression and its parameters must be str")
+        if len(parameters) > MAX_PARAMETERS:
+            raise RCLError(
+                "Failed to init subscription content_filtered_topic option: "
+                f"The maximum of expression parameters argument number is {MAX_PARAMETERS}"
+            )
+        if verb == "set" and not expression:
+            if self._content_filter is None:
+                raise RCLError(
+                    "Failed to set cft expression parameters: current subscriber has no content filter topic"
+                )
+            self._content_filter = None
+            self._use_queue(deque(self._queue, self._queue.maxlen))
+            return
+        try:
+            accepts = compiled(expression, parameters, self.msg_type)
+        except ContentFilterError as error:
+            failed = "set cft expression parameters" if verb == "set" else "create subscription"
+            raise RCLError(f"Failed to {failed}: the content filter '{expression}' is invalid: {error}") from None
+        self._content_filter = wanted
+        self._use_queue(FilteredQueue(self._queue, self._queue.maxlen, accepts, self.msg_type))
+
+    def _use_queue(self, queue: deque[Any]) -> None:
+        self._queue = self.endpoint.queue = queue
 
     def get_publisher_count(self) -> int:
         """The number of matched publishers."""

@@ -57,6 +57,10 @@ class Held:
         """Return a message that nobody else holds; None if it cannot be read, which has then been reported."""
         raise NotImplementedError
 
+    def peek(self) -> Message | None:
+        """Return the message to be read, not changed; None if it cannot be read, which has then been reported."""
+        raise NotImplementedError
+
 
 class Shared(Held):
     """A message in several queues: each taker gets its own copy, the last one the message itself.
@@ -79,6 +83,10 @@ class Shared(Held):
         # Two threads may both decrement from the same count: then there is one copy too many, never one too few.
         self._left -= 1
         return copy
+
+    def peek(self) -> Message:
+        """Return the message to be read, not changed."""
+        return self._message
 
 
 def own(message: Message) -> Message | None:

@@ -9,6 +9,8 @@ from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.parameter import Parameter
 from rclpy.parameter_client import AsyncParameterClient
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, qos_profile_sensor_data
+from rclpy.serialization import deserialize_message
+from rclpy.subscription_content_filter_options import ContentFilterOptions
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
@@ -30,6 +32,27 @@ def test_published_messages_are_received_once_and_in_order(here):
         publisher.publish(String(data=each))
     here.until(lambda: len(heard) >= 200)
     assert heard == output
+
+
+@pytest.mark.parametrize("raw", [False, True])
+def test_content_filter_holds_for_messages_of_another_process(here, raw):
+    heard = []
+    wanted = ContentFilterOptions("data LIKE %0", ["'%7'"])
+    subscription = here.node.create_subscription(
+        String, "/echo", heard.append, 1000, raw=raw, content_filter_options=wanted
+    )
+    everything = []
+    other = here.node.create_subscription(String, "/echo", lambda m: everything.append(m.data), 1000)
+    publisher = here.node.create_publisher(String, "/say", 1000)
+    here.until(lambda: publisher.get_subscription_count() == 1)
+    here.until(lambda: here.node.count_publishers("/echo") == 1)
+    for number in range(30):
+        publisher.publish(String(data=str(number)))
+    here.until(lambda: len(everything) >= 30 and len(heard) >= 3)
+    assert [deserialize_message(each, String).data if raw else each.data for each in heard] == ["7", "17", "27"]
+    for made in (subscription, other):
+        here.node.destroy_subscription(made)
+    here.node.destroy_publisher(publisher)
 
 
 def test_a_latched_message_is_delivered_to_late_subscriptions(here):

@@ -32,6 +32,7 @@ from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, qos_profile_services_default
 from rclpy.service import Service
 from rclpy.subscription import Subscription
+from rclpy.subscription_content_filter_options import ContentFilterOptions
 from rclpy.timer import Rate, Timer
 from rclpy.type_support import check_is_valid_msg_type, check_is_valid_srv_type
 
@@ -132,8 +133,12 @@ class NodeEntities:
         event_callbacks: SubscriptionEventCallbacks | None = None,
         qos_overriding_options: Any = None,
         raw: bool = False,
+        content_filter_options: ContentFilterOptions | None = None,
     ) -> Subscription:
-        """Create a subscription; the callback takes (message) or (message, info), with `raw` the message as bytes."""
+        """Create a subscription; the callback takes (message) or (message, info), with `raw` the message as bytes.
+
+        Messages that the content filter does not accept are left out. Raises `RCLError` for an invalid filter.
+        """
         qos = self._ros_profile(qos_profile)
         group = self._ros_group(callback_group)
         self._ros_may_create("subscription")
@@ -149,6 +154,9 @@ class NodeEntities:
                 endpoint, raw, queue_for(qos), _notifier(subscription, handlers), _event_reporter(handlers)
             )
         )
+        if content_filter_options is not None:
+            wanted = (content_filter_options.filter_expression, content_filter_options.expression_parameters)
+            subscription._set_filter(ContentFilterOptions(*wanted), "create")
         for handler in handlers:
             self._ros_enter(handler, group)
         self._ros_enter(subscription, group)

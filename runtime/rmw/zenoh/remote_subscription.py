@@ -40,14 +40,22 @@ class Arrived(Held):
     A payload that a full queue drops is never deserialized.
     """
 
-    __slots__ = ("_payload", "_remote_subscription")
+    __slots__ = ("_payload", "_peeked", "_remote_subscription")
 
     def __init__(self, remote_subscription: RemoteSubscription, payload: bytes) -> None:
         self._remote_subscription = remote_subscription
         self._payload = payload
+        self._peeked: Message | None = None
+
+    def peek(self) -> Message | None:
+        """Return the message to be read, not changed; None if it is malformed."""
+        self._peeked = self.take()
+        return self._peeked
 
     def take(self) -> Message | None:
         """Deserialize and return the message; None if it is malformed."""
+        if self._peeked is not None:
+            return self._peeked
         try:
             return deserialize(self._payload, self._remote_subscription.message_class)
         except CdrError as error:
