@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from bot_console.runtime.rosidl.parse import without_comment
 from bot_console.runtime.rosidl.texts import definition_text, known_packages
 
 PRIMITIVES = frozenset(
@@ -45,13 +46,10 @@ def show_text(name: str, *, all_comments: bool = False, no_comments: bool = Fals
 def _lines(text: str, package: str, depth: int, all_comments: bool, comments: bool) -> list[str]:
     found: list[str] = []
     for line in text.splitlines():
-        bare = line.split("#")[0].rstrip()
-        shown = line
-        # Upstream does not treat a `#` without any text as a comment.
-        if not comments and line.strip() != "#":
-            if not bare.strip():
-                continue
-            shown = bare
+        bare = without_comment(line).rstrip()
+        if not comments and not bare.strip():
+            continue
+        shown = line if comments else bare
         found.append("\t" * depth + shown + "\n" if shown or depth == 0 else "\n")
         match = FIELD.match(bare.strip())
         if match and not CONSTANT.match(bare.strip()) and match["type"] not in PRIMITIVES:

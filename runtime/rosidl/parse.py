@@ -45,7 +45,7 @@ def _part(name: str, rows: list[tuple[int, str]], package: str, where: str) -> D
     fields: list[Field] = []
     constants: list[Constant] = []
     for number, line in rows:
-        bare = _without_comment(line).strip()
+        bare = without_comment(line).strip()
         if not bare:
             continue
         try:
@@ -64,7 +64,7 @@ def _part(name: str, rows: list[tuple[int, str]], package: str, where: str) -> D
     return Definition(name, fields, constants)
 
 
-def _without_comment(line: str) -> str:
+def without_comment(line: str) -> str:
     """Return a line up to its comment; a `#` inside quotes is no comment."""
     quote = ""
     for index, character in enumerate(line):

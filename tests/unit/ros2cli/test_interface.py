@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from ros2cli import interface_text
 
 
 def test_show_prints_comments_of_the_top_level_only(ros) -> None:
@@ -13,6 +14,36 @@ def test_show_prints_comments_of_the_top_level_only(ros) -> None:
     assert "\t#" not in nested
     assert "\t#" in ros.ask("interface", "show", "nav_msgs/msg/Odometry", "--all-comments").stdout
     assert "#" not in ros.ask("interface", "show", "nav_msgs/msg/Odometry", "--no-comments").stdout
+
+
+def test_show_without_comments_leaves_no_bare_number_sign(ros) -> None:
+    shown = ros.ask("interface", "show", "rcl_interfaces/msg/ParameterDescriptor", "--no-comments").stdout
+    assert "#" not in shown and "\n\n" not in shown
+    assert "#\n" in ros.ask("interface", "show", "rcl_interfaces/msg/ParameterDescriptor").stdout
+
+
+DEFINITION = """# Comment
+#
+  #
+##
+string COLOUR="#ff0000"  # red
+string QUOTED='a # b'    # a value with a number sign
+string first "x # y" # a default with one
+int32 LIMIT=3#no blank
+uint8[] data      # [a, b]
+"""
+
+
+def test_number_sign_inside_a_constant_is_no_comment(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(interface_text, "definition_text", lambda *names: DEFINITION)
+    assert interface_text.show_text("std_msgs/msg/String", no_comments=True).splitlines() == [
+        'string COLOUR="#ff0000"',
+        "string QUOTED='a # b'",
+        'string first "x # y"',
+        "int32 LIMIT=3",
+        "uint8[] data",
+    ]
+    assert interface_text.show_text("std_msgs/msg/String") == DEFINITION
 
 
 def test_show_prints_services_and_actions(ros) -> None:
