@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import asyncio
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from copy import copy
 from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
+from launch.actions.opaque_function import OpaqueFunction
+from launch.actions.pop_launch_configurations import PopLaunchConfigurations
+from launch.actions.push_launch_configurations import PushLaunchConfigurations
 from launch.event_handler import EventHandler
 from launch.event_handlers import OnShutdown
 from launch.events import TimerEvent
@@ -23,7 +27,10 @@ if TYPE_CHECKING:
 
 @expose_action("timer")
 class TimerAction(Action):
-    """Visits actions after a period (s), with the locals from its start and the configurations at its end."""
+    """Visits actions after a period (s), with the locals and the launch configurations of its start.
+
+    What the actions change of the configurations is theirs alone. Configurations made meanwhile are visible.
+    """
 
     def __init__(
         self, *, period: Any, actions: Iterable[Action], cancel_on_shutdown: Any = True, **kwargs: Any
@@ -40,6 +47,7 @@ class TimerAction(Action):
         self.__actions = actions
         self.__cancel_on_shutdown = normalize_typed_substitution(cancel_on_shutdown, bool)
         self.__locals: dict[str, Any] = {}
+        self.__configurations: dict[str, Any] = {}
         self.__canceled = False
         self._completed_future: asyncio.Future[None] | None = None
         self._handle: asyncio.TimerHandle | None = None
@@ -80,6 +88,7 @@ class TimerAction(Action):
     def execute(self, context: LaunchContext) -> None:
         """Start the timer."""
         self.__locals = dict(context.get_locals_as_dict())
+        self.__configurations = _copied(context.launch_configurations)
         period = perform_typed_substitution(context, self.__period, float)
         self._completed_future = create_future(context.asyncio_loop)
         cancel_on_shutdown = perform_typed_substitution(context, self.__cancel_on_shutdown, bool)
@@ -110,13 +119,16 @@ class TimerAction(Action):
             return []
         context.unregister_event_handler(self._handler)
         self._completed_future.set_result(None)
-        context.extend_locals(self.__locals)
-        return list(self.__actions)
+        return self.handle(context)
 
-    def handle(self, context: LaunchContext) -> Any:
-        """Return the actions, in the locals of the timer's start."""
+    def handle(self, context: LaunchContext) -> list[Any]:
+        """Return the actions, in a scope with the locals and configurations of the timer's start."""
         context.extend_locals(self.__locals)
-        return self.__actions
+        restore = OpaqueFunction(function=self._restore_configurations)
+        return [PushLaunchConfigurations(), restore, *self.__actions, PopLaunchConfigurations()]
+
+    def _restore_configurations(self, context: LaunchContext) -> None:
+        context.launch_configurations.update(_copied({**context.launch_configurations, **self.__configurations}))
 
     def cancel(self) -> None:
         """Cancel the timer."""
@@ -125,3 +137,8 @@ class TimerAction(Action):
             self._handle.cancel()
         if self._completed_future is not None and not self._completed_future.done():
             self._completed_future.set_result(None)
+
+
+def _copied(configurations: Mapping[str, Any]) -> dict[str, Any]:
+    """A copy that shares no list: launch_ros appends to those of `SetParameter` and `SetRemap`."""
+    return {name: copy(value) for name, value in configurations.items()}

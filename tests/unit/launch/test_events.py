@@ -321,35 +321,8 @@ def test_handler_sees_configurations_of_its_event(run: Launch) -> None:
     assert run([SetLaunchConfiguration("x", "out"), group]).message == ["out"]
 
 
-def test_timers_fire_in_order_of_period(run: Launch) -> None:
-    def timer(period: Any, text: str) -> TimerAction:
-        return TimerAction(period=period, actions=[LogInfo(msg=text)])
-
-    outcome = run(
-        [timer(0.05, "late"), timer(0.0, "zero"), timer(-1.0, "negative"), timer([LaunchConfiguration("t")], "text")],
-        {"t": "0.02"},
-    )
-    assert outcome.message == ["zero", "negative", "text", "late"]
-    with pytest.raises(TypeError):
-        timer(1, "int")
-
-
-def test_timer_period_must_be_a_number(run: Launch) -> None:
-    outcome = run([TimerAction(period=LaunchConfiguration("t"), actions=[])], {"t": "soon"})
-    assert (outcome.code, outcome.caught) == (1, "could not convert string to float: 'soon'")
-
-
 class Own(Event):
     name = "own"
-
-
-def test_shutdown_cancels_timers_and_prevents_new_ones(run: Launch) -> None:
-    timer = TimerAction(period=60.0, actions=[LogInfo(msg="never")])
-    assert run([timer, Shutdown()]).message == []
-    late = TimerAction(period=60.0, actions=[LogInfo(msg="never")])
-    after = EventHandler(matcher=lambda event: isinstance(event, Own), entities=[late])
-    during = OnShutdown(on_shutdown=[EmitEvent(event=Own())])
-    assert run([RegisterEventHandler(after), RegisterEventHandler(during), Shutdown()]).message == []
 
 
 def test_shutdown_handlers_get_the_reason(run: Launch) -> None:
