@@ -39,12 +39,13 @@ def bag(suffix: str) -> Callable[[str], None]:
 
 def metadata(text: str) -> None:
     from bot_console.tui.console.bags.damage import NoBag
-    from bot_console.tui.console.bags.reader import _files, _profiles
+    from bot_console.tui.console.bags.metadata import qos_profiles
+    from bot_console.tui.console.bags.reader import _files
 
     folder = file(text, "metadata.yaml").parent
     with suppress(NoBag):
         _files(folder)
-    _profiles(text)
+    qos_profiles(text)
 
 
 def saved_log(text: str) -> None:

@@ -245,7 +245,7 @@ def _info(given: argparse.Namespace) -> int:
     rows = [
         ("Files", ", ".join(each.name for each in bag.files)),
         ("Bag size", _size(size)),
-        ("Storage id", "sqlite3" if bag.files[0].suffix == ".db3" else "mcap"),
+        ("Storage id", bag.storage),
         ("Duration", f"{(about.end - about.begin) / 1e9:.9f}s"),
         ("Start", _time(about.begin)),
         ("End", _time(about.end)),
@@ -253,7 +253,7 @@ def _info(given: argparse.Namespace) -> int:
     ]
     lines = [f"{name + ':':<19}{value}" for name, value in rows]
     topics = [
-        f"Topic: {each.name} | Type: {each.type} | Count: {each.count} | Serialization Format: cdr"
+        f"Topic: {each.name} | Type: {each.type} | Count: {each.count} | Serialization Format: {each.encoding}"
         for each in sorted(about.topics.values(), key=lambda topic: topic.name)
     ]
     lines += [f"{'Topic information:' if not at else '':<19}{topic}" for at, topic in enumerate(topics)]

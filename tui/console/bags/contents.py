@@ -43,6 +43,8 @@ class Contents:
         try:
             self._read(bag)
         except NoBag as error:
+            if not any(self._messages.values()):
+                raise
             self.damage = str(error)
         for name in self.of_type(LOG):
             self._each(name, self._log)
@@ -73,7 +75,7 @@ class Contents:
         Messages that cannot be decoded as the topic's type are skipped. Raises `ImportError` and the like if the type
         is unknown.
         """
-        kind = class_of(self.metadata.topics[topic].type)
+        kind = self._class(topic)
         for stamp, data in self._messages[topic]:
             try:
                 message = deserialize_message(data, kind)
@@ -88,7 +90,12 @@ class Contents:
 
     def message(self, topic: str, at: int) -> Any:
         """One message of a topic, by index; raises the same exceptions as `messages`."""
-        return deserialize_message(self._messages[topic][at][1], class_of(self.metadata.topics[topic].type))
+        return deserialize_message(self._messages[topic][at][1], self._class(topic))
+
+    def _class(self, topic: str) -> Any:
+        about = self.metadata.topics[topic]
+        about.check_encoding()
+        return class_of(about.type)
 
     def size(self, topic: str) -> int:
         """The size in bytes of a topic's messages."""

@@ -5,12 +5,13 @@ from __future__ import annotations
 import os
 import sqlite3
 import struct
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import BinaryIO
 
-MAGIC = b"\x89MCAP0\r\n"
+from bot_console.tui.console.bags.compression import TooLarge
+
 MAX_CUT_BYTES = 16 * 1024 * 1024
 """The most that a repair may discard: what a recorder writes at once. If more would be lost, the original is kept
 too.
@@ -32,6 +33,7 @@ class NoBag(ValueError):
 def reading_errors(path: Path, where: Callable[[], str] = str) -> Generator[None]:
     """Convert exceptions of the reading library to `NoBag`."""
     from mcap.exceptions import McapError
+    from zstandard import ZstdError
 
     try:
         yield
@@ -39,66 +41,94 @@ def reading_errors(path: Path, where: Callable[[], str] = str) -> Generator[None
         raise
     except OSError as error:
         raise NoBag(f"{path}: {error.strerror or error}") from None
-    except (McapError, *DAMAGED) as error:
+    except TooLarge as error:
+        raise NoBag(f"{path}{where()}: {error}") from None
+    except (McapError, ZstdError, *DAMAGED) as error:
         raise NoBag(f"{path} is damaged{where()}: {error or type(error).__name__}") from None
 
 
-def repair(path: Path) -> str:
-    """Complete an unfinished file; returns what was done, or an empty text if it was complete. Raises `NoBag`."""
-    with reading_errors(path), path.open("rb") as file:
+def repair(path: Path, shown: Path) -> str:
+    """Complete an unfinished file, which messages call `shown`; returns what was done, or an empty text if it was
+    complete. Raises `NoBag`.
+    """
+    from bot_console.tui.console.bags.mcap_records import MAGIC
+
+    with reading_errors(shown), path.open("rb") as file:
         if file.read(len(MAGIC)) != MAGIC:
-            raise NoBag(f"{path}: not an MCAP file")
+            raise NoBag(f"{shown}: not an MCAP file")
         size = file.seek(0, os.SEEK_END)
         file.seek(max(len(MAGIC), size - len(MAGIC)))
         if file.read() == MAGIC:
             return ""
-        file.seek(0)
-        beside = path.with_suffix(".mending")
+        beside = path.with_suffix(".repairing")
         try:
-            lost = size - _write_whole(file, beside)
-            done = f"{path.name} had no end, as a killed recorder leaves it, and was given one"
-            if lost > MAX_CUT_BYTES or file.tell() < size:
+            behind, cut = _write_whole(file, size, beside)
+            lost = size - behind
+            done = f"{shown.name} had no end, as a killed recorder leaves it, and was given one"
+            if lost > MAX_CUT_BYTES or not cut:
                 kept = path.with_name(path.name + BACKUP_SUFFIX)
                 path.replace(kept)
-                done = f"{path.name} is damaged {lost} bytes before its end; as it was it is kept as {kept.name}"
+                done = f"{shown.name} is damaged {lost} bytes before its end; as it was it is kept as {kept.name}"
             beside.replace(path)
         except OSError as error:
             beside.unlink(missing_ok=True)
-            raise NoBag(f"{path} has no end, and cannot be given one: {error.strerror or error}") from None
+            raise NoBag(f"{shown} has no end, and cannot be given one: {error.strerror or error}") from None
     return done
 
 
-def _write_whole(source: Any, beside: Path) -> int:
-    """Copy the readable records to another file; returns the position in the source after the last of them."""
+def _write_whole(source: BinaryIO, size: int, beside: Path) -> tuple[int, bool]:
+    """Copy the readable records to another file.
+
+    Returns the position in the source after the last of them, and whether the rest is only cut off, not damaged.
+    """
+    from bot_console.tui.console.bags.mcap_records import Tables, message
     from mcap.exceptions import McapError
-    from mcap.records import Channel, Message, Schema
-    from mcap.stream_reader import StreamReader
+    from mcap.opcode import Opcode
     from mcap.writer import CompressionType, Writer
 
-    records = iter(StreamReader(source).records)
+    behind, cut = 0, True
     with beside.open("wb") as file:
         writer = Writer(file, compression=CompressionType.NONE)
         writer.start(profile="ros2", library="bot-console")
-        schemas: dict[int, int] = {0: 0}
+        tables = Tables()
         channels: dict[int, int] = {}
-        behind = 0
-        while True:
-            try:
-                each = next(records)
-            except (StopIteration, McapError, *DAMAGED):  # the end of the readable part
-                break
-            behind = source.tell()
-            if isinstance(each, Schema) and each.id not in schemas:
-                schemas[each.id] = writer.register_schema(each.name, each.encoding, each.data)
-            elif isinstance(each, Channel) and each.id not in channels:
-                channels[each.id] = writer.register_channel(
-                    each.topic, each.message_encoding, schemas.get(each.schema_id, 0), each.metadata
-                )
-            elif isinstance(each, Message) and each.channel_id in channels:
-                writer.add_message(
-                    channels[each.channel_id], each.log_time, each.data, each.publish_time, each.sequence
-                )
+        schemas: dict[int, int] = {0: 0}
+        try:
+            for opcode, content, behind in _readable(source, size):  # noqa: B007 -- the last one is returned
+                tables.add(opcode, content)
+                if opcode != Opcode.MESSAGE:
+                    continue
+                found = message(content)
+                if found.channel not in channels:
+                    channel = tables.channels[found.channel]
+                    schema = tables.schemas.get(channel.schema_id)
+                    if schema is not None and schema.id not in schemas:
+                        schemas[schema.id] = writer.register_schema(schema.name, schema.encoding, schema.data)
+                    channels[found.channel] = writer.register_channel(
+                        channel.topic, channel.message_encoding, schemas.get(channel.schema_id, 0), channel.metadata
+                    )
+                writer.add_message(channels[found.channel], found.received, found.data, found.sent, found.sequence)
+        except EOFError:
+            pass
+        except (McapError, *DAMAGED):
+            cut = False
         writer.finish()
         file.flush()
         os.fsync(file.fileno())
-    return behind
+    return behind, cut
+
+
+def _readable(source: BinaryIO, size: int) -> Iterator[tuple[int, bytes, int]]:
+    """The records of a file and its chunks: opcode, content, and the position in the file behind them."""
+    from bot_console.tui.console.bags.mcap_records import MAGIC, chunk_records, places
+    from mcap.opcode import Opcode
+
+    for each in places(source, len(MAGIC), size):
+        end = each.begin + each.length
+        if each.opcode == Opcode.DATA_END:
+            return
+        if each.opcode == Opcode.CHUNK:
+            for opcode, content in chunk_records(each.content(source)):
+                yield opcode, content, end
+        elif each.opcode in (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.MESSAGE):
+            yield each.opcode, each.content(source), end

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import yaml
 from bot_console.tui.files.save_file import save_file
+from bot_console.tui.text.yaml_faults import UNREADABLE
 
 VERSION = 9
 FILE = "metadata.yaml"
@@ -20,6 +21,16 @@ class _Plain(yaml.SafeDumper):
     def ignore_aliases(self, data: Any) -> bool:
         """Never write an alias."""
         return True
+
+
+def qos_profiles(text: str) -> list[dict[str, Any]]:
+    """The QoS profiles a topic was published with, from YAML; unreadable ones are ignored."""
+    try:
+        data = yaml.load(text or "[]", getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except UNREADABLE:
+        return []
+    found = cast("list[Any]", data) if isinstance(data, list) else []
+    return [each for each in found if isinstance(each, dict)]
 
 
 def metadata_yaml(data: object) -> str:
@@ -36,37 +47,58 @@ class Topic:
     qos: list[dict[str, Any]] = field(default_factory=list[dict[str, Any]])
     type_hash: str = ""
     count: int = 0
+    encoding: str = "cdr"
+    """How its messages are serialized."""
+
+    def check_encoding(self) -> None:
+        """Raise `ValueError` unless its messages can be decoded."""
+        if self.encoding != "cdr":
+            raise ValueError(f"its messages are serialized as {self.encoding}, not as cdr")
+
+
+@dataclass
+class FilePart:
+    """A file of a bag, with the times (ns since the epoch) and number of its messages."""
+
+    path: str
+    begin: int = 0
+    end: int = 0
+    count: int = 0
+
+    def seen(self, stamp: int) -> None:
+        """Include a time."""
+        self.begin = min(self.begin or stamp, stamp)
+        self.end = max(self.end, stamp)
 
 
 @dataclass
 class Metadata:
     """The metadata of a bag folder; times are in ns since the epoch."""
 
-    file: str
-    begin: int = 0
-    end: int = 0
+    files: list[FilePart]
     topics: dict[str, Topic] = field(default_factory=dict[str, Topic])
+
+    @property
+    def begin(self) -> int:
+        """The time of the first message; 0 if there is none."""
+        return min((each.begin for each in self.files if each.begin), default=0)
+
+    @property
+    def end(self) -> int:
+        """The time of the last message; 0 if there is none."""
+        return max((each.end for each in self.files), default=0)
 
     @property
     def count(self) -> int:
         """The number of messages."""
         return sum(each.count for each in self.topics.values())
 
-    def seen(self, stamp: int) -> None:
-        """Count a message received at that time."""
-        self.begin = min(self.begin or stamp, stamp)
-        self.end = max(self.end, stamp)
-
     def save(self, folder: Path) -> None:
         """Write the file; raises `NotSaved`."""
         save_file(folder / FILE, metadata_yaml({"rosbag2_bagfile_information": self._data()}))
 
     def _data(self) -> dict[str, Any]:
-        times = {
-            "starting_time": {"nanoseconds_since_epoch": self.begin},
-            "duration": {"nanoseconds": self.end - self.begin},
-            "message_count": self.count,
-        }
+        times = _times(self.begin, self.end, self.count)
         return {
             "version": VERSION,
             "storage_identifier": "mcap",
@@ -76,11 +108,19 @@ class Metadata:
             "topics_with_message_count": list(_topics(self.topics.values())),
             "compression_format": "",
             "compression_mode": "",
-            "relative_file_paths": [self.file],
-            "files": [{"path": self.file, **times}],
+            "relative_file_paths": [each.path for each in self.files],
+            "files": [{"path": each.path, **_times(each.begin, each.end, each.count)} for each in self.files],
             "custom_data": None,
             "ros_distro": "jazzy",
         }
+
+
+def _times(begin: int, end: int, count: int) -> dict[str, Any]:
+    return {
+        "starting_time": {"nanoseconds_since_epoch": begin},
+        "duration": {"nanoseconds": end - begin},
+        "message_count": count,
+    }
 
 
 def _topics(topics: Iterable[Topic]) -> Iterable[dict[str, Any]]:
@@ -89,7 +129,7 @@ def _topics(topics: Iterable[Topic]) -> Iterable[dict[str, Any]]:
             "topic_metadata": {
                 "name": each.name,
                 "type": each.type,
-                "serialization_format": "cdr",
+                "serialization_format": each.encoding,
                 "offered_qos_profiles": each.qos,
                 "type_description_hash": each.type_hash,
             },

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from bot_console.tui.console.bags.definitions import definition, interface_type_name
-from bot_console.tui.console.bags.metadata import Metadata, Topic, metadata_yaml
+from bot_console.tui.console.bags.metadata import FilePart, Metadata, Topic, metadata_yaml
 from bot_console.tui.console.bags.missing_packages import check
 from bot_console.tui.files.save_file import NotSaved
 
@@ -24,10 +24,10 @@ class BagWriter:
         from mcap.writer import CompressionType, Writer
 
         self.folder = folder
-        self.metadata = Metadata(f"{folder.name}_0.mcap")
+        self.metadata = Metadata([FilePart(f"{folder.name}_0.mcap")])
         try:
             folder.mkdir(parents=True)
-            self._file = (folder / self.metadata.file).open("xb")
+            self._file = (folder / self.metadata.files[0].path).open("xb")
         except FileExistsError:
             raise NotSaved(f"{folder} exists already; choose another name") from None
         except OSError as error:
@@ -61,7 +61,8 @@ class BagWriter:
         number = self._numbers[channel] = self._numbers.get(channel, -1) + 1
         self._writer.add_message(channel, log_time=received, data=data, publish_time=sent or received, sequence=number)
         self.metadata.topics[topic].count += 1
-        self.metadata.seen(received)
+        self.metadata.files[-1].count += 1
+        self.metadata.files[-1].seen(received)
         if time.monotonic() - self._flushed > FLUSH:
             self.flush()
 

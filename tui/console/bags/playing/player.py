@@ -56,6 +56,7 @@ class Player:
                 self.left_out.append(name)
                 continue
             try:
+                topic.check_encoding()
                 kind = find(topic.type)
             except (ImportError, AttributeError, ValueError) as error:
                 self.unknown[name] = f"its type {topic.type} is not available here ({error})"
