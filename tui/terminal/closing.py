@@ -11,8 +11,11 @@ from collections.abc import Generator
 from types import FrameType
 from typing import Any, cast
 
-from bot_console.tui.terminal.restorer import LAST_WORDS
-
+LAST_WORDS = (
+    "\x18\x1b[m\x1b[?2026l\x1b[?1000l\x1b[?1002l\x1b[?1003l\x1b[?1006l\x1b[?1015l\x1b[?1004l\x1b[?2004l\x1b[?7h\x1b[<u"
+    "\x1b[?1049l\x1b[?25h"
+)
+"""Ends a sequence that was cut off, then every mode that Textual has set, for when the terminal wakes up."""
 FLUSH_TIMEOUT_S = 1.0
 """Seconds that a terminal has to take what is still to be written."""
 

@@ -101,13 +101,6 @@ class Terminal:
         """The line settings (`c_lflag`)."""
         return termios.tcgetattr(self._slave)[3]
 
-    def set_as_a_shell_does(self) -> int:
-        """Set the line for editing, as a shell that has taken the terminal over does; returns `modes`."""
-        settings = termios.tcgetattr(self._slave)
-        settings[3] = (settings[3] | termios.ISIG) & ~(termios.ICANON | termios.ECHO)
-        termios.tcsetattr(self._slave, termios.TCSANOW, settings)
-        return self.modes()
-
     def processes(self) -> list[str]:
         """The command lines of all processes that descend from this program, itself included."""
         found: list[str] = []

@@ -1,4 +1,4 @@
-"""The console's own access to its terminal: descriptors that no other code has, and a restorer.
+"""The console's own access to its terminal: descriptors that no other code has.
 
 What C libraries write to descriptors 1 and 2, bypassing Python, becomes lines of the log instead of damaging the
 screen. Code that closes or redirects 0, 1 and 2 affects neither keys nor screen, and a child that inherits them cannot
@@ -15,8 +15,6 @@ import threading
 from collections.abc import Callable, Generator, Iterator
 from typing import IO
 
-from bot_console.tui.terminal.restorer_process import Restorer, restored_terminal
-
 Printed = Callable[[int, str, str], None]
 LABEL = "stderr"
 MAX_LINE_BYTES = 1 << 16
@@ -26,24 +24,17 @@ FIRST = 100
 
 
 @contextlib.contextmanager
-def own_terminal(printed: Printed) -> Generator[Restorer]:
-    """Capture descriptors while an app runs, and restore the terminal afterwards, however this process ends."""
-    with captured_descriptors(printed) as keys, restored_terminal(keys) as watch:
-        yield watch
-
-
-@contextlib.contextmanager
-def captured_descriptors(printed: Printed) -> Generator[int]:
+def captured_descriptors(printed: Printed) -> Generator[None]:
     """Give the screen duplicates of descriptors 0, 1 and 2, and pass lines written to 1 and 2 to `printed`.
 
     While the app runs, it reads and writes through `sys.__stdin__`, `sys.__stdout__` and `sys.__stderr__`, which are
-    the duplicates. Yields the descriptor for reading.
+    the duplicates.
     """
     with contextlib.ExitStack() as stack:
-        keys = stack.enter_context(_withheld())
+        stack.enter_context(_withheld())
         for number, name in ((1, "__stdout__"), (2, "__stderr__")):
             stack.enter_context(_captured(number, name, printed))
-        yield keys
+        yield
 
 
 def _duplicate(number: int) -> int:
@@ -51,7 +42,7 @@ def _duplicate(number: int) -> int:
 
 
 @contextlib.contextmanager
-def _withheld() -> Generator[int]:
+def _withheld() -> Generator[None]:
     before: IO[str] | None = sys.__stdin__
     keys = os.fdopen(_duplicate(0), encoding="utf-8", errors="replace")
     nowhere = os.open(os.devnull, os.O_RDONLY)
@@ -59,7 +50,7 @@ def _withheld() -> Generator[int]:
     os.close(nowhere)
     setattr(sys, "__stdin__", keys)  # noqa: B010 -- it is final for type checkers
     try:
-        yield keys.fileno()
+        yield
     finally:
         setattr(sys, "__stdin__", before)  # noqa: B010 -- final for type checkers
         os.dup2(keys.fileno(), 0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.cli.foreground.descriptors import Printed, own_terminal
+from bot_console.tui.cli.foreground.descriptors import Printed, captured_descriptors
 from bot_console.tui.cli.foreground.ending_signals import ended_by_signals, hangup_as_signal
 from bot_console.tui.cli.foreground.hang_watch import HangWatch, hang_watch
 from bot_console.tui.cli.interpreter import eager_switching
@@ -13,35 +13,31 @@ from bot_console.tui.files.folders import state_folder
 
 
 class Foreground:
-    """Shows an app, and restores the terminal afterwards, however this process ends."""
+    """Shows an app, and gives the terminal back afterwards."""
 
     def __init__(self, app: BotConsoleApp, printed: Printed, end: Callable[[int], None]) -> None:
         """`printed` receives lines for the log, `end` the number of a signal that ends the app."""
         self._app = app
         self._printed = printed
         self._end = end
-        self._has_begun: Callable[[], None] = lambda: None
         self._hang_watch: HangWatch | None = None
 
     def begin(self) -> None:
-        """Note that the app has drawn its first frame: the terminal is set up, and the app may be watched."""
-        self._has_begun()
+        """Note that the app has drawn its first frame: it may be watched."""
         if self._hang_watch is not None:
             self._hang_watch.accompany(self._app)
 
     def run(self, close: Callable[[], None]) -> int:
         """Show the app until it ends, then call `close` to end what it showed; returns the app's exit code."""
         with (
-            own_terminal(self._printed) as terminal,
+            captured_descriptors(self._printed),
             ended_by_signals(self._end),
             hangup_as_signal(),
             eager_switching(),
             hang_watch(state_folder(), self._app.how_it_draws, self._hung) as self._hang_watch,
         ):
-            self._has_begun = terminal.has_begun
             try:
                 self._app.run()
-                terminal.has_ended()
             finally:
                 if self._hang_watch is not None:
                     self._hang_watch.rest()

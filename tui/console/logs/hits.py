@@ -18,16 +18,11 @@ SPARSE = 64
 
 
 def hits(pattern: Pattern, blob: bytes, ends: Rows) -> Mask:
-    """Marks the texts that match; `ends` says where each text ends in the blob, including its newline.
-
-    Raises `ValueError` if the search takes too long.
-    """
+    """Marks the texts that match; `ends` says where each text ends in the blob, including its newline."""
     engine = pattern.engine
     if isinstance(engine, Re2Engine):
         return _re2_hits(engine, blob, ends)
-    if isinstance(engine, WordEngine):
-        return _word_hits(engine, blob, ends)
-    return np.array(list(engine.found(blob, ends.tolist())), np.bool_)
+    return _word_hits(engine, blob, ends)
 
 
 def _word_hits(engine: WordEngine, blob: bytes, ends: Rows) -> Mask:

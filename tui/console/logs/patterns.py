@@ -1,7 +1,7 @@
 """Regular expressions typed by users. Matching takes time linear in the text and never blocks the console.
 
-The engine is google-re2, which does not backtrack and releases the interpreter lock. On platforms without its wheel,
-Python's `re` runs in a separate process, which is killed when it takes too long (`regex_process`).
+The engine is google-re2, which does not backtrack and releases the interpreter lock. Python's `re` does neither: on
+platforms without a wheel of google-re2, only words are found.
 """
 
 from __future__ import annotations
@@ -11,9 +11,12 @@ import re
 from typing import Any, TypeAlias
 
 from bot_console.tui.console.logs.re2_engine import Re2Engine
-from bot_console.tui.console.logs.regex_process import ProcessEngine
 
-Engine: TypeAlias = "Re2Engine | WordEngine | ProcessEngine"
+Engine: TypeAlias = "Re2Engine | WordEngine"
+NO_REGEX = (
+    "regular expression '{}': this needs google-re2, which is not installed (it has no wheel for some platforms); "
+    "use words"
+)
 
 
 def _library() -> Any:
@@ -46,7 +49,9 @@ def _engine(written: str, body: str, literal: bool) -> Engine:
     word = written.lower().encode() if literal and written.isascii() else None
     if re2 is not None:
         return Re2Engine(re2, written, body, word)
-    return WordEngine(written) if literal else ProcessEngine(written)
+    if not literal:
+        raise ValueError(NO_REGEX.format(written))
+    return WordEngine(written)
 
 
 def _escaped(text: str) -> str:

@@ -60,11 +60,7 @@ class SearchedView:
             found = self._found = replace(found, numbers=found.numbers.since(first), begin=max(first, found.begin),
                                           end=max(first, found.end))  # fmt: skip
         started = time.thread_time()
-        try:
-            new = self._newer(self._search, found) or (None if found.complete else self._older(self._search, found))
-        except ValueError as error:  # the pattern took too long
-            self._search, self._found = None, replace(found, problem=str(error), complete=True)
-            return True
+        new = self._newer(self._search, found) or (None if found.complete else self._older(self._search, found))
         if new is None:
             return False
         self._found = new
