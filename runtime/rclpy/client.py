@@ -11,7 +11,7 @@ from typing import Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import ClientEndpoint
-from rclpy.executor_parts.future_wait import wait_until_settled
+from rclpy.deadlock import wait_until_settled
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import CLIENT, Entity
 from rclpy.impl.graph_wait import require_valid, wait_until_there

@@ -10,8 +10,8 @@ from bot_console.runtime.process import current
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.callback_groups import CallbackGroup
 from rclpy.clock_type import ClockType
+from rclpy.deadlock import WARNING_DELAY_NS, report_deadlock
 from rclpy.exceptions import ROSInterruptException
-from rclpy.executor_parts.deadlock import WARNING_DELAY_NS, report_deadlock
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import TIMER, Entity
 from rclpy.impl.reexports import reexporting

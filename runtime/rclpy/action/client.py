@@ -19,7 +19,7 @@ from rclpy.action.endpoints import ClientEndpoints, action_names
 from rclpy.action.entity import ActionEntity, call, take
 from rclpy.action.goal_state import TERMINAL
 from rclpy.action.pending_requests import PendingRequests
-from rclpy.executor_parts.future_wait import wait_until_settled
+from rclpy.deadlock import wait_until_settled
 from rclpy.impl.graph_wait import require_valid, wait_until_there
 from rclpy.impl.reexports import reexporting
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default

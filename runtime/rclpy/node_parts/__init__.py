@@ -1,1 +1,1 @@
-"""The parts of `Node`, above all public modules of rclpy except `node` itself."""
+"""The subjects of `Node` (entities, parameters, graph), above all public modules of rclpy except `node` itself."""

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from bot_console.runtime.rmw import names
 from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, Owner
 from bot_console.runtime.rmw.graph_tables import NamesAndTypes, collect
+from bot_console.runtime.rmw.qos import Period, Policy, Profile
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError
+from rclpy.duration import Duration, Infinite
 from rclpy.impl.graph_wait import require_valid, wait_until_there
-from rclpy.node_parts import mangled
+from rclpy.impl.qos_policies import QoSPolicyEnum
 from rclpy.node_parts.topic_names import expand_name, remapped
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 
 if TYPE_CHECKING:
     from rclpy.topic_endpoint_info import TopicEndpointInfo
@@ -32,7 +37,7 @@ class NodeGraph:
         self._ros_use_graph("topic")
         tables = self._ros_bus.tables()
         if no_demangle:
-            return collect(mangled.all_ends(tables))
+            return collect(all_ends(tables))
         return collect(
             pair for each in tables for ends in (each.publishers, each.subscriptions) for pair in ends.pairs()
         )
@@ -78,7 +83,7 @@ class NodeGraph:
         """The topics that a node publishes, with types; raises `NodeNameNonExistentError`."""
         owner = self._ros_who("publisher", node_name, node_namespace)
         if no_demangle:
-            return collect(mangled.written_by(self._ros_bus.tables(), owner))
+            return collect(written_by(self._ros_bus.tables(), owner))
         return collect(pair for each in self._ros_bus.tables() for pair in each.publishers.of(owner))
 
     def get_subscriber_names_and_types_by_node(
@@ -87,7 +92,7 @@ class NodeGraph:
         """The topics that a node subscribes to, with types; raises `NodeNameNonExistentError`."""
         owner = self._ros_who("subscriber", node_name, node_namespace)
         if no_demangle:
-            return collect(mangled.read_by(self._ros_bus.tables(), owner))
+            return collect(read_by(self._ros_bus.tables(), owner))
         return collect(pair for each in self._ros_bus.tables() for pair in each.subscriptions.of(owner))
 
     def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
@@ -149,20 +154,20 @@ class NodeGraph:
         return self._ros_infos(topic_name, no_mangle, publisher=False)
 
     def _ros_infos(self, topic: str, no_mangle: bool, *, publisher: bool) -> list[Any]:
-        from rclpy.node_parts.qos_in_effect import in_effect
+        from rclpy.node_parts.graph import in_effect
         from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 
         require_valid(
             self.context, f"Failed to get information by topic for {'publishers' if publisher else 'subscriptions'}"
         )
-        name = topic.removeprefix(mangled.TOPIC) if no_mangle else remapped(self, expand_name(self, topic))
+        name = topic.removeprefix(TOPIC) if no_mangle else remapped(self, expand_name(self, topic))
         tables = [each.publishers if publisher else each.subscriptions for each in self._ros_bus.tables()]
         kind = TopicEndpointTypeEnum.PUBLISHER if publisher else TopicEndpointTypeEnum.SUBSCRIPTION
         return [
             TopicEndpointInfo(
                 node_name=each.node.name,
                 node_namespace=each.node.namespace,
-                topic_type=mangled.type_name(each.type_name) if no_mangle else each.type_name,
+                topic_type=type_name(each.type_name) if no_mangle else each.type_name,
                 topic_type_hash=_type_hash(each),
                 endpoint_type=kind,
                 endpoint_gid=list(each.gid),
@@ -198,3 +203,99 @@ def _type_hash(endpoint: Endpoint) -> TypeHash:
 
     reported = endpoint.type_hash
     return type_hash_of(endpoint.message_class) if reported is None else type_hash_from(reported)
+
+
+_P = TypeVar("_P", bound=QoSPolicyEnum)
+_UNDECIDED = ("SYSTEM_DEFAULT", "BEST_AVAILABLE", "UNKNOWN")
+
+
+def in_effect(asked: Profile) -> QoSProfile:
+    """The profile with the middleware's defaults where the program left it open, and unlimited durations as infinite.
+
+    Each caller gets its own object, which it may change. For a profile received over the wire it is computed once.
+    """
+    return copied(_of_wire(asked)) if isinstance(asked, tuple) else _in_effect(asked)
+
+
+@lru_cache(256)  # a graph of thousands of endpoints has only a few profiles
+def _of_wire(asked: Profile) -> QoSProfile:
+    return _in_effect(asked)
+
+
+def _in_effect(asked: Profile) -> QoSProfile:
+    return QoSProfile(
+        history=HistoryPolicy[asked.history.name],
+        depth=asked.depth,
+        reliability=_decided(asked.reliability, ReliabilityPolicy.RELIABLE),
+        durability=_decided(asked.durability, DurabilityPolicy.VOLATILE),
+        liveliness=_decided(asked.liveliness, LivelinessPolicy.AUTOMATIC),
+        lifespan=_limited(asked.lifespan),
+        deadline=_limited(asked.deadline),
+        liveliness_lease_duration=_limited(asked.liveliness_lease_duration),
+        avoid_ros_namespace_conventions=isinstance(asked, QoSProfile) and asked.avoid_ros_namespace_conventions,
+    )
+
+
+def copied(profile: QoSProfile) -> QoSProfile:
+    """A copy of a profile; durations are shared, as they are immutable."""
+    copy = QoSProfile.__new__(QoSProfile)
+    for slot in QoSProfile.__slots__:
+        setattr(copy, slot, getattr(profile, slot))
+    return copy
+
+
+def _decided(policy: Policy, default: _P) -> _P:
+    return default if policy.name in _UNDECIDED else type(default)[policy.name]
+
+
+def _limited(period: Period) -> Duration:
+    return Duration(nanoseconds=period.nanoseconds) if period.nanoseconds else Infinite
+
+
+Pair = tuple[str, str]
+TOPIC = "rt"
+"""Precedes the name of a topic."""
+
+
+def written_by(tables: Iterable[Any], owner: Owner) -> Iterator[Pair]:
+    """Yield what a node publishes: its topics, the replies of its services, the requests of its clients."""
+    for each in tables:
+        yield from map(_topic, each.publishers.of(owner))
+        yield from map(_reply, each.servers.of(owner))
+        yield from map(_request, each.clients.of(owner))
+
+
+def read_by(tables: Iterable[Any], owner: Owner) -> Iterator[Pair]:
+    """Yield what a node subscribes to: its topics, the requests of its services, the replies of its clients."""
+    for each in tables:
+        yield from map(_topic, each.subscriptions.of(owner))
+        yield from map(_request, each.servers.of(owner))
+        yield from map(_reply, each.clients.of(owner))
+
+
+def all_ends(tables: Iterable[Any]) -> Iterator[Pair]:
+    """Yield all topics, and both topics of each service."""
+    for each in tables:
+        for topics in (each.publishers, each.subscriptions):
+            yield from map(_topic, topics.pairs())
+        for services in (each.servers, each.clients):
+            for pair in services.pairs():
+                yield from (_request(pair), _reply(pair))
+
+
+def _topic(pair: Pair) -> Pair:
+    return f"{TOPIC}{pair[0]}", type_name(pair[1])
+
+
+def _request(pair: Pair) -> Pair:
+    return f"rq{pair[0]}Request", type_name(f"{pair[1]}_Request")
+
+
+def _reply(pair: Pair) -> Pair:
+    return f"rr{pair[0]}Reply", type_name(f"{pair[1]}_Response")
+
+
+def type_name(name: str) -> str:
+    """`std_msgs/msg/String` as `std_msgs::msg::dds_::String_`."""
+    package, kind, short = name.split("/")
+    return f"{package}::{kind}::dds_::{short}_"

@@ -5,9 +5,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+import sys
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, cast
 
+from bot_console.runtime.process.facts import anybody_listens, report_fact
+from bot_console.runtime.process.frames import line_outside
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.exceptions import (
     InvalidParameterTypeException,
@@ -18,12 +22,9 @@ from rclpy.exceptions import (
     ParameterUninitializedException,
 )
 from rclpy.impl.explanations import DECLARED, GIVEN_BY
-from rclpy.node_parts.parameter_declarations import read_declaration
-from rclpy.node_parts.parameter_descriptors import refusal
-from rclpy.node_parts.parameter_names import listed
-from rclpy.node_parts.parameter_provenance import IN_CODE, report_declared
-from rclpy.node_parts.parameter_setting import NOT_SET, ParameterSetting
+from rclpy.node_parts.parameter_setting import NOT_SET, ParameterSetting, refusal
 from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
+from rclpy.validate_parameter_name import validate_parameter_name
 
 if TYPE_CHECKING:
     from rcl_interfaces.msg import ListParametersResult, ParameterValue
@@ -253,3 +254,153 @@ def _from_value(name: str, value: ParameterValue) -> Parameter:
     from rcl_interfaces.msg import Parameter as ParameterMsg
 
     return Parameter.from_parameter_msg(ParameterMsg(name=name, value=value))
+
+
+ANY_DEPTH = 0
+
+
+def listed(names: Iterable[str], prefixes: Any, depth: Any) -> list[str]:
+    """The names that `list_parameters` returns, in their order; raises `TypeError` and `ValueError`."""
+    if not isinstance(prefixes, list):
+        raise TypeError("The prefixes argument must be a list")
+    wanted = cast("list[Any]", prefixes)
+    if not all(isinstance(prefix, str) for prefix in wanted):
+        raise TypeError("All prefixes must be instances of type str")
+    if not isinstance(depth, int):
+        raise TypeError("The depth must be instance of type int")
+    if depth < 0:
+        raise ValueError("The depth must be greater than or equal to zero")
+    if not prefixes:
+        return [name for name in names if _shallow(name, depth)]
+    return [name for name in names if any(_below(name, prefix, depth) for prefix in wanted)]
+
+
+def _shallow(name: str, depth: int) -> bool:
+    return depth == ANY_DEPTH or name.count(PARAMETER_SEPARATOR_STRING) < depth
+
+
+def _below(name: str, prefix: str, depth: int) -> bool:
+    start = prefix + PARAMETER_SEPARATOR_STRING
+    return name == prefix or (name.startswith(start) and _shallow(name[len(start) :], depth))
+
+
+IN_CODE = "parameter_overrides of its program"
+
+
+def report_declared(
+    node: str, declared: Iterable[tuple[str, Sequence[Any]]], values: Iterable[Any], sources: Mapping[str, str]
+) -> None:
+    """Report the declarations (full name, tuple) of a node with the resulting values, if anybody listens.
+
+    `sources` are those of overrides. A default that is not a plain value, such as a type, is reported as None.
+    """
+    if not anybody_listens():
+        return
+    place = line_outside(sys._getframe(1))  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
+    report_fact(
+        "declared",
+        node=node,
+        parameters=[
+            [name, _plain(words[1] if len(words) > 1 else None), place, sources.get(name, ""), _plain(value)]
+            for (name, words), value in zip(declared, values, strict=True)
+        ],
+    )
+
+
+def _plain(value: Any) -> Any:
+    """A value for JSON: a scalar, or a list of scalars; bytes, which JSON lacks, as `{"byte": 0 .. 255}`; else None."""
+    if isinstance(value, (bool, int, float, str)) or value is None:
+        return value
+    if isinstance(value, Parameter.Type):
+        return None
+    plain = getattr(value, "tolist", None)
+    try:
+        items = plain() if plain is not None else list(value)
+    except TypeError:
+        return None
+    items = [{"byte": each[0]} if isinstance(each, bytes) and each else each for each in items]
+    return items if all(isinstance(each, (bool, int, float, str, dict)) for each in items) else None
+
+
+NAME_ONLY = """when declaring parameter named '{}', declaring a parameter only providing its name is deprecated. \
+You have to either:
+\t- Pass a name and a default value different to "PARAMETER NOT SET" (and optionally a descriptor).
+\t- Pass a name and a parameter type.
+\t- Pass a name and a descriptor with `dynamic_typing=True"""
+STATIC_NOT_SET = "Cannot declare a statically typed parameter with default value of type PARAMETER_NOT_SET"
+TYPE_AND_DYNAMIC = (
+    "When declaring parameter {{{}}} passing a descriptor with`dynamic_typing=True` "
+    "is not allowed when the parameter type is provided"
+)
+
+
+def read_declaration(
+    index: int, declaration: Sequence[Any], namespace: str, overrides: Mapping[str, Parameter]
+) -> tuple[Parameter, Any]:
+    """The parameter, with the value of its override if there is one, and the descriptor that a tuple declares.
+
+    The declared type is written into the descriptor. Raises `TypeError`, `ValueError` and
+    `InvalidParameterException`.
+    """
+    if not 1 <= len(declaration) <= 3:
+        raise TypeError(
+            f"Invalid parameter tuple length at index {index} in parameters list: {declaration}; "
+            "expecting length between 1 and 3"
+        )
+    name = _full_name(index, declaration[0], namespace)
+    descriptor = _descriptor(index, declaration)
+    if len(declaration) == 1:
+        warnings.warn(NAME_ONLY.format(name), stacklevel=4)
+        descriptor.dynamic_typing = True
+    default = declaration[1] if len(declaration) > 1 else None
+    if isinstance(default, Parameter.Type):
+        _set_type(name, default, descriptor)
+        value = None
+    else:
+        _infer_type(default, descriptor)
+        value = default
+    if name in overrides:
+        value = overrides[name].value
+    return Parameter(name, value=value), descriptor
+
+
+def _full_name(index: int, name: Any, namespace: str) -> str:
+    if not isinstance(name, str):
+        raise TypeError(f"First element {name} at index {index} in parameters list is not a str.")
+    name = f"{namespace}.{name}" if namespace else name
+    validate_parameter_name(name)
+    return name
+
+
+def _descriptor(index: int, declaration: Sequence[Any]) -> Any:
+    from rcl_interfaces.msg import ParameterDescriptor
+
+    if len(declaration) < 3:
+        return ParameterDescriptor()
+    descriptor = declaration[2]
+    if not isinstance(descriptor, ParameterDescriptor):
+        raise TypeError(f"Third element {descriptor} at index {index} in parameters list is not a ParameterDescriptor.")
+    return descriptor
+
+
+def _set_type(name: str, wanted: Parameter.Type, descriptor: Any) -> None:
+    """Set the descriptor's type to a declared type; raises `ValueError`."""
+    if wanted == Parameter.Type.NOT_SET:
+        raise ValueError(f"Cannot declare parameter {{{name}}} as statically typed of type NOT_SET")
+    if descriptor.dynamic_typing is True:
+        raise ValueError(TYPE_AND_DYNAMIC.format(name))
+    descriptor.type = wanted.value
+
+
+def _infer_type(default: Any, descriptor: Any) -> None:
+    """Set the descriptor's type to that of a default value, except with dynamic typing; raises `ValueError`."""
+    from rcl_interfaces.msg import ParameterValue
+
+    if descriptor.dynamic_typing:
+        return
+    if isinstance(default, ParameterValue):
+        descriptor.type = default.type
+    else:
+        descriptor.type = Parameter.Type.from_parameter_value(default).value
+    if descriptor.type == Parameter.Type.NOT_SET.value:
+        raise ValueError(STATIC_NOT_SET)

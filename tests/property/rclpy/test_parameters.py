@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, ParameterEvent
 from rclpy.context import Context
 from rclpy.node import Node
-from rclpy.node_parts.parameter_descriptors import refusal
+from rclpy.node_parts.parameter_setting import refusal
 from rclpy.parameter import Parameter, parameter_value_to_python
 
 Type = Parameter.Type

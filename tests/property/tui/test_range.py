@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from bot_console.runtime.rclpy.node_parts.parameter_descriptors import refusal
+from bot_console.runtime.rclpy.node_parts.parameter_setting import refusal
 from bot_console.tui.console.model import Kind, ParameterInfo
 from bot_console.tui.console.values import info
 from bot_console.tui.panes.parameters.editing import at_share, stepped

@@ -219,7 +219,7 @@ def test_zero_depth_is_warned_about() -> None:
 
 def test_profile_from_the_wire_is_returned_as_a_new_object_each_time():
     from bot_console.runtime.rmw.zenoh.wire.qos_text import decode_qos
-    from rclpy.node_parts.qos_in_effect import in_effect
+    from rclpy.node_parts.graph import in_effect
 
     first = in_effect(decode_qos("2:1:,7:,:3,:,,"))
     assert (first.reliability, first.durability) == (ReliabilityPolicy.BEST_EFFORT, DurabilityPolicy.TRANSIENT_LOCAL)

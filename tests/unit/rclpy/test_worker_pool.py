@@ -8,7 +8,7 @@ from pathlib import Path
 
 from bot_console.runtime.process import NodeProcess
 from bot_console.runtime.process.stepping.stepped_time import stepped
-from rclpy.executor_parts.worker_pool import WorkerPool
+from rclpy.impl.worker_pool import WorkerPool
 from systems import system
 
 LEAVES_EARLY = """

@@ -7,7 +7,7 @@ from bot_console.tui.console.model import Kind, ParameterInfo, Range
 from bot_console.tui.console.values import refusal
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.node import Node
-from rclpy.node_parts.parameter_descriptors import refusal as rclpy_refusal
+from rclpy.node_parts.parameter_setting import refusal as rclpy_refusal
 from rclpy.parameter import Parameter
 
 DOUBLES, INTEGERS = Range(0.1, 2.0, 0.1), Range(1, 10, 4)

@@ -14,8 +14,9 @@ from bot_console.runtime.process import current
 from bot_console.runtime.process.frames import line_outside
 from bot_console.runtime.process.notices import notify
 from rclpy.callback_groups import CallbackGroup
-from rclpy.executor_parts.ready_callbacks import ReadyCallbacks
-from rclpy.task import Task
+from rclpy.exceptions import ROSInterruptException
+from rclpy.ready_callbacks import ReadyCallbacks
+from rclpy.task import Future, Task
 
 WARNING_DELAY_NS = 5_000_000_000
 """How long a thread waits before a deadlock is reported."""
@@ -90,3 +91,33 @@ def _running(frame: FrameType | None) -> Iterator[tuple[Any, Any]]:
 
 _KINDS = ("the action client", "the timer", "the subscription", "the guard condition", "the client", "the service")
 """By the kind of an entity."""
+
+
+def wait_until_settled(future: Future[Any], entity: Any, node: Any, what: str, deadline_ns: int | None = None) -> None:
+    """Block until the future, which a node's entity settles, is done or cancelled, or until a steady time (ns).
+
+    If it never can be, a notice says so after a while, which calls the wait `what`.
+    Without a deadline it raises `ROSInterruptException` when the context is shut down, as no answer is received after
+    that. Upstream keeps waiting, so that its program never ends.
+    """
+    clock, context = current().clock, node.context
+    wakeup = clock.wakeup()
+    future._when_settled(wakeup.set)  # pyright: ignore[reportPrivateUsage] -- rclpy is one library
+    if future._settled():  # pyright: ignore[reportPrivateUsage] -- as above
+        return
+    if deadline_ns is not None:
+        warning_ns = min(deadline_ns, clock.steady_ns() + WARNING_DELAY_NS)
+        if not wakeup.wait(warning_ns):
+            report_deadlock(entity, node, what)
+            wakeup.wait(deadline_ns)
+        return
+    forget = context.on_end(lambda: wakeup.set())  # noqa: PLW0108 -- a method would be held weakly, which takes longer
+    try:
+        if not wakeup.wait(clock.steady_ns() + WARNING_DELAY_NS):
+            report_deadlock(entity, node, what)
+            wakeup.wait()
+    finally:
+        forget()
+    if not future._settled():  # pyright: ignore[reportPrivateUsage] -- as above
+        current().deliver_signals()  # Ctrl-C shuts down as well: the waiting thread shall see `KeyboardInterrupt`
+        raise ROSInterruptException
