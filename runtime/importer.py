@@ -15,7 +15,7 @@ from importlib.machinery import ModuleSpec, PathFinder
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from bot_console.runtime.interface_finder import InterfaceFinder, interface_folders
+from bot_console.runtime.interface_finder import InterfaceFinder, interface_folders, spec_on_path
 from bot_console.runtime.missing_packages import explain_missing_package
 from bot_console.runtime.process.crashes import explain_with
 from bot_console.runtime.rosidl.sources import EXAMPLES, add_source
@@ -95,7 +95,7 @@ def _own_package(name: str) -> ModuleSpec | None:
     theirs = workspace().packages.get(name)
     folder = None if theirs is None else theirs.modules.get(name)
     if folder is None and name != OWN_PACKAGE:
-        beside = PathFinder.find_spec(name)
+        beside = spec_on_path(name)
         return beside if beside is not None and beside.loader is not None else _alias(name, OWN_PACKAGE)
     place = os.path.join(os.path.dirname(RUNTIME), "nodes") if folder is None else os.fspath(folder)
     return _package_in(name, place)
@@ -132,13 +132,9 @@ def is_embedded(name: str) -> bool:
     return name in PACKAGES or os.path.isdir(os.path.join(GENERATED, name))
 
 
-def embedded_names() -> list[str]:
-    """Return all top-level names handled by `install`: the runtime's, ours, and the workspace's interfaces."""
-    return sorted({*PACKAGES, *_generated(), *OWN_PACKAGES, DEMOS, *interface_folders()})
-
-
 @cache
-def _generated() -> tuple[str, ...]:
+def generated_packages() -> tuple[str, ...]:
+    """Return the included packages with interfaces."""
     with os.scandir(GENERATED) as listed:
         return tuple(each.name for each in listed if each.is_dir())
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Mapping, Sequence
 from importlib.machinery import ModuleSpec, PathFinder
@@ -14,6 +15,9 @@ if TYPE_CHECKING:
 KINDS = ("msg", "srv", "action")
 NEVER_OURS = sys.stdlib_module_names | {"org"}
 """Names for which no workspace is searched; `org` is Jython's, which the standard library's `copy` imports."""
+
+DECIDES = "bot_console_shims.py"
+"""The module in a folder of shims that decides what they stand for."""
 
 
 def interface_folders() -> Mapping[str, Path]:
@@ -29,6 +33,24 @@ def interface_folders() -> Mapping[str, Path]:
     return {**learned_folders(), **unverified_folders(), **added_by_user(), **theirs}
 
 
+def spec_on_path(fullname: str, path: Sequence[str] | None = None) -> ModuleSpec | None:
+    """Return what the path has under a name, other than a shim for it: see `shim_folder`."""
+    spec = PathFinder.find_spec(fullname, path)
+    if path is None and spec is not None and is_shim(spec.origin):
+        return PathFinder.find_spec(fullname, [each for each in sys.path if not is_shim_folder(each)])
+    return spec
+
+
+def is_shim(file: str | None) -> bool:
+    """Whether a module's file is a shim of this or another installation of bot-console."""
+    return is_shim_folder(os.path.dirname(file or ""))
+
+
+def is_shim_folder(folder: str) -> bool:
+    """Whether a folder of the path holds shims."""
+    return os.path.lexists(os.path.join(folder, DECIDES))
+
+
 class InterfaceFinder:
     """A finder of `sys.meta_path`: interface packages that the path lacks, and `msg` modules of Python packages."""
 
@@ -42,7 +64,7 @@ class InterfaceFinder:
         top, *inside = fullname.split(".")
         if top in NEVER_OURS or len(inside) > 2 or (inside and inside[0] not in KINDS):
             return None
-        spec = PathFinder.find_spec(fullname, path)
+        spec = spec_on_path(fullname, path)
         if spec is not None and spec.loader is not None:
             return spec
         folder = interface_folders().get(top)

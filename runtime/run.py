@@ -1,19 +1,25 @@
-"""Runs one node as the main program of this process: `bot-console run FILE.py | PACKAGE EXECUTABLE [--ros-args ...]`.
+"""Runs one node as the main program of this process, as `bot-console run` does without an option.
 
-Nothing is virtual here: the node has the real main thread, signals and standard streams.
+Its arguments are `FILE.py`, `-m MODULE`, `-c CODE` or `PACKAGE EXECUTABLE`, and those of the node. Nothing is virtual
+here: the node has the real main thread, signals and standard streams.
 """
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from bot_console.runtime.child_environment import child_environment
 from bot_console.runtime.importer import install
 from bot_console.runtime.rmw.missing_parameter_files import find_with
+from bot_console.runtime.shim_folder import shim_folder
 from bot_console.runtime.workspace.parameter_files import hint_for
-from bot_console.runtime.workspace.program import Program, program, python_file
+from bot_console.runtime.workspace.program import Program, program, python_file, source_folders
 
+PYTHON_OPTIONS = {"-m": "bot-console run -m MODULE", "-c": "bot-console run -c CODE"}
+"""Options of the interpreter that `run` accepts instead of a file."""
 INTERRUPTED = 130
 """The exit code that shells report for a program ended by SIGINT."""
 
@@ -23,11 +29,35 @@ def main(argv: Sequence[str] | None = None) -> int:
     words = list(sys.argv[1:] if argv is None else argv)
     install()
     find_with(hint_for)
+    _let_children_import()
     if not words:
         return _refuse("name a file or a package: bot-console run FILE.py, or bot-console run PACKAGE EXECUTABLE")
+    if words[0][:2] in PYTHON_OPTIONS:
+        return run_as_python(words)
     if words[0].endswith(".py") or Path(words[0]).is_file():
         return run_file(Path(words[0]), words[1:])
     return run_package(words[0], words[1:])
+
+
+def run_as_python(words: Sequence[str]) -> int:
+    """Run `-m MODULE` or `-c CODE` with arguments as the interpreter does."""
+    from bot_console.runtime.importer import node_modules
+    from bot_console.runtime.process import code_program, module_program
+
+    option, joined = words[0][:2], words[0][2:]
+    rest = [joined, *words[1:]] if joined else [*words[1:]]
+    if not rest:
+        print(f"argument expected for the {option} option: {PYTHON_OPTIONS[option]}", file=sys.stderr)
+        return 2
+    kind = module_program if option == "-m" else code_program
+    return _run(kind(rest[0], node_modules(source_folders())), [option, *rest[1:]])
+
+
+def _let_children_import() -> None:
+    """Let the programs that this one starts import rclpy, those of `multiprocessing` included."""
+    os.environ.update(child_environment(os.environ))
+    if os.name == "posix":
+        sys.path.append(str(shim_folder()))  # a spawned process takes over this path
 
 
 def run_package(package: str, words: Sequence[str]) -> int:

@@ -10,8 +10,12 @@ from pathlib import Path
 OVERRIDE = "BOT_CONSOLE_USER_DIR"
 """Environment variable: one folder for all files, for instance on a borrowed account."""
 
-XDG = {"user_data_path": ("XDG_DATA_HOME", "~/.local/share"), "user_cache_path": ("XDG_CACHE_HOME", "~/.cache")}
-"""The places on Linux. Importing platformdirs for these two would take a thirtieth of the time to a launch's first
+XDG = {
+    "user_data_path": ("XDG_DATA_HOME", "~/.local/share"),
+    "user_cache_path": ("XDG_CACHE_HOME", "~/.cache"),
+    "user_state_path": ("XDG_STATE_HOME", "~/.local/state"),
+}
+"""The places on Linux. Importing platformdirs for these would take a thirtieth of the time to a launch's first
 node.
 """
 
@@ -26,6 +30,12 @@ def cache_folder() -> Path:
     """Return the folder for files that can be regenerated (`~/.cache/bot-console` on Linux)."""
     given = os.environ.get(OVERRIDE)
     return Path(given) / "cache" if given else _platform("user_cache_path")
+
+
+def state_folder() -> Path:
+    """Return the folder for what outlives a run, such as stops (`~/.local/state/bot-console` on Linux)."""
+    given = os.environ.get(OVERRIDE)
+    return Path(given) / "state" if given else _platform("user_state_path")
 
 
 @cache

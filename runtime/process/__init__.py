@@ -49,10 +49,12 @@ from .notices import on_notice
 from .real_time import RealTime
 
 if TYPE_CHECKING:
-    from .program import entry_point_program, file_program
+    from .program import code_program, entry_point_program, file_program, module_program
     from .stepping.stepped_time import SteppedTime, stepped
 
 _LATE = {
+    "code_program": "program",
+    "module_program": "program",
     "SteppedTime": "stepping.stepped_time",
     "stepped": "stepping.stepped_time",
     "entry_point_program": "program",
@@ -79,10 +81,12 @@ __all__ = [
     "RealTime",
     "SteppedTime",
     "Wakeup",
+    "code_program",
     "current",
     "entry_point_program",
     "explain_with",
     "file_program",
+    "module_program",
     "on_notice",
     "running_as",
     "stepped",

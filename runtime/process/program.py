@@ -41,6 +41,18 @@ def file_program(path: str, modules: FreshModules | None = None) -> Callable[[],
     return _FileProgram(os.fspath(path), modules)
 
 
+def module_program(name: str, modules: FreshModules) -> Callable[[], None]:
+    """Return a callable that runs a module as `python -m name` does: as `__main__`, the working directory first on
+    `sys.path`.
+    """
+    return _ModuleProgram(name, modules)
+
+
+def code_program(text: str, modules: FreshModules) -> Callable[[], None]:
+    """Return a callable that runs a text as `python -c text` does."""
+    return _CodeProgram(text, modules)
+
+
 def entry_point_program(entry_point: str, modules: FreshModules | None = None) -> Callable[[], None]:
     """Return a callable that runs `module:function`; its result is the exit code, as in `sys.exit(main())`.
 
@@ -60,11 +72,8 @@ class _FileProgram:
     def __call__(self) -> None:
         source = self._read()
         folder = os.path.dirname(os.path.abspath(self._path))
-        modules = _adopt(self._modules or FreshModules([folder]))
-        sys.path.insert(0, folder)
-        main = ModuleType("__main__") if modules is None else modules.new_main()
+        main = _new_main(self._modules or FreshModules([folder]), folder)
         vars(main).update(__file__=self._path, __cached__=None)
-        sys.modules["__main__"] = main
         exec(compile(source, self._path, "exec", dont_inherit=True), vars(main))
 
     def _read(self) -> bytes:
@@ -74,6 +83,29 @@ class _FileProgram:
         except OSError as error:
             print(f"python3: can't open file {self._path!r}: [Errno {error.errno}] {error.strerror}", file=sys.stderr)
             sys.exit(2)
+
+
+class _ModuleProgram:
+    def __init__(self, name: str, modules: FreshModules) -> None:
+        self._name = name
+        self._modules = modules
+
+    def __call__(self) -> None:
+        import runpy
+
+        _new_main(self._modules, os.getcwd())
+        run: Any = vars(runpy)["_run_module_as_main"]  # what `python -m` calls
+        run(self._name)
+
+
+class _CodeProgram:
+    def __init__(self, text: str, modules: FreshModules) -> None:
+        self._text = text
+        self._modules = modules
+
+    def __call__(self) -> None:
+        main = _new_main(self._modules, "")
+        exec(compile(self._text, "<string>", "exec", dont_inherit=True), vars(main))
 
 
 class _EntryPoint:
@@ -112,6 +144,15 @@ def _functions(module: ModuleType) -> list[str]:
     found: dict[str, object] = vars(module)
     own = (each for each in found.values() if isinstance(each, FunctionType) and each.__module__ == module.__name__)
     return sorted(each.__name__ for each in own)
+
+
+def _new_main(modules: FreshModules, folder: str) -> ModuleType:
+    """Return a new `__main__` module, with a folder first on `sys.path`."""
+    adopted = _adopt(modules)
+    sys.path.insert(0, folder)
+    main = ModuleType("__main__") if adopted is None else adopted.new_main()
+    sys.modules["__main__"] = main
+    return main
 
 
 def _adopt(modules: FreshModules) -> FreshModules | None:

@@ -172,7 +172,7 @@ _OURS: dict[str, Sequence[str]] = {
     "reset": ("--dry-run",),
     "ros2": (),
     "router": (),
-    "setup": ("bash", "zsh", "fish"),
+    "setup": ("bash", "zsh", "fish", "venv"),
     "status": (),
     "stop": (),
     "test": (),

@@ -169,6 +169,9 @@ def _add(arguments: argparse.Namespace) -> Result:
         added = add(arguments.folder)
     except (NotAdded, OSError) as error:
         return f"nothing added: {error}"
+    from bot_console.runtime.shim_folder import refresh_shims
+
+    refresh_shims()
     for package, names in added.items():
         print(f"added {package}: {', '.join(names)}")
     return None

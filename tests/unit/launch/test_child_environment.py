@@ -6,8 +6,6 @@ import os
 import shutil
 import subprocess
 import sys
-import threading
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -17,8 +15,9 @@ if os.name != "posix":
     pytest.skip("needs a shell", allow_module_level=True)
 
 from bot_console.runtime.child_discovery import let_children_meet
-from bot_console.runtime.child_environment import ChildEnvironment, child_environment
+from bot_console.runtime.child_environment import child_environment
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
+from bot_console.runtime.shim_folder import shim_folder
 from bot_console.runtime.workspace import discover
 from bot_console.runtime.workspace.discover import Workspace, default_folders
 from launch.actions import ExecuteProcess
@@ -95,18 +94,13 @@ def test_environment_is_extended_only_once(program: str) -> None:
     assert child_environment(once) == once and once["PYTHONPATH"].endswith("/mine")
 
 
+def test_shims_come_before_a_real_rclpy_that_was_sourced(program: str) -> None:
+    shims = str(shim_folder())
+    path = child_environment({"PATH": "/bin", "PYTHONPATH": f"/ros:{shims}"})["PYTHONPATH"].split(":")
+    assert path[0] == shims and path.count(shims) == 1 and path[-1] == "/ros"
+
+
 def test_program_without_the_environment_finds_no_ros(program: str) -> None:
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     done = subprocess.run([sys.executable, program], env=environment, capture_output=True, text=True, check=False)
     assert "No module named" in done.stderr
-
-
-def test_concurrent_launches_share_one_environment() -> None:
-    made, together = ChildEnvironment(), threading.Barrier(4)
-
-    def first(_: int) -> str:
-        together.wait()
-        return made.added_to({"PATH": "/bin"})["PYTHONPATH"]
-
-    with ThreadPoolExecutor(4) as pool:
-        assert len({*pool.map(first, range(4))}) == 1

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from bot_console.runtime.domain_id import is_domain
 from bot_console.tui import __version__
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
+from bot_console.tui.cli.shell_python import ShellPython, python_of_shell
 from bot_console.tui.session.machine.machine_ros import OLDEST, MachineRos, find_machine_ros, how_to_install
 
 NEWEST = (3, 13)
@@ -21,6 +22,7 @@ def machine_findings(environment: Mapping[str, str]) -> list[DoctorFinding]:
     return [
         python_finding(),
         ros_finding(find_machine_ros(), environment),
+        rclpy_finding(python_of_shell(environment)),
         domain_finding(environment.get("ROS_DOMAIN_ID", "")),
         *sockets_findings(),
     ]
@@ -47,6 +49,18 @@ def ros_finding(ros: MachineRos | None, environment: Mapping[str, str]) -> Docto
     if not ros.usable:
         return DoctorFinding(Level.WARN, "ros", f"{ros} is for Python {ros.other_python}", how_to_install(ros))
     return DoctorFinding(Level.OK, "ros", f"{ros}{f', {rmw}' if rmw else ''}: `bot-console attach --ros`")
+
+
+def rclpy_finding(python: ShellPython | None) -> DoctorFinding:
+    """Which rclpy the programs of this shell import."""
+    if python is None:
+        return DoctorFinding(Level.NOTE, "rclpy", "no python3 on PATH answers; `bot-console run` needs none")
+    text = python.described()
+    if python.real or (python.set_up and python.fits):
+        return DoctorFinding(Level.OK, "rclpy", text)
+    if python.set_up:
+        return DoctorFinding(Level.WARN, "rclpy", text, f"start programs with {sys.executable}")
+    return DoctorFinding(Level.NOTE, "rclpy", text, "evaluate `bot-console setup` in this shell: see `setup --help`")
 
 
 def domain_finding(text: str) -> DoctorFinding:

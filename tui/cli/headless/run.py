@@ -19,10 +19,10 @@ from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.importer import install
 from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
+from bot_console.runtime.stop_file import STOP_FILE_VARIABLE
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.interruptible_wait import wait_interruptibly
 from bot_console.tui.session.embedded.domain import (
-    STOP_FILE_VARIABLE,
     is_in_range,
     isolate_from_domain,
     report_of_other_start,

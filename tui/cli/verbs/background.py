@@ -17,6 +17,7 @@ from pathlib import Path
 
 from bot_console.runtime.process.session_end import end_session
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import RANGE_VARIABLE
+from bot_console.runtime.stop_file import stop_file
 from bot_console.tui.child_command import child_command
 from bot_console.tui.files.folders import OVERRIDE, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
@@ -27,7 +28,6 @@ from bot_console.tui.session.embedded.domain import (
     report_of_other_start,
     robot_claim,
     robot_there,
-    stop_file,
     take_part,
     why_no_robot,
 )

@@ -17,6 +17,8 @@ def run(words: list[str]) -> int:
     given, rest = parser.parse_known_args(words[: _operand(words)])
     rest += words[_operand(words) :]
     report_workspace(rest[0] if rest else "")
+    if rest and _is_for_python(rest[0]) and (given.watch or given.headless or given.prefix is not None):
+        parser.error("-m and -c run alone in this terminal: leave out --prefix, --watch and --headless")
     if given.prefix is not None:
         if given.watch or given.headless:
             parser.error("--prefix is for a program in this terminal: leave out --watch and --headless")
@@ -81,15 +83,24 @@ def _options(given: argparse.Namespace, program: dict[str, str]) -> Options:
 def _operand(words: list[str]) -> int:
     """The number of words before the file or package."""
     index = 0
-    while index < len(words) and words[index].startswith("-") and words[index] != "--ros-args":
+    while index < len(words) and words[index].startswith("-") and not _begins_program(words[index]):
         index += 2 if words[index] in ("--duration", "--prefix", "--seed", "--world") else 1
     return index
+
+
+def _begins_program(word: str) -> bool:
+    return word == "--ros-args" or _is_for_python(word)
+
+
+def _is_for_python(word: str) -> bool:
+    """Whether a word is an option of the interpreter that names the program: `-m MODULE`, `-c CODE`."""
+    return word[:2] in ("-m", "-c")
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         "bot-console run",
-        usage="bot-console run [options] FILE.py | PACKAGE EXECUTABLE [--ros-args ...]",
+        usage="bot-console run [options] FILE.py | -m MODULE | -c CODE | PACKAGE EXECUTABLE [--ros-args ...]",
         description="Run a node, alone in this terminal or with the console on it.",
     )
     add = parser.add_argument

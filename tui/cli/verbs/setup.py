@@ -1,75 +1,57 @@
-"""`bot-console setup SHELL`: the equivalent of sourcing a ROS installation. Prints shell code, and writes no file."""
+"""`bot-console setup`: the equivalent of sourcing a ROS installation, for a shell or a virtual environment."""
 
 from __future__ import annotations
 
+import argparse
+import os
 import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from bot_console.runtime.commands import BIN, COMMAND_VARIABLE, command
+from bot_console.runtime.commands import BIN, command
+from bot_console.runtime.shim_folder import kept_shim_folder
+from bot_console.tui.cli.shell_python import python_of_shell
 
 HINT = "# To have this in every new shell, add this line to {}: {}"
 
 _SHELL_FOLDER = Path(__file__).resolve().parents[1] / "shell"
 
 _FILES = {"bash": "~/.bashrc", "zsh": "~/.zshrc", "fish": "~/.config/fish/config.fish"}
-
-_POSIX = """\
-export {variable}={command}
-export ROS_DISTRO="${{ROS_DISTRO:-jazzy}}" ROS_VERSION=2 ROS_PYTHON_VERSION=3
-case ":$PATH:" in *:{rqt}:*) ;; *) export PATH={rqt}:"$PATH" ;; esac
-command -v ros2 >/dev/null 2>&1 || export PATH="$PATH":{ros2}
-command -v bot-console >/dev/null 2>&1 || export PATH="$PATH":{own}
-"""
-
-_FISH = """\
-set -gx {variable} {command}
-set -q ROS_DISTRO; or set -gx ROS_DISTRO jazzy
-set -gx ROS_VERSION 2
-set -gx ROS_PYTHON_VERSION 3
-contains -- {rqt} $PATH; or set -gx PATH {rqt} $PATH
-command -q ros2; or set -gx PATH $PATH {ros2}
-command -q bot-console; or set -gx PATH $PATH {own}
-"""
-
 _COMPLETION = {"bash": "bot-console.bash", "zsh": "_bot-console", "fish": "bot-console.fish"}
 """Files in `shell`, which a wheel also installs for the shells."""
-
-_COMPLETE_ROS2 = {
-    "bash": 'if [[ "$(command -v ros2)" == {ros2}/ros2 ]]; then complete -F _bot_console_complete ros2; fi\n',
-    "zsh": 'if [[ "$(command -v ros2)" == {ros2}/ros2 ]]; then compdef _bot_console_complete ros2; fi\n',
-    "fish": "test (command -s ros2) = {ros2}/ros2; and complete -c ros2 -f -a '(__bot_console_complete)'\n",
-}
+_PATHS = {"bash": ("lists.sh", "paths.sh"), "zsh": ("lists.sh", "paths.sh"), "fish": ("paths.fish",)}
+"""Files in `shell` that change the variables; the words in capitals between `@` are places of this installation."""
+_UNDO = {"bash": ("lists.sh", "undo.sh"), "zsh": ("lists.sh", "undo.sh"), "fish": ("undo.fish",)}
 
 
 def run(words: Sequence[str]) -> int:
-    """Print the code for the named shell; exits with 2 if none is named or it is unknown."""
-    if len(words) == 1 and words[0] in ("-h", "--help"):
-        print(_usage())
+    """Print the code for the named shell, or set up an environment; returns 2 for wrong usage."""
+    if words[:1] == ["venv"]:
+        from bot_console.tui.cli.verbs import setup_venv
+
+        return setup_venv.run(words[1:])
+    given = _parser().parse_args(words)
+    try:
+        kept_shim_folder()
+    except OSError as error:
+        print(f"bot-console setup: cannot write {error.filename}: {error.strerror}", file=sys.stderr)
+        return 1
+    if given.undo:
+        sys.stdout.write(_filled(*_UNDO[given.shell]))
         return 0
-    if len(words) != 1 or words[0] not in _FILES:
-        print(_usage(), file=sys.stderr)
-        return 2
-    [shell] = words
-    sys.stdout.write(code(shell))
-    if sys.stdout.isatty():
-        print(HINT.format(_FILES[shell], evaluation(shell)), file=sys.stderr)
+    sys.stdout.write(code(given.shell))
+    shown = sys.stdout.isatty()
+    _report_python(always=shown)
+    if shown:
+        print(HINT.format(_FILES[given.shell], evaluation(given.shell)), file=sys.stderr)
     return 0
 
 
 def code(shell: str) -> str:
     """Return the code that a shell evaluates."""
-    environment = _FISH if shell == "fish" else _POSIX
     completion = (_SHELL_FOLDER / _COMPLETION[shell]).read_text(encoding="utf-8")
-    places = {
-        "variable": COMMAND_VARIABLE,
-        "command": shlex.quote(command()),
-        "rqt": shlex.quote(str(BIN / "rqt")),
-        "ros2": shlex.quote(str(BIN / "ros2")),
-        "own": shlex.quote(str(BIN / "bot_console")),
-    }
-    return environment.format_map(places) + completion + _COMPLETE_ROS2[shell].format_map(places)
+    return _filled(*_PATHS[shell]) + completion + _filled(f"ros2-completion.{shell}")
 
 
 def evaluation(shell: str) -> str:
@@ -78,10 +60,37 @@ def evaluation(shell: str) -> str:
     return f"{program} setup fish | source" if shell == "fish" else f'eval "$({program} setup {shell})"'
 
 
-def _usage() -> str:
-    lines = "\n".join(f"  {shell.ljust(4)}  {evaluation(shell)}" for shell in _FILES)
-    return (
-        "usage: bot-console setup bash|zsh|fish\n\n"
-        "Prints shell code that makes `ros2` (where there is none), `rqt` and `rqt_*` commands of the shell, with "
-        f"completion:\n{lines}"
+def _filled(*names: str) -> str:
+    text = "".join((_SHELL_FOLDER / name).read_text(encoding="utf-8") for name in names)
+    places = {
+        "COMMAND": command(),
+        "SHIMS": str(kept_shim_folder()),
+        "RQT": str(BIN / "rqt"),
+        "ROS2": str(BIN / "ros2"),
+        "OWN": str(BIN / "bot_console"),
+    }
+    for place, path in places.items():
+        text = text.replace(f"@{place}@", shlex.quote(path))
+    return text
+
+
+def _report_python(*, always: bool) -> None:
+    """Say which rclpy `python3` will import in that shell, if it is not bot-console's, or in any case."""
+    path = os.pathsep.join(filter(None, (os.environ.get("PYTHONPATH", ""), str(kept_shim_folder()))))
+    python = python_of_shell({**os.environ, "PYTHONPATH": path})
+    if python is not None and (always or python.real or not python.fits):
+        print(f"[INFO] [bot-console]: {python.described()}{python.advice()}", file=sys.stderr)
+
+
+def _parser() -> argparse.ArgumentParser:
+    lines = "\n".join(f"  {evaluation(shell)}" for shell in _FILES)
+    parser = argparse.ArgumentParser(
+        "bot-console setup",
+        usage=f"bot-console setup bash|zsh|fish [--undo], or bot-console setup venv [PATH] [--remove]\n\n"
+        f"In bash, zsh and fish:\n{lines}",
+        description="Print shell code that makes `ros2` (where there is none), `rqt` and `rqt_*` commands of the "
+        "shell, with completion, and lets every Python program that it starts import rclpy.",
     )
+    parser.add_argument("shell", choices=tuple(_FILES), metavar="SHELL", help="bash, zsh or fish")
+    parser.add_argument("--undo", action="store_true", help="print the code that takes all of it back")
+    return parser

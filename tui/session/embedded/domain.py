@@ -12,17 +12,14 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NoReturn
 
 from bot_console.runtime.domain_id import domain_id
+from bot_console.runtime.stop_file import STOP_FILE_VARIABLE, stop_file
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from bot_console.tui.cli.robot_claim import RobotClaim
 
 _taking_part = False
 _connected = False
 
-STOP_FILE_VARIABLE = "BOT_CONSOLE_STOP_FILE"
-"""Where the robots of this domain keep their stops, for all nodes that this program starts: see `docs/safety.md`."""
 CONNECT_VARIABLE = "BOT_CONSOLE_CONNECT"
 """The router that `--connect` would name, for verbs, and for shells that work with one robot."""
 
@@ -78,13 +75,6 @@ def note_connection() -> None:
     """Record that this program is a client of a robot's router, instead of a member of this machine's domain."""
     global _connected
     _connected = True
-
-
-def stop_file() -> Path:
-    """The file with the unreleased stops of this domain's robots, and with releases."""
-    from bot_console.tui.files.folders import state_folder
-
-    return state_folder() / "stops" / f"domain-{domain()}.json"
 
 
 def isolate_from_domain() -> None:

@@ -68,13 +68,19 @@ def _is_too_old(python: str) -> bool:
 
 
 def _importable(path: Iterable[str] | None) -> MachineRos | None:
-    spec = importlib.machinery.PathFinder.find_spec("rclpy", None if path is None else list(path))
+    folders = (each for each in (sys.path if path is None else path) if not _has_shims(each))
+    spec = importlib.machinery.PathFinder.find_spec("rclpy", list(folders))
     if spec is None or not spec.origin:
         return None
     origin = Path(spec.origin)
     if origin.name != "__init__.py" or RUNTIME in origin.resolve().parents:
-        return None  # Ours, or one of the shims for it in processes that we start.
+        return None  # Ours.
     return MachineRos(origin.parent, _other_python(origin.parent))
+
+
+def _has_shims(folder: str) -> bool:
+    """Whether a folder holds what `bot-console setup` puts on the path in place of the packages of ROS."""
+    return os.path.lexists(os.path.join(folder, "bot_console_shims.py"))
 
 
 def _other_python(folder: Path) -> str:

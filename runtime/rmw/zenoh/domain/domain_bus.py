@@ -6,6 +6,9 @@ import atexit
 import threading
 from typing import TYPE_CHECKING
 
+from bot_console.runtime.process.current import current
+from bot_console.runtime.process.notices import notify
+from bot_console.runtime.process.real import getpid
 from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.local import local_bus
 from bot_console.runtime.rmw.middleware import choose_middleware, is_chosen
@@ -14,6 +17,12 @@ from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
 if TYPE_CHECKING:
     from bot_console.runtime.rmw.zenoh.bus import ZenohBus
 
+FORKED = (
+    "this process was forked from one that had called rclpy.init: no message leaves it. Fork before rclpy.init, or "
+    "start it with multiprocessing.get_context('spawn')"
+)
+_opened_by: set[int] = set()
+"""The processes, as pids, in which a session was opened: its threads do not exist in a fork of them."""
 _buses: dict[int, ZenohBus] = {}
 _lock = threading.Lock()
 
@@ -25,6 +34,8 @@ def shared_bus(domain: int) -> Bus:
     """
     if not is_in_range():
         return local_bus(domain)
+    if any(pid != getpid() for pid in _opened_by):
+        notify(current(), FORKED)
     with _lock:
         if domain not in _buses:
             # Imported here because a launch whose nodes are all separate processes opens no session.
@@ -34,6 +45,7 @@ def shared_bus(domain: int) -> Bus:
             session = open_session(domain)
             session.watch()
             _buses[domain] = ZenohBus(session, local_bus(domain))
+            _opened_by.add(getpid())
         return _buses[domain]
 
 

@@ -1,10 +1,8 @@
-"""`bot-console setup`: gives a shell the commands of a ROS installation."""
+"""`bot-console setup`: gives a shell the commands and the Python packages of a ROS installation."""
 
 from __future__ import annotations
 
 import os
-import shutil
-import subprocess
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -13,38 +11,25 @@ import pytest
 from bot_console.tui import __version__
 from bot_console.tui.cli.main import main
 from bot_console.tui.cli.verbs import setup
-
-SHELLS = [each for each in ("bash", "zsh", "fish") if shutil.which(each)]
-OPTIONS = {"bash": ["--norc", "--noprofile"], "zsh": ["-f"], "fish": ["--no-config"]}
+from helpers.shells import SHELLS, in_shell, make_home
 
 
 @pytest.fixture
 def home(tmp_path: Path) -> Path:
     """An empty home with a `bot-console` of this interpreter, so that the tests need no installed one on PATH."""
-    program = tmp_path / "bin" / "bot-console"
-    program.parent.mkdir()
-    program.write_text(
-        f"#!{sys.executable}\nimport sys\nfrom bot_console.tui.cli.main import main\nsys.exit(main())\n", "utf-8"
-    )
-    program.chmod(0o755)
-    return tmp_path
+    return make_home(tmp_path)
 
 
 def shell(name: str, home: Path, text: str, extra: Mapping[str, str] | None = None) -> str:
     """The output of a shell that has evaluated the setup."""
-    path = os.pathsep.join([str(home / "bin"), os.defpath])
-    env = {"PATH": path, "HOME": str(home), "XDG_CONFIG_HOME": str(home / "config"), **(extra or {})}
-    line = setup.evaluation(name)
-    result = subprocess.run(
-        [shutil.which(name) or name, *OPTIONS[name], "-c", f"{line}\n{text}"],
-        env=env,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=100,
-    )
-    assert result.stderr == ""
-    return result.stdout
+    done = in_shell(name, home, f"{setup.evaluation(name)}\n{text}", extra)
+    assert done.stderr == ""
+    return done.stdout
+
+
+def undoing(name: str) -> str:
+    """The line that takes the setup back."""
+    return setup.evaluation(name).replace(f"setup {name}", f"setup {name} --undo")
 
 
 @pytest.mark.parametrize("name", SHELLS)
@@ -76,8 +61,50 @@ def test_existing_ros2_is_kept(name: str, home: Path):
 
 @pytest.mark.parametrize("name", SHELLS)
 def test_second_evaluation_adds_nothing(name: str, home: Path):
-    once = shell(name, home, "printenv PATH")
-    assert shell(name, home, f"{setup.evaluation(name)}\nprintenv PATH") == once
+    shows = "printenv PATH; printenv PYTHONPATH"
+    once = shell(name, home, shows)
+    assert shell(name, home, f"{setup.evaluation(name)}\n{shows}") == once
+
+
+@pytest.mark.parametrize("name", SHELLS)
+def test_python_imports_rclpy(name: str, home: Path):
+    line = "python3 -c 'import rclpy, sensor_msgs.msg; print(rclpy.__name__)'"
+    assert shell(name, home, line) == "rclpy\n"
+    assert shell(name, home, f"{line}; echo $PYTHONPATH", {"PYTHONPATH": "/mine:/too"}).startswith("rclpy\n/mine")
+
+
+@pytest.mark.parametrize("name", SHELLS)
+@pytest.mark.parametrize("extra", [{}, {"ROS_DISTRO": "kilted", "PYTHONPATH": "/mine:/too"}], ids=["bare", "sourced"])
+def test_undo_leaves_environment_of_before(name: str, home: Path, extra: dict[str, str]):
+    before = in_shell(name, home, "env | sort", extra).stdout
+    assert shell(name, home, f"{undoing(name)}\nenv | sort", extra) == before
+    assert shell(name, home, f"{undoing(name)}\n{undoing(name)}\nenv | sort", extra) == before
+
+
+@pytest.mark.parametrize("name", SHELLS)
+def test_undo_keeps_ros_that_was_sourced_since(name: str, home: Path):
+    sources = {"fish": "set -gx AMENT_PREFIX_PATH /ros"}.get(name, "export AMENT_PREFIX_PATH=/ros")
+    assert shell(name, home, f"{sources}\n{undoing(name)}\necho $ROS_DISTRO") == "jazzy\n"
+
+
+@pytest.mark.parametrize("name", SHELLS)
+def test_setup_replaces_shims_of_another_installation(name: str, home: Path):
+    extra = {"PYTHONPATH": "/mine:/old/shims:/too", "BOT_CONSOLE_SHIMS": "/old/shims"}
+    mine, too, shims = shell(name, home, "printenv PYTHONPATH", extra).strip().split(":")
+    assert (mine, too, Path(shims).is_relative_to(home)) == ("/mine", "/too", True)
+
+
+def test_setup_reports_real_rclpy_and_another_python(home: Path, tmp_path: Path):
+    (tmp_path / "ros" / "rclpy").mkdir(parents=True)
+    (tmp_path / "ros" / "rclpy" / "__init__.py").touch()
+    real = in_shell("bash", home, setup.evaluation("bash"), {"PYTHONPATH": str(tmp_path / "ros")}).stderr
+    assert f"imports the real rclpy ({tmp_path}/ros/rclpy); `bot-console run` the embedded one" in real
+    (home / "bin" / "python3").unlink()
+    (home / "bin" / "python3").write_text('#!/bin/sh\necho \'{"version": [3, 99], "set_up": true, "real": ""}\'\n')
+    (home / "bin" / "python3").chmod(0o755)
+    other = in_shell("bash", home, setup.evaluation("bash")).stderr
+    assert "Python 3.99) cannot import rclpy: bot-console runs on " in other
+    assert other.endswith(f"; start programs with {sys.executable}\n")
 
 
 @pytest.mark.skipif("bash" not in SHELLS, reason="bash is not installed")
@@ -86,7 +113,7 @@ def test_second_evaluation_adds_nothing(name: str, home: Path):
     [
         ("ros2 topi", ["topic"]),
         pytest.param("ros2 param l", ["list", "load"], marks=pytest.mark.soak),
-        ("bot-console setup ", ["bash", "fish", "zsh"]),
+        ("bot-console setup ", ["bash", "fish", "venv", "zsh"]),
         ("ros2 interface show std_msgs/msg/Strin", ["std_msgs/msg/String"]),
         ("ros2 launch bot_console_robot robot_system.launch.py nav", ["navigator:="]),
         ("ros2 launch bot_console_robot robot_system.launch.py navigator:=", []),
@@ -112,9 +139,17 @@ def test_fish_completes_files_if_there_are_no_names(home: Path):
     assert shell("fish", home, f"complete -C '{line}'").split() == [f"{home}/values.yaml"]
 
 
+def test_setup_fails_in_one_line_where_it_cannot_write(home: Path):
+    (home / "file").touch()
+    done = in_shell("bash", home, "bot-console setup bash", {"BOT_CONSOLE_USER_DIR": str(home / "file")})
+    assert (done.stdout, done.returncode) == ("", 1)
+    assert done.stderr.startswith(f"bot-console setup: cannot write {home}/file/cache") and done.stderr.count("\n") == 1
+
+
 def test_setup_without_valid_shell_prints_what_to_type(capsys: pytest.CaptureFixture[str]):
     for words in (["setup"], ["setup", "tcsh"]):
-        assert main(words) == 2
+        with pytest.raises(SystemExit, match="2"):
+            main(words)
         assert setup.evaluation("bash") in capsys.readouterr().err
 
 

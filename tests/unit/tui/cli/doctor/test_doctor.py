@@ -9,11 +9,12 @@ import sys
 import pytest
 from bot_console.tui.cli import doctor
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level, exit_code
-from bot_console.tui.cli.doctor.machine import domain_finding, python_finding, sockets_findings
+from bot_console.tui.cli.doctor.machine import domain_finding, python_finding, rclpy_finding, sockets_findings
 from bot_console.tui.cli.doctor.nodes import base_finding, pair_findings, type_findings
 from bot_console.tui.cli.doctor.system import link_finding
 from bot_console.tui.cli.doctor.terminal import characters_finding, colours_finding, size_finding
 from bot_console.tui.cli.doctor.terminal import terminal_link_finding as terminal_link
+from bot_console.tui.cli.shell_python import ShellPython
 from geometry_msgs.msg import Twist
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -55,6 +56,9 @@ def node(monkeypatch):
         (domain_finding("7"), Level.OK),
         (domain_finding("seven"), Level.FAIL),
         (domain_finding("200"), Level.WARN),
+        (rclpy_finding(ShellPython("/bin/python3", sys.version_info[:2], True, "")), Level.OK),
+        (rclpy_finding(ShellPython("/bin/python3", (3, 9), True, "")), Level.WARN),
+        (rclpy_finding(ShellPython("/bin/python3", (3, 9), True, "/opt/ros/rclpy/__init__.py")), Level.OK),
         (link_finding("tcp/robot:7447", 0.01), Level.OK),
         (link_finding("tcp/robot:7447", 0.5), Level.WARN),
         (link_finding("tcp/robot:7447", None), Level.FAIL),
@@ -160,7 +164,7 @@ def test_findings_are_printed_as_json() -> None:
     done = run("--json")
     found = json.loads(done.stdout)
     assert done.returncode == 0 and not done.stderr
-    assert {"terminal", "python", "ros", "domain", "sockets", "graph"} == {each["about"] for each in found}
+    assert {"terminal", "python", "ros", "rclpy", "domain", "sockets", "graph"} == {each["about"] for each in found}
     assert set(found[0]) == {"level", "about", "text", "hint", "mend"}
 
 

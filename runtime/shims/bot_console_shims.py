@@ -1,0 +1,162 @@
+"""What the ROS names refer to in this interpreter: a real ROS 2 on its path, or the embedded runtime.
+
+Decided once, when the first of these names is imported; all of them follow. Linked into the folder of shims; see
+`runtime/shim_folder.py`.
+"""
+
+import os
+import sys
+
+try:
+    from _thread import allocate_lock  # not `threading`, which every start of an interpreter would import
+except ImportError:
+    allocate_lock = __import__("thread").allocate_lock  # Python 2
+
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+RUNTIME_VARIABLE = "BOT_CONSOLE_RUNTIME"
+"""`embedded`: the embedded runtime is used even if there is a real ROS 2. Set for children of `bot-console run`."""
+WORKSPACE_VARIABLE = "BOT_CONSOLE_WORKSPACE"
+REAL = "real"
+EMBEDDED = "embedded"
+NEEDED = "{name}: bot-console runs on Python {wanted}, and this is Python {here}: start the program with {interpreter}"
+
+_lock = allocate_lock()
+_choices = []  # type: list[str]
+
+
+class OtherPythonError(ImportError):
+    """A ROS package is imported by a Python of another version than the embedded runtime is installed for."""
+
+
+def replace(name):
+    """Replace a shim, which is just being imported, by the package of that name; raises what importing it raises."""
+    _decide(name)
+    _import_again(name)
+
+
+def real_rclpy():
+    """Return the file of a real `rclpy` on the path; empty if there is none."""
+    from importlib.machinery import PathFinder
+
+    path = [each for each in sys.path if not is_shim_folder(each)]
+    spec = PathFinder.find_spec("rclpy", path)
+    if spec is None or spec.loader is None:
+        return ""
+    return spec.origin or ""
+
+
+def is_shim_folder(folder):
+    """Whether a folder of the path holds shims, of this or another installation of bot-console."""
+    return os.path.lexists(os.path.join(folder, "bot_console_shims.py"))
+
+
+def _decide(name):
+    with _lock:
+        if not _choices:
+            _choices.append(_chosen(name))
+    return _choices[0]
+
+
+def _chosen(name):
+    if sys.version_info[0] > 2 and os.environ.get(RUNTIME_VARIABLE) != EMBEDDED and real_rclpy():
+        sys.path[:] = [each for each in sys.path if not is_shim_folder(each)]
+        return REAL
+    installed = __import__("bot_console_installation")
+
+    if sys.version_info[:2] != installed.VERSION:
+        _refuse(name, installed)
+    sys.path.extend(each for each in installed.FOLDERS if each not in sys.path)
+    from bot_console.runtime.shim import take_over
+
+    take_over(FOLDER)
+    return EMBEDDED
+
+
+def _refuse(name, installed):
+    """Raise an error that is printed as one line if nobody catches it."""
+    text = NEEDED.format(
+        name=name,
+        wanted=".".join(str(each) for each in installed.VERSION),
+        here="{}.{}".format(*sys.version_info[:2]),
+        interpreter=installed.INTERPRETER,
+    )
+    before = sys.excepthook
+
+    def hook(kind, error, trace):
+        if kind is OtherPythonError:
+            sys.stderr.write("{}\n".format(error))
+        else:
+            before(kind, error, trace)
+
+    sys.excepthook = hook
+    raise OtherPythonError(text)
+
+
+def _import_again(name):
+    import importlib
+
+    shim = sys.modules.pop(name)
+    try:
+        importlib.import_module(name)
+    except BaseException:
+        sys.modules.setdefault(name, shim)  # which the interpreter removes, as after any failed import
+        raise
+
+
+def watch():
+    """Make packages of the workspace importable, even if they are the first of a ROS program that is imported."""
+    if not any(isinstance(each, _WorkspaceFinder) for each in sys.meta_path):
+        sys.meta_path.append(_WorkspaceFinder())
+
+
+class _WorkspaceFinder:
+    """Comes last, for names that nothing else provides: lets the runtime find a package that a workspace contains."""
+
+    def find_spec(self, name, path=None, target=None):
+        """Return the spec of a workspace's package; None for every other name, after a look at a few files."""
+        if path is not None or _choices or not _may_be_in_workspace(name) or _decide(name) != EMBEDDED:
+            return None
+        specs = (each.find_spec(name, None) for each in sys.meta_path if each is not self)
+        return next((each for each in specs if each is not None), None)
+
+
+def _may_be_in_workspace(name):
+    roots = [os.curdir] + [each for each in os.environ.get(WORKSPACE_VARIABLE, "").split(os.pathsep) if each]
+    return any(_may_contain(root, name) for root in roots)
+
+
+def _may_contain(root, name):
+    if os.path.isfile(os.path.join(root, "package.xml")):
+        return os.path.basename(os.path.abspath(root)) == name or os.path.isdir(os.path.join(root, name))
+    source = os.path.join(root, "src")
+    if any(os.path.isfile(os.path.join(each, name, "package.xml")) for each in (root, source)):
+        return True
+    try:
+        folders = os.listdir(source)
+    except OSError:
+        return False
+    return any(os.path.isfile(os.path.join(source, each, name, "package.xml")) for each in folders)
+
+
+def run_hidden(name):
+    """Import the module of this name that the shims' own hides, in place of it."""
+    own = sys.modules.pop(name)
+    left_out = [(place, each) for place, each in enumerate(sys.path) if is_shim_folder(each)]
+    sys.path[:] = [each for each in sys.path if not is_shim_folder(each)]
+    try:
+        __import__(name)
+    except ImportError as error:
+        if getattr(error, "name", None) != name:
+            raise
+    finally:
+        sys.modules.setdefault(name, own)
+        if REAL not in _choices:
+            for place, each in left_out:
+                sys.path.insert(place, each)
+
+
+if __name__ == "__main__":  # asked by `bot-console doctor` and `setup`
+    import json
+
+    set_up = any(is_shim_folder(each) for each in sys.path[1:])
+    print(json.dumps({"version": sys.version_info[:2], "set_up": set_up, "real": real_rclpy()}))

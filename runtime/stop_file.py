@@ -1,0 +1,26 @@
+"""Where the robots of this domain keep their stops, for all nodes that this program runs or starts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bot_console.runtime.domain_id import domain_id
+from bot_console.runtime.user_folders import state_folder
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+STOP_FILE_VARIABLE = "BOT_CONSOLE_STOP_FILE"
+"""Names the file to nodes: see `docs/safety.md`."""
+
+
+def stop_file() -> Path:
+    """Return the file with the unreleased stops of this domain's robots, and with releases.
+
+    An invalid domain, which is reported when a context is made, counts as 0.
+    """
+    try:
+        domain = domain_id()
+    except ValueError:
+        domain = 0
+    return state_folder() / "stops" / f"domain-{domain}.json"

@@ -1,0 +1,1 @@
+if [[ "$(command -v ros2)" == @ROS2@/ros2 ]]; then complete -F _bot_console_complete ros2; fi

@@ -1,0 +1,17 @@
+if [ -n "${BOT_CONSOLE_SHIMS-}" ]; then
+  _bot_console_remove PYTHONPATH "$BOT_CONSOLE_SHIMS"
+  [ -n "$PYTHONPATH" ] || unset PYTHONPATH
+  _bot_console_remove PATH @RQT@
+  _bot_console_remove PATH @ROS2@
+  _bot_console_remove PATH @OWN@
+  if [ -n "${BOT_CONSOLE_SET_ROS_DISTRO-}" ] && [ "$ROS_DISTRO" = jazzy ] && [ -z "${AMENT_PREFIX_PATH-}" ]; then
+    unset ROS_DISTRO ROS_VERSION ROS_PYTHON_VERSION
+  fi
+  unset BOT_CONSOLE_COMMAND BOT_CONSOLE_SHIMS BOT_CONSOLE_SET_ROS_DISTRO BOT_CONSOLE_WORKSPACE
+  if [ -n "${ZSH_VERSION-}" ]; then
+    compdef -d bot-console ros2 2>/dev/null
+  else
+    complete -r bot-console ros2 2>/dev/null
+  fi
+  unset -f _bot_console_remove _bot_console_complete
+fi
