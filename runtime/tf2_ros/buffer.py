@@ -8,7 +8,9 @@ from collections.abc import Callable
 from typing import Any
 
 from geometry_msgs.msg import TransformStamped
+from rclpy.clock import ClockChange, JumpHandle, JumpThreshold, TimeJump
 from rclpy.duration import Duration
+from rclpy.logging import get_logger
 from rclpy.node import Node
 from rclpy.task import Future
 from rclpy.time import Time
@@ -22,7 +24,9 @@ POLL = 0.02
 class Buffer(BufferCore, BufferInterface):
     """Keeps transforms and answers lookups; with a node it also offers the service `tf2_frames`.
 
-    Lookups raise `LookupException`, `ConnectivityException`, `ExtrapolationException`, `InvalidArgumentException`.
+    When the clock of the node, or of the listener that fills the buffer, jumps back or changes its source, transforms
+    that are not static are forgotten. Lookups raise `LookupException`, `ConnectivityException`,
+    `ExtrapolationException`, `InvalidArgumentException`.
     """
 
     def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
@@ -31,10 +35,26 @@ class Buffer(BufferCore, BufferInterface):
         self._new_data_callbacks: list[Callable[[], None]] = []
         self._callbacks_to_remove: list[Callable[[], None]] = []
         self._callbacks_lock = threading.RLock()
+        self._jump_handle: JumpHandle | None = None
         if node is not None:
             from tf2_msgs.srv import FrameGraph
 
+            self.follow_clock(node)
             self.srv = node.create_service(FrameGraph, "tf2_frames", self.__get_frames)
+
+    def follow_clock(self, node: Node) -> None:
+        """Forget transforms when the node's clock jumps back; the first node counts."""
+        if self._jump_handle is None:
+            threshold = JumpThreshold(min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=True)
+            clock = node.get_clock()
+            self._jump_handle = clock.create_jump_callback(threshold, post_callback=self.time_jump_callback)
+
+    def time_jump_callback(self, time_jump: TimeJump) -> None:
+        """Forget all transforms that are not static, as those of another time."""
+        changed = time_jump.clock_change is not ClockChange.ROS_TIME_NO_CHANGE
+        what = "time source change" if changed else "jump back in time"
+        get_logger("tf2_buffer").warning(f"Detected {what}. Clearing tf buffer.")
+        self.clear()
 
     def __get_frames(self, request: Any, response: Any) -> Any:
         response.frame_yaml = self.all_frames_as_yaml()

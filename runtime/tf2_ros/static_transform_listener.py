@@ -31,6 +31,8 @@ class StaticTransformListener:
         self.buffer = buffer
         self.node = node
         self.group = ReentrantCallbackGroup()
+        if isinstance(buffer, Buffer):  # pyright: ignore[reportUnnecessaryIsInstance] -- or a program's own
+            buffer.follow_clock(node)
         if static_qos is None:
             static_qos = QoSProfile(
                 depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST

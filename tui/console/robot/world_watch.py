@@ -31,6 +31,8 @@ TRAIL_STEP = 0.1
 """Distance between two points of the trail, in m."""
 MIN_CELL_M = 1e-6
 """The smallest plausible cell, in m; the largest coordinates are limited as those of beams are."""
+JUMP_BACK_S = 1.0
+"""How far back (s) the stamps of odometry go in a jump of time: at a reset, or when a bag starts again."""
 SILENT_AFTER_S = 1.0
 """Seconds without a pose after which the robot counts as silent: even slow robots publish it more than once a
 second.
@@ -138,6 +140,9 @@ class WorldWatch:
         self._fresh = True
 
     def _on_odometry(self, message: Odometry) -> None:
+        if self._odometry and _stamp_s(message) < _stamp_s(self._odometry) - JUMP_BACK_S:
+            self._trail.clear()
+            self._scan = None
         if pose := pose_of(message.pose.pose):
             if not self._trail or math.dist(self._trail[-1], (pose.x, pose.y)) >= TRAIL_STEP:
                 self._trail.append((pose.x, pose.y))
@@ -182,6 +187,11 @@ class WorldWatch:
             robot=self._robot.robot,
             robots=self._robots,
         )
+
+
+def _stamp_s(message: Odometry) -> float:
+    stamp = message.header.stamp
+    return stamp.sec + stamp.nanosec * 1e-9
 
 
 def pose_of(message: Any) -> Pose | None:

@@ -30,6 +30,8 @@ REMEMBERED = 5.0
 """Seconds for which another parent seen on `/tf` is remembered; one on `/tf_static` is published once, and stays."""
 WINDOW = 2.0
 """Seconds over which a rate is measured."""
+JUMP_BACK_S = 1.0
+"""How far back (s) the stamps of a frame have to go to count as a jump of time: a reset, or a bag that starts again."""
 SAME_CLOCK = 60.0
 """Difference (s) beyond which a stamp is considered to be from another clock."""
 
@@ -46,6 +48,8 @@ class _FrameState:
     since: float = 0.0
     rate: float | None = None
     parents: dict[str, float] = field(default_factory=dict[str, float])
+    stamps: dict[str, float] = field(default_factory=dict[str, float])
+    """The newest stamp (s) of the transforms from each parent: two publishers may have two clocks."""
 
 
 class FramesWatch:
@@ -104,18 +108,27 @@ class FramesWatch:
     def _take(self, message: TFMessage, fixed: bool) -> None:
         now, wall = self._clock(), time.time()
         for each in message.transforms:
-            name = each.child_frame_id.lstrip("/")
+            name, parent = each.child_frame_id.lstrip("/"), each.header.frame_id.lstrip("/")
+            stamp_s = each.header.stamp.sec + each.header.stamp.nanosec * 1e-9
             seen = self._seen.get(name)
+            if seen is not None and not fixed and stamp_s < seen.stamps.get(parent, -math.inf) - JUMP_BACK_S:
+                self._forget_moving()
+                seen = None
             if seen is None:
                 if len(self._seen) >= MAX_FRAMES:
                     self._dropped += 1
                     continue
                 seen = self._seen[name] = _FrameState(each, fixed, now, 0.0, since=now)
-            stamp = each.header.stamp
             seen.transform, seen.fixed, seen.heard = each, fixed, now
-            seen.late = wall - stamp.sec - stamp.nanosec * 1e-9
+            seen.late = wall - stamp_s
             seen.count += 1
-            seen.parents[each.header.frame_id.lstrip("/")] = math.inf if fixed else now
+            seen.stamps[parent] = stamp_s
+            seen.parents[parent] = math.inf if fixed else now
+
+    def _forget_moving(self) -> None:
+        """Forget what was published before time jumped back, as tf2 does."""
+        for name in [name for name, each in self._seen.items() if not each.fixed]:
+            del self._seen[name]
 
     def frames(self) -> Frames:
         """The latest transforms; from any thread."""

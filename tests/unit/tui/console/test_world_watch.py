@@ -109,3 +109,31 @@ def test_a_scale_without_room_becomes_a_shorter_one_with_its_length() -> None:
     assert scale_text(window, 60, 11) == "├───┤ 1 m"
     assert scale_text(window, 60, 9) == "├───┤ 1 m"
     assert scale_text(window, 60, 3) == ""
+
+
+def stamped(second: float, x: float) -> Odometry:
+    message = Odometry()
+    message.header.stamp.sec, message.header.stamp.nanosec = int(second), int(second % 1 * 1e9)
+    message.pose.pose.position.x = x
+    return message
+
+
+@pytest.mark.parametrize(
+    ("later", "kept"),
+    [(0.0, 1), (9.0, 3), (9.6, 3), (30.0, 3)],
+    ids=["reset", "a second back, no more", "late message", "forward"],
+)
+def test_trail_and_scan_of_before_a_jump_back_in_time_are_forgotten(later: float, kept: int) -> None:
+    context = Context()
+    context.init([], domain_id=3902)
+    node = Node("console", context=context)
+    world = WorldWatch(node)
+    for each in (stamped(9.0, 1.0), stamped(10.0, 2.0)):
+        world._on_odometry(each)
+    world._on_scan(LaserScan(ranges=[1.0, 1.0, 1.0], angle_increment=0.1, range_max=5.0))
+    world._on_odometry(stamped(later, 5.0))
+    info = world.info
+    node.destroy_node()
+    context.try_shutdown()
+    assert len(info.trail) == kept and info.pose is not None and info.pose.x == 5.0
+    assert bool(len(info.hits)) is (kept > 1)

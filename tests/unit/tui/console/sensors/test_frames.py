@@ -36,8 +36,11 @@ class Bench:
         self.topics.append(topic)
         return topic
 
-    def reported(self, parent: str, child: str, x: float = 0.0, yaw: float = 0.0, *, fixed: bool = False) -> None:
+    def reported(
+        self, parent: str, child: str, x: float = 0.0, yaw: float = 0.0, *, fixed: bool = False, at: float = 0.0
+    ) -> None:
         message = TransformStamped(child_frame_id=child)
+        message.header.stamp.sec, message.header.stamp.nanosec = int(at), int(at % 1 * 1e9)
         message.header.frame_id = parent
         message.transform.translation.x = x
         message.transform.rotation.z, message.transform.rotation.w = math.sin(yaw / 2), math.cos(yaw / 2)
@@ -121,3 +124,34 @@ def test_findings_are_described_in_text() -> None:
         "2 separate trees: map, world",
     ]
     assert list(findings(Frames(frames[3:4]), 10.0)) == []
+
+
+def test_frames_of_before_a_jump_back_in_time_are_forgotten() -> None:
+    bench = Bench()
+    bench.watch.poll(True, GRAPH)
+    bench.reported("base", "laser", fixed=True, at=50.0)
+    bench.reported("old_parent", "base", at=50.0)
+    bench.reported("base", "gripper", at=50.0)
+    bench.reported("odom", "base", at=50.0)
+    bench.reported("odom", "base", x=1.0, at=0.5)
+    assert [each.name for each in bench.watch.frames().frames] == ["base", "laser"]
+    assert bench.frame("base").parent == "odom" and bench.frame("base").others == ()
+
+
+@pytest.mark.parametrize("back_s", [0.0, 0.3, 1.0])
+def test_late_transforms_are_no_jump_back_in_time(back_s: float) -> None:
+    bench = Bench()
+    bench.watch.poll(True, GRAPH)
+    bench.reported("base", "gripper", at=50.0)
+    bench.reported("odom", "base", at=50.0)
+    bench.reported("odom", "base", at=50.0 - back_s)
+    assert [each.name for each in bench.watch.frames().frames] == ["base", "gripper"]
+
+
+def test_two_publishers_with_two_clocks_are_no_jump_back_in_time() -> None:
+    bench = Bench()
+    bench.watch.poll(True, GRAPH)
+    for second in range(3):
+        bench.reported("odom", "base", at=1000.0 + second)
+        bench.reported("map", "base", at=2.0 + second)
+    assert bench.frame("base").others == ("odom",)
