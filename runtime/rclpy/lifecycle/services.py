@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from bot_console.runtime.process import current
+from bot_console.runtime.process.notices import notify
 from lifecycle_msgs.msg import State, Transition, TransitionDescription
 from lifecycle_msgs.srv import ChangeState, GetAvailableStates, GetAvailableTransitions, GetState
 from rclpy._rclpy_pybind11 import RCLError
@@ -45,8 +47,21 @@ class LifecycleServices:
             except RCLError:
                 response.success = False
                 return response
+        valid = [each[0] for each in self._machine.available_transitions]
+        if transition not in valid:
+            notify(current(), self._fatal(transition))
         response.success = self._change_state(transition) is TransitionCallbackReturn.SUCCESS
         return response
+
+    def _fatal(self, transition: int) -> str:
+        """What a request for an invalid transition does, and what to request instead."""
+        rows = [f"{number} ({label})" for number, label, *_ in self._machine.available_transitions]
+        return (
+            f"somebody requested transition {transition} by {self.change_state.service_name}, which does not start "
+            f"from state '{self._machine.current_state[1]}'. In ROS 2 Jazzy, as here, that ends this node, and whoever "
+            f"requested it waits for ever. Possible now: {', '.join(rows) or 'none'}; "
+            "~/get_available_transitions lists them"
+        )
 
     def _on_get_state(self, request: Any, response: Any) -> Any:
         number, label = self._machine.current_state

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from bot_console.runtime.process import current, on_notice
 from lifecycle_msgs.msg import Transition, TransitionEvent
 from lifecycle_msgs.srv import ChangeState, GetAvailableStates, GetAvailableTransitions, GetState
 from rclpy._rclpy_pybind11 import RCLError
@@ -70,6 +71,34 @@ def test_unknown_label_fails(managed: Managed, capfd: pytest.CaptureFixture[str]
 def test_inapplicable_id_raises_in_the_node(managed: Managed) -> None:
     with pytest.raises(RCLError, match="Transition is not registered"):
         managed.change(id=Transition.TRANSITION_ACTIVATE)
+
+
+@pytest.mark.parametrize("number", [Transition.TRANSITION_ACTIVATE, Transition.TRANSITION_CLEANUP, 99, 255])
+def test_request_that_ends_the_node_is_explained(
+    managed: Managed, number: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(current(), "notices", [])  # another test may have caused the same one
+    lines: list[str] = []
+    forget = on_notice(lambda process, text: lines.append(text))
+    try:
+        with pytest.raises(RCLError):
+            managed.change(id=number)
+    finally:
+        forget()
+    (line,) = lines
+    assert f"requested transition {number} by /ns/managed/change_state" in line
+    assert "does not start from state 'unconfigured'" in line and "Possible now: 1 (configure), 5 (shutdown);" in line
+
+
+def test_request_that_is_valid_is_not_explained(managed: Managed) -> None:
+    lines: list[str] = []
+    forget = on_notice(lambda process, text: lines.append(text))
+    try:
+        assert managed.change(id=Transition.TRANSITION_CONFIGURE)
+        assert not managed.change(label="nonsense")
+    finally:
+        forget()
+    assert lines == []
 
 
 def test_callback_failure_is_no_success(managed: Managed) -> None:
