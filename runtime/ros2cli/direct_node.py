@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import rclpy
 from bot_console.runtime.exit_messages import is_read
+from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.endpoints import Owner
 from bot_console.runtime.rmw.names import full_name
 from rclpy._rclpy_pybind11 import InvalidHandle, NodeNameNonExistentError
@@ -31,6 +32,10 @@ ENDED_POLLS = 2
 """The same for a server that is known to have ended, whose link may be noticed as lost a little later."""
 ENDED_POLLS_FOR_PROGRAMS = 14
 """The same if no person reads stderr: upstream waits forever, and programs that stop it expect no output before."""
+DISCOVERY_S = 1.0
+"""Seconds without a change after which the graph counts as complete on another rclpy than ours."""
+MAX_DISCOVERIES = 5
+"""How many times in a row that may be waited for."""
 
 
 class NodeName(NamedTuple):
@@ -63,6 +68,7 @@ class DirectNode:
     def __init__(self, arguments: argparse.Namespace | None = None, *, name: str = "") -> None:
         self._daemon = not getattr(arguments, "no_daemon", False)
         self._sim_time = bool(getattr(arguments, "use_sim_time", False))
+        self._spin_time: float | None = getattr(arguments, "spin_time", None)
         domain = os.environ.get("ROS_DOMAIN_ID", "0")
         self._name = name or (
             f"_ros2cli_daemon_{domain}_{os.getpid():x}" if self._daemon else f"_ros2cli_{os.getpid()}"
@@ -81,6 +87,8 @@ class DirectNode:
         except Exception as error:
             self._end(error)
             raise
+        if _bus(self._node) is None:
+            _discover(self._node, self._spin_time)
         return self._node
 
     def __exit__(
@@ -92,8 +100,29 @@ class DirectNode:
     def _end(self, error: BaseException | None) -> None:
         """Shut the context down; raises an error that SIGTERM has caused as `ExternalShutdownException`."""
         rclpy.try_shutdown()
-        if isinstance(error, Exception) and self._context.ended_by_signal:
+        if isinstance(error, Exception) and getattr(self._context, "ended_by_signal", False):
             raise ExternalShutdownException from error
+
+
+def _discover(node: Node, seconds: float | None) -> None:
+    """Spin for so many seconds, or until the graph of another rclpy than ours seems complete: it comes bit by bit."""
+    if seconds is not None:
+        spin_until(node, lambda: False, seconds)
+        return
+    for _ in range(MAX_DISCOVERIES):
+        before = _seen(node)
+        if not spin_until(node, lambda before=before: _seen(node) != before, DISCOVERY_S) and before[0]:
+            return
+
+
+def _seen(node: Node) -> tuple[list[Any], ...]:
+    names = [each for each in node.get_node_names_and_namespaces() if each[0] != node.get_name()]
+    return names, node.get_topic_names_and_types(), node.get_service_names_and_types()
+
+
+def _bus(node: Node) -> Bus | None:
+    """The middleware below a node; None if `rclpy` is not ours, but that of an installed ROS 2."""
+    return getattr(node.context, "bus", None)
 
 
 def node_names(node: Node, *, include_hidden: bool = False) -> list[NodeName]:
@@ -134,13 +163,17 @@ def spin_until(node: Node, done: Callable[[], bool], timeout: float | None = Non
 @contextlib.contextmanager
 def _woken_by_graph(node: Node) -> Generator[None]:
     """Let each change of the graph that the node learns of end a `spin_once`."""
+    bus = _bus(node)
+    if bus is None:
+        yield
+        return
     guard = node.create_guard_condition(lambda: None)
 
     def wake(owner: Owner) -> None:
         with contextlib.suppress(InvalidHandle):  # the guard has just been destroyed
             guard.trigger()
 
-    forget = node.context.bus.on_graph_change(wake)
+    forget = bus.on_graph_change(wake)
     try:
         yield
     finally:
@@ -172,22 +205,37 @@ def answer(node: Node, client: Any, future: Any) -> Any:
     Raises `NoAnswer` if the server's process is stopped or its node has left; upstream waits forever then.
     """
     service = client.service_name
-    gone = 0
-    ended_polls = polls_until_ended()
-    has_ended = node.context.bus.watch_servers(client.endpoint)
+    server = Server(node, client.service_is_ready, getattr(client, "endpoint", None))
+    bus = _bus(node)
     polls = 0
     while not spin_until(node, future.done, SERVER_POLL_S):
         polls += 1
         if polls == HINT_POLLS:
             advise(lambda: f"waiting for an answer of {service}: its node is busy, or does not spin; Ctrl-C ends this")
-        gone = 0 if client.service_is_ready() else gone + 1
-        if gone > GONE_POLLS or (gone >= ended_polls and has_ended()):
+        if server.has_gone():
             raise NoAnswer(f"nobody answers {service}: its node has ended since it was asked; see what it printed")
-        for pid, nodes in node.context.bus.stopped().items():
+        for pid, nodes in bus.stopped().items() if bus else ():
             for name in nodes:
                 if _serves(node, name, service):
                     raise NoAnswer(f"{name} does not answer: its process {pid} is stopped")
     return future.result()
+
+
+class Server:
+    """The server of a pending request: whether it has gone, judged by one check after each poll."""
+
+    def __init__(self, node: Node, is_ready: Callable[[], bool], client: Any) -> None:
+        """`client` is the end of the middleware that asks, if `rclpy` is ours."""
+        bus = _bus(node)
+        self._is_ready = is_ready
+        self._has_ended = bus.watch_servers(client) if bus else lambda: False
+        self._ended_polls = polls_until_ended()
+        self._gone = 0
+
+    def has_gone(self) -> bool:
+        """Whether it is missing for so many checks in a row that it counts as gone, fewer if it has surely ended."""
+        self._gone = 0 if self._is_ready() else self._gone + 1
+        return self._gone > GONE_POLLS or (self._gone >= self._ended_polls and self._has_ended())
 
 
 def polls_until_ended() -> int:

@@ -21,13 +21,12 @@ from rclpy.signals import uninstall_signal_handlers
 from rclpy.validate_full_topic_name import validate_full_topic_name
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import (
-    GONE_POLLS,
     SERVER_POLL_S,
     DirectNode,
     NoAnswer,
+    Server,
     add_strategy_arguments,
     node_names,
-    polls_until_ended,
     spin_until,
 )
 from ros2cli.type_discovery import typed_class
@@ -195,12 +194,10 @@ def _outcome(node: Node, client: ActionClient, future: Any, interrupt: _Interrup
 
     Raises `NoAnswer` if the server has left, where upstream waits forever.
     """
-    gone = 0
-    ended_polls = polls_until_ended()
-    has_ended = node.context.bus.watch_servers(client._endpoints.goal)
+    endpoints = getattr(client, "_endpoints", None)
+    server = Server(node, client.server_is_ready, endpoints and endpoints.goal)
     while not spin_until(node, lambda: interrupt.came or future.done(), SERVER_POLL_S):
-        gone = 0 if client.server_is_ready() else gone + 1
-        if gone > GONE_POLLS or (gone >= ended_polls and has_ended()):
+        if server.has_gone():
             name = client._action_name
             raise NoAnswer(f"nobody answers {name}: its server has ended since it was asked; see what it printed")
     interrupt.check()

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from ros2cli import direct_node
 from ros2cli.direct_node import NoAnswer
 from ros2cli.verbs import action
 
@@ -37,7 +38,7 @@ FUTURE = SimpleNamespace(done=None, result=lambda: "result")
 
 @pytest.fixture
 def outcome(monkeypatch: pytest.MonkeyPatch) -> Any:
-    monkeypatch.setattr(action, "GONE_POLLS", 2)
+    monkeypatch.setattr(direct_node, "GONE_POLLS", 2)
 
     def waited(server: Server) -> Any:
         monkeypatch.setattr(action, "spin_until", server.polled)
@@ -59,7 +60,7 @@ def test_server_known_to_have_ended_is_reported_at_the_second_poll(monkeypatch: 
     server = Server(range(3, 99), 99)
     server._endpoints.goal.has_ended = True
     monkeypatch.setattr(action, "spin_until", server.polled)
-    monkeypatch.setattr(action, "polls_until_ended", lambda: 2)
+    monkeypatch.setattr(direct_node, "polls_until_ended", lambda: 2)
     with pytest.raises(NoAnswer, match="has ended since it was asked"):
         action._outcome(NODE, server, FUTURE, action._Interrupt())  # type: ignore[arg-type]
     assert server.polls == 4

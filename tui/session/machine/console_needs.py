@@ -12,7 +12,7 @@ from types import ModuleType
 from bot_console.tui.session.machine.machine_ros import RUNTIME
 
 MESSAGES = ("diagnostic_msgs", "geometry_msgs", "nav_msgs", "rcl_interfaces", "sensor_msgs")
-BUNDLED_PACKAGE = ("rosidl_runtime_py", "launch", "launch_ros", "launch_xml", "launch_yaml")
+BUNDLED_PACKAGE = ("rosidl_runtime_py", "ros2cli", "launch", "launch_ros", "launch_xml", "launch_yaml")
 """Pure Python packages on top of the machine's `rclpy` and `rosidl_parser`, of which PyPI has no releases."""
 
 

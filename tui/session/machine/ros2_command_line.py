@@ -1,4 +1,4 @@
-"""Runs `ros2 ...` lines with the machine's own `ros2`."""
+"""Runs `ros2 ...` lines with the machine's own `ros2`, or with ours where only an `rclpy` is installed."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import shlex
 import shutil
 import signal
 import subprocess
+import sys
 import threading
 from collections.abc import Sequence
 from concurrent.futures import Future
@@ -38,6 +39,8 @@ COMMANDS = (
     "wtf",
     "colcon",
 )
+OWN_COMMANDS = ("action", "interface", "lifecycle", "node", "param", "service", "topic")
+"""The commands that our `ros2` has without the packages of an installed ROS 2."""
 LINE_TIMEOUT_S = 15.0
 """Seconds after which a line that does not end by itself is interrupted, as by Ctrl-C."""
 INTERRUPT_TIMEOUT_S = 3.0
@@ -69,13 +72,13 @@ class MachineCommandLine:
     """Runs each line as a process; implements `tui.console.command_line.CommandLine`."""
 
     def commands(self) -> Sequence[str]:
-        """The commands that a `ros2` of any release may have."""
-        return COMMANDS
+        """The commands that a `ros2` of any release may have, or those of ours."""
+        return COMMANDS if shutil.which("ros2") else OWN_COMMANDS
 
     def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
         """Completions from what is running; only the machine's own shell knows the others."""
         if len(words) < 2:
-            found: Sequence[str] = COMMANDS
+            found: Sequence[str] = self.commands()
         elif words[0] in ("node", "param", "lifecycle"):
             found = [each.name for each in snapshot.graph.nodes]
         else:
@@ -89,7 +92,8 @@ class MachineCommandLine:
             words = _words(line)
         except ValueError:
             return None
-        return _Streamed(words) if goes_on(words[1:]) and shutil.which(words[0]) else None
+        program = _program(words)
+        return _Streamed(program) if program and goes_on(words[1:]) else None
 
     def run(self, line: str) -> Future[str]:
         """Run a line in the background; the future has its output, or the `ValueError` of an unmatched quotation
@@ -101,9 +105,10 @@ class MachineCommandLine:
 def printed_by(line: str, limit: float = LINE_TIMEOUT_S) -> str:
     """The output of a line, including errors."""
     words = _words(line)
-    if shutil.which(words[0]) is None:
-        return f"there is no command '{words[0]}' on this machine's PATH: is its ROS 2 sourced?"
-    process = _start(words)
+    program = _program(words)
+    if not program:
+        return _missing(words)
+    process = _start(program)
     for timeout_s, end in ((limit, lambda: process.send_signal(signal.SIGINT)), (INTERRUPT_TIMEOUT_S, process.kill)):
         try:
             printed, _ = process.communicate(timeout=timeout_s)
@@ -117,6 +122,19 @@ def printed_by(line: str, limit: float = LINE_TIMEOUT_S) -> str:
 def _words(line: str) -> list[str]:
     words = shlex.split(line)
     return words if words[:1] in (["ros2"], ["colcon"]) else ["ros2", *words]
+
+
+def _program(words: Sequence[str]) -> Sequence[str]:
+    """The command line of a process that runs these words; empty if neither the machine nor we can."""
+    if shutil.which(words[0]):
+        return words
+    ours = words[0] == "ros2" and words[1:] and words[1] in OWN_COMMANDS
+    return [sys.executable, "-m", "bot_console.tui.session.machine.own_ros2", *words[1:]] if ours else ()
+
+
+def _missing(words: Sequence[str]) -> str:
+    missing = f"there is no command '{words[0]}' on this machine's PATH: is its ROS 2 sourced?"
+    return f"{missing} Without it, there are {', '.join(OWN_COMMANDS)}." if words[0] == "ros2" else missing
 
 
 def _start(words: Sequence[str]) -> subprocess.Popen[bytes]:

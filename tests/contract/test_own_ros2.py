@@ -1,0 +1,96 @@
+"""Our `ros2` verbs on an rclpy that is not ours, as typed after `:` where the machine has no `ros2`."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from bot_console.tui.session.machine.ros2_command_line import MachineCommandLine, printed_by
+from rigs import is_embedded_rclpy, until
+
+pytestmark = [
+    pytest.mark.ros,
+    pytest.mark.timeout(300),
+    pytest.mark.skipif(is_embedded_rclpy(), reason="for the rclpy of a machine without `ros2`: .ci/on_rclpy"),
+]
+TIMEOUT_S = 60.0
+PEER = """
+import rclpy
+from rclpy.action import ActionServer
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+from test_msgs.action import Fibonacci
+
+def answer(request, response):
+    response.message = "pulled"
+    return response
+
+def count(goal):
+    goal.publish_feedback(Fibonacci.Feedback())
+    goal.succeed()
+    result = Fibonacci.Result()
+    result.sequence = [goal.request.order]
+    return result
+
+rclpy.init()
+node = rclpy.create_node("peer", namespace="other")
+node.declare_parameter("speed", 1.5)
+publisher = node.create_publisher(String, "/chatter", 10)
+node.create_timer(0.1, lambda: publisher.publish(String(data="hello")))
+node.create_service(Trigger, "/pull", answer)
+server = ActionServer(node, Fibonacci, "/fibonacci", count)
+print("ready", flush=True)
+rclpy.spin(node)
+"""
+
+
+@pytest.fixture(scope="module")
+def peer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """A node in another process, on a machine whose PATH has no `ros2`."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PATH", str(Path(sys.executable).parent))
+        patch.setenv("ROS_DOMAIN_ID", "79")
+        with subprocess.Popen([sys.executable, "-c", PEER], stdout=subprocess.PIPE) as process:
+            assert process.stdout is not None and process.stdout.readline() == b"ready\n"
+            yield
+            process.kill()
+
+
+@pytest.mark.parametrize(
+    ("line", "printed"),
+    [
+        ("node list", "/other/peer\n"),
+        ("ros2 topic list -t", "/chatter [std_msgs/msg/String]\n"),
+        ("node info /other/peer", "    /pull: std_srvs/srv/Trigger\n"),
+        ("topic info /chatter", "Type: std_msgs/msg/String\nPublisher count: 1\n"),
+        ("topic echo --once /chatter", "data: hello\n---\n"),
+        ("topic pub --once -w 0 /other std_msgs/msg/String '{data: a}'", "std_msgs.msg.String(data='a')"),
+        ("service call /pull std_srvs/srv/Trigger", "std_srvs.srv.Trigger_Response(success=False, message='pulled')"),
+        ("action info /fibonacci", "Action servers: 1\n    /other/peer\n"),
+        ("action send_goal -f /fibonacci test_msgs/action/Fibonacci '{order: 2}'", "Result:\n    sequence:\n- 2\n"),
+        ("param list /other/peer", "  speed\n"),
+        ("param get /other/peer speed", "Double value is: 1.5\n"),
+        ("param set /other/peer speed 1.5", "Set parameter successful\n"),
+        ("param dump /other/peer", "/other/peer:\n  ros__parameters:\n    speed: 1.5\n"),
+        ("interface show std_msgs/msg/Float64", "float64 data"),
+        ("lifecycle get /other/peer", "Node not found"),
+    ],
+)
+def test_verb_works_without_an_installed_ros2(peer: None, line: str, printed: str) -> None:
+    assert printed in printed_by(line, TIMEOUT_S)
+
+
+def test_lines_that_go_on_print_until_they_are_stopped(peer: None) -> None:
+    stream = MachineCommandLine().stream("topic echo /chatter")
+    assert stream is not None
+    until(lambda: "data: hello" in stream.lines(), "a message")
+    stream.stop()
+    until(lambda: stream.ended, "the end of the line")
+
+
+def test_command_that_needs_an_installed_ros2_says_so(peer: None) -> None:
+    assert "node" in MachineCommandLine().commands() and "pkg" not in MachineCommandLine().commands()
+    assert "there is no command 'ros2'" in printed_by("pkg list") and "topic" in printed_by("pkg list")
