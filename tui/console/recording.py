@@ -17,6 +17,8 @@ class RecordingInfo:
     kept_s: float = 0.0
     problem: str = ""
     """Why recording has ended unrequested; empty when all is well."""
+    missing: tuple[str, ...] = ()
+    """Topics that cannot be recorded, as their types are not available here."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,6 +14,8 @@ from rich.text import Text
 
 STATE_COLUMNS = 25
 """Columns of the state and its reason, so that the figures after it do not move; a longer one takes what it needs."""
+MAX_NAMED_TOPICS = 3
+"""Topics missing in a recording that are named one by one."""
 UNKNOWN = NO_ROBOT, NO_DATA = "no robot yet", "no command and no odometry yet"
 LEFT, RIGHT = "↶↷"
 COLOURS = {
@@ -136,7 +138,12 @@ def _problems(snapshot: ConsoleSnapshot, acknowledged: int, alarms: Sequence[str
     if snapshot.launch.problem:
         yield _both(reason_first(sanitize(snapshot.launch.problem)))
     if snapshot.recording.folder:
-        yield f"● REC {sanitize(snapshot.recording.folder.rpartition('/')[2])}", "● REC"
+        missing = snapshot.recording.missing
+        without = f" without {', '.join(missing[:MAX_NAMED_TOPICS])}" if missing else ""
+        more = f" and {len(missing) - MAX_NAMED_TOPICS} more" if len(missing) > MAX_NAMED_TOPICS else ""
+        name = snapshot.recording.folder.rpartition("/")[2]
+        short = f"● REC without {counted(len(missing), 'topic')}" if missing else "● REC"
+        yield sanitize(f"● REC {name}{without}{more}"), short
     if snapshot.recording.problem:
         yield _both(f"✗ {sanitize(snapshot.recording.problem)}")
 

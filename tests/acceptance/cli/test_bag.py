@@ -95,7 +95,7 @@ def test_recorder_interrupted_at_start_leaves_a_complete_bag_or_none(
         return made[-1]
 
     monkeypatch.setattr(rclpy, "create_node", noted)
-    monkeypatch.setattr(bag, "take_part", lambda: "")
+    monkeypatch.setattr(bag, "reach_system", lambda: "")
     monkeypatch.setattr(bag, "_spin" if begun else "_node", interrupted)
     run(["record", "--all", "-o", str(tmp_path / "bag")])
     assert len(made) == 2 * begun

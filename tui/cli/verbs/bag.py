@@ -108,8 +108,7 @@ def _wanted(given: argparse.Namespace) -> Callable[[str], bool]:
 
 
 def _record(given: argparse.Namespace) -> int:
-    from bot_console.tui.console.bags.definitions import class_of
-    from bot_console.tui.console.bags.recorder import PACE_S, Recorder, Ring
+    from bot_console.tui.console.bags.recorder import PACE_S, Recorder, Ring, not_recorded
     from bot_console.tui.console.bags.writer import BagWriter
 
     if not (given.all or given.topics or given.regex):
@@ -121,7 +120,7 @@ def _record(given: argparse.Namespace) -> int:
     if node is None:
         return 1
     sink = Ring(given.snapshot_duration, MAX_SNAPSHOT_BYTES) if given.snapshot_mode else BagWriter(folder)
-    recorder = Recorder(node, sink, wanted, class_of)
+    recorder = Recorder(node, sink, wanted, _Types())
     logger = node.get_logger()
     reported: set[str] = set()
 
@@ -150,7 +149,39 @@ def _record(given: argparse.Namespace) -> int:
             sink.close()
     if isinstance(sink, BagWriter):
         print(f"{sink.metadata.count} messages of {len(sink.metadata.topics)} topics in {folder}", file=sys.stderr)
+    named = (f"/{each.lstrip('/')}" for each in given.topics)
+    absent = {each: "nobody has published it" for each in named if each not in recorder.subscribed}
+    if missing := not_recorded({**absent, **recorder.unknown}):
+        print(sanitize(missing), file=sys.stderr)
     return 0
+
+
+class _Types:
+    """Returns the class of a message type; one that is unknown here is requested once from the nodes that use it.
+
+    Raises `ImportError`, `AttributeError` or `ValueError` if there is none.
+    """
+
+    def __init__(self) -> None:
+        import rclpy
+
+        self._asked: set[str] = set()
+        self._node = rclpy.create_node(f"_{RECORDER}_types", start_parameter_services=False)
+
+    def __call__(self, type_name: str) -> Any:
+        from bot_console.tui.console.bags.definitions import class_of
+
+        try:
+            return class_of(type_name)
+        except (ImportError, AttributeError, ValueError):
+            if type_name in self._asked:
+                raise
+        from ros2cli.type_discovery import learned
+
+        self._asked.add(type_name)
+        if why := learned(type_name, self._node):
+            raise ImportError(why)
+        return class_of(type_name)
 
 
 def _offer_snapshots(node: Node, ring: Ring, output: Path | None) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, Protocol
 
 from bot_console.tui.console.bags.qos import noted
@@ -43,6 +43,11 @@ class Sink(Protocol):
         ...
 
 
+def not_recorded(unknown: Mapping[str, str]) -> str:
+    """The topics that are missing in a bag, each with the reason; empty if none is."""
+    return "; ".join(f"{name} was not recorded: {why}" for name, why in sorted(unknown.items()))
+
+
 class Recorder:
     """Passes all messages of the wanted topics to a sink, each time `turn` is called.
 
@@ -60,7 +65,7 @@ class Recorder:
         self._last = 0
         self.subscribed: dict[str, OfferedSubscription] = {}
         self.unknown: dict[str, str] = {}
-        """Topics that cannot be recorded, and why."""
+        """Topics that cannot be recorded for now, and why: a type may become known later."""
         self.turn()
 
     def close(self) -> None:
@@ -89,7 +94,7 @@ class Recorder:
         """Subscribe to new topics, follow changes of QoS, and flush."""
         self._sink.flush()
         for name, types in self._node.get_topic_names_and_types():
-            if self._wanted(name) and name not in self.unknown:
+            if self._wanted(name):
                 self._follow(name, types)
 
     def _follow(self, name: str, types: list[str]) -> None:
@@ -106,6 +111,7 @@ class Recorder:
         except (ImportError, AttributeError, ValueError) as error:  # of the type itself or of a type it contains
             self.unknown[name] = f"its type {types[0]} is not available here ({error})"
             return
+        self.unknown.pop(name, None)
         self.subscribed[name] = OfferedSubscription(
             self._node, kind, name, _nobody, BEST, eager=False, once_weak=True, raw=True
         )

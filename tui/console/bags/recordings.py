@@ -5,14 +5,14 @@ from __future__ import annotations
 import queue
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from typing import Any
 
 import rclpy
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.missing_packages import Missing
-from bot_console.tui.console.bags.recorder import CLOCK, PACE_S, Recorder
+from bot_console.tui.console.bags.recorder import CLOCK, PACE_S, Recorder, not_recorded
 from bot_console.tui.console.bags.recording_sinks import BagSink
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.console.connection.no_console import done
@@ -33,6 +33,8 @@ class Recordings:
         """`buffer` keeps the last minutes; None: they are not kept. The node is created when recording first starts."""
         self._buffer = buffer
         self._sink = BagSink()
+        self._recorder: Recorder | None = None
+        """Exists in the recorder's thread while a bag is recorded."""
         self._info = RecordingInfo(kept_s=buffer.kept_s if buffer else 0.0)
         self._orders: queue.SimpleQueue[tuple[Callable[[], Answer], Future[Answer]]] = queue.SimpleQueue()
         self._closing = threading.Event()
@@ -43,10 +45,16 @@ class Recordings:
     def info(self) -> RecordingInfo:
         """The state of recording."""
         writer = self._sink.writer
-        now = RecordingInfo(str(writer.folder) if writer else "", self._info.kept_s, self._sink.problem)
+        missing = tuple(sorted(self._missing)) if writer else ()
+        now = RecordingInfo(str(writer.folder) if writer else "", self._info.kept_s, self._sink.problem, missing)
         if now != self._info:
             self._info = now
         return self._info
+
+    @property
+    def _missing(self) -> Mapping[str, str]:
+        recorder = self._recorder
+        return recorder.unknown.copy() if recorder else {}
 
     def start(self, folder: str) -> Future[Answer]:
         """Record all topics into a new bag."""
@@ -75,7 +83,9 @@ class Recordings:
             if writer is None:
                 return Answer(False, self._sink.problem or "nothing is being recorded")
             about = writer.metadata
-            return Answer(True, f"{about.count} messages of {len(about.topics)} topics in {writer.folder}")
+            recorded = f"{about.count} messages of {len(about.topics)} topics in {writer.folder}"
+            missing = not_recorded(self._missing)
+            return Answer(True, f"{recorded}; {missing}" if missing else recorded)
 
         return self._order(end)
 
@@ -113,22 +123,22 @@ class Recordings:
         node: Any = rclpy.create_node(
             NAME, context=context, use_global_arguments=False, enable_rosout=False, start_parameter_services=False
         )
-        recorder: Recorder | None = None
         try:
             while not self._closing.wait(PACE_S):
                 wanted = self._sink.writer is not None
-                if recorder is not None:
-                    recorder.turn() if wanted else recorder.close()
-                    recorder = recorder if wanted else None
+                if self._recorder is not None:
+                    self._recorder.turn() if wanted else self._recorder.close()
+                    self._recorder = self._recorder if wanted else None
                 elif wanted:
-                    recorder = Recorder(node, self._sink, CLOCK.__ne__, get_message)
+                    self._recorder = Recorder(node, self._sink, CLOCK.__ne__, get_message)
                 self._obey()  # after the turn, so that a bag which is closed now contains everything that came before
-            if recorder is not None:
-                recorder.close()
+            if self._recorder is not None:
+                self._recorder.close()
             self._sink.end()
         except Exception as error:  # the thread's outermost frame: this bag ends here, the next one gets a new thread
             self._sink.fail(f"recording ended because of an error: {type(error).__name__}: {error}")
         finally:
+            self._recorder = None
             node.destroy_node()
             context.try_shutdown()
             self._ended()

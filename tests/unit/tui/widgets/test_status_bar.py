@@ -7,6 +7,7 @@ from types import MappingProxyType
 
 import pytest
 from bot_console.tui.console.model import ConsoleSnapshot, LaunchInfo, LinkInfo, LogState, Severity
+from bot_console.tui.console.recording import RecordingInfo
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.widgets.status_bar import drive_figures, reason_first, status_text
 
@@ -97,3 +98,9 @@ def test_nothing_essential_is_cut_at_80_columns(drive: DriveInfo) -> None:
 def test_the_profile_is_shown_where_there_is_room() -> None:
     slowed = ConsoleSnapshot(drive=STATES["SLOWED warning_distance"], active_profile="indoor")
     assert status_text(slowed, columns=78).endswith("indoor")
+
+
+def test_topics_missing_in_a_recording_are_named() -> None:
+    recording = RecordingInfo("/home/ada/bag", missing=("/a", "/b", "/c", "/tf"))
+    assert "● REC bag without /a, /b, /c and 1 more" in status_text(ConsoleSnapshot(recording=recording))
+    assert "without" not in status_text(ConsoleSnapshot(recording=RecordingInfo("/home/ada/bag")))

@@ -85,7 +85,7 @@ def test_a_topic_remapped_to_a_control_topic_is_left_out(node: rclpy.node.Node, 
 def test_the_warning_reports_what_is_left_out_and_how_to_include_it(
     recorded: Bag, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(verb, "take_part", lambda: "")
+    monkeypatch.setattr(verb, "reach_system", lambda: "")
     monkeypatch.setattr(verb, "READY", 0.0)
     try:
         assert verb.run(["play", str(recorded.path), "-r", "1e6"]) == 0

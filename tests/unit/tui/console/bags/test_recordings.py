@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 import rclpy
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.bags import recorder, recordings
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.recorder import Ring
 from bot_console.tui.console.bags.recording_sinks import BagSink, RingSink
@@ -16,7 +17,9 @@ from bot_console.tui.console.bags.recordings import Recordings
 from bot_console.tui.console.bags.writer import BagWriter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message
+from rigs import until
 from rosgraph_msgs.msg import Clock
+from rosidl_runtime_py.utilities import get_message
 from std_msgs.msg import String
 
 LATCHED = [{"durability": "transient_local", "reliability": "reliable", "depth": 1}]
@@ -69,6 +72,33 @@ def test_a_bag_is_recorded_from_start_to_stop(tmp_path: Path, node: rclpy.node.N
     assert texts(tmp_path / "bag", "/map_name") == ["office"]
     assert "/clock" not in Bag(tmp_path / "bag").metadata.topics
     assert reported(room.start(str(tmp_path / "late"))) == Answer(False, "the console has closed")
+
+
+def test_a_topic_of_an_unknown_type_is_named_until_its_type_is_known(
+    tmp_path: Path, node: rclpy.node.Node, room: Recordings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    publisher = node.create_publisher(String, "/words", 10)
+    known: list[str] = []
+
+    def find(type_name: str) -> object:
+        if not known:
+            raise ModuleNotFoundError(f"No module named '{type_name}'")
+        return get_message(type_name)
+
+    monkeypatch.setattr(recordings, "get_message", find)
+    monkeypatch.setattr(recorder, "TOPIC_POLL_S", 0.0)
+    assert reported(room.start(str(tmp_path / "one"))).ok
+    until(lambda: "/words" in room.info.missing, "the topic that is missing")
+    ended = reported(room.stop()).text
+    assert "/words was not recorded: its type std_msgs/msg/String is not available here (No module named" in ended
+    assert reported(room.start(str(tmp_path / "two"))).ok
+    until(lambda: "/words" in room.info.missing, "the topic that is missing")
+    known.append("now")
+    until(publisher.get_subscription_count, "the subscription")
+    until(lambda: room.info.missing == (), "nothing missing")
+    publisher.publish(String(data="late"))
+    assert "not recorded" not in reported(room.stop()).text
+    assert texts(tmp_path / "two") == ["late"]
 
 
 def test_the_last_minutes_are_saved_with_earlier_latched_messages(tmp_path: Path) -> None:
