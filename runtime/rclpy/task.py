@@ -7,7 +7,7 @@ import threading
 import warnings
 import weakref
 from collections.abc import Callable, Coroutine, Generator
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, TypeVar, cast
 
 from rclpy.impl.callables import is_coroutine, is_coroutine_function
 
@@ -41,7 +41,7 @@ class Future(Generic[T]):
             self._exception_fetched = True
             print(f"The following exception was never retrieved: {self._exception}", file=sys.stderr)
 
-    def __await__(self) -> Generator[Any, None, T | None]:
+    def __await__(self) -> Generator[Any, None, T]:
         while not self._settled():
             task = getattr(_running, "task", None)
             if task is not None:
@@ -68,11 +68,11 @@ class Future(Generic[T]):
         """Whether the future is done or cancelled."""
         return self._done or self._cancelled
 
-    def result(self) -> T | None:
+    def result(self) -> T:
         """The result, or None while there is none; raises the exception if there is one."""
         if self._exception:
             raise self.exception()  # type: ignore[misc] -- there is one here
-        return self._result
+        return cast("T", self._result)  # None is not declared: programs ask when the future is done
 
     def exception(self) -> BaseException | None:
         """The exception, or None."""

@@ -94,7 +94,7 @@ def _console(words: list[str]) -> str:
     if name == "colcon":
         return ""
     if name == "setup":
-        return "" if set("|".join(words[1:]).split("|")) <= {"bash", "zsh", "fish"} else "is no shell"
+        return "" if set("|".join(words[1:]).split("|")) <= {"bash", "zsh", "fish", "editor"} else "is no shell"
     if name in OWN:
         return "" if name in program._COMMANDS else f"there is no command {name}"
     if name in ros2.VERBS or name in program._COMMANDS:

@@ -172,7 +172,7 @@ _OURS: dict[str, Sequence[str]] = {
     "reset": ("--dry-run",),
     "ros2": (),
     "router": (),
-    "setup": ("bash", "zsh", "fish", "venv"),
+    "setup": ("bash", "editor", "fish", "venv", "zsh"),
     "status": (),
     "stop": (),
     "test": (),

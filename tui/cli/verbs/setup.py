@@ -31,6 +31,10 @@ def run(words: Sequence[str]) -> int:
         from bot_console.tui.cli.verbs import setup_venv
 
         return setup_venv.run(words[1:])
+    if words[:1] == ["editor"]:
+        from bot_console.tui.cli.verbs import editor
+
+        return editor.run(words[1:])
     given = _parser().parse_args(words)
     try:
         kept_shim_folder()
@@ -86,7 +90,8 @@ def _parser() -> argparse.ArgumentParser:
     lines = "\n".join(f"  {evaluation(shell)}" for shell in _FILES)
     parser = argparse.ArgumentParser(
         "bot-console setup",
-        usage=f"bot-console setup bash|zsh|fish [--undo], or bot-console setup venv [PATH] [--remove]\n\n"
+        usage=f"bot-console setup bash|zsh|fish [--undo], or bot-console setup venv [PATH] [--remove],\n"
+        f"or bot-console setup editor [DIR]\n\n"
         f"In bash, zsh and fish:\n{lines}",
         description="Print shell code that makes `ros2` (where there is none), `rqt` and `rqt_*` commands of the "
         "shell, with completion, and lets every Python program that it starts import rclpy.",
