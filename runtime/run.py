@@ -13,7 +13,7 @@ from pathlib import Path
 
 from bot_console.runtime.child_environment import child_environment
 from bot_console.runtime.importer import install
-from bot_console.runtime.rmw.missing_parameter_files import find_with
+from bot_console.runtime.rmw.parameter_file import find_with
 from bot_console.runtime.shim_folder import shim_folder
 from bot_console.runtime.workspace.parameter_files import hint_for
 from bot_console.runtime.workspace.program import Program, program, python_file, source_folders

@@ -26,8 +26,7 @@ from bot_console.tui.text.sanitize import counted
 from bot_console.tui.theme import THEMES
 from bot_console.tui.time_cursor import TimeCursor
 from bot_console.tui.widgets.key_bar import KeyBar
-from bot_console.tui.widgets.pane_area import PaneArea
-from bot_console.tui.widgets.pane_placeholder import PanePlaceholder
+from bot_console.tui.widgets.pane_area import PaneArea, PanePlaceholder
 from bot_console.tui.widgets.tabs import Tabs
 from textual import events
 from textual.app import ComposeResult

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Callable
 from typing import Any
 
 from bot_console.runtime import hints
 from bot_console.runtime.remote_address import is_remote
-from bot_console.runtime.rmw.missing_parameter_files import hint_for
 from bot_console.runtime.rmw.names import validate_namespace, validate_node_name
 from bot_console.runtime.rmw.parameter_overrides import NodeOverrides, ParameterOverrides, ParameterYamlError
 from bot_console.runtime.rmw.parameter_value import ValueWriter, yaml_events
@@ -235,3 +235,20 @@ def _check_node_key(key: str) -> None:
 def _refuse(problem: tuple[str, int] | None) -> None:
     if problem is not None:
         raise ParameterYamlError(problem[0])
+
+
+Find = Callable[[str], str]
+"""Returns a hint where a file of that path is; empty if unknown."""
+
+_finders: list[Find] = []
+
+
+def find_with(find: Find) -> None:
+    """Register a function that knows places; does nothing if it is already registered."""
+    if find not in _finders:
+        _finders.append(find)
+
+
+def hint_for(path: str) -> str:
+    """Return a hint where a missing parameter file is; empty if unknown."""
+    return next((hint for find in _finders if (hint := find(path))), "")

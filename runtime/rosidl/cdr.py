@@ -10,7 +10,7 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any
 
-from bot_console.runtime.rosidl.cdr_header import HEADER_SIZE, ORDERS, CdrError
+from bot_console.runtime.rosidl.cdr_read import HEADER_SIZE, ORDERS, CdrError
 
 
 def serialize(message: Any) -> bytes:

@@ -11,10 +11,9 @@ from bot_console.tui.arrangement.early_keys import panes_needed
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.screens.question_screens import prepare
-from bot_console.tui.terminal.composing.visible_screen import mount_unseen
+from bot_console.tui.terminal.visible_screen import mount_unseen
 from bot_console.tui.widgets.key_bar import KeyBar
-from bot_console.tui.widgets.pane_area import PaneArea
-from bot_console.tui.widgets.pane_placeholder import PanePlaceholder
+from bot_console.tui.widgets.pane_area import PaneArea, PanePlaceholder
 from textual import events
 from textual.app import App
 from textual.widget import MountError

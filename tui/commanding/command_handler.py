@@ -9,7 +9,6 @@ from typing import Any
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.child_command import child_command
 from bot_console.tui.commanding.completing import Completion
-from bot_console.tui.commanding.ending_streams import which_stream
 from bot_console.tui.commanding.palette import Command, all_commands, options_for
 from bot_console.tui.commanding.runner import LineRunner
 from bot_console.tui.console.command_line import CommandLine, Stream
@@ -21,7 +20,8 @@ from bot_console.tui.safety.line_risk import risk_of
 from bot_console.tui.safety.stopping import Stopping
 from bot_console.tui.screens.question_screens import screen_for
 from bot_console.tui.widgets.command_line import CommandField
-from bot_console.tui.widgets.prompt.question import Choice
+from bot_console.tui.widgets.prompt.question import Choice, Option
+from bot_console.tui.widgets.streams.panel import StreamPanel
 from bot_console.tui.widgets.streams.panels import StreamPanels
 from textual.app import App
 
@@ -142,3 +142,26 @@ class CommandHandler:
     def hold_robot(self, hold: bool) -> None:
         """Stop and hold the robot, or release it; asks first where others hold it too."""
         (self._stopping.hold if hold else self._stopping.release)()
+
+
+ALL = "all"
+
+
+def which_stream(streams: StreamPanels) -> Choice:
+    """Ask which line to stop; if it has ended meanwhile, no other is stopped instead."""
+    offered = {str(number): each for number, each in enumerate(streams.panels, 1)}
+
+    def find(typed: str) -> Sequence[Option]:
+        options = [Option(f"{number} {each.line}", each.state, number) for number, each in offered.items()]
+        options.append(Option("all of them", value=ALL))
+        named = [each for each in options if each.value == typed.strip()]
+        return named or [each for each in options if all(word in each.title for word in typed.split())]
+
+    def end(chosen: str) -> None:
+        panels: Sequence[StreamPanel] = [*offered.values()] if chosen == ALL else [offered[chosen]]
+        for each in panels:
+            streams.end(each)
+
+    return Choice(
+        "End which line?", end, find=find, hint="its number, or words of it", empty="No line has these words."
+    )

@@ -10,7 +10,7 @@ from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.key import Key, key_text
 from bot_console.tui.layout.tree import Way
 from bot_console.tui.screens.help import HelpScreen
-from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
+from bot_console.tui.terminal.dimmed_screen import DimmedScreen
 from bot_console.tui.widgets.prompt.line import Prompt, asks
 from bot_console.tui.widgets.prompt.question import Line
 from rich.style import Style

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from bot_console.tui.keys.key import Key, key_text
-from bot_console.tui.terminal.styling.style_sheet import StyledByPart
+from bot_console.tui.terminal.styling import StyledByPart
 from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style

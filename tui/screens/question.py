@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import ClassVar, TypeVar
 
 from bot_console.tui import keymap
-from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
+from bot_console.tui.terminal.dimmed_screen import DimmedScreen
 from bot_console.tui.widgets.prompt.question import Question, Requester
 from textual.app import App
 from textual.binding import BindingType

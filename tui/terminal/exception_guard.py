@@ -6,9 +6,9 @@ without this module.
 
 from __future__ import annotations
 
-from bot_console.tui.terminal.composing.visible_screen import VisibleScreen
 from bot_console.tui.terminal.output import SUPPORTED, HoldingScreen, SparingApp
-from bot_console.tui.terminal.styling.styled_once import StyledOnceApp, StyledOnceScreen
+from bot_console.tui.terminal.styling import StyledOnceApp, StyledOnceScreen
+from bot_console.tui.terminal.visible_screen import VisibleScreen
 from textual._context import active_message_pump
 from textual.dom import DOMNode
 from textual.message import Message

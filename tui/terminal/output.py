@@ -9,18 +9,20 @@ one never blocks the event loop.
 from __future__ import annotations
 
 import asyncio
+import base64
+import importlib
+import os
+import re
 from collections.abc import Mapping
 from typing import Any, cast
 
 from bot_console.tui.keys.input_queue import InputQueue
 from bot_console.tui.keys.input_thread import Unwatched, Watch, reads_input
-from bot_console.tui.terminal.clipboard import osc52, within
+from bot_console.tui.terminal.cache_limits import limit_cut_cache, limit_query_cache
 from bot_console.tui.terminal.closing import closing_terminal
-from bot_console.tui.terminal.composing.cache_limits import limit_cut_cache, limit_query_cache
-from bot_console.tui.terminal.composing.compositor import PartwiseCompositor
+from bot_console.tui.terminal.compositor import PartwiseCompositor
 from bot_console.tui.terminal.difference import ShownScreen
 from bot_console.tui.terminal.frame_pacing import AnswerGate
-from bot_console.tui.terminal.installed_version import installed_version
 from bot_console.tui.terminal.suspension import leaves_an_empty_screen, takes_up_again
 from bot_console.tui.terminal.terminal_file import TerminalFile
 from rich.color import ColorSystem
@@ -31,6 +33,41 @@ from textual.driver import Driver
 from textual.geometry import Region
 from textual.screen import Screen
 from textual.strip import Strip
+
+
+def installed_version(package: str) -> str:
+    """The version of an importable package with that name; raises `PackageNotFoundError` if it has none.
+
+    Installers write it into the name of a folder beside the package (PEP 376 and 427). The imports of
+    `importlib.metadata` would take a tenth of the first frame.
+    """
+    place = importlib.import_module(package).__file__ or ""
+    named = re.compile(rf"{re.escape(package)}-([^-]+)\.dist-info")
+    try:
+        beside = os.listdir(os.path.dirname(os.path.dirname(place)))
+    except OSError:  # for example in an archive
+        beside = []
+    found = [match[1] for each in beside if (match := named.fullmatch(each))]
+    if len(found) == 1:
+        return found[0]
+    from importlib.metadata import version
+
+    return version(package)
+
+
+MAX_CLIPBOARD_BYTES = 32_768
+"""Bytes of text: terminals drop larger ones whole, some from 74,994 letters of base64 on; a slow line is held up."""
+
+
+def osc52(text: str) -> str:
+    """The OSC 52 sequence that copies a text to the clipboard; base64 keeps the text from acting on the terminal."""
+    return f"\x1b]52;c;{base64.b64encode(text.encode('utf-8', 'replace')).decode()}\x07"
+
+
+def within(text: str) -> str:
+    """Truncate a text to what is sent to a clipboard, without splitting the last letter."""
+    return text.encode("utf-8", "replace")[:MAX_CLIPBOARD_BYTES].decode("utf-8", "ignore")
+
 
 QUESTION = "\x1b[6n"
 SYNC_BEGIN, SYNC_END = "\x1b[?2026h", "\x1b[?2026l"

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import ClassVar, TypeAlias
 
 from bot_console.tui import keymap
-from bot_console.tui.terminal.styling.style_sheet import StyledByPart
+from bot_console.tui.terminal.styling import StyledByPart
 from bot_console.tui.widgets.diagram.chart.drawing import draw_chart
 from bot_console.tui.widgets.diagram.chart.model import Chart
 from bot_console.tui.widgets.diagram.drawing import Drawing, Place, Run, draw

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, cast
 
-from bot_console.tui.terminal.composing.cache_limits import limit_query_cache
+from bot_console.tui.terminal.cache_limits import limit_query_cache
 from bot_console.tui.terminal.output import SUPPORTED
 from textual.compose import compose  # pyright: ignore[reportUnknownVariableType] -- Textual's App is generic
 from textual.containers import Container

@@ -4,13 +4,22 @@ from __future__ import annotations
 
 from bot_console.tui.layout.placing import Border, Box, borders, boxes
 from bot_console.tui.layout.tree import Split, Tree, change_at, move_border
-from bot_console.tui.widgets.pane_placeholder import PanePlaceholder
 from textual.containers import Container
 from textual.events import MouseDown, MouseMove, MouseUp
 from textual.geometry import NULL_OFFSET, NULL_SPACING, Region, Size
 from textual.layout import ArrangeResult, Layout, WidgetPlacement
 from textual.message import Message
 from textual.widget import Widget
+
+
+class PanePlaceholder(Container):
+    """Takes a pane's place in the first frame: its border and title, and nothing that takes keys."""
+
+    def __init__(self, stands_for: str, title: str, *, chosen: bool) -> None:
+        """`stands_for` is the id of the pane, `chosen` says whether that one gets the focus."""
+        super().__init__(classes="chosen" if chosen else "")
+        self.stands_for = stands_for
+        self.border_title = title
 
 
 class TreeLayout(Layout):

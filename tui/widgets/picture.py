@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import ClassVar, TypeAlias
 
-from bot_console.tui.terminal.styling.style_sheet import StyledByPart
+from bot_console.tui.terminal.styling import StyledByPart
 from bot_console.tui.widgets.placeholder import NO_PLACEHOLDER, Placeholder, placeholder_lines
 from rich.cells import cell_len
 from rich.segment import Segment

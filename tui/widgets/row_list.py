@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.query import Query
-from bot_console.tui.terminal.styling.style_sheet import StyledByPart
+from bot_console.tui.terminal.styling import StyledByPart
 from bot_console.tui.widgets.placeholder import NO_PLACEHOLDER, Placeholder, placeholder_lines
 from rich.segment import Segment
 from rich.style import Style

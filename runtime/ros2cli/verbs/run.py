@@ -10,7 +10,7 @@ import subprocess
 import sys
 
 from ament_index_python.packages import PackageNotFoundError
-from bot_console.runtime.rmw.missing_parameter_files import find_with
+from bot_console.runtime.rmw.parameter_file import find_with
 from bot_console.runtime.workspace.executables import Executable, executables
 from bot_console.runtime.workspace.not_found import no_executable, no_package
 from bot_console.runtime.workspace.parameter_files import hint_for

@@ -17,10 +17,10 @@ from bot_console.tui.pane_table import PaneEntry
 from bot_console.tui.panes.broken_pane import BrokenPane
 from bot_console.tui.panes.plot.pane import PlotPane
 from bot_console.tui.screens.picker import PickerScreen
-from bot_console.tui.terminal.composing.visible_screen import mount_unseen
 from bot_console.tui.terminal.frame_pacing import AnswerGate
+from bot_console.tui.terminal.visible_screen import mount_unseen
 from bot_console.tui.widgets.command_line import CommandField
-from bot_console.tui.widgets.pane_placeholder import PanePlaceholder
+from bot_console.tui.widgets.pane_area import PanePlaceholder
 from bot_console.tui.widgets.row_list import RowList
 from fakes.command_line import FakeCommandLine
 from piloting import Session, run

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from bot_console.tui.terminal.composing import cache_limits
+from bot_console.tui.terminal import cache_limits
 from piloting import Session, run
 from samples import live
 

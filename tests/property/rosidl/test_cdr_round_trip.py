@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from bot_console.runtime.rosidl.cdr import deserialize, serialize
-from bot_console.runtime.rosidl.cdr_header import CdrError
+from bot_console.runtime.rosidl.cdr_read import CdrError
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 from bot_console.runtime.rosidl.cdr import deserialize, serialize
-from bot_console.runtime.rosidl.cdr_header import CdrError
+from bot_console.runtime.rosidl.cdr_read import CdrError
 from bot_console.runtime.rosidl.conversion import FieldTypeError
 from example_interfaces.msg import WString
 from example_interfaces.srv import AddTwoInts

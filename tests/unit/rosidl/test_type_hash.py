@@ -6,9 +6,8 @@ import importlib
 from typing import Any
 
 import pytest
-from bot_console.runtime.rosidl.known_hashes import KNOWN
 from bot_console.runtime.rosidl.type_description import describe
-from bot_console.runtime.rosidl.type_hash import digest, digest_of_description, text
+from bot_console.runtime.rosidl.type_hash import KNOWN, digest, digest_of_description, text
 from example_interfaces.action import Fibonacci
 from std_msgs.msg import Empty
 from std_srvs.srv import Trigger

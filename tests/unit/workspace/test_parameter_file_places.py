@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.rmw.arguments import ArgumentsError, parse
-from bot_console.runtime.rmw.missing_parameter_files import _finders, find_with
+from bot_console.runtime.rmw.parameter_file import _finders, find_with
 from bot_console.runtime.workspace import parameter_files
 from bot_console.runtime.workspace.discover import Workspace
 from bot_console.runtime.workspace.parameter_files import hint_for

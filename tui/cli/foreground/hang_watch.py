@@ -24,8 +24,6 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
-from bot_console.tui.cli.foreground.waiting_tasks import waiting_tasks
-
 FILE = "console-stacks.txt"
 HANG_AFTER_S = 15.0
 """Seconds without activity after which a drawing thread counts as hung."""
@@ -176,3 +174,28 @@ def hang_watch(folder: Path, state: Callable[[], str], report: Callable[[str], N
             faulthandler.disable()
         signal.signal(signal.SIGUSR1, before)
         os.close(descriptor)
+
+
+def waiting_tasks() -> str:
+    """The tasks of the running event loop, with the lines where they wait, outermost first.
+
+    Tasks that wait in the same place are grouped. Empty if no loop is running in this thread.
+    """
+    try:
+        tasks = asyncio.all_tasks()
+    except RuntimeError:
+        return ""
+    names: dict[str, list[str]] = {}
+    for each in tasks:
+        names.setdefault("".join(_lines(each.get_coro())), []).append(each.get_name())
+    return "\n".join(f"Task {', '.join(sorted(alike))}:\n{lines}" for lines, alike in sorted(names.items()))
+
+
+def _lines(waiting: Any) -> list[str]:
+    found: list[str] = []
+    while waiting is not None:
+        frame = getattr(waiting, "cr_frame", None) or getattr(waiting, "gi_frame", None)
+        if frame is not None:
+            found.append(f'  File "{frame.f_code.co_filename}", line {frame.f_lineno} in {frame.f_code.co_name}\n')
+        waiting = getattr(waiting, "cr_await", None) or getattr(waiting, "gi_yieldfrom", None)
+    return found

@@ -10,17 +10,17 @@ from typing import Any
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.console.sensors.model import Diagnostics, Level
-from bot_console.tui.format import sanitize
-from bot_console.tui.panes.diagnostics.details import below_text, sections
-from bot_console.tui.panes.diagnostics.table import StatusRows
+from bot_console.tui.console.sensors.model import Diagnostics, Level, Status
+from bot_console.tui.format import clock_text, counted, sanitize
+from bot_console.tui.panes.diagnostics.table import LEVEL_STYLES, StatusRows
 from bot_console.tui.panes.diagnostics.tree import Row, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
-from bot_console.tui.screens.facts import FactsScreen
+from bot_console.tui.screens.facts import FactsScreen, Section
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
+from rich.cells import cell_len
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.containers import Container
@@ -180,3 +180,24 @@ class DiagnosticsPane(ListPane):
     def on_resize(self) -> None:
         """Place list and detail side by side if there is room."""
         self.set_class(self.size.width >= SIDE, "side")
+
+
+def sections(status: Status, now: float) -> list[Section]:
+    """The message of a status, its values, and its history, newest first."""
+    level, age = status.now(now), int(now - status.heard)
+    head = [f"{LEVEL_STYLES[level][0]} {level.name}  {status.message}"]
+    if level is Level.STALE and status.level is not level:
+        head.append(f"silent for {counted(age, 'second')}; it was {status.level.name}")
+    if status.hardware:
+        head.append(f"hardware {status.hardware}")
+    wide = max((cell_len(key) for key, _ in status.values), default=0)
+    values = [f"{key}{' ' * (wide - cell_len(key))}  {value}" for key, value in status.values]
+    reported = [
+        f"{clock_text(each.stamp)[:8]}  {each.level.name:<5}  {each.message}" for each in reversed(status.history)
+    ]
+    return [(status.name, head), ("values", values), ("was", reported)]
+
+
+def below_text(row: Row) -> str:
+    """The details of a part that only contains others."""
+    return f"{row.path}\n  {row.count - row.bad} of {row.count} OK"

@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 from bot_console.tui import keymap
 from bot_console.tui.format import counted, cut, value_text
-from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
+from bot_console.tui.terminal.dimmed_screen import DimmedScreen
 from bot_console.tui.tuning.job import Progress, SettingResult
 from bot_console.tui.tuning.specification import TuningSpecification
 from bot_console.tui.tuning.tunable import Setting

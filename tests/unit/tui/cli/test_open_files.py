@@ -13,7 +13,7 @@ if sys.platform == "win32":
 PROGRAM = """
 import resource
 resource.setrlimit(resource.RLIMIT_NOFILE, ({soft}, {hard}))
-from bot_console.tui.cli.open_files import too_few_files
+from bot_console.tui.cli.screen import too_few_files
 print(too_few_files())
 print(resource.getrlimit(resource.RLIMIT_NOFILE)[0])
 """

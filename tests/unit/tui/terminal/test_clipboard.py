@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import base64
 
-from bot_console.tui.terminal.clipboard import MAX_BYTES, osc52, within
+from bot_console.tui.terminal.output import MAX_CLIPBOARD_BYTES as MAX_BYTES
+from bot_console.tui.terminal.output import osc52, within
 from hypothesis import given
 from hypothesis import strategies as st
 

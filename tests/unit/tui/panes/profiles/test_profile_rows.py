@@ -6,7 +6,7 @@ import pytest
 from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome
 from bot_console.tui.panes.profiles.dry_run import Asking
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
-from bot_console.tui.terminal.styling.style_sheet import StyledByPart
+from bot_console.tui.terminal.styling import StyledByPart
 from fakes.console import FakeConsole
 from rich.cells import cell_len
 from rich.style import Style

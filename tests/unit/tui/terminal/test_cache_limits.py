@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.terminal.composing.cache_limits import CUTS, limit_cut_cache
+from bot_console.tui.terminal.cache_limits import CUTS, limit_cut_cache
 from rich.segment import Segment
 from rich.style import Style
 

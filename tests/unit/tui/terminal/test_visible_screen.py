@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Awaitable, Callable
 
 import pytest
-from bot_console.tui.terminal.composing.visible_screen import VisibleScreen, mount_unseen
+from bot_console.tui.terminal.visible_screen import VisibleScreen, mount_unseen
 from textual.app import App, ComposeResult
 from textual.containers import Container, Horizontal
 from textual.geometry import Size

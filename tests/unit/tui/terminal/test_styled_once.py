@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from unittest.mock import patch
 
-from bot_console.tui.terminal.styling.styled_once import StyledOnceApp, StyledOnceScreen
+from bot_console.tui.terminal.styling import StyledOnceApp, StyledOnceScreen
 from textual.app import ComposeResult
 from textual.color import Color
 from textual.css.stylesheet import Stylesheet

@@ -6,7 +6,7 @@ import asyncio
 from typing import Any
 
 import pytest
-from bot_console.tui.terminal.composing.dimmed_screen import DimmedScreen
+from bot_console.tui.terminal.dimmed_screen import DimmedScreen
 from bot_console.tui.terminal.output import HoldingScreen
 from rich.style import Style
 from rich.text import Text

@@ -10,7 +10,7 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Any, cast
 
-from bot_console.tui.terminal.composing.compositor import PartwiseCompositor
+from bot_console.tui.terminal.compositor import PartwiseCompositor
 from bot_console.tui.terminal.output import SUPPORTED
 from rich.segment import Segment
 from rich.style import Style

@@ -7,8 +7,7 @@ from typing import Any, ClassVar
 from unittest.mock import patch
 
 import pytest
-from bot_console.tui.terminal.styling.style_sheet import StyledByPart
-from bot_console.tui.terminal.styling.styled_once import StyledOnceApp
+from bot_console.tui.terminal.styling import StyledByPart, StyledOnceApp
 from rich.segment import Segment
 from textual.app import ComposeResult
 from textual.color import Color

@@ -1,1 +1,0 @@
-"""Composing widgets into screen lines with less work than Textual does."""

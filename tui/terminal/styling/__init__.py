@@ -1,1 +1,0 @@
-"""Styling widgets with less work than Textual does."""
