@@ -16,6 +16,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from bot_console.runtime.importer import GENERATED, PACKAGES
+from bot_console.runtime.own_processes import MEMBER_PROGRAM
 from bot_console.runtime.process.fork_server import Job
 
 UNKNOWN = "numpy"
@@ -25,12 +26,18 @@ WITH_ARRAYS = ("rclpy.action",)
 MAX_SOURCE_BYTES = 1_000_000
 """The maximum number of bytes of source text that are read."""
 
+STEPPED = ("asyncio", "numpy.random")
+"""Modules that a process of a stepped run needs: their time and their random numbers are those of the run."""
+
 _seen: set[tuple[str | None, int]] = set()
 
 
 def import_needed(job: Job) -> None:
     """Import what the program of a job will need; errors are left to the program."""
     with contextlib.suppress(Exception):  # the program meets the error itself, and reports it
+        if job.program == MEMBER_PROGRAM:
+            for name in STEPPED:
+                importlib.import_module(name)
         path = _source(*job.arguments[1:])
         seen = path, os.stat(path).st_mtime_ns if path else 0
         if seen not in _seen:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bot_console.runtime.process import current
+from bot_console.runtime.process.lockstep.coordinator import coordinator_of
 from launch.child import CAN_FORK, PythonProgram
 
 if TYPE_CHECKING:
@@ -25,11 +26,13 @@ def isolate_by_default(kind: str) -> None:
 def has_own_process(context: LaunchContext, program: PythonProgram) -> bool:
     """Whether a program gets a separate process; raises `RuntimeError` for an invalid configuration.
 
-    Never in a stepped run, where exactly one thread runs at a time.
+    In a stepped run without a coordinator none does: only threads of this process take turns in it.
     """
     wanted = context.launch_configurations.get(CONFIGURATION, "")
     if wanted not in ("", PROCESS, THREAD):
         raise RuntimeError(f"the launch argument '{CONFIGURATION}' must be '{PROCESS}' or '{THREAD}', not '{wanted}'")
-    if not CAN_FORK or current().clock.stepped:
+    clock = current().clock
+    if not CAN_FORK or (clock.stepped and coordinator_of(clock) is None):
         return False
-    return wanted == PROCESS or (not wanted and _default[0] == PROCESS and not program.is_ours)
+    users_default = PROCESS if clock.stepped else _default[0]
+    return wanted == PROCESS or (not wanted and users_default == PROCESS and not program.is_ours)

@@ -7,6 +7,8 @@ import contextlib
 import sys
 import threading
 
+from .current import MAIN
+
 FLUSH_FAILED = 120
 """Exit code of the interpreter if its last output could not be written."""
 
@@ -15,6 +17,9 @@ def wait_for_threads() -> None:
     """Wait for non-daemon threads and executors, as the interpreter does at exit; Ctrl-C ends the wait."""
     with contextlib.suppress(KeyboardInterrupt):
         threading._shutdown()  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType] -- has no other name
+        # In a stepped run all are daemons to the interpreter, which would wait for them without giving them a turn.
+        while left := [each for each, state in MAIN.children.items() if not state.daemon and each.is_alive()]:
+            left[0].join()
 
 
 def exit_functions_run(code: int) -> int:

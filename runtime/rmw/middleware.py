@@ -21,6 +21,11 @@ def choose_middleware(bus_of: BusOf, rules: QosRules = DDS) -> None:
     _bus_of, _rules = bus_of, rules
 
 
+def chosen_middleware() -> tuple[BusOf, QosRules]:
+    """Return the arguments of the last `choose_middleware`."""
+    return _bus_of, _rules
+
+
 def qos_rules() -> QosRules:
     """The QoS rules of the chosen middleware."""
     return _rules

@@ -48,17 +48,20 @@ class ForkServer:
         """Whether the server runs and can start children."""
         return self._process.poll() is None
 
-    def start(self, job: Job, *, stdin: int, stdout: int, stderr: int, data: int) -> int:
+    def start(self, job: Job, *, stdin: int, stdout: int, stderr: int, data: int, channel: int | None = None) -> int:
         """Start a child with these descriptors, which stay open here; return the descriptor to read its `Report` from.
+
+        The number of `channel`, if given, becomes the last argument of the job's function.
 
         Raises `FileNotFoundError` for a missing directory, `OSError` if the server has ended.
         """
         if not os.path.isdir(job.cwd):
             raise FileNotFoundError(2, os.strerror(2), job.cwd)
         report, reported = os.pipe()
+        given = (stdin, stdout, stderr, data) if channel is None else (stdin, stdout, stderr, data, channel)
         try:
             with self._lock:
-                wire.send(self._connection, job.to_bytes(), (stdin, stdout, stderr, data, reported))
+                wire.send(self._connection, job.to_bytes(), (*given, reported))
         except BaseException:
             os.close(report)
             raise

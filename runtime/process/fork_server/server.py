@@ -104,6 +104,8 @@ class Server:
             for each in self._children.values():
                 # The reports of its siblings: a child that kept them open would hide the end of a sibling.
                 os.close(each)
+            if len(given) > 4:
+                job = job._replace(arguments=[*job.arguments, given[4]])
             return Birth(job, (given[0], given[1], given[2]), given[3])
         signal.pthread_sigmask(signal.SIG_UNBLOCK, HELD_BACK)
         self._release(given)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import selectors
+from asyncio.selector_events import BaseSelectorEventLoop
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from ..current import current
+from ..node.thread_state import local
 
 if TYPE_CHECKING:
     from ..clock_source import ClockSource, Wakeup
@@ -42,6 +44,10 @@ class _SteppedSelector(selectors.DefaultSelector):
         self._clock = clock
         self._called = called
 
+    def wake(self) -> None:
+        """End the present wait; thread-safe."""
+        self._called.set()
+
     def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
         """Return what is ready now, or after a virtual wait of at most `timeout` s."""
         events = super().select(0)
@@ -57,3 +63,22 @@ def new_event_loop() -> asyncio.AbstractEventLoop:
     """Return an event loop in the time of the calling thread's node process."""
     clock = current().clock
     return SteppedEventLoop(clock) if clock.stepped else asyncio.new_event_loop()
+
+
+def wraps() -> list[tuple[Any, str, Any]]:
+    """Return owner, name and replacement of the calls with which all event loops of stepped threads become stepped."""
+    real_init: Any = BaseSelectorEventLoop.__init__
+    real_write: Any = getattr(BaseSelectorEventLoop, "_write_to_self")  # noqa: B009 -- private, yet all calls of other threads end there
+
+    def init(loop: Any, selector: Any = None) -> None:
+        clock = local.waits_on
+        if selector is None and clock is not None:
+            selector = _SteppedSelector(clock, clock.wakeup())
+        real_init(loop, selector)
+
+    def write_to_self(loop: Any) -> None:
+        real_write(loop)
+        if isinstance(loop._selector, _SteppedSelector):
+            loop._selector.wake()
+
+    return [(BaseSelectorEventLoop, "__init__", init), (BaseSelectorEventLoop, "_write_to_self", write_to_self)]

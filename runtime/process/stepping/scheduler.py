@@ -91,6 +91,10 @@ class ScheduledTask:
         """End the thread's present wait though it is neither set nor due."""
         self.scheduler.wake_thread(self)
 
+    def is_due_at(self, deadline: int) -> bool:
+        """Whether its present wait ends at that time (ns), if nothing ends it before."""
+        return self.waiting and self.due == deadline
+
     def wait(self, wakeup: Awaited | None, deadline: int | None) -> bool:
         """Yield to other threads until woken or due (ns); return whether woken. Raises what is pending for this
         thread.
@@ -257,6 +261,24 @@ class Scheduler:
             self.starting.clear()
             if self.holder is None:
                 self._grant_next()
+
+    def advance_to(self, time_ns: int) -> None:
+        """Let time go on at once, for a run whose time is another's."""
+        if time_ns > self.now:
+            self.now = time_ns
+            self.reads = self._instant_waits = 0
+
+    def earliest_deadline(self) -> int | None:
+        """Return the time (ns) at which the next thread other than the driver runs; None without a deadline."""
+        with self._guard:
+            if self._ready:
+                return self.now
+            due = (deadline for deadline, rank, task in self._deadlines if rank != LAST and task.is_due_at(deadline))
+            return min(due, default=None)
+
+    def horizon(self) -> int | None:
+        """Return a time (ns) before which no thread but the holder runs; None if another one is ready."""
+        return self._deadlines[0][0] if self._deadlines and not self._ready and not self.starting else None
 
     def _enlist(self, task: ScheduledTask, wakeup: Awaited | None, deadline: int | None) -> None:
         task.waiting = True

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 import sys
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -43,14 +43,13 @@ class SteppedTime:
     def __init__(self, start_system_ns: int = DEFAULT_START_NS, *, stall_s: float = 1.0) -> None:
         self.deterministic = True
         self.stalls: list[str] = []
-        self._system_offset = start_system_ns
-        self._stall_s = stall_s
+        self.system_offset = start_system_ns
+        self.stall_s = stall_s
         self._scheduler = Scheduler(0)
         self._watch = StallWatch(self._scheduler, stall_s, self._report_stall)
         self._driver = self._scheduler.driver_task()
         self._previous_task, local.task = local.task, self._driver
         self._unpin = pin_thread()
-        install_virtual_process()
         install_stepped_calls()
 
     def steady_ns(self) -> int:
@@ -67,7 +66,7 @@ class SteppedTime:
         scheduler.reads += 1
         if scheduler.reads > FREE_READS:
             scheduler.now += READ_NS
-        return scheduler.now + self._system_offset
+        return scheduler.now + self.system_offset
 
     def wakeup(self) -> SteppedWakeup:
         """Return a new, unset wakeup."""
@@ -76,6 +75,20 @@ class SteppedTime:
     def sleep_until(self, deadline_ns: int) -> None:
         """Let other threads run until virtual steady time reaches the deadline (ns)."""
         SteppedWakeup(self._scheduler).wait(deadline_ns)
+
+    def advance_to(self, steady_ns: int) -> None:
+        """Let time go on at once to that steady time (ns), unless it is already past."""
+        self._scheduler.advance_to(steady_ns)
+
+    def earliest_deadline(self) -> int | None:
+        """Return the steady time (ns) at which the next thread runs, the driver aside; None if all wait for others."""
+        return self._scheduler.earliest_deadline()
+
+    def add_stalls(self, stalls: Sequence[str]) -> None:
+        """Take in lines where threads blocked, from a process that takes part in the run."""
+        if stalls:
+            self.deterministic = False
+            self.stalls += stalls
 
     def task(self, thread: WaitingThread | None) -> ScheduledTask:
         """Return a seat for a new thread, which is ready to run."""
@@ -106,10 +119,9 @@ class SteppedTime:
         uninstall_stepped_calls()
 
     def _report_stall(self, task: ScheduledTask, busy: bool) -> Callable[[], None]:
-        self.deterministic = False
         line = frames.thread_line(task.ident)
         process = task.state.process if isinstance(task.state, ThreadState) else MAIN
-        self.stalls.append(f"{process.name}: {line}")
+        self.add_stalls([f"{process.name}: {line}"])
         return lambda: notify(process, f"{line} {COMPUTES if busy else BLOCKS}")
 
 
@@ -124,6 +136,7 @@ def stepped(
     `time` module, sleeps, waits and new threads belong to the run. Without it only its clock queries do, which suits an
     asyncio loop or a user interface.
     """
+    install_virtual_process()
     clock = SteppedTime(start_system_ns, stall_s=stall_s)
     before = MAIN.clock, local.waits_on
     MAIN.clock = clock

@@ -50,7 +50,7 @@ class RemotePublisher(deque[Any]):
         self._sender = sender
         qos = publisher.endpoint.qos
         all_count = (depth(qos) or DEEP_QUEUE) >= DEEP_QUEUE or publisher.endpoint.topic in BLOCKING_TOPICS
-        self._blocking = all_count and qos.reliability.name != "BEST_EFFORT"
+        self._blocking = all_count and qos.reliability.name != "BEST_EFFORT" and not session.never_waits
         self._target = SubscriptionEndpoint(publisher.endpoint, True, self, _nothing)
         self.latching = publisher.history is not None
         if self.latching:

@@ -57,6 +57,9 @@ class Session(Lifetime):
     timeout_s = 0.2
     """Timeout of the first graph query, in s; running processes answer within 5 ms."""
 
+    never_waits = False
+    """Whether every sample is taken at once, so that no publisher has to wait or to drop one."""
+
     def __init__(self, domain: int) -> None:
         super().__init__()
         self.domain = domain

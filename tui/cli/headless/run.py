@@ -145,7 +145,10 @@ def _time(options: Options) -> Generator[Any]:
 
     import_numpy()
     os.environ.pop(STOP_FILE_VARIABLE, None)  # It belongs to the domain, which this run does not join.
-    with stepped(seed=options.seed or 0, virtual_main=True) as clock:
+    from bot_console.runtime.rmw.lockstep.coordination import coordinated
+
+    seed = options.seed or 0
+    with stepped(seed=seed, virtual_main=True) as clock, coordinated(clock, seed):
         yield clock
 
 

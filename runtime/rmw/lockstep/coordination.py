@@ -1,0 +1,36 @@
+"""Let processes take part in a stepped run of this process."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from contextlib import contextmanager
+
+from bot_console.runtime.process.lockstep.coordinator import Coordinator
+from bot_console.runtime.process.stepping.stepped_time import SteppedTime
+from bot_console.runtime.rmw.lockstep.bus import bus_over
+from bot_console.runtime.rmw.lockstep.session import Link
+from bot_console.runtime.rmw.lockstep.switchboard import Operation, Switchboard
+from bot_console.runtime.rmw.middleware import choose_middleware, chosen_middleware
+
+
+@contextmanager
+def coordinated(clock: SteppedTime, seed: int) -> Generator[None]:
+    """Within the block, users' programs of launches in this run are processes of their own that keep its time.
+
+    Contexts initialised in the block can reach them.
+    """
+    switchboard = Switchboard()
+
+    def send(operation: Operation) -> None:
+        own.handle(operation)
+
+    link = Link(send, 0)
+    own = switchboard.add(link.take)
+    before = chosen_middleware()
+    choose_middleware(bus_over(link))
+    coordinator = Coordinator(clock, switchboard, seed)
+    try:
+        yield
+    finally:
+        coordinator.close()
+        choose_middleware(*before)

@@ -1,0 +1,29 @@
+"""What a process forked for a stepped run does first: it joins the run, and its middleware is that of the run."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from bot_console.runtime.process.fork_server import function_named
+from bot_console.runtime.process.lockstep.member import Member
+from bot_console.runtime.rmw.lockstep.bus import bus_over
+from bot_console.runtime.rmw.lockstep.session import Link
+from bot_console.runtime.rmw.middleware import choose_middleware
+
+
+def member_program(process: int, function: str, arguments: Sequence[Any], channel: int) -> Callable[[], object]:
+    """Return what the process runs: the program that a function returns, as process number `process` of the run.
+
+    `channel` is the descriptor of the connection to the coordinator.
+    """
+
+    def run() -> None:
+        member = Member(socket.socket(fileno=channel))
+        link = Link(member.send, process)
+        choose_middleware(bus_over(link))
+        member.join(link.take)
+        function_named(function)(*arguments)()
+
+    return run
