@@ -5,7 +5,8 @@ from __future__ import annotations
 import importlib
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from importlib.machinery import PathFinder
 from types import FunctionType, ModuleType
 from typing import Any
 
@@ -139,6 +140,19 @@ class _EntryPoint:
         return found
 
 
+class _FoundFirst:
+    """A finder of `sys.meta_path`: a package in the program's folders precedes an embedded one of that name."""
+
+    def __init__(self, modules: FreshModules) -> None:
+        self._modules = modules
+
+    def find_spec(self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None) -> Any:
+        """Return the spec of such a package; None for every other name."""
+        if path is None and fullname in self._modules.packages:
+            return PathFinder.find_spec(fullname, self._modules.folders)
+        return None
+
+
 def _functions(module: ModuleType) -> list[str]:
     """Return the names of the functions that a module itself defines."""
     found: dict[str, object] = vars(module)
@@ -159,6 +173,7 @@ def _adopt(modules: FreshModules) -> FreshModules | None:
     """Make the modules the calling node process's own; the real process gets only their folders on `sys.path`."""
     if local.process.main_state is None:
         sys.path[:0] = modules.folders
+        sys.meta_path.insert(0, _FoundFirst(modules))
         return None
     local.process.modules = modules
     return modules

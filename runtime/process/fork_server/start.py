@@ -40,6 +40,7 @@ def become(birth: Birth) -> Callable[[], object]:
     time.tzset()  # the zone was read from the server's environment
     _add_python_path(job.env.get("PYTHONPATH", ""))
     sys.argv = MAIN.argv = list(job.argv)
+    MAIN.name = job.name
     MAIN.pid = os.getpid()
     MAIN.locals.clear()
     MAIN.notices.clear()

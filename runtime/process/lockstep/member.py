@@ -27,6 +27,7 @@ from ..stepping.calls import uninstall_stepped_calls
 from ..stepping.one_cpu import import_numpy
 from ..stepping.stepped_time import SteppedTime
 from ..virtual import child_threads, waits
+from ..watch.gil_watch import out_of_the_way
 from . import alarms
 from .channel import SIGNAL, Channel, Operation, Welcome
 
@@ -38,10 +39,11 @@ COORDINATOR_GONE = 1
 
 
 class Member:
-    """This process's part in the run."""
+    """The part of this process in the run."""
 
     def __init__(self, connection: socket.socket) -> None:
-        self._channel = Channel(connection)
+        # As a program may close all descriptors that it knows of.
+        self._channel = Channel(socket.socket(fileno=out_of_the_way(connection.detach())))
         self._outbox: list[Operation] = []
         self._published: Wakeup | None = None
         self._undo: list[tuple[Any, str, Any]] = []
@@ -93,7 +95,7 @@ class Member:
         """Wait for a grant, run all threads until they wait, and answer."""
         grant = self._channel.receive()
         if grant is None:
-            os._exit(COORDINATOR_GONE)
+            os._exit(COORDINATOR_GONE)  # nothing else could end threads that wait for a turn
         now, horizon, operations = grant
         clock = self._clock
         clock.advance_to(now)

@@ -104,7 +104,9 @@ class ProcessSeat:
 
     def send_signal(self, number: int) -> None:
         """Deliver a signal. Raises `ProcessLookupError` if the process has ended."""
-        if self._over or self._task.detached or number in (signal.SIGSTOP, signal.SIGCONT):
+        if self._over:
+            raise ProcessLookupError
+        if self._task.detached or number in (signal.SIGSTOP, signal.SIGCONT):
             os.kill(self.pid, number)
         else:
             self.deliver((SIGNAL, number))
@@ -233,4 +235,3 @@ class _Watch:
         self._blocked = self._blocked + 1 if line and not used else 0
         hangs = self._blocked >= CHECKS_PER_STALL or self._computed >= COMPUTING * self._stall_s
         return line if hangs else ""
-

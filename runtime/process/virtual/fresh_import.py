@@ -41,7 +41,7 @@ class FreshModules:
     ) -> None:
         self.folders = list(folders)
         self.builtins: dict[str, Any] = {**vars(builtins), "__import__": self._import}
-        self._packages = frozenset(packages)
+        self.packages = frozenset(packages)
         self._shared = shared
         self._modules: dict[str, ModuleType] = {}
         self.table = ModuleTable(self._modules)
@@ -83,7 +83,7 @@ class FreshModules:
         if spec is not None and spec.loader is None:  # a folder without __init__.py: regular modules take precedence
             other = _find_spec(top, None)
             spec = spec if other is None or other.loader is None else None
-        return _find_spec(top, None) if spec is None and top in self._packages else spec
+        return _find_spec(top, None) if spec is None and top in self.packages else spec
 
     def _execute(self, name: str) -> ModuleType:
         top, _, rest = name.partition(".")

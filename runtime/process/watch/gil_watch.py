@@ -45,7 +45,7 @@ class GilWatch:
         if not hasattr(os, "memfd_create") or voluntary_switches("self", threading.get_native_id()) is None:
             return
         try:
-            self._file = _out_of_the_way(os.memfd_create(NAME))
+            self._file = out_of_the_way(os.memfd_create(NAME))
         except OSError:  # there are no more descriptors
             return
         self._made = _identity(self._file)
@@ -92,7 +92,8 @@ def _identity(descriptor: int) -> tuple[int, int]:
     return status.st_dev, status.st_ino
 
 
-def _out_of_the_way(descriptor: int) -> int:
+def out_of_the_way(descriptor: int) -> int:
+    """Give a descriptor a high number, which programs that close all they know of leave alone; return that."""
     import fcntl
     import resource
 

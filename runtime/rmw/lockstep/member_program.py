@@ -14,16 +14,12 @@ from bot_console.runtime.rmw.middleware import choose_middleware
 
 
 def member_program(process: int, function: str, arguments: Sequence[Any], channel: int) -> Callable[[], object]:
-    """Return what the process runs: the program that a function returns, as process number `process` of the run.
+    """Join the run as process number `process` and return what it runs: the program that a function returns.
 
     `channel` is the descriptor of the connection to the coordinator.
     """
-
-    def run() -> None:
-        member = Member(socket.socket(fileno=channel))
-        link = Link(member.send, process)
-        choose_middleware(bus_over(link))
-        member.join(link.take)
-        function_named(function)(*arguments)()
-
-    return run
+    member = Member(socket.socket(fileno=channel))
+    link = Link(member.send, process)
+    choose_middleware(bus_over(link))
+    member.join(link.take)
+    return function_named(function)(*arguments)
