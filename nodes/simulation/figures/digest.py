@@ -5,6 +5,8 @@ from __future__ import annotations
 import hashlib
 import struct
 
+VERSION = 1
+"""Changes with anything that gives an unchanged run another digest: what is hashed, the physics, the order of turns."""
 _BATCH = 3 * 256
 """How many numbers are collected before they are hashed together; the hash covers their bytes in order."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from bot_console_robot.simulation.figures.digest import PoseDigest
+from bot_console_robot.simulation.figures.digest import VERSION, PoseDigest
 
 MOVING = 0.05
 """A speed in m/s above which the robot counts as driving."""
@@ -77,4 +77,5 @@ class Metrics:
             "stops": self.stops,
             "longest_standstill": round(self.longest_standstill, 6),
             "digest": self.digest,
+            "digest_version": VERSION,
         }

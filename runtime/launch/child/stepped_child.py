@@ -13,28 +13,28 @@ from typing import Any
 from bot_console.runtime.own_processes import MEMBER_PROGRAM, fork_server
 from bot_console.runtime.process.fork_server import Job, Report
 from bot_console.runtime.process.lockstep.coordinator import Coordinator
-from bot_console.runtime.process.lockstep.seat import ProcessSeat
+from bot_console.runtime.process.lockstep.member_process import MemberProcess
 from launch.child.child import Output
 from launch.child.forked_child import ForkedChild
 from launch.child.python_program import PythonProgram
 
 
 class SteppedChild(ForkedChild):
-    """A process whose seat reads its output, so that all of it arrives at a fixed time of the run."""
+    """A process whose output is read in its turns, so that all of it arrives at a fixed time of the run."""
 
-    def __init__(self, seat: ProcessSeat, name: str, output: Output, loop: asyncio.AbstractEventLoop) -> None:
+    def __init__(self, member: MemberProcess, name: str, output: Output, loop: asyncio.AbstractEventLoop) -> None:
         super().__init__(name, output, loop)
-        self._seat = seat
+        self._member = member
         self._report = Report()
         self._input = -1
 
     def read_all(self, report: int, stdout: int, stderr: int, data: int, stdin: int) -> None:
-        """Let the seat read these descriptors; `stdin` is our end of its standard input."""
+        """Read these descriptors in its turns; `stdin` is our end of its standard input."""
         self._input = stdin
-        self._seat.read(report, self._take_report, partial(self._in_loop, self.all_reported))
-        self._seat.read(data, partial(self._in_loop, self.news.feed), partial(self._in_loop, self.news_end))
+        self._member.read(report, self._take_report, partial(self._in_loop, self.all_reported))
+        self._member.read(data, partial(self._in_loop, self.news.feed), partial(self._in_loop, self.news_end))
         for fd, end in ((1, stdout), (2, stderr)):
-            self._seat.read(
+            self._member.read(
                 end,
                 partial(self._in_loop, self.pipe_data_received, fd),
                 partial(self._in_loop, self.pipe_connection_lost, fd, None),
@@ -42,7 +42,7 @@ class SteppedChild(ForkedChild):
 
     def _take_report(self, data: bytes) -> None:
         self._report.feed(data)
-        self._seat.pid, self._seat.exit_code = self._report.pid or 0, self._report.exit_code
+        self._member.pid, self._member.exit_code = self._report.pid or 0, self._report.exit_code
         self._in_loop(self.reported, data)
 
     def _in_loop(self, callback: Callable[..., Any], *arguments: Any) -> None:
@@ -53,14 +53,14 @@ class SteppedChild(ForkedChild):
 
     def send_signal(self, signum: int) -> None:
         """Deliver a signal, in the process's next turn."""
-        self._seat.send_signal(operator.index(signum))
+        self._member.send_signal(operator.index(signum))
 
     def write(self, data: bytes) -> None:
         """Write bytes to its standard input."""
         os.write(self._input, data)
 
     def close(self) -> None:
-        """Close its standard input; the seat closes the rest."""
+        """Close its standard input; the rest is closed when it ends."""
         super().close()
         if self._input >= 0:
             os.close(self._input)
@@ -81,9 +81,9 @@ async def start_stepped_child(
     """Run a program in a separate process of the run; raises `OSError` if it cannot be started."""
     from launch.child.terminals import open_pipes, open_terminals
 
-    seat = coordinator.seat(name)
-    child = SteppedChild(seat, name, output, asyncio.get_running_loop())
-    arguments = (seat.number, program.function, program.arguments)
+    member = coordinator.new_member(name)
+    child = SteppedChild(member, name, output, asyncio.get_running_loop())
+    arguments = (member.number, program.function, program.arguments)
     job = Job(name, MEMBER_PROGRAM, arguments, list(argv), dict(env), os.path.abspath(cwd or os.getcwd()))
     with ExitStack() as kept, ExitStack() as given:
         out, error = open_terminals() if emulate_tty else open_pipes()
@@ -99,10 +99,10 @@ async def start_stepped_child(
             stdout=out.child_end,
             stderr=error.child_end,
             data=child_data,
-            channel=seat.member_end.fileno(),
+            channel=member.member_end.fileno(),
         )
-        kept.pop_all()  # the child and its seat own them now
+        kept.pop_all()  # the two objects below own them
     child.read_all(report, out.own_end, error.own_end, own_data, own_input)
-    seat.start()
+    member.start()
     await child.started
     return child

@@ -8,7 +8,7 @@ from weakref import WeakKeyDictionary
 from ..clock_source import ClockSource
 from ..stepping.stepped_time import SteppedTime
 from .channel import Welcome
-from .seat import ProcessSeat, Relay
+from .member_process import MemberProcess, Relay
 
 
 class Coordinator:
@@ -18,21 +18,21 @@ class Coordinator:
         self._clock = clock
         self._relay = relay
         self._seed = seed
-        self._seats: list[ProcessSeat] = []
+        self._members: list[MemberProcess] = []
         _coordinators[clock] = self
 
-    def seat(self, name: str) -> ProcessSeat:
-        """Make a seat for a new process."""
-        number = len(self._seats) + 1
+    def new_member(self, name: str) -> MemberProcess:
+        """Add a process that is about to be started."""
+        number = len(self._members) + 1
         pinned = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
         welcome = Welcome(self._clock.system_offset, self._clock.stall_s, self._seed << 16 | number, pinned)
-        seat = ProcessSeat(self._clock, name, number, welcome, self._relay)
-        self._seats.append(seat)
-        return seat
+        member = MemberProcess(self._clock, name, number, welcome, self._relay)
+        self._members.append(member)
+        return member
 
     def close(self) -> None:
         """End the processes that still run, at the end of the run."""
-        for each in self._seats:
+        for each in self._members:
             each.close()
 
 

@@ -56,11 +56,13 @@ class Member:
         if self._published is not None:
             self._published.set()
 
-    def join(self, take: Callable[[Operation], None]) -> None:
+    def join(self, take: Callable[[Operation], None], news: Callable[[], list[Operation]]) -> None:
         """Take part from now on, with the calling thread as the program's main thread; returns when it has its turn.
 
-        `take(operation)` is called with each operation that comes from the coordinator.
+        `take(operation)` is called with each operation that comes from the coordinator; `news()` returns those to be
+        handed over at the end of each turn beside what was sent.
         """
+        self._take, self._news = take, news
         welcome = self._channel.receive()
         if welcome is None:
             os._exit(COORDINATOR_GONE)
@@ -72,14 +74,14 @@ class Member:
         sys.modules["numpy.random"].seed(given.seed % (1 << 32))
         begun = _thread.allocate_lock()
         begun.acquire()
-        _thread.start_new_thread(self._steward, (given, take, begun.release))
+        _thread.start_new_thread(self._steward, (given, begun.release))
         begun.acquire()
         self._main.ident = threading.get_ident()
         local.state, local.waits_on, local.task = self._main, self._clock, self._main.task
         if self._main.task is not None:
             self._main.task.take()
 
-    def _steward(self, given: Welcome, take: Callable[[Operation], None], begun: Callable[[], None]) -> None:
+    def _steward(self, given: Welcome, begun: Callable[[], None]) -> None:
         self._clock = clock = SteppedTime(given.system_offset, stall_s=given.stall_s)
         MAIN.clock = local.waits_on = clock
         self._published = clock.wakeup()
@@ -89,9 +91,9 @@ class Member:
         self._wrap_calls()
         begun()
         while True:
-            self._run_turn(take, self._published)
+            self._run_turn(self._published)
 
-    def _run_turn(self, take: Callable[[Operation], None], published: Wakeup) -> None:
+    def _run_turn(self, published: Wakeup) -> None:
         """Wait for a grant, run all threads until they wait, and answer."""
         grant = self._channel.receive()
         if grant is None:
@@ -103,13 +105,13 @@ class Member:
             if each[0] == SIGNAL:
                 self.signal(each[1])
             else:
-                take(each)
+                self._take(each)
         published.clear()
         # What happens before the horizon concerns this process alone, until it publishes something.
         if horizon is not None and horizon > now and not self._outbox:
             published.wait(horizon - 1)
         clock.run_until(clock.steady_ns())
-        outbox, self._outbox = self._outbox, []
+        outbox, self._outbox = [*self._outbox, *self._news()], []
         stalls, self._stalls = clock.stalls[self._stalls :], len(clock.stalls)
         self._channel.send((clock.steady_ns(), clock.earliest_deadline(), outbox, stalls))
 

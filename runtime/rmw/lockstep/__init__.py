@@ -9,6 +9,7 @@ other processes. The operations of a process:
     ("keep", publisher, key, count), ("forget", publisher)
     ("put", publisher, key, payload, attachment)
     ("query", number, key, payload, attachment), ("reply", process, number, payload, attachment)
+    ("published", count)                                how many messages it has published, for the report
 
 What is delivered to it:
 

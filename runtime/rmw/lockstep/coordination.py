@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 from bot_console.runtime.process.lockstep.coordinator import Coordinator
 from bot_console.runtime.process.stepping.stepped_time import SteppedTime
-from bot_console.runtime.rmw.lockstep.bus import bus_over
+from bot_console.runtime.rmw.lockstep.bus import LockstepBuses
 from bot_console.runtime.rmw.lockstep.session import Link
 from bot_console.runtime.rmw.lockstep.switchboard import Operation, Switchboard
 from bot_console.runtime.rmw.middleware import choose_middleware, chosen_middleware
@@ -25,9 +25,10 @@ def coordinated(clock: SteppedTime, seed: int) -> Generator[None]:
         own.handle(operation)
 
     link = Link(send, 0)
+    link.published_elsewhere = switchboard.published
     own = switchboard.add(link.take)
     before = chosen_middleware()
-    choose_middleware(bus_over(link))
+    choose_middleware(LockstepBuses(link).of)
     coordinator = Coordinator(clock, switchboard, seed)
     try:
         yield

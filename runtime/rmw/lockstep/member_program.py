@@ -8,7 +8,7 @@ from typing import Any
 
 from bot_console.runtime.process.fork_server import function_named
 from bot_console.runtime.process.lockstep.member import Member
-from bot_console.runtime.rmw.lockstep.bus import bus_over
+from bot_console.runtime.rmw.lockstep.bus import LockstepBuses
 from bot_console.runtime.rmw.lockstep.session import Link
 from bot_console.runtime.rmw.middleware import choose_middleware
 
@@ -20,6 +20,7 @@ def member_program(process: int, function: str, arguments: Sequence[Any], channe
     """
     member = Member(socket.socket(fileno=channel))
     link = Link(member.send, process)
-    choose_middleware(bus_over(link))
-    member.join(link.take)
+    buses = LockstepBuses(link)
+    choose_middleware(buses.of)
+    member.join(link.take, buses.news)
     return function_named(function)(*arguments)

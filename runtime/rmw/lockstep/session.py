@@ -34,6 +34,8 @@ class Link:
         """`send(operation)` passes an operation to the switchboard; `process` is a number unique in the run."""
         self.send = send
         self.process = process
+        self.published_elsewhere: Callable[[], int] = lambda: 0
+        """How many messages other processes have published, as far as this one is told."""
         self.numbers = itertools.count(1)
         self.subscriptions: dict[str, dict[int, Received]] = {}
         self.served: dict[str, dict[int, Callable[[Query], None]]] = {}

@@ -25,6 +25,7 @@ class Peer:
         self.served: set[str] = set()
         self.kept: dict[int, tuple[str, deque[Sample]]] = {}
         """The last messages of its latching publishers."""
+        self.published = 0
 
     def handle(self, operation: Operation) -> None:
         """Carry out an operation of the process."""
@@ -51,6 +52,7 @@ class Switchboard:
             "put": self._put,
             "query": self._query,
             "reply": self._reply,
+            "published": self._published,
         }
 
     def add(self, deliver: Deliver) -> Peer:
@@ -67,16 +69,23 @@ class Switchboard:
         if self._peers.pop(peer.number, None) is None:
             return
         for key in peer.tokens:
-            self._tell_others(peer, ("token", key, False))
+            self._deliver_to_others(peer, ("token", key, False))
 
     def handle(self, peer: Peer, operation: Operation) -> None:
         """Carry out an operation."""
         self._handlers[operation[0]](peer, *operation[1:])
 
+    def published(self) -> int:
+        """Return how many messages the processes have published, as far as they report it."""
+        return sum(each.published for each in self._peers.values())
+
+    def _published(self, peer: Peer, count: int) -> None:
+        peer.published = count
+
     def _others(self, peer: Peer) -> list[Peer]:
         return [each for each in self._peers.values() if each is not peer]
 
-    def _tell_others(self, peer: Peer, operation: Operation) -> None:
+    def _deliver_to_others(self, peer: Peer, operation: Operation) -> None:
         for each in self._others(peer):
             each.deliver(operation)
 
@@ -85,7 +94,7 @@ class Switchboard:
             peer.tokens[key] = None
         else:
             peer.tokens.pop(key, None)
-        self._tell_others(peer, ("token", key, exists))
+        self._deliver_to_others(peer, ("token", key, exists))
 
     def _subscribe(self, peer: Peer, key: str, wanted: bool) -> None:
         (peer.subscribed.add if wanted else peer.subscribed.discard)(key)

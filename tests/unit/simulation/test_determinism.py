@@ -45,4 +45,4 @@ def test_report_is_json(shipped_world: World) -> None:
     report = json.loads(json.dumps(simulation.report()))
     assert report["world"] == shipped_world.name
     assert report["seed"] == 3
-    assert set(report) >= {"distance", "mean_speed", "min_clearance", "stops", "collisions", "digest"}
+    assert set(report) >= {"distance", "mean_speed", "min_clearance", "stops", "collisions", "digest", "digest_version"}

@@ -1,7 +1,6 @@
-"""A process of a user in the run that this process coordinates: one seat in its scheduler.
+"""A process of a user in the run that this process coordinates: it has its turns like a thread of this process.
 
-When the seat has its turn, the process runs until all its threads wait. Its output is read meanwhile, and completely
-before the next seat's turn.
+In its turn it runs until all its threads wait. Its output is read meanwhile, and completely before the next turn.
 """
 
 from __future__ import annotations
@@ -61,7 +60,7 @@ class Reader(NamedTuple):
     end: Callable[[], None]
 
 
-class ProcessSeat:
+class MemberProcess:
     """One process. Its methods may be called by any thread that has its turn."""
 
     def __init__(self, clock: SteppedTime, name: str, number: int, welcome: Welcome, relay: Relay) -> None:
@@ -93,7 +92,7 @@ class ProcessSeat:
         self._task.hold_clock()
 
     def read(self, descriptor: int, take: Callable[[bytes], None], end: Callable[[], None]) -> None:
-        """Pass on what the process writes to a pipe, and the pipe's end; the seat owns the descriptor from now on."""
+        """Pass on what the process writes to a pipe, and the pipe's end; owns the descriptor from now on."""
         self._readers[descriptor] = Reader(take, end)
         self._poll.register(descriptor, select.POLLIN)
 
