@@ -181,7 +181,7 @@ async def main(folder: Path) -> None:
     try:
         async with session.app.run_test(size=LARGE) as pilot:
             await take_all(Photographer(session, pilot, folder))
-            session.console.all_stop(True)
+            session.console.drive.stop(True)
     finally:
         await asyncio.to_thread(session.close)
         shutil.rmtree(BEGINNER, ignore_errors=True)

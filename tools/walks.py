@@ -25,8 +25,8 @@ install()
 
 from bot_console.tui import keymap
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.live.session import Session
 from bot_console.tui.panes.parameters.table import ParameterRows
+from bot_console.tui.session.live import Session
 from textual.pilot import Pilot
 
 ROOTS = (Path(keymap.__file__).parents[1], Path(keymap.__file__).resolve().parents[1])

@@ -37,7 +37,8 @@ from textual.widgets import Static
 
 if TYPE_CHECKING:
     from bot_console.tui.console.command_line import CommandLine
-    from bot_console.tui.console.protocol import Console, Launcher
+    from bot_console.tui.console.launch.port import Launcher
+    from bot_console.tui.console.protocol import Console
     from bot_console.tui.panes.broken_pane import BrokenPane
     from bot_console.tui.panes.pane import Pane
 
@@ -368,7 +369,7 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
     def last_words(self, error: BaseException) -> str:
         """Stop the robot, save the traceback, and return a one-line summary."""
         with contextlib.suppress(Exception):  # nothing may come between a fault and the restored terminal
-            self.console_of_robot.all_stop(True, "bot-console has failed")
+            self.console_of_robot.drive.stop(True, "bot-console has failed")
         details = keep(error)
         text = f"bot-console: ended by a fault of its own, the robot was stopped: {reason(error)}"
         return text + (f"; details in {details}" if details else "")

@@ -12,8 +12,7 @@ from typing import Any
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.commanding.command_handler import CommandHandler
 from bot_console.tui.console.command_line import CommandLine
-from bot_console.tui.console.connection.no_console import NoCommandLine
-from bot_console.tui.console.connection.read_only import ReadOnlyConsole
+from bot_console.tui.console.gated_lines import GatedLines
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.faults import Faults, PaneMaker
 from bot_console.tui.keymap import stops
@@ -58,12 +57,12 @@ class AppParts:
         self.quitting = Quitting(app, console)
         self.stopping = Stopping(app, console)
         self._early_stop = early_stop
-        early_stop.attach(console, lambda: self.act_on_stop(self.stopping.hold))
-        self.leaving = Leaving(app, console, redraw, holds=not isinstance(console, ReadOnlyConsole))
+        early_stop.attach(console.drive, lambda: self.act_on_stop(self.stopping.hold))
+        self.leaving = Leaving(app, console, redraw, holds=not console.gate.read_only)
         self.command_handler = CommandHandler(
-            app, stage, self.stopping, console, lines or NoCommandLine(), open, self.leaving.run
+            app, stage, self.stopping, console, lines or GatedLines(console.gate, None), open, self.leaving.run
         )
-        self.safety_news = SafetyNews(console)
+        self.safety_news = SafetyNews(console.parameters)
         self.faults = Faults(app, maker, changed)
         self.status = StatusBar()
 

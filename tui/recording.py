@@ -28,7 +28,7 @@ class RecordingApp(GuardedApp):
 
     def action_record(self) -> None:
         """Ask for a folder and record all topics into it, or end the bag."""
-        pane, recording = self.current_pane, self.console_of_robot.recording
+        pane, recording = self.current_pane, self.console_of_robot.bags
         if pane is None:
             return
         if recording.info.folder:
@@ -38,7 +38,7 @@ class RecordingApp(GuardedApp):
 
     def action_keep_past(self) -> None:
         """Ask for a folder and save the last minutes there."""
-        pane, recording = self.current_pane, self.console_of_robot.recording
+        pane, recording = self.current_pane, self.console_of_robot.bags
         if pane is None:
             return
         if recording.info.kept_s:

@@ -19,8 +19,8 @@ from bot_console.runtime.importer import install
 install()
 
 import rclpy
-from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.graph.watch import GraphWatch
+from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.session.embedded.hooks import graph_events
 from rcl_interfaces.msg import ParameterEvent
 from rclpy.executors import SingleThreadedExecutor

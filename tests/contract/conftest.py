@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import pytest
-from bot_console.tui.console.connection import linked_console
+from bot_console.tui.console.robot import robot_drive
 from rigs import FakeRig, Rig, RosRig, is_embedded_rclpy, machine_rig, mesh_rig, network_rig
 
 WAYS = [
@@ -49,7 +49,7 @@ def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> 
 def rig(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Rig]:
     """A system with its console."""
     if request.param is RosRig:
-        monkeypatch.setattr(linked_console, "LAST_WORD", 0.0)  # the bus in this process delivers at once
+        monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)  # the bus in this process delivers at once
     made: Rig = request.param(tmp_path)
     yield made
     made.close()

@@ -15,7 +15,7 @@ SEVERITIES = (Severity.INFO, Severity.WARN, Severity.ERROR, Severity.FATAL)
 
 def seqs(rig: Rig, which: LogFilter | None = None, after: int = 0, limit: int | None = None) -> list[int]:
     """Numbers of the robot's records."""
-    return list(rig.console.matching_logs(which or LogFilter(words="node:robot"), after, limit))
+    return list(rig.console.logs.matching(which or LogFilter(words="node:robot"), after, limit))
 
 
 def publish_all(rig: Rig) -> list[int]:
@@ -46,7 +46,7 @@ def test_the_graph_has_nodes_topics_and_services_with_types(rig: Rig) -> None:
 
 def test_log_records_have_number_severity_node_and_text(rig: Rig) -> None:
     numbers = publish_all(rig)
-    records = [rig.console.log(each) for each in numbers]
+    records = [rig.console.logs.record(each) for each in numbers]
     assert numbers == sorted(set(numbers))
     assert [each and (each.severity, each.node, each.text) for each in records] == [
         (severity, "robot", f"it is {severity.name}") for severity in SEVERITIES
@@ -54,7 +54,7 @@ def test_log_records_have_number_severity_node_and_text(rig: Rig) -> None:
     assert all(each and each.file and each.line for each in records)
     counts = rig.console.snapshot().logs.counts
     assert all(counts[severity] >= 1 for severity in SEVERITIES)
-    assert rig.console.log(numbers[-1] + 1000) is None
+    assert rig.console.logs.record(numbers[-1] + 1000) is None
 
 
 @pytest.mark.parametrize(
@@ -70,7 +70,7 @@ def test_log_records_have_number_severity_node_and_text(rig: Rig) -> None:
 )
 def test_logs_are_filtered(rig: Rig, which: LogFilter, left: tuple[Severity, ...]) -> None:
     publish_all(rig)
-    found = [rig.console.log(each) for each in seqs(rig, which)]
+    found = [rig.console.logs.record(each) for each in seqs(rig, which)]
     assert [each and each.severity for each in found] == list(left)
 
 
@@ -87,70 +87,70 @@ def test_an_invalid_pattern_is_a_readable_error(rig: Rig) -> None:
 
 def test_cleared_logs_are_gone_and_numbering_continues(rig: Rig) -> None:
     numbers = publish_all(rig)
-    rig.console.clear_logs()
-    assert seqs(rig) == [] and rig.console.log(numbers[0]) is None
+    rig.console.logs.clear()
+    assert seqs(rig) == [] and rig.console.logs.record(numbers[0]) is None
     rig.show_text(Severity.INFO, "later")
     assert until(lambda: seqs(rig), "the next record")[0] > numbers[-1]
 
 
 def test_a_watched_series_is_read_by_cursor(rig: Rig) -> None:
-    assert LEVEL in rig.console.plottable()
-    assert rig.console.watch(LEVEL).ok
+    assert LEVEL in rig.console.plots.plottable()
+    assert rig.console.plots.watch(LEVEL).ok
     until(rig.heard_by_somebody, "the subscription")
     cursor = 0
     for expected in (1.5, -2.0):
         rig.publish(expected)
         new = until(lambda cursor=cursor: _new(rig, LEVEL, cursor), "a sample")
         assert list(new.values) == [expected] and len(new.times) == 1 and not new.problem
-        assert new.times[0] <= rig.console.plot_time() + 1e-6
+        assert new.times[0] <= rig.console.plots.time() + 1e-6
         cursor = new.cursor
-    assert len(rig.console.samples(LEVEL, cursor).values) == 0
-    assert list(rig.console.samples(LEVEL).values) == [1.5, -2.0]
-    rig.console.unwatch(LEVEL)
-    assert len(rig.console.samples(LEVEL).values) == 0
+    assert len(rig.console.plots.samples(LEVEL, cursor).values) == 0
+    assert list(rig.console.plots.samples(LEVEL).values) == [1.5, -2.0]
+    rig.console.plots.unwatch(LEVEL)
+    assert len(rig.console.plots.samples(LEVEL).values) == 0
 
 
 def test_a_series_is_collected_as_long_as_any_requester_needs_it(rig: Rig) -> None:
     path = f"{ROBOT}:speed"
-    assert rig.console.watch(path).ok and rig.console.watch(path, "another").ok
-    rig.console.unwatch(path)
-    assert list(rig.console.samples(path).values) == [1.0]
-    rig.console.unwatch(path, "another")
-    assert len(rig.console.samples(path).values) == 0
+    assert rig.console.plots.watch(path).ok and rig.console.plots.watch(path, "another").ok
+    rig.console.plots.unwatch(path)
+    assert list(rig.console.plots.samples(path).values) == [1.0]
+    rig.console.plots.unwatch(path, "another")
+    assert len(rig.console.plots.samples(path).values) == 0
 
 
 def _new(rig: Rig, path: str, cursor: int) -> Any:
-    new = rig.console.samples(path, cursor)
+    new = rig.console.plots.samples(path, cursor)
     return new if len(new.values) else None
 
 
 def test_a_parameter_can_be_watched_as_a_series(rig: Rig) -> None:
     path = f"{ROBOT}:speed"
-    assert rig.console.watch(path).ok
-    rig.console.set_parameters(ROBOT, {"speed": 0.5}).result(TIMEOUT_S)
-    until(lambda: list(rig.console.samples(path).values) == [1.0, 0.5], "the new value")
+    assert rig.console.plots.watch(path).ok
+    rig.console.parameters.set(ROBOT, {"speed": 0.5}).result(TIMEOUT_S)
+    until(lambda: list(rig.console.plots.samples(path).values) == [1.0, 0.5], "the new value")
 
 
 @pytest.mark.parametrize("path", ["/nowhere/data", f"{ROBOT}:nothing", "/nobody:speed"])
 def test_a_path_that_cannot_be_plotted_is_explained(rig: Rig, path: str) -> None:
-    answer = rig.console.watch(path)
+    answer = rig.console.plots.watch(path)
     assert not answer.ok and answer.text
-    assert len(rig.console.samples(path).values) == 0
+    assert len(rig.console.plots.samples(path).values) == 0
 
 
 def test_the_time_axis_matches_message_stamps(rig: Rig) -> None:
     publish_all(rig)
-    record = rig.console.log(seqs(rig)[0])
+    record = rig.console.logs.record(seqs(rig)[0])
     assert record is not None
-    assert rig.console.plot_time(record.stamp + 10**9) - rig.console.plot_time(record.stamp) == pytest.approx(1.0)
-    assert rig.console.plot_time(record.stamp) <= rig.console.plot_time() + 1e-6
+    assert rig.console.plots.time(record.stamp + 10**9) - rig.console.plots.time(record.stamp) == pytest.approx(1.0)
+    assert rig.console.plots.time(record.stamp) <= rig.console.plots.time() + 1e-6
 
 
 def drive_until_heard(rig: Rig, linear: float, angular: float) -> None:
     """Repeat a command, as the pane does, until the robot has received it."""
 
     def heard() -> bool:
-        rig.console.drive(linear, angular)
+        rig.console.drive.move(linear, angular)
         return len(rig.received) > 0 and rig.received[-1] == (linear, angular)
 
     until(heard, f"the command {linear}, {angular}")
@@ -159,11 +159,11 @@ def drive_until_heard(rig: Rig, linear: float, angular: float) -> None:
 def test_commands_reach_the_robot_and_an_all_stop_holds_it(rig: Rig) -> None:
     drive_until_heard(rig, 0.5, -0.25)
     assert set(rig.received) == {(0.5, -0.25)}
-    rig.console.all_stop(True)
+    rig.console.drive.stop(True)
     until(lambda: rig.received[-1] == (0.0, 0.0), "the stop")
     assert until(lambda: rig.console.snapshot().drive.stopped, "the stop in the snapshot")
-    rig.console.drive(1.0, 0.0)
-    rig.console.all_stop(False)
+    rig.console.drive.move(1.0, 0.0)
+    rig.console.drive.stop(False)
     until(lambda: not rig.console.snapshot().drive.stopped, "the end of the stop")
     drive_until_heard(rig, 0.1, 0.0)
     assert (1.0, 0.0) not in rig.received
@@ -172,32 +172,32 @@ def test_commands_reach_the_robot_and_an_all_stop_holds_it(rig: Rig) -> None:
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
 def test_a_velocity_that_is_not_finite_is_never_sent(rig: Rig, value: float) -> None:
     with pytest.raises(ValueError, match="finite"):
-        rig.console.drive(value, 0.0)
+        rig.console.drive.move(value, 0.0)
     with pytest.raises(ValueError, match="finite"):
-        rig.console.drive(0.0, value)
+        rig.console.drive.move(0.0, value)
     assert list(rig.received) == []
 
 
 def test_a_service_call_returns_its_response_or_the_reason_of_failure(rig: Rig) -> None:
-    assert rig.console.call("/greet", "std_srvs/srv/Trigger", {}).result(TIMEOUT_S).ok
+    assert rig.console.topics.call_service("/greet", "std_srvs/srv/Trigger", {}).result(TIMEOUT_S).ok
     for service, type_name in (("/nowhere", "std_srvs/srv/Trigger"), ("/greet", "nobody_srvs/srv/Nothing")):
-        answer = rig.console.call(service, type_name, {}).result(TIMEOUT_S)
+        answer = rig.console.topics.call_service(service, type_name, {}).result(TIMEOUT_S)
         assert not answer.ok and answer.text
 
 
 def test_a_logger_level_is_set_if_the_node_offers_that(rig: Rig) -> None:
-    assert rig.console.set_logger_level(ROBOT, Severity.WARN).result(TIMEOUT_S).ok
-    answer = rig.console.set_logger_level("/nobody", Severity.WARN).result(TIMEOUT_S)
+    assert rig.console.logs.set_level(ROBOT, Severity.WARN).result(TIMEOUT_S).ok
+    answer = rig.console.logs.set_level("/nobody", Severity.WARN).result(TIMEOUT_S)
     assert not answer.ok and "/nobody" in answer.text
 
 
 def test_the_levels_of_a_nodes_loggers_are_listed(rig: Rig) -> None:
-    rig.console.set_logger_level(ROBOT, Severity.ERROR, "robot.arm").result(TIMEOUT_S)
-    rig.console.set_logger_level(ROBOT, Severity.WARN).result(TIMEOUT_S)
-    levels = {each.logger: each.severity for each in rig.console.logger_levels(ROBOT).result(TIMEOUT_S)}
+    rig.console.logs.set_level(ROBOT, Severity.ERROR, "robot.arm").result(TIMEOUT_S)
+    rig.console.logs.set_level(ROBOT, Severity.WARN).result(TIMEOUT_S)
+    levels = {each.logger: each.severity for each in rig.console.logs.levels(ROBOT).result(TIMEOUT_S)}
     assert levels["robot"] is Severity.WARN
     with pytest.raises(ValueError, match="/nobody"):
-        rig.console.logger_levels("/nobody").result(TIMEOUT_S)
+        rig.console.logs.levels("/nobody").result(TIMEOUT_S)
 
 
 def test_the_last_command_of_a_console_is_zero_velocity(rig: Rig) -> None:
@@ -206,8 +206,8 @@ def test_the_last_command_of_a_console_is_zero_velocity(rig: Rig) -> None:
     until(lambda: rig.received[-1] == (0.0, 0.0), "the stop")
     before = len(rig.received)
     rig.console.close()
-    rig.console.drive(1.0, 0.0)
-    rig.console.all_stop(False)
+    rig.console.drive.move(1.0, 0.0)
+    rig.console.drive.stop(False)
     assert set(rig.received[before:]) <= {(0.0, 0.0)}
 
 
@@ -215,21 +215,21 @@ def test_a_closed_console_refuses_requests_and_still_shows_its_data(rig: Rig) ->
     numbers = publish_all(rig)
     console = rig.console
     console.close()
-    assert [console.log(each) is not None for each in numbers] == [True] * 4
+    assert [console.logs.record(each) is not None for each in numbers] == [True] * 4
     assert ROBOT in console.snapshot().parameters
-    (outcome,) = console.set_parameters(ROBOT, {"speed": 0.5}).result(TIMEOUT_S)
+    (outcome,) = console.parameters.set(ROBOT, {"speed": 0.5}).result(TIMEOUT_S)
     assert (outcome.accepted, outcome.refused_by) == (False, "console") and "closed" in outcome.reason
     asked = (
-        console.undo(),
-        console.redo(),
-        console.call("/greet", "std_srvs/srv/Trigger", {}),
-        console.set_logger_level(ROBOT, Severity.WARN),
+        console.parameters.undo(),
+        console.parameters.redo(),
+        console.topics.call_service("/greet", "std_srvs/srv/Trigger", {}),
+        console.logs.set_level(ROBOT, Severity.WARN),
     )
-    answers = [each.result(TIMEOUT_S) for each in asked] + [console.watch(LEVEL)]
+    answers = [each.result(TIMEOUT_S) for each in asked] + [console.plots.watch(LEVEL)]
     assert [each.ok for each in answers] == [False] * 5
     assert all("closed" in each.text for each in answers)
     with pytest.raises(ValueError, match="closed"):
-        console.apply_profile("slow").result(TIMEOUT_S)
-    answer = console.save_parameters("/nowhere/x.yaml")
+        console.profiles.apply("slow").result(TIMEOUT_S)
+    answer = console.parameters.save("/nowhere/x.yaml")
     assert not answer.ok and "closed" in answer.text
-    console.unwatch(LEVEL)
+    console.plots.unwatch(LEVEL)

@@ -19,7 +19,7 @@ def parameter(rig: Rig, name: str) -> ParameterInfo:
 
 def setting(rig: Rig, values: dict[str, Any], node: str = ROBOT, *, atomically: bool = False) -> list[SetOutcome]:
     """Set values and wait for the outcomes."""
-    return list(rig.console.set_parameters(node, values, atomically=atomically).result(TIMEOUT_S))
+    return list(rig.console.parameters.set(node, values, atomically=atomically).result(TIMEOUT_S))
 
 
 def shown(rig: Rig, name: str, value: Any) -> None:
@@ -45,8 +45,8 @@ def test_an_accepted_value_is_shown_and_recorded_in_the_journal(rig: Rig, name: 
     assert setting(rig, {name: value}) == [SetOutcome(ROBOT, name, value, True)]
     shown(rig, name, value)
     assert parameter(rig, name).changed
-    until(rig.console.changes, "the journal")
-    (change,) = rig.console.changes()
+    until(rig.console.parameters.changes, "the journal")
+    (change,) = rig.console.parameters.changes()
     assert (change.node, change.name, change.old, change.new) == (ROBOT, name, before, value)
     assert (change.source, change.accepted, change.reason) == (ChangeSource.EDIT, True, "")
 
@@ -69,7 +69,7 @@ def test_a_refusal_says_who_and_why_and_changes_nothing(rig: Rig, node: str, nam
     assert (outcome.node, outcome.name, outcome.value, outcome.accepted) == (node, name, value, False)
     assert outcome.refused_by == who
     assert outcome.reason
-    (change,) = rig.console.changes()
+    (change,) = rig.console.parameters.changes()
     assert (change.name, change.new, change.accepted, change.reason) == (name, value, False, outcome.reason)
     assert change.answered is (who != "node")
     assert rig.console.snapshot().parameters[ROBOT] == before
@@ -102,14 +102,14 @@ def both(rig: Rig) -> tuple[object, object]:
 
 
 def test_values_of_two_nodes_are_set_together_and_reverted_by_one_undo(rig: Rig) -> None:
-    outcomes = rig.console.set_all({ROBOT: {"speed": 0.5, "count": 4}, ARM: {"reach": 0.2}}, by="a set").result(
-        TIMEOUT_S
-    )
+    outcomes = rig.console.parameters.set_all(
+        {ROBOT: {"speed": 0.5, "count": 4}, ARM: {"reach": 0.2}}, by="a set"
+    ).result(TIMEOUT_S)
     assert len(outcomes) == 3 and all(each.accepted for each in outcomes)
     until(lambda: both(rig) == (0.5, 0.2), "the values of both nodes")
-    until(lambda: len(rig.console.changes()) == 3, "the journal")
-    assert {each.by for each in rig.console.changes()} == {"a set"}
-    assert rig.console.undo().result(TIMEOUT_S).ok
+    until(lambda: len(rig.console.parameters.changes()) == 3, "the journal")
+    assert {each.by for each in rig.console.parameters.changes()} == {"a set"}
+    assert rig.console.parameters.undo().result(TIMEOUT_S).ok
     until(lambda: both(rig) == (1.0, 1.0), "the values of both nodes")
     assert not rig.console.snapshot().journal.can_undo
 
@@ -119,7 +119,7 @@ def test_values_refused_by_one_node_are_set_on_none(rig: Rig, rule: str) -> None
     """The robot is asked after the arm, in the order of the request; nobody knows its callback's rule beforehand."""
     if rule == "callback":
         rig.forbid_speed()
-    outcomes = rig.console.set_all(
+    outcomes = rig.console.parameters.set_all(
         {ARM: {"reach": 0.2}, ROBOT: {"count": 4, "speed": 0.5 if rule == "callback" else 9.0}}
     ).result(TIMEOUT_S)
     assert not any(each.accepted for each in outcomes)
@@ -135,7 +135,7 @@ def test_values_refused_by_one_node_are_set_on_none(rig: Rig, rule: str) -> None
 
 def test_a_profile_refused_by_the_second_node_leaves_the_first_unchanged(rig: Rig) -> None:
     rig.forbid_speed()
-    outcomes = rig.console.apply_profile("careful").result(TIMEOUT_S)
+    outcomes = rig.console.profiles.apply("careful").result(TIMEOUT_S)
     assert {each.node for each in outcomes} == {ARM, ROBOT} and not any(each.accepted for each in outcomes)
     until(lambda: both(rig) == (1.0, 1.0), "the values before")
     assert rig.console.snapshot().active_profile == ""
@@ -146,33 +146,33 @@ def test_undo_and_redo_restore_values(rig: Rig) -> None:
     setting(rig, {"speed": 1.5})
     shown(rig, "speed", 1.5)
     for ask, value, source in (("undo", 1.0, ChangeSource.UNDO), ("redo", 1.5, ChangeSource.REDO)):
-        answer = getattr(rig.console, ask)().result(TIMEOUT_S)
+        answer = getattr(rig.console.parameters, ask)().result(TIMEOUT_S)
         assert answer.ok and "speed" in answer.text
         shown(rig, "speed", value)
-        until(lambda source=source: rig.console.changes()[-1].source is source, "the journal")
+        until(lambda source=source: rig.console.parameters.changes()[-1].source is source, "the journal")
         journal = rig.console.snapshot().journal
         assert (journal.can_undo, journal.can_redo) == (ask == "redo", ask == "undo")
 
 
 def test_a_new_change_discards_redoable_steps(rig: Rig) -> None:
     setting(rig, {"speed": 1.5})
-    assert rig.console.undo().result(TIMEOUT_S).ok
+    assert rig.console.parameters.undo().result(TIMEOUT_S).ok
     setting(rig, {"count": 9})
     assert not rig.console.snapshot().journal.can_redo
-    assert not rig.console.redo().result(TIMEOUT_S).ok
+    assert not rig.console.parameters.redo().result(TIMEOUT_S).ok
 
 
 @pytest.mark.parametrize("ask", ["undo", "redo"])
 def test_undo_without_changes_is_refused(rig: Rig, ask: str) -> None:
-    answer = getattr(rig.console, ask)().result(TIMEOUT_S)
+    answer = getattr(rig.console.parameters, ask)().result(TIMEOUT_S)
     assert not answer.ok and f"nothing to {ask}" in answer.text
 
 
 def test_a_change_made_elsewhere_is_shown_and_cannot_be_undone_here(rig: Rig) -> None:
     rig.set_elsewhere("mode", "brave")
     shown(rig, "mode", "brave")
-    until(rig.console.changes, "the journal")
-    assert rig.console.changes()[-1].source is ChangeSource.OTHER
+    until(rig.console.parameters.changes, "the journal")
+    assert rig.console.parameters.changes()[-1].source is ChangeSource.OTHER
     assert not rig.console.snapshot().journal.can_undo
 
 
@@ -189,9 +189,9 @@ def test_the_origin_of_a_value_says_who_has_set_it(rig: Rig) -> None:
 def test_the_journal_is_read_from_a_number_on(rig: Rig) -> None:
     for value in (1, 2, 4):
         setting(rig, {"count": value})
-    until(lambda: len(rig.console.changes()) == 3, "three entries")
-    assert [each.seq for each in rig.console.changes()] == [0, 1, 2]
-    assert [each.new for each in rig.console.changes(2)] == [4]
+    until(lambda: len(rig.console.parameters.changes()) == 3, "three entries")
+    assert [each.seq for each in rig.console.parameters.changes()] == [0, 1, 2]
+    assert [each.new for each in rig.console.parameters.changes(2)] == [4]
     assert (rig.console.snapshot().journal.first, rig.console.snapshot().journal.end) == (0, 3)
 
 
@@ -200,26 +200,26 @@ def test_a_profile_shows_what_it_would_change(rig: Rig) -> None:
     assert list(profiles) == ["broken", "careful", "elsewhere", "slow", "wild"]
     assert "two underscores" in profiles["broken"].problem
     assert profiles["slow"].title == "Slow: for crowded rooms."
-    found = {each.name: each for each in rig.console.profile_differences("slow")}
+    found = {each.name: each for each in rig.console.profiles.differences("slow")}
     assert (found["speed"].now, found["speed"].then, found["speed"].refusal) == (1.0, 0.2, "")
-    assert {each.name: bool(each.refusal) for each in rig.console.profile_differences("wild")} == {
+    assert {each.name: bool(each.refusal) for each in rig.console.profiles.differences("wild")} == {
         "speed": True,
         "count": False,
     }
-    assert not rig.console.profile_differences("nobody")
+    assert not rig.console.profiles.differences("nobody")
     with pytest.raises(ValueError, match="none of its nodes is running"):
-        rig.console.apply_profile("elsewhere").result(TIMEOUT_S)
+        rig.console.profiles.apply("elsewhere").result(TIMEOUT_S)
     assert rig.console.snapshot().active_profile == "", "what nobody took is not in force"
 
 
 def test_a_profile_is_applied_and_can_be_undone(rig: Rig) -> None:
-    outcomes = rig.console.apply_profile("slow").result(TIMEOUT_S)
+    outcomes = rig.console.profiles.apply("slow").result(TIMEOUT_S)
     assert {each.name: each.accepted for each in outcomes} == {"speed": True, "count": True}
     shown(rig, "speed", 0.2)
     until(lambda: rig.console.snapshot().active_profile == "slow", "the active profile")
-    assert not rig.console.profile_differences("slow")
-    assert {each.source for each in rig.console.changes()} == {ChangeSource.PROFILE}
-    assert rig.console.undo().result(TIMEOUT_S).ok
+    assert not rig.console.profiles.differences("slow")
+    assert {each.source for each in rig.console.parameters.changes()} == {ChangeSource.PROFILE}
+    assert rig.console.parameters.undo().result(TIMEOUT_S).ok
     shown(rig, "speed", 1.0)
     shown(rig, "count", 3)
 
@@ -235,27 +235,27 @@ def test_one_undo_reverts_a_profile_and_its_name_on_all_nodes(rig: Rig) -> None:
         trees = rig.console.snapshot().parameters
         return tuple(getattr(trees[node].get(name), "value", None) for node, name in ((ROBOT, "speed"), (ARM, "reach")))
 
-    rig.console.apply_profile("slow").result(TIMEOUT_S)
+    rig.console.profiles.apply("slow").result(TIMEOUT_S)
     named("slow", 0)
     setting(rig, {"count": 7})
     named("slow", 1)
-    rig.console.apply_profile("careful").result(TIMEOUT_S)
+    rig.console.profiles.apply("careful").result(TIMEOUT_S)
     named("careful", 0)
     assert values() == (0.5, 0.3)
-    answer = rig.console.undo().result(TIMEOUT_S)
+    answer = rig.console.parameters.undo().result(TIMEOUT_S)
     assert answer.ok
     until(lambda: values() == (0.2, 1.0), "the values of both nodes")
     named("slow", 1)
-    assert rig.console.redo().result(TIMEOUT_S).ok
+    assert rig.console.parameters.redo().result(TIMEOUT_S).ok
     until(lambda: values() == (0.5, 0.3), "the values of both nodes")
     named("careful", 0)
 
 
 def test_an_undo_refused_by_one_node_is_reported_and_keeps_the_closer_profile(rig: Rig) -> None:
-    rig.console.apply_profile("careful").result(TIMEOUT_S)
+    rig.console.profiles.apply("careful").result(TIMEOUT_S)
     shown(rig, "speed", 0.5)
     rig.forbid_speed()
-    answer = rig.console.undo().result(TIMEOUT_S)
+    answer = rig.console.parameters.undo().result(TIMEOUT_S)
     assert not answer.ok and TOO_FAST in answer.text
     until(lambda: rig.console.snapshot().profile_changes == 1, "the arm's value")
     snapshot = rig.console.snapshot()
@@ -271,23 +271,23 @@ def test_values_set_here_are_unsaved_until_saved_or_undone(rig: Rig, tmp_path: P
     assert unsaved() == ()
     setting(rig, {"speed": 1.5, "count": 9})
     assert unsaved() == ((ROBOT, "count"), (ROBOT, "speed"))
-    assert rig.console.undo().result(TIMEOUT_S).ok
+    assert rig.console.parameters.undo().result(TIMEOUT_S).ok
     assert unsaved() == ()
-    rig.console.apply_profile("careful").result(TIMEOUT_S)
+    rig.console.profiles.apply("careful").result(TIMEOUT_S)
     rig.set_elsewhere("mode", "brave")
     shown(rig, "mode", "brave")
     assert unsaved() == ()
     setting(rig, {"count": 9})
-    assert rig.console.save_parameters(str(tmp_path / "arm.yaml"), [ARM]).ok
+    assert rig.console.parameters.save(str(tmp_path / "arm.yaml"), [ARM]).ok
     assert unsaved() == ((ROBOT, "count"),)
-    assert rig.console.save_parameters(str(tmp_path / "all.yaml")).ok
+    assert rig.console.parameters.save(str(tmp_path / "all.yaml")).ok
     assert unsaved() == ()
-    assert rig.console.undo().result(TIMEOUT_S).ok
+    assert rig.console.parameters.undo().result(TIMEOUT_S).ok
     assert unsaved() == ()
 
 
 def test_a_refused_profile_changes_nothing_and_does_not_become_active(rig: Rig) -> None:
-    outcomes = rig.console.apply_profile("wild").result(TIMEOUT_S)
+    outcomes = rig.console.profiles.apply("wild").result(TIMEOUT_S)
     assert not any(each.accepted for each in outcomes)
     assert parameter(rig, "count").value == 3
     assert rig.console.snapshot().active_profile == ""
@@ -296,14 +296,14 @@ def test_a_refused_profile_changes_nothing_and_does_not_become_active(rig: Rig) 
 @pytest.mark.parametrize(("name", "why"), [("nobody", "no profile nobody"), ("broken", "two underscores")])
 def test_an_unusable_profile_is_explained(rig: Rig, name: str, why: str) -> None:
     with pytest.raises(ValueError, match=why):
-        rig.console.apply_profile(name).result(TIMEOUT_S)
+        rig.console.profiles.apply(name).result(TIMEOUT_S)
 
 
 def test_saving_parameters_succeeds_or_says_why_not(rig: Rig, tmp_path: Path) -> None:
-    answer = rig.console.save_parameters(str(tmp_path / "saved.yaml"), [ROBOT])
+    answer = rig.console.parameters.save(str(tmp_path / "saved.yaml"), [ROBOT])
     assert answer.ok and "saved" in answer.text
     assert "speed: 1.0" in (tmp_path / "saved.yaml").read_text()
-    answer = rig.console.save_parameters(str(tmp_path / "saved.yaml" / "below.yaml"))
+    answer = rig.console.parameters.save(str(tmp_path / "saved.yaml" / "below.yaml"))
     assert not answer.ok and answer.text
 
 
@@ -311,38 +311,38 @@ def test_any_file_can_be_opened_as_a_profile_and_previewed(rig: Rig, tmp_path: P
     file = tmp_path / "mine" / "any.yaml"
     file.parent.mkdir()
     file.write_text("# Mine.\n/**:\n  ros__parameters: {speed: 0.4}\n/robot:\n  ros__parameters: {nobody: 1}\n")
-    answer = rig.console.open_profile(str(file))
+    answer = rig.console.profiles.open(str(file))
     assert (answer.ok, answer.text) == (True, "any")
-    found = {(each.node, each.name): each for each in rig.console.profile_differences("any")}
+    found = {(each.node, each.name): each for each in rig.console.profiles.differences("any")}
     assert set(found) == {(ROBOT, "speed"), (ROBOT, "nobody")}, "a wildcard asks nobody for what it has not"
     assert found[ROBOT, "nobody"].unknown and not found[ROBOT, "speed"].refusal
-    outcomes = rig.console.apply_profile("any").result(TIMEOUT_S)
+    outcomes = rig.console.profiles.apply("any").result(TIMEOUT_S)
     assert [(each.name, each.accepted) for each in outcomes] == [("speed", True)]
-    answer = rig.console.open_profile(str(tmp_path / "nowhere.yaml"))
+    answer = rig.console.profiles.open(str(tmp_path / "nowhere.yaml"))
     assert not answer.ok and "no file" in answer.text
 
 
 def test_current_values_are_saved_as_a_profile_and_can_be_restored(rig: Rig) -> None:
     setting(rig, {"speed": 1.5})
     shown(rig, "speed", 1.5)
-    assert rig.console.save_profile("fast", "For the long hall.").ok
+    assert rig.console.profiles.save("fast", "For the long hall.").ok
     saved = next(each for each in rig.console.snapshot().profiles if each.name == "fast")
     assert saved.title == "For the long hall." and saved.values[ROBOT, "speed"] == 1.5
     assert rig.console.snapshot().journal.unsaved == ()
     setting(rig, {"speed": 0.5})
     shown(rig, "speed", 0.5)
-    found = {each.name: each.then for each in rig.console.profile_differences("fast") if not each.refusal}
+    found = {each.name: each.then for each in rig.console.profiles.differences("fast") if not each.refusal}
     assert found == {"speed": 1.5}
-    assert rig.console.rename_profile("fast", "faster").ok
+    assert rig.console.profiles.rename("fast", "faster").ok
     assert [each.name for each in rig.console.snapshot().profiles if each.own] == ["faster"]
-    assert rig.console.delete_profile("faster").ok and not rig.console.delete_profile("faster").ok
+    assert rig.console.profiles.delete("faster").ok and not rig.console.profiles.delete("faster").ok
     assert not any(each.own for each in rig.console.snapshot().profiles)
 
 
 def test_a_profile_whose_file_is_deleted_is_no_longer_active(rig: Rig) -> None:
-    assert rig.console.save_profile("passing").ok
-    assert all(each.accepted for each in rig.console.apply_profile("passing").result(TIMEOUT_S))
+    assert rig.console.profiles.save("passing").ok
+    assert all(each.accepted for each in rig.console.profiles.apply("passing").result(TIMEOUT_S))
     assert rig.console.snapshot().active_profile == "passing"
-    assert rig.console.delete_profile("passing").ok
+    assert rig.console.profiles.delete("passing").ok
     snapshot = rig.console.snapshot()
     assert (snapshot.active_profile, snapshot.profile_changes) == ("", 0)

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from bot_console.tui.console.connection import linked_console
+from bot_console.tui.console.robot import robot_drive
 from rclpy.parameter import Parameter
 from rigs import Rig, RosRig, machine_rig, mesh_rig, network_rig
 from scenes.launcher_rigs import HostedRig, LauncherRig, MachineRig
@@ -37,7 +37,7 @@ def rig(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.Monk
     monkeypatch.setenv("ROS_DOMAIN_ID", "99")
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     if request.param is RosRig:
-        monkeypatch.setattr(linked_console, "LAST_WORD", 0.0)
+        monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)
     made = request.param(tmp_path)
     yield made
     made.close()

@@ -30,8 +30,8 @@ def bag(suffix: str) -> Callable[[str], None]:
         for topic in console.topics.measured():
             console.topics.listen(topic)
             console.topics.heard()
-        for path in console.plottable():
-            console.watch(path)
+        for path in console.plots.plottable():
+            console.plots.watch(path)
         console.close()
 
     return run

@@ -16,7 +16,7 @@ from bot_console.runtime.process.virtual.install import reinstall_stdio, uninsta
 from bot_console.runtime.workspace import discover
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.appearance import Appearance
-from bot_console.tui.console.connection.ros_console import RosConsole
+from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.pane_table import PaneEntry
 from course.page import make_workspace
 from fakes.launcher import FakeLauncher

@@ -28,7 +28,6 @@ from bot_console.runtime.rmw.zenoh.network.reachability import Tls
 from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.settings import Serving
-from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import (
     ChangeSource,
     ConsoleSnapshot,
@@ -44,6 +43,7 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.protocol import Console
+from bot_console.tui.console.ros_console import RosConsole
 from fakes.console import FakeConsole
 from geometry_msgs.msg import Twist
 from processes.certificates import make_certificates

@@ -32,7 +32,7 @@ from bot_console.tui.console.model import (
 )
 from bot_console.tui.console.robot.robot_model import DriveInfo, GridMap, Pose, WorldInfo
 from bot_console.tui.console.sensors.model import IMAGE, Diagnostics, Level, Picture
-from bot_console.tui.console.traffic import Measure
+from bot_console.tui.console.topics.port import Measure
 from fakes.console import START, FakeConsole
 from fakes.launcher import FakeLauncher
 from fakes.sensors import status
@@ -255,9 +255,9 @@ def live(parts: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
         Change(0, START - 12 * 10**9, "/robot_navigator", "max_speed", 0.7, 1.0, ChangeSource.EDIT),
         Change(1, START - 5 * 10**9, "/robot_navigator", "max_speed", 1.0, 10.0, ChangeSource.EDIT, False, "too fast"),
     ]  # fmt: skip
-    console.traffic.figures.update(figures())
+    console.topics.figures.update(figures())
     console.sensors.info = diagnosed()
-    console.traffic.messages[ODOM_TOPIC] = (odometry(), ODOM)
+    console.topics.messages[ODOM_TOPIC] = (odometry(), ODOM)
     console.differences["competition"] = differences()
     console.differences["indoor"] = ()
     lines = (

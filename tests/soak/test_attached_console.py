@@ -90,8 +90,8 @@ def a_round(rig: RosRig, number: int, seen: Seen) -> None:
     """Set, be refused, publish, log, drive; sometimes change the view, stop, and have a visitor."""
     console = rig.console
     began = time.monotonic()
-    taken = console.set_parameters(ROBOT, {"speed": 0.5 + number % 10 / 10}).result(TIMEOUT_S)
-    refused = console.set_parameters(ROBOT, {"speed": 9.0}).result(TIMEOUT_S)
+    taken = console.parameters.set(ROBOT, {"speed": 0.5 + number % 10 / 10}).result(TIMEOUT_S)
+    refused = console.parameters.set(ROBOT, {"speed": 9.0}).result(TIMEOUT_S)
     seen.slowest = max(seen.slowest, time.monotonic() - began)
     assert [each.accepted for each in (*taken, *refused)] == [True, False]
     for each in range(10):
@@ -99,14 +99,14 @@ def a_round(rig: RosRig, number: int, seen: Seen) -> None:
     if number % 2 == 0:
         rig.show_text(Severity.WARN, f"line {seen.lines}")
         seen.lines += 1
-    console.drive(0.1, 0.0)
+    console.drive.move(0.1, 0.0)
     if number % SHORT == 0:
         watched = number // SHORT % 2 == 0
-        console.traffic.listen("/level" if watched else "")
-        assert console.watch("/level/data").ok
+        console.topics.listen("/level" if watched else "")
+        assert console.plots.watch("/level/data").ok
         if not watched:
-            console.unwatch("/level/data")
-        console.all_stop(watched)
+            console.plots.unwatch("/level/data")
+        console.drive.stop(watched)
     if number % LONG == 0:
         name = f"/visitor_{number}"
         with visitor(rig.domain, name[1:]):
@@ -139,10 +139,10 @@ def test_nothing_is_lost_and_nothing_grows(make, tmp_path: Path) -> None:
                 break
             threading.Event().wait(PERIOD)
         which = LogFilter(words="node:robot sev:warn")
-        until(lambda: len(rig.console.matching_logs(which, 0)) >= seen.lines, "the last line of the log")
+        until(lambda: len(rig.console.logs.matching(which, 0)) >= seen.lines, "the last line of the log")
         print(f"\n{seen}, processor time {time.process_time():.0f} s")
         assert not rig.console.snapshot().problem
-        assert len(rig.console.matching_logs(which, 0)) == seen.lines
+        assert len(rig.console.logs.matching(which, 0)) == seen.lines
         assert seen.slowest < SLOWEST
         third = max(1, len(seen.sizes) // 3)
         for counts in (seen.threads, seen.ends):  # They go up and down with the view.

@@ -21,7 +21,8 @@ from textual.widget import MountError
 if TYPE_CHECKING:
     from bot_console.tui.app_parts import AppParts
     from bot_console.tui.console.command_line import CommandLine
-    from bot_console.tui.console.protocol import Console, Launcher
+    from bot_console.tui.console.launch.port import Launcher
+    from bot_console.tui.console.protocol import Console
     from bot_console.tui.keys.keyboard import Keyboard, Typed
     from bot_console.tui.panes.pane import Pane
     from bot_console.tui.terminal.frame_pacing import AnswerGate

@@ -11,8 +11,9 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, cast
 
+from bot_console.tui.arrangement.plugin_console import PluginConsole
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.pane_table import PaneEntry
@@ -52,7 +53,7 @@ class PluginPane(Pane):
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
-        self._widget = type(self).WIDGET(self.console)
+        self._widget = type(self).WIDGET(cast("Console", PluginConsole(self.console)))
         if hasattr(self._widget, "let_go") and not hasattr(self._widget, "detach"):
             name = type(self._widget).__name__
             warnings.warn(f"{name}: rename let_go to detach, its name from now on", FutureWarning, stacklevel=2)

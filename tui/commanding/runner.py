@@ -123,7 +123,7 @@ class LineRunner:
         """Candidates for the last word, which may be empty."""
         *before, begun = words
         if before and before[0] in VERBS:
-            snapshot, layouts, paths = self._console.snapshot(), self._host.layouts, self._console.plottable
+            snapshot, layouts, paths = self._console.snapshot(), self._host.layouts, self._console.plots.plottable
             return _done(places(before, snapshot, layouts, paths))
         own = [] if before else [*VERBS, "ros2", *RQT_PANES]
         if not before and not begun:
@@ -197,7 +197,7 @@ class LineRunner:
 
     def _set(self, words: Sequence[str]) -> None:
         wanted = setting_of(words, self._console.snapshot())
-        answer = self._console.set_parameters(wanted.node, {wanted.name: wanted.value}, ChangeSource.EDIT)
+        answer = self._console.parameters.set(wanted.node, {wanted.name: wanted.value}, ChangeSource.EDIT)
         answer.add_done_callback(lambda done: self._host.call_later(self._report_set, done))
 
     def _report_set(self, done: Future[tuple[SetOutcome, ...]]) -> None:
@@ -211,7 +211,7 @@ class LineRunner:
             self._host.notify(sanitize(str(error)), severity="error")
 
     def _record(self, words: Sequence[str]) -> None:
-        recording = self._console.recording
+        recording = self._console.bags
         folder = recording.info.folder
         if [*words] == ["stop"]:
             if folder:

@@ -1,21 +1,16 @@
-"""Service calls of the console: from any thread, with a timeout, never blocking."""
+"""Service calls of the console, with a timeout, never blocking."""
 
 from __future__ import annotations
 
-import inspect
 import itertools
-import threading
 from collections.abc import Callable, Coroutine
-from concurrent.futures import Future
-from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import Any
 
+from bot_console.tui.console.gate import Gate
 from rclpy.exceptions import InvalidHandle
-from rclpy.executors import Executor
 from rclpy.node import Node
 from rclpy.task import Future as RosFuture
 
-T = TypeVar("T")
 ANSWER_TIMEOUT_S = 5.0
 """Seconds to wait for a response: a slow link delivers it late, a hung node never sends it."""
 
@@ -45,80 +40,17 @@ class NoAnswer(Exception):
     """A service did not respond in time; the message says which one."""
 
 
-def _raise(why: str) -> Any:
-    raise NoAnswer(why)
-
-
-@dataclass(frozen=True)
-class _Pending:
-    """How to express a refusal as a result, and the coroutines that are to produce the result."""
-
-    refused: Callable[[str], Any]
-    coroutines: tuple[Coroutine[Any, Any, Any], ...]
-
-
 class Calls:
-    """Runs coroutines in the console's executor, and calls services from them."""
+    """Calls services from coroutines in the console's executor."""
 
-    def __init__(self, node: Node, executor: Executor) -> None:
+    def __init__(self, node: Node, gate: Gate) -> None:
         self._node = node
-        self._executor = executor
+        self._gate = gate
         self._clients: dict[tuple[str, str], Any] = {}
-        self._lock = threading.Lock()
-        self._pending: dict[Future[Any], _Pending] = {}
-        self._closed = ""
 
-    def run(self, work: Coroutine[Any, Any, T], refused: Callable[[str], T] = _raise) -> Future[T]:
-        """Start a coroutine in the executor, from any thread.
-
-        The future is always completed: when the console closes, `refused` turns the reason into a result.
-        """
-        outcome: Future[T] = Future()
-
-        async def guarded() -> None:
-            try:
-                result = await work
-            except Exception as error:  # goes to the holder of the future
-                if self._claim(outcome):
-                    outcome.set_exception(error)
-            else:
-                if self._claim(outcome):
-                    outcome.set_result(result)
-
-        task = guarded()
-        with self._lock:
-            closed = self._closed
-            self._pending[outcome] = _Pending(refused, (task, work))
-        if closed:
-            self._refuse(outcome, closed)
-        else:
-            self._executor.create_task(task)
-        return outcome
-
-    def _claim(self, outcome: Future[Any]) -> _Pending | None:
-        """Remove a pending entry: the caller that gets it is the one to complete it."""
-        with self._lock:
-            return self._pending.pop(outcome, None)
-
-    def _refuse(self, outcome: Future[Any], why: str) -> None:
-        pending = self._claim(outcome)
-        if pending is None:
-            return
-        for each in pending.coroutines:
-            if inspect.getcoroutinestate(each) == inspect.CORO_CREATED:
-                each.close()  # otherwise the interpreter warns that it was never awaited
-        try:
-            outcome.set_result(pending.refused(why))
-        except NoAnswer as error:
-            outcome.set_exception(error)
-
-    def close(self, why: str) -> None:
-        """Refuse all pending and all later requests with this reason."""
-        with self._lock:
-            self._closed = why
-            waiting = list(self._pending)
-        for outcome in waiting:
-            self._refuse(outcome, why)
+    def run(self, work: Callable[[], Coroutine[Any, Any, object]]) -> None:
+        """Start a coroutine that only reads, unless the console has closed; from any thread."""
+        self._gate.run(work, lambda why: None, changes=False)
 
     async def ask(self, kind: Any, service: str, request: Any, timeout_s: float = ANSWER_TIMEOUT_S) -> Any:
         """Call a service; raises `NoAnswer` when there is no server or none responds in time."""

@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.protocol import Console, Launcher
+from bot_console.tui.console.protocol import Console
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.format import counted, sanitize
 from bot_console.tui.keys.key import NO_MODE, Mode

@@ -34,7 +34,7 @@ class Quitting:
         self.asking = True
         if not snapshot.drive.stopped_here and not snapshot.drive.nothing_to_stop:
             self._holding = True
-            self._console.all_stop(True, REASON)
+            self._console.drive.stop(True, REASON)
         held = "" if snapshot.drive.nothing_to_stop else "The robot is held meanwhile. "
         self._app.push_screen(
             screen_for(
@@ -55,7 +55,7 @@ class Quitting:
     def _go_on(self) -> None:
         self.asking = False
         if self.keep_held():
-            self._console.all_stop(False)  # which takes back no stop but this console's
+            self._console.drive.stop(False)  # which takes back no stop but this console's
 
 
 def lost_names(snapshot: ConsoleSnapshot) -> list[tuple[str, str]]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bot_console.tui.console.model import Change, ChangeSource, ConsoleSnapshot
+from bot_console.tui.console.parameters.port import Parameters
 from bot_console.tui.console.parameters.safety import takes_safety
-from bot_console.tui.console.protocol import Console
 from bot_console.tui.format import value_text
 
 BACK = {ChangeSource.EDIT: "u", ChangeSource.REDO: "u", ChangeSource.UNDO: "U"}
@@ -16,8 +16,8 @@ BACK = {ChangeSource.EDIT: "u", ChangeSource.REDO: "u", ChangeSource.UNDO: "U"}
 class SafetyNews:
     """Follows the journal; a parameter that keeps changing the same way, as when nudged, is announced once."""
 
-    def __init__(self, console: Console) -> None:
-        self._console = console
+    def __init__(self, parameters: Parameters) -> None:
+        self._parameters = parameters
         self._end: int | None = None
         self._reported: set[tuple[str, str]] = set()
 
@@ -26,7 +26,7 @@ class SafetyNews:
         before, self._end = self._end, snapshot.journal.end
         if before is None or before == self._end:
             return ()
-        changes = self._console.changes(before)
+        changes = self._parameters.changes(before)
         return [text for each in changes if (text := self._news(each, snapshot))]
 
     def _news(self, change: Change, snapshot: ConsoleSnapshot) -> str:

@@ -39,7 +39,7 @@ class Stopping:
 
     def hold(self) -> None:
         """Hold the robot still."""
-        self._console.all_stop(True)
+        self._console.drive.stop(True)
 
     def release(self) -> None:
         """Withdraw all stops, those of others after a question."""
@@ -64,8 +64,8 @@ class Stopping:
 
     def _release(self, others: Sequence[RobotStop]) -> None:
         if others:
-            self._console.release([each.key for each in others])
+            self._console.drive.release([each.key for each in others])
         else:
-            self._console.all_stop(False)
+            self._console.drive.stop(False)
         if not self._console.snapshot().drive.refused:
             self._app.notify("The robot may move again.")

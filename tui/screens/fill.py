@@ -8,7 +8,7 @@ from functools import partial
 from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.console.traffic import Field, Goal, Payload, Reply, Slot
+from bot_console.tui.console.topics.port import Field, Goal, Payload, Reply, Slot
 from bot_console.tui.format import cut, parse_number, sanitize
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.widgets.box import Box

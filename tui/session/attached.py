@@ -11,9 +11,9 @@ from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.foreground.foreground import Foreground
 from bot_console.tui.cli.interpreter import collect_from_now_on
 from bot_console.tui.console.command_line import CommandLine
-from bot_console.tui.console.connection.ros_console import RosConsole
+from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.model import Severity
-from bot_console.tui.console.protocol import Launcher
+from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.session.pane_dependencies import for_panes
 from bot_console.tui.session.plugins import find_plugins
 

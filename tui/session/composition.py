@@ -24,8 +24,8 @@ from bot_console.runtime.process.session_end import end_session
 from bot_console.runtime.rmw.middleware import bus_of
 from bot_console.runtime.rmw.zenoh.domain.sockets import lives
 from bot_console.tui.cli.interruptible_wait import wait_interruptibly
+from bot_console.tui.console.bags.port import RingSize
 from bot_console.tui.console.launch.process_output import Add
-from bot_console.tui.console.recording import RingSize
 from bot_console.tui.session.embedded.child_host import why_it_hangs
 from bot_console.tui.session.embedded.domain import domain, socket_folder, take_part
 from bot_console.tui.session.embedded.own_processes import isolate, watch_threads
@@ -49,8 +49,8 @@ from bot_console.tui.session.launch_host.proxy import HostedLauncher
 
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.snapshot_buffer import SnapshotBuffer
-    from bot_console.tui.console.connection.ros_console import RosConsole
     from bot_console.tui.console.launch.launcher import RosLauncher
+    from bot_console.tui.console.ros_console import RosConsole
     from bot_console.tui.session.launch_host.snapshot_buffer import HostedSnapshotBuffer
 
 CONNECT_TIMEOUT_S = 20.0

@@ -9,9 +9,9 @@ from pathlib import Path
 from bot_console.tui.arrangement.arrival import System
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.tune.tuner import LocalTuner
-from bot_console.tui.console.connection.ros_console import RosConsole
+from bot_console.tui.console.bags.port import Keeper
 from bot_console.tui.console.model import LaunchInfo, Severity
-from bot_console.tui.console.recording import Keeper
+from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.files.folders import config_folder, state_folder
 from bot_console.tui.pane_table import PaneEntry
 from bot_console.tui.session import robot_starter
@@ -120,10 +120,10 @@ class Connected:
         A robot that was attached to keeps running. If this console steers it, leaving the graph locks it.
         """
         if not self._options.attach:
-            self.console.all_stop(True, "bot-console was quit")
-            self.console.await_standing(LAST_WORD)
+            self.console.drive.stop(True, "bot-console was quit")
+            self.console.drive.await_held(LAST_WORD)
             # Otherwise its silence would be a stop that the robot still has at its next start.
-            self.console.steer(False)
+            self.console.drive.steer(False)
         if self._watching is not None:
             self._watching.stop()
         self.launcher.close()

@@ -10,7 +10,7 @@ import socket
 from collections.abc import Sequence
 from pathlib import Path
 
-from bot_console.tui.console.recording import RingSize
+from bot_console.tui.console.bags.port import RingSize
 
 
 def main(words: Sequence[str] | None = None) -> int:

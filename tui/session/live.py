@@ -16,7 +16,7 @@ from bot_console.tui.cli.slow_exit import report_slow_exit
 if TYPE_CHECKING:
     from bot_console.tui.arrangement.arrival import System
     from bot_console.tui.cli.arguments import Options
-    from bot_console.tui.console.connection.ros_console import RosConsole
+    from bot_console.tui.console.ros_console import RosConsole
     from bot_console.tui.pane_table import PaneEntry
     from bot_console.tui.session.connected import Connected
     from bot_console.tui.session.protocol import ClosableLauncher
@@ -87,7 +87,7 @@ class Session:
         """Stop the robot, then end the app: on SIGINT from outside, SIGTERM and SIGHUP (a closed terminal)."""
         try:
             if not self._options.attach and self._is_connected():
-                self.console.all_stop(True, f"bot-console was ended by {signal.Signals(number).name}")
+                self.console.drive.stop(True, f"bot-console was ended by {signal.Signals(number).name}")
         finally:
             self.app.exit(return_code=128 + number)
 

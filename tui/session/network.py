@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 
 from bot_console.tui.cli.attach_options import AttachOptions
-from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import Capabilities, Severity
+from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.session.attached import AttachedSession
 from bot_console.tui.session.embedded.connecting import connect

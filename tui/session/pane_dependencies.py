@@ -1,22 +1,18 @@
-"""The services that panes get: all of them, or with `--read-only` wrappers that change nothing."""
+"""The services that panes get, with the console's gate in front of all of them."""
 
 from __future__ import annotations
 
 from bot_console.tui.console.command_line import CommandLine
-from bot_console.tui.console.connection.read_only import ReadOnlyCommandLine, ReadOnlyConsole, ReadOnlyLauncher
-from bot_console.tui.console.connection.ros_console import RosConsole
-from bot_console.tui.console.model import Severity
-from bot_console.tui.console.protocol import Console, Launcher
+from bot_console.tui.console.gated_lines import GatedLines
+from bot_console.tui.console.launch.gated_launcher import GatedLauncher
+from bot_console.tui.console.launch.port import Launcher
+from bot_console.tui.console.ros_console import RosConsole
 
 
 def for_panes(
     console: RosConsole, launcher: Launcher | None, lines: CommandLine, *, read_only: bool
-) -> tuple[Console, Launcher | None, CommandLine]:
-    """These three, or read-only wrappers around them."""
-    if not read_only:
-        return console, launcher, lines
-
-    def report(text: str) -> None:
-        console.printed(Severity.WARN, "bot-console", text)
-
-    return ReadOnlyConsole(console, report), ReadOnlyLauncher(), ReadOnlyCommandLine(lines)
+) -> tuple[RosConsole, Launcher | None, CommandLine]:
+    """The console, the launcher and the command line; with `read_only` they change nothing from now on."""
+    if read_only:
+        console.refuse_changes()
+    return console, launcher and GatedLauncher(console.gate, launcher), GatedLines(console.gate, lines)

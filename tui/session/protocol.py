@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.model import LaunchInfo
-from bot_console.tui.console.protocol import Launcher
 
 
 class ClosableLauncher(Launcher, Protocol):

@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Generator
 from typing import TypeVar
 
-from bot_console.tui.console.connection.ros_console import RosConsole
+from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.session.embedded.domain import socket_folder
 from bot_console.tui.session.embedded.reaching import reach_ros
 from bot_console.tui.session.launch_host.address import connect_to_host, host_addresses

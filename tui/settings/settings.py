@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, cast
 
+from bot_console.tui.console.bags.port import RingSize
 from bot_console.tui.console.graph.connections import TOOL_NAMES
-from bot_console.tui.console.recording import RingSize
 from bot_console.tui.console.robot.stop_means.configured import ConfiguredMeans, configured_means
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.files.store_file import read_store

@@ -47,7 +47,7 @@ class Leaving:
     def run(self, command: Sequence[str]) -> int:
         """Hand the terminal to another program, and return its exit code. Nothing is steered meanwhile."""
         code = 0
-        self._console.drive(0.0, 0.0)
+        self._console.drive.move(0.0, 0.0)
         try:
             with self._app.suspend():
                 # While the console runs, descriptors 0 to 2 refer to the log; these are the terminal.
@@ -66,7 +66,7 @@ class Leaving:
             return
         self._going = True
         if self._holds:
-            self._console.all_stop(True, ASLEEP)
+            self._console.drive.stop(True, ASLEEP)
         self._when_held(STOP_TIMEOUT_S if self._holds else 0.0)
 
     def _when_held(self, timeout_s: float) -> None:

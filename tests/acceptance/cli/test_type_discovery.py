@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
-from bot_console.tui.console.connection.ros_console import RosConsole
-from bot_console.tui.console.traffic import Payload, Slot, Traffic
+from bot_console.tui.console.ros_console import RosConsole
+from bot_console.tui.console.topics.port import Payload, Slot, Topics
 from bot_console.tui.session.embedded.domain import take_part
 from bot_console.tui.session.embedded.hooks import DomainTypes
 from rigs import until
@@ -92,7 +92,7 @@ def typed(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(line, cwd=folder, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
 
 
-def form_of(traffic: Traffic, payload: Payload, type_name: str) -> Sequence[Slot]:
+def form_of(traffic: Topics, payload: Payload, type_name: str) -> Sequence[Slot]:
     """The form of a type, empty until its definition is known."""
     try:
         return traffic.slots(payload, type_name, {})
@@ -156,22 +156,22 @@ def test_panes_show_plot_fill_in_and_call_foreign_types(elsewhere: Path, monkeyp
     assert take_part() == ""
     console = RosConsole(types=DomainTypes())
     console.start()
-    traffic = console.traffic
+    traffic = console.topics
     try:
         until(lambda: console.wait_ready(0) and "/spots" in str(console.snapshot().graph.topics), "the topics")
-        traffic = console.traffic
+        traffic = console.topics
         traffic.listen("/spots")
         until(lambda: traffic.heard().count, "a message of a type that is not here")
         assert [(each.path, each.text) for each in traffic.heard().fields if each.text][-1] == ("tag", "abc")
         traffic.measure(["/spots"])
         until(lambda: any(each.rate for each in traffic.measured().values()), "it to be measured")
 
-        assert "/spots/header.stamp.sec" in console.plottable()
-        until(lambda: console.watch("/wanted/y").ok, "the other topic")
-        assert not console.watch("/spots").ok
+        assert "/spots/header.stamp.sec" in console.plots.plottable()
+        until(lambda: console.plots.watch("/wanted/y").ok, "the other topic")
+        assert not console.plots.watch("/spots").ok
         values = {"x": "0.5", "y": "2.25"}
         assert traffic.publish("/wanted", "told_shapes/msg/Spot", values, 20.0).ok
-        until(lambda: 2.25 in console.samples("/wanted/y", 0).values, "what was filled in")
+        until(lambda: 2.25 in console.plots.samples("/wanted/y", 0).values, "what was filled in")
 
         form = until(lambda: form_of(traffic, Payload.REQUEST, "told_shapes/srv/Paint"), "the service")
         assert [each.path for each in form] == ["at", "at.x", "at.y", "colour"]

@@ -37,17 +37,17 @@ def note(text):
         print(text, file=file)
 
 def noting(name):
-    call = getattr(console, name)
+    call = getattr(console.drive, name)
     def noted(*given, **named):
         call(*given, **named)
         note(f"{name} {given} {named}")
-    setattr(console, name, noted)
+    setattr(console.drive, name, noted)
 
 def hang():
     note("hangs")
     Path("resume").read_text()  # a pipe, into which nobody has written yet
 
-for each in ("all_stop", "hold_early", "settle_early", "release"):
+for each in ("stop", "hold_early", "settle_early", "release"):
     noting(each)
 BotConsoleApp(console, launcher, FakeCommandLine(console.asked), on_first_frame=hang).run()
 """

@@ -68,8 +68,8 @@ class Live:
 
     def log(self, **which) -> list[str]:
         """Texts of the log records that pass a filter."""
-        numbers = self.console.matching_logs(LogFilter(**which), 0)
-        return [record.text for number in numbers if (record := self.console.log(number))]
+        numbers = self.console.logs.matching(LogFilter(**which), 0)
+        return [record.text for number in numbers if (record := self.console.logs.record(number))]
 
     def parameter(self, node, name):
         tree = self.console.snapshot().parameters.get(node)
@@ -89,7 +89,7 @@ async def live(options, size=(120, 40)):
     try:
         async with session.app.run_test(size=size) as pilot:
             yield Live(session, pilot)
-            session.console.all_stop(True)
+            session.console.drive.stop(True)
     finally:
         await asyncio.to_thread(session.close)
 
@@ -142,11 +142,11 @@ def test_max_speed_is_refused_with_its_reason_then_accepted(tmp_path):
     async def run():
         async with live(Options()) as it:
             await it.until(lambda: it.parameter("/robot_navigator", "max_speed"), "the navigator's parameters")
-            refused = await asyncio.wrap_future(it.console.set_parameters("/robot_navigator", {"max_speed": 10.0}))
+            refused = await asyncio.wrap_future(it.console.parameters.set("/robot_navigator", {"max_speed": 10.0}))
             assert not refused[0].accepted
             assert refused[0].reason == "Parameter max_speed out of range Min: 0.1, Max: 5.0, value: 10.0"
             assert it.parameter("/robot_navigator", "max_speed").value == 1.0
-            taken = await asyncio.wrap_future(it.console.set_parameters("/robot_navigator", {"max_speed": 2.5}))
+            taken = await asyncio.wrap_future(it.console.parameters.set("/robot_navigator", {"max_speed": 2.5}))
             assert taken[0].accepted
             await it.until(lambda: it.parameter("/robot_navigator", "max_speed").value == 2.5, "the new value")
             await it.until(lambda: (it.console.snapshot().world.speed or 0.0) > 1.05, "a faster robot")

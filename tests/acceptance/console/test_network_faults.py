@@ -54,7 +54,7 @@ class FarRig(RosRig):
     def driving(self, ended: threading.Event) -> None:
         """Hold a key: a command ten times a second, as the pane does."""
         while not ended.wait(PERIOD):
-            self.console.drive(0.5, 0.0)
+            self.console.drive.move(0.5, 0.0)
 
     def publish_long(self) -> Publisher:
         """A publisher of the robot for long messages."""
@@ -133,7 +133,7 @@ def test_robot_driven_before_a_long_loss_gets_a_zero_when_the_link_returns(
 
 
 def test_robot_does_not_wait_for_a_console_with_a_cut_link(far: FarRig) -> None:
-    publisher, heard = far.publish_long(), far.console.traffic
+    publisher, heard = far.publish_long(), far.console.topics
     heard.listen("/long")
     until(lambda: publisher.get_subscription_count() > 0, "the subscription")
     far.wire.cut()
@@ -153,14 +153,14 @@ def test_console_reconnects_after_the_router_was_killed(far: FarRig) -> None:
     far.router = Router(far.place)
     until(lambda: ROBOT in far.console.snapshot().parameters, "the robot again")
     until(lambda: far.console.snapshot().link.silent_s == 0, "the link")
-    (outcome,) = far.console.set_parameters(ROBOT, {"speed": 0.5}).result(20)
+    (outcome,) = far.console.parameters.set(ROBOT, {"speed": 0.5}).result(20)
     assert outcome.accepted
 
 
 def test_everything_works_with_300_ms_delay_and_held_segments(far: FarRig) -> None:
     far.wire.delay, far.wire.hold, far.wire.held_share = 0.15, 0.5, 0.02
     until(lambda: (far.console.snapshot().link.delay_ms or 0) >= 290, "the delay to be told")
-    (outcome,) = far.console.set_parameters(ROBOT, {"speed": 0.25}).result(20)
+    (outcome,) = far.console.parameters.set(ROBOT, {"speed": 0.25}).result(20)
     assert outcome.accepted
     ended = threading.Event()
     thread = threading.Thread(target=far.driving, args=(ended,))
@@ -168,7 +168,7 @@ def test_everything_works_with_300_ms_delay_and_held_segments(far: FarRig) -> No
     until(lambda: (0.5, 0.0) in far.received, "a command")
     ended.set()
     thread.join()
-    far.console.all_stop(True)
+    far.console.drive.stop(True)
     stopped, count = time.monotonic(), len(far.received)
     until(lambda: far.received[-1] == (0.0, 0.0) and len(far.received) > count, "the stop")
     assert time.monotonic() - stopped < 3.0  # One way, a held segment, and what a busy machine takes.
@@ -187,7 +187,7 @@ def test_over_a_slow_link_robot_stands_after_dead_man_time_and_a_round_trip(far:
         tick.wait(PERIOD)
         command = steering.command(time.monotonic())
         if command is not None:
-            far.console.drive(*command)
+            far.console.drive.move(*command)
         return steering.expired and far.received[-1] == (0.0, 0.0)
 
     until(stands, "the zero")

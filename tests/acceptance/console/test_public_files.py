@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 import rclpy
-from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import Value
 from bot_console.tui.console.parameters.file.text import sections, value_at
+from bot_console.tui.console.ros_console import RosConsole
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
@@ -115,10 +115,10 @@ def test_file_is_shown_applied_and_saved_with_one_line_changed(
     try:
         trees = until(lambda: _all_read(console, values), "the parameters of all nodes")
         assert len(trees) >= len(values)
-        assert console.open_profile(str(path)).ok
-        seen = {(each.node, each.name): each.then for each in console.profile_differences(path.stem)}
+        assert console.profiles.open(str(path)).ok
+        seen = {(each.node, each.name): each.then for each in console.profiles.differences(path.stem)}
         assert seen == wanted and len(seen) > 3
-        assert all(each.accepted for each in console.apply_profile(path.stem).result(TIMEOUT_S))
+        assert all(each.accepted for each in console.profiles.apply(path.stem).result(TIMEOUT_S))
         assert package.values() == wanted
         _saved_with_one_line_changed(path, tmp_path / path.name, console, values)
     finally:
@@ -137,9 +137,9 @@ def _saved_with_one_line_changed(path: Path, copy: Path, console: RosConsole, va
         return  # It is saved in its own section, since the wildcard applies to other nodes too.
     name, value = next((name, value) for name, value in values[node].items() if isinstance(value, (int, float)))
     copy.write_text(path.read_text())
-    assert all(each.accepted for each in console.set_parameters(node, {name: other(value)}).result(TIMEOUT_S))
+    assert all(each.accepted for each in console.parameters.set(node, {name: other(value)}).result(TIMEOUT_S))
     until(lambda: console.snapshot().parameters[node].get(name).value == other(value), "the new value")
-    assert console.save_parameters(str(copy), (node,)).ok
+    assert console.parameters.save(str(copy), (node,)).ok
     before, after = path.read_text().splitlines(), copy.read_text().splitlines()
     assert len(before) == len(after)
     assert sum(one != two for one, two in zip(before, after, strict=True)) == 1

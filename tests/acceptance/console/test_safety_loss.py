@@ -6,7 +6,7 @@ import threading
 from pathlib import Path
 
 import pytest
-from bot_console.tui.console.connection.ros_console import RosConsole
+from bot_console.tui.console.ros_console import RosConsole
 from launcher_bench import TIMEOUT_S, Bench
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -25,7 +25,7 @@ def test_robot_is_not_driven_until_its_safety_monitor_is_back_and_released(
 
     def speed() -> float:
         """The robot's speed in m/s, while the person keeps requesting 0.8."""
-        console.drive(0.8, 0.0)
+        console.drive.move(0.8, 0.0)
         actual = console.snapshot().drive.actual
         return actual[0] if actual else 0.0
 
@@ -40,7 +40,7 @@ def test_robot_is_not_driven_until_its_safety_monitor_is_back_and_released(
         bench.until(lambda: console.snapshot().drive.topic, "the arbiter to be back")
         watched = [speed() for _ in range(50) if threading.Event().wait(0.02) is False]
         assert max(watched) == 0.0, "it stands until a person releases it"
-        assert console.call("/safety_monitor/release", "std_srvs/srv/Trigger", {}).result(TIMEOUT_S).ok
+        assert console.topics.call_service("/safety_monitor/release", "std_srvs/srv/Trigger", {}).result(TIMEOUT_S).ok
         bench.until(lambda: speed() > 0.1, "the robot to drive again")
     finally:
         console.close()

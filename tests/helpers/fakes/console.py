@@ -7,13 +7,13 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
-from types import MappingProxyType
+from types import MappingProxyType, SimpleNamespace
 from typing import Any
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.connection.no_console import done, refused_profile
-from bot_console.tui.console.log_protocol import LogSource, LogView
+from bot_console.tui.console.gate import CLOSED, Gate, done
 from bot_console.tui.console.logs.file import open_log
+from bot_console.tui.console.logs.port import LogView
 from bot_console.tui.console.logs.search import matching
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.logs.view import SearchedView
@@ -23,7 +23,6 @@ from bot_console.tui.console.model import (
     ConsoleSnapshot,
     LogFilter,
     LoggerLevel,
-    LogRecord,
     ProfileDifference,
     SetOutcome,
     Severity,
@@ -36,11 +35,11 @@ from bot_console.tui.console.parameters.profiles import cannot_apply, difference
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.console.values import refusal
 
-from fakes.profiles import CLOSED, FakeProfiles
-from fakes.recording import FakeRecording
+from fakes.bags import FakeBags
+from fakes.profiles import FakeProfiles
 from fakes.sensors import FakeSensors
 from fakes.series import START, FakeSeries
-from fakes.traffic import FakeTraffic
+from fakes.topics import FakeTopics
 
 
 class FakeView(SearchedView):
@@ -60,11 +59,12 @@ class FakeConsole(FakeProfiles, FakeSeries):
     """A console over one snapshot; it accepts what the descriptors allow, and keeps the requests it received."""
 
     def __init__(self, snapshot: ConsoleSnapshot | None = None) -> None:
-        self.logs = LogStore(1000)
+        self.gate = Gate("")
+        self.records = LogStore(1000)
         self.current = snapshot or ConsoleSnapshot()
         self.asked: list[tuple[Any, ...]] = []
-        self.traffic = FakeTraffic(self.asked)
-        self.sensors = FakeSensors()
+        self.topics = FakeTopics(self.asked)
+        self.sensors = self.graph = FakeSensors()
         self.sent: list[tuple[float, float]] = []
         """Velocities that have reached the robot."""
         self.refusals: dict[tuple[str, str], str] = {}
@@ -80,10 +80,54 @@ class FakeConsole(FakeProfiles, FakeSeries):
         self.closed = False
         self._steps = Journal()
         self._watched = {}
+        self._make_ports()
 
-    @property
-    def recording(self) -> FakeRecording:
-        return FakeRecording(self)
+    def _make_ports(self) -> None:
+        self.bags = FakeBags(self)
+        self.topics.call_service = self.call
+        self.parameters = SimpleNamespace(
+            set=self.set_parameters,
+            set_all=self.set_all,
+            undo=self.undo,
+            redo=self.redo,
+            changes=self.changes,
+            save=self.save_parameters,
+        )
+        self.profiles = SimpleNamespace(
+            differences=self.profile_differences,
+            apply=self.apply_profile,
+            open=self.open_profile,
+            fetch=self.fetch_profile,
+            save=self.save_profile,
+            rename=self.rename_profile,
+            delete=self.delete_profile,
+        )
+        self.logs = SimpleNamespace(
+            record=self.records.record,
+            matching=self.matching_logs,
+            view=self.view_logs,
+            open=open_log,
+            clear=self.clear_logs,
+            set_level=self.set_logger_level,
+            levels=self.logger_levels,
+        )
+        self.plots = SimpleNamespace(
+            watch=self.watch,
+            unwatch=self.unwatch,
+            samples=self.samples,
+            time=self.plot_time,
+            plottable=self.plottable,
+        )
+        self.drive = SimpleNamespace(
+            move=self.move,
+            stop=self.stop,
+            hold_early=self.hold_early,
+            settle_early=self.settle_early,
+            release=self.release,
+            choose=self.choose_robot,
+            steer=self.steer,
+            pose_at=self.pose_at,
+        )
 
     def change(self, **parts: Any) -> None:
         """Replace parts of the snapshot."""
@@ -91,27 +135,21 @@ class FakeConsole(FakeProfiles, FakeSeries):
 
     def show_text(self, severity: Severity, node: str, text: str, stamp: int = START) -> None:
         """Log a line."""
-        self.logs.add(stamp, severity, node, text, ("node.py", "callback", 7))
-        self.change(logs=self.logs.state)
+        self.records.add(stamp, severity, node, text, ("node.py", "callback", 7))
+        self.change(logs=self.records.state)
 
     def snapshot(self) -> ConsoleSnapshot:
         return self.current
 
-    def log(self, seq: int) -> LogRecord | None:
-        return self.logs.record(seq)
-
     def matching_logs(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
-        return matching(self.logs, which, after, limit)
+        return matching(self.records, which, after, limit)
 
     def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
-        return FakeView(self.logs, which)
-
-    def open_log(self, path: str) -> LogSource:
-        return open_log(path)
+        return FakeView(self.records, which)
 
     def clear_logs(self) -> None:
-        self.logs.clear()
-        self.change(logs=self.logs.state)
+        self.records.clear()
+        self.change(logs=self.records.state)
 
     def changes(self, after: int = 0) -> Sequence[Change]:
         return tuple(each for each in self.journal if each.seq >= after)
@@ -263,7 +301,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
         names = ", ".join(name for move in step.moves for name in move.after)
         return done(Answer(not left, "; ".join(each.reason for each in refused) or f"{source.value}: {names}"))
 
-    def drive(self, linear: float, angular: float) -> None:
+    def move(self, linear: float, angular: float) -> None:
         self.asked.append(("drive", linear, angular))
         if not (math.isfinite(linear) and math.isfinite(angular)):
             raise ValueError("a velocity must be a finite number")
@@ -273,10 +311,10 @@ class FakeConsole(FakeProfiles, FakeSeries):
     def steer(self, hold: bool) -> None:
         self.asked.append(("steer", hold))
 
-    def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
+    def stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
         self.asked.append(("all_stop", hold))
         if hold:
-            self.traffic.stop()
+            self.topics.stop()
         if not self.closed:
             self.sent.append((0.0, 0.0))
             own = [each for each in self.current.drive.stops if each.here and not each.key.startswith(EARLY)]
@@ -346,7 +384,9 @@ class FakeConsole(FakeProfiles, FakeSeries):
         idle = profile and name not in self.differences and cannot_apply(profile, self.current.parameters)
         why = CLOSED if self.closed else profile.problem or idle if profile else f"there is no profile {name}"
         if why:
-            return refused_profile(why)
+            failed: Future[tuple[SetOutcome, ...]] = Future()
+            failed.set_exception(ValueError(why))
+            return failed
         found = [each for each in self.profile_differences(name) if not each.unknown]
         outcomes = tuple(SetOutcome(e.node, e.name, e.then, not e.refusal, e.refusal) for e in found)
         moves: tuple[Move, ...] = ()
@@ -383,3 +423,4 @@ class FakeConsole(FakeProfiles, FakeSeries):
         if not self.closed:
             self.sent.append((0.0, 0.0))
         self.closed = True
+        self.gate.close(CLOSED)

@@ -7,7 +7,7 @@ from typing import Any
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import Value
-from bot_console.tui.console.protocol import Samples
+from bot_console.tui.console.plot.port import Samples
 from bot_console.tui.console.robot.robot_model import Pose
 
 from fakes.profiles import CLOSED

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Protocol
 
 import pytest
+from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo
-from bot_console.tui.console.protocol import Launcher
 from bot_console.tui.session.launch_host.combined import CombinedLauncher
 from bot_console.tui.session.launch_host.host import LaunchHost
 from bot_console.tui.session.launch_host.proxy import HostedLauncher

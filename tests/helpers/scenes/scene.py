@@ -10,8 +10,9 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.model import Endpoint, LaunchInfo, LogFilter, ParameterInfo, Severity
-from bot_console.tui.console.protocol import Console, Launcher
+from bot_console.tui.console.protocol import Console
 from rigs import ARM, ROBOT, TIMEOUT_S, Rig, until
 
 LEVEL = "/level"
@@ -62,22 +63,24 @@ def _parameter(each: ParameterInfo) -> dict[str, Any]:
 
 def sets(rig: Rig) -> Any:
     """Setting: each outcome with who refused it and why; the node's own callback; several at once; undo and redo."""
-    console, before = rig.console, len(rig.console.changes())
+    console, before = rig.console, len(rig.console.parameters.changes())
     reported = [_outcome(each) for node, name, value in SETS for each in _set(console, node, {name: value})]
     reported += [_outcome(each) for each in _set(console, ROBOT, {"speed": 9.0, "count": 5}, atomically=True)]
     rig.forbid_speed()
     reported += [_outcome(each) for each in _set(console, ROBOT, {"speed": 1.0})]
-    changes = until(lambda: new if len(new := console.changes()[before:]) == len(reported) else None, "the journal")
+    changes = until(
+        lambda: new if len(new := console.parameters.changes()[before:]) == len(reported) else None, "the journal"
+    )
     journal = [[each.name, _plain(each.old), _plain(each.new), each.source.value, each.accepted] for each in changes]
-    taken_back = console.undo().result(TIMEOUT_S).ok
+    taken_back = console.parameters.undo().result(TIMEOUT_S).ok
     until(lambda: _value(console, ARM, "reach") == 1.0, "the value before")
-    made_again = console.redo().result(TIMEOUT_S).ok
+    made_again = console.parameters.redo().result(TIMEOUT_S).ok
     until(lambda: _value(console, ARM, "reach") == 0.25, "the value again")
     return {"outcomes": reported, "journal": journal, "undo": taken_back, "redo": made_again}
 
 
 def _set(console: Console, node: str, values: Mapping[str, Any], *, atomically: bool = False) -> Sequence[Any]:
-    return console.set_parameters(node, values, atomically=atomically).result(TIMEOUT_S)
+    return console.parameters.set(node, values, atomically=atomically).result(TIMEOUT_S)
 
 
 def _outcome(each: Any) -> list[Any]:
@@ -91,8 +94,8 @@ def _value(console: Console, node: str, name: str) -> Any:
 def profiles(rig: Rig) -> Any:
     """The Profiles pane: what each profile would change, and the result of applying one."""
     console = rig.console
-    would = {name: [_difference(each) for each in console.profile_differences(name)] for name in WOULD_CHANGE}
-    applied = [_outcome(each) for each in console.apply_profile("wild").result(TIMEOUT_S)]
+    would = {name: [_difference(each) for each in console.profiles.differences(name)] for name in WOULD_CHANGE}
+    applied = [_outcome(each) for each in console.profiles.apply("wild").result(TIMEOUT_S)]
     return {"would change": would, "wild": applied}
 
 
@@ -125,17 +128,17 @@ def logs(rig: Rig) -> Any:
     which = LogFilter(words="node:robot")
 
     def all_four() -> Sequence[int]:
-        found = rig.console.matching_logs(which, 0)
+        found = rig.console.logs.matching(which, 0)
         return list(found) if len(found) == 4 else ()
 
     numbers = until(all_four, "the lines")
-    lines = [rig.console.log(each) for each in numbers]
+    lines = [rig.console.logs.record(each) for each in numbers]
     return [[each.severity.name, each.node, each.text, bool(each.file and each.line)] for each in lines if each]
 
 
 def topics(rig: Rig) -> Any:
     """The Topics pane: a message as a tree, a service call, and a call of a service that does not exist."""
-    traffic = rig.console.traffic
+    traffic = rig.console.topics
     traffic.listen(LEVEL)
     until(rig.heard_by_somebody, "the subscription")
     rig.publish(1.25)
@@ -154,15 +157,15 @@ def topics(rig: Rig) -> Any:
 def plot(rig: Rig) -> Any:
     """The Plot pane: a curve of a topic and of a parameter."""
     console, curves = rig.console, ("/level/data", f"{ROBOT}:speed")
-    watched = [console.watch(each).ok for each in curves]
+    watched = [console.plots.watch(each).ok for each in curves]
     until(rig.heard_by_somebody, "the subscription")
     for each in (0.5, -2.0):
         rig.publish(each)
-    until(lambda: list(console.samples(curves[0]).values)[-2:] == [0.5, -2.0], "the curve")
-    values = [list(console.samples(each).values)[-2:] for each in curves]
+    until(lambda: list(console.plots.samples(curves[0]).values)[-2:] == [0.5, -2.0], "the curve")
+    values = [list(console.plots.samples(each).values)[-2:] for each in curves]
     for each in curves:
-        console.unwatch(each)
-    return {"watched": watched, "values": values, "refused": console.watch("/nowhere/data").text}
+        console.plots.unwatch(each)
+    return {"watched": watched, "values": values, "refused": console.plots.watch("/nowhere/data").text}
 
 
 def steering(rig: Rig) -> Any:
@@ -172,17 +175,17 @@ def steering(rig: Rig) -> Any:
 
     def give(velocity: tuple[float, float]) -> None:
         def heard() -> bool:
-            rig.console.drive(*velocity)
+            rig.console.drive.move(*velocity)
             return velocity in rig.received
 
         until(heard, f"the command {velocity}")
 
     give((0.5, -0.25))
     drive = rig.console.snapshot().drive
-    rig.console.all_stop(True)
+    rig.console.drive.stop(True)
     until(lambda: rig.received[-1] == (0.0, 0.0), "the stop")
-    rig.console.drive(1.0, 0.0)
-    rig.console.all_stop(False)
+    rig.console.drive.move(1.0, 0.0)
+    rig.console.drive.stop(False)
     until(lambda: not rig.console.snapshot().drive.stopped, "the end of the stop")
     give((0.1, 0.0))
     heard = [each for number, each in enumerate(rig.received) if number == 0 or each != rig.received[number - 1]]
@@ -191,8 +194,8 @@ def steering(rig: Rig) -> Any:
 
 def loggers(rig: Rig) -> Any:
     """Logger levels, set and listed."""
-    answers = [rig.console.set_logger_level(node, Severity.WARN).result(TIMEOUT_S).ok for node in (ROBOT, "/nobody")]
-    reported = {each.logger: each.severity.name for each in rig.console.logger_levels(ROBOT).result(TIMEOUT_S)}
+    answers = [rig.console.logs.set_level(node, Severity.WARN).result(TIMEOUT_S).ok for node in (ROBOT, "/nobody")]
+    reported = {each.logger: each.severity.name for each in rig.console.logs.levels(ROBOT).result(TIMEOUT_S)}
     return {"set": answers, "robot": reported.get("robot")}
 
 

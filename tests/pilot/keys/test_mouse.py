@@ -42,7 +42,7 @@ def test_double_click_opens_row_and_click_outside_closes_box() -> None:
         await session.click_tab("9")
         await session.pilot.click(TopicRows, offset=(10, 5), times=2)
         await session.settle()
-        assert session.console.traffic.listening, "the message of the topic is open"
+        assert session.console.topics.listening, "the message of the topic is open"
 
     run(live(), play, (200, 40))
 

@@ -338,14 +338,14 @@ def test_rates_stand_on_the_lines_where_there_is_room_while_the_pane_is_seen() -
         await session.press("3")
         pane.tick()
         await session.settle()
-        assert "/odom" in session.console.traffic.measuring
-        assert "/telemetry/speed" not in session.console.traffic.measuring, "it is on no line"
+        assert "/odom" in session.console.topics.measuring
+        assert "/telemetry/speed" not in session.console.topics.measuring, "it is on no line"
         assert "odom 50 Hz" in session.text()
         await session.press("1")
         pane.tick()
-        assert session.console.traffic.measuring == (), "nothing is measured for a pane that nobody sees"
+        assert session.console.topics.measuring == (), "nothing is measured for a pane that nobody sees"
         await session.press("3", "r")
-        assert "50 Hz" not in session.text() and session.console.traffic.measuring == ()
+        assert "50 Hz" not in session.text() and session.console.topics.measuring == ()
 
     run(live(), play, (120, 40))
 
@@ -355,7 +355,7 @@ def test_rates_are_measured_on_request_where_there_is_no_room_for_them() -> None
         pane = session.pane(GraphPane)
         pane.clock = Clock()
         await session.press("3")
-        assert session.console.traffic.measuring == (), "nothing is measured unasked"
+        assert session.console.topics.measuring == (), "nothing is measured unasked"
         await session.press("r")
         assert "odom 50 Hz" in session.text()
         await session.press("r", *"mmm")

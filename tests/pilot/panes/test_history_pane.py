@@ -54,9 +54,9 @@ def test_source_and_reason_fit_at_80_columns_beside_long_names() -> None:
 
 def test_going_back_to_a_row_asks_and_sets_all_values_together() -> None:
     async def play(session: Session) -> None:
-        session.console.set_parameters(NAVIGATOR, {"max_speed": 2.0})
-        session.console.set_parameters(NAVIGATOR, {"turn_rate": 2.0})
-        session.console.set_parameters("/simulator", {"lidar.beams": 90})
+        session.console.parameters.set(NAVIGATOR, {"max_speed": 2.0})
+        session.console.parameters.set(NAVIGATOR, {"turn_rate": 2.0})
+        session.console.parameters.set("/simulator", {"lidar.beams": 90})
         await session.press("H", "down", "down", "u")
         text = session.text()
         assert "turn_rate  2.0 → 1.0" in text and "lidar.beams  90 → 360" in text
@@ -74,8 +74,8 @@ def test_going_back_to_a_row_asks_and_sets_all_values_together() -> None:
 
 def test_refused_revert_changes_nothing_and_shows_the_reason() -> None:
     async def play(session: Session) -> None:
-        session.console.set_parameters(NAVIGATOR, {"turn_rate": 2.0})
-        session.console.set_parameters("/simulator", {"lidar.beams": 90})
+        session.console.parameters.set(NAVIGATOR, {"turn_rate": 2.0})
+        session.console.parameters.set("/simulator", {"lidar.beams": 90})
         session.console.refusals[NAVIGATOR, "turn_rate"] = "not while driving"
         await session.press("H", "down", "down", "u", "y")
         assert "Nothing was set" in session.text() and "not while driving" in session.text()
@@ -86,8 +86,8 @@ def test_refused_revert_changes_nothing_and_shows_the_reason() -> None:
 
 def test_single_change_is_reverted_with_a_safety_warning() -> None:
     async def play(session: Session) -> None:
-        session.console.set_parameters(NAVIGATOR, {"safety_distance": 1.5})
-        session.console.set_parameters(NAVIGATOR, {"turn_rate": 2.0})
+        session.console.parameters.set(NAVIGATOR, {"safety_distance": 1.5})
+        session.console.parameters.set(NAVIGATOR, {"turn_rate": 2.0})
         await session.press("H", "down", "b")
         assert "⚠" in session.text() and "lowers a safety margin" in session.text()
         await session.press("y")
@@ -129,7 +129,7 @@ def test_log_and_plot_show_the_time_of_the_row() -> None:
     async def play(session: Session) -> None:
         for second in range(-20, 20):
             session.console.show_text(Severity.INFO, "clock", f"second {second}", START + second * 10**9)
-        session.console.clear_logs()
+        session.console.logs.clear()
         for second in range(-20, 20):
             session.console.show_text(Severity.INFO, "clock", f"second {second}", START + second * 10**9)
         await session.press("2", "4", "H", "down")
@@ -137,7 +137,7 @@ def test_log_and_plot_show_the_time_of_the_row() -> None:
         assert at == START - 12 * 10**9
         await session.press("2")
         logs = session.pane(LogsPane)
-        assert session.console.log(logs._list.number(logs._list.cursor)).text == "second -12"
+        assert session.console.logs.record(logs._list.number(logs._list.cursor)).text == "second -12"
         await session.press("4")
         assert "◆" in session.text() and "max_speed 0.7 → 1.0" in session.text()
         await session.press("full_stop")

@@ -24,8 +24,9 @@ class Flooded(FakeConsole):
 
     def __init__(self) -> None:
         super().__init__(live()[0].current)
-        self.logs = LogStore(2 * LINES)
-        self.views = LogViews(self.logs)
+        self.records = LogStore(2 * LINES)
+        self.views = LogViews(self.records)
+        self.logs.record = self.records.record
 
     def view_logs(self, which: LogFilter, instead_of: Any = None) -> Any:
         return self.views.open(which, instead_of)
@@ -34,9 +35,9 @@ class Flooded(FakeConsole):
         """So many lines at once, from a number on; each tenth is a warning."""
         for number in range(first, first + AT_ONCE):
             severity = Severity.WARN if number % 10 == 0 else Severity.INFO
-            self.logs.add(START, severity, "talker", f"line {number}", SITE)
+            self.records.add(START, severity, "talker", f"line {number}", SITE)
             if number % AT_ONCE == AT_ONCE // 2:
-                self.change(logs=self.logs.state)  # the newer half comes while this one is drawn
+                self.change(logs=self.records.state)  # the newer half comes while this one is drawn
 
 
 async def drawn(session: Session, until: str) -> list[tuple[int, int]]:
@@ -66,7 +67,7 @@ def test_hundred_thousand_lines_are_followed_and_counted_exactly_once() -> None:
             counts = await drawn(session, f"line {first + AT_ONCE - 1} ")
             assert counts and all(part <= whole for part, whole in counts)
         assert np.array_equal(shown(session), np.arange(LINES)), "no line twice, none missing"
-        console.change(logs=console.logs.state)
+        console.change(logs=console.records.state)
         await drawn(session, f"{LINES} of {LINES}")
         await session.press("w")
         await drawn(session, f"{LINES // 10} of {LINES} · >= WARN")

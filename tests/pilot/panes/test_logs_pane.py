@@ -146,7 +146,7 @@ def test_a_search_hides_nothing_and_goes_around() -> None:
             return record.text if record else ""
 
         assert stands_on() == "zebra 2" and "match 3 of 3 zebra" in session.text()
-        assert len(seqs(session)) == len(range(session.console.logs.state.end))
+        assert len(seqs(session)) == len(range(session.console.records.state.end))
         places = []
         for key in ("n", "n", "N", "N", "N"):
             await session.press(key)

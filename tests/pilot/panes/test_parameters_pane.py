@@ -47,7 +47,7 @@ def test_unanswered_value_is_shown_as_pending(monkeypatch: pytest.MonkeyPatch) -
         pane = session.pane(ParametersPane)
         pane.clock = Clock()
         answer: Future[tuple[SetOutcome, ...]] = Future()
-        monkeypatch.setattr(session.console, "set_parameters", lambda *_: answer)
+        monkeypatch.setattr(session.console.parameters, "set", lambda *_: answer)
         await session.press("1")
         await go_to(session, "max_speed")
         await session.press("plus")

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.connection.no_console import done
+from bot_console.tui.console.gate import done
 from bot_console.tui.console.model import Capabilities, Endpoint, Profile, SetOutcome
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.panes.profiles.pane import ProfilesPane
@@ -101,7 +101,7 @@ def test_error_while_applying_is_shown_in_the_pane() -> None:
         failed: Future[tuple[object, ...]] = Future()
         failed.set_exception(RuntimeError("the node /robot_navigator does not answer"))
         session.console.differences["competition"] = (SANITIZED,)
-        session.console.apply_profile = lambda name, reset_world=False: failed  # type: ignore[assignment]
+        session.console.profiles.apply = lambda name, reset_world=False: failed  # type: ignore[assignment]
         await session.press("7", "down", "a")
         assert "was not applied: the node /robot_navigator does not answer" in session.text()
 
@@ -112,7 +112,7 @@ def test_list_of_differences_stays_while_values_are_applied() -> None:
     async def play(session: Session) -> None:
         slow: Future[tuple[object, ...]] = Future()
         session.console.differences["competition"] = (SANITIZED,)
-        session.console.apply_profile = lambda name, reset_world=False: slow  # type: ignore[assignment]
+        session.console.profiles.apply = lambda name, reset_world=False: slow  # type: ignore[assignment]
         await session.press("7", "down", "a")
         session.console.differences["competition"] = ()
         session.console.change(parameters=dict(session.console.current.parameters))
@@ -153,7 +153,7 @@ def test_node_that_can_check_values_is_asked_before_applying() -> None:
         answers.append(Future())
         return answers[-1]
 
-    console.call = call  # type: ignore[method-assign]
+    console.topics.call_service = call  # type: ignore[method-assign]
 
     async def play(session: Session) -> None:
         await session.press("7", "down")
@@ -319,7 +319,7 @@ def test_profile_from_a_url_is_shown_before_it_is_applied(tmp_path) -> None:
         await session.press("enter")
         assert session.console.asked[-1] == ("fetch profile", "https://config.example/served.yaml")
         assert "fetching https://config.example/served.yaml ..." in session.text()
-        session.console.fetching.set_result(session.console.open_profile(str(path)))
+        session.console.fetching.set_result(session.console.profiles.open(str(path)))
         await session.settle()
         await session.settle()
         assert "fetching" not in session.text()
@@ -348,7 +348,7 @@ def test_presets_of_a_node_are_applied_saved_and_deleted() -> None:
         listed = "\n".join(f"{name}: {title}" if title else name for name, title in kept.items())
         return done(Answer(True, listed if verb == "list" else f"{verb} {name}: all is well"))
 
-    console.call = call  # type: ignore[method-assign]
+    console.topics.call_service = call  # type: ignore[method-assign]
 
     async def play(session: Session) -> None:
         await session.press("7", "p")

@@ -264,7 +264,7 @@ def test_the_limits_are_the_robots_own_parameters() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter", "W", "W")
         console = session.console
-        console.set_parameters("/robot_navigator", {"max_speed": 0.4})
+        console.parameters.set("/robot_navigator", {"max_speed": 0.4})
         await session.settle()
         pass_time(session, 0.1)
         assert commands(session)[-1] == (0.4, 0.0)

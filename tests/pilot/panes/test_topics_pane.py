@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
-from bot_console.tui.console.traffic import Field, Reply
+from bot_console.tui.console.topics.port import Field, Reply
 from bot_console.tui.panes.topics.pane import TopicsPane
 from bot_console.tui.panes.topics.table import TopicRows
 from geometry_msgs.msg import Twist
@@ -68,14 +68,14 @@ def test_only_visible_rows_are_measured() -> None:
     async def play(session: Session) -> None:
         session.console.change(graph=GraphInfo((NodeInfo("/n", topics),), topics))
         pane = await opened(session)
-        measuring = session.console.traffic.measuring
+        measuring = session.console.topics.measuring
         assert "/t000" in measuring and 10 < len(measuring) < 30
         await session.press("G")
         tick(session)
-        assert "/t299" in session.console.traffic.measuring and "/t000" not in session.console.traffic.measuring
+        assert "/t299" in session.console.topics.measuring and "/t000" not in session.console.topics.measuring
         await session.press("1")
         pane.tick()
-        assert session.console.traffic.measuring == ()
+        assert session.console.topics.measuring == ()
 
     run(live(), play, SIZE)
 
@@ -90,7 +90,7 @@ def test_newest_message_is_a_tree_that_can_be_frozen_and_folded() -> None:
         await session.press("space")
         moved = odometry()
         moved.pose.pose.position.x = 3.5
-        session.console.traffic.hear(moved, ODOM)
+        session.console.topics.hear(moved, ODOM)
         tick(session)
         await session.settle()
         assert "+1 new" in session.text() and "2.5 m" in session.text()
@@ -99,7 +99,7 @@ def test_newest_message_is_a_tree_that_can_be_frozen_and_folded() -> None:
         await session.press("down", "down", "down", "down", "left")
         assert "3.5 m" not in session.text(), "what the pose holds is folded"
         await session.press("escape")
-        assert session.console.traffic.listening == ""
+        assert session.console.topics.listening == ""
 
     run(live(), play, SIZE)
 
@@ -130,7 +130,7 @@ def test_a_field_at_the_cursor_is_plotted() -> None:
         session.console.series["/cmd_vel/linear.x"] = ([1.0], [1.0])
         await opened(session)
         await at(session, "/cmd_vel")
-        session.console.traffic.messages["/cmd_vel"] = (Twist(), "geometry_msgs/msg/Twist")
+        session.console.topics.messages["/cmd_vel"] = (Twist(), "geometry_msgs/msg/Twist")
         await session.press("enter", "down", "p")
         assert ("watch", "/cmd_vel/linear.x") in session.console.asked
         await session.press("9", "escape", "p")
@@ -157,14 +157,14 @@ def test_a_message_is_filled_in_and_published_once_and_at_a_rate() -> None:
         await session.settle()
         assert "▶" in session.text()
         await session.press("exclamation_mark")
-        assert session.console.traffic.repeated() == {}, "an all-stop ends what drives the robot"
+        assert session.console.topics.repeated() == {}, "an all-stop ends what drives the robot"
 
     run(live(), play, SIZE)
 
 
 def test_earlier_sent_messages_are_recalled() -> None:
     async def play(session: Session) -> None:
-        session.console.traffic.remembered["/cmd_vel"] = [{"linear.x": "0.1"}, {"linear.x": "0.2"}]
+        session.console.topics.remembered["/cmd_vel"] = [{"linear.x": "0.1"}, {"linear.x": "0.2"}]
         await opened(session)
         await at(session, "/cmd_vel")
         await session.press("P", "left_square_bracket")
@@ -199,7 +199,7 @@ def test_quaternion_is_typed_as_yaw_and_stamp_as_now() -> None:
 def test_a_service_is_called_and_its_answer_shown() -> None:
     async def play(session: Session) -> None:
         session.console.change(graph=with_services())
-        session.console.traffic.response = Reply(True, "", 0.0123, (Field("message", "message", 0, "string", "done"),))
+        session.console.topics.response = Reply(True, "", 0.0123, (Field("message", "message", 0, "string", "done"),))
         await opened(session, "m")
         await session.press("enter", "enter")
         await session.press("ctrl+u")
@@ -216,7 +216,7 @@ def test_goal_is_sent_followed_and_cancelled() -> None:
         session.console.change(graph=with_services())
         await opened(session, "m", "m")
         await session.press("enter", "s")
-        goals = session.console.traffic.sent_goals
+        goals = session.console.topics.sent_goals
         progress = (Field("sequence", "sequence", 0, "sequence<int32>", "[0, 1]"),)
         goals["/count"] = replace(goals["/count"], feedback=progress, feedback_count=2)
         session.app.screen.poll()

@@ -22,7 +22,7 @@ def ended(session: Session) -> bool:
 
 
 async def edited(session: Session) -> None:
-    session.console.set_parameters(NODE, {"turn_rate": 1.5})
+    session.console.parameters.set(NODE, {"turn_rate": 1.5})
     await session.settle()
 
 
@@ -114,7 +114,7 @@ def test_keys_typed_before_ctrl_q_do_not_answer_its_question() -> None:
 def test_values_that_are_saved_undone_or_in_a_profile_count_as_kept() -> None:
     async def play(session: Session) -> None:
         await edited(session)
-        session.console.save_parameters("all.yaml")
+        session.console.parameters.save("all.yaml")
         await session.pilot.press("q")
         assert ended(session)
 
@@ -150,17 +150,17 @@ def test_no_does_not_release_the_stop_of_another_console() -> None:
 def test_unsafe_edit_is_announced_once_with_the_undo_key() -> None:
     async def play(session: Session) -> None:
         for value in (0.4, 0.3):
-            session.console.set_parameters(NODE, {"safety_distance": value})
+            session.console.parameters.set(NODE, {"safety_distance": value})
             await session.settle()
         reported = [each.message for each in session.app._notifications]
         assert reported == [
             "⚠ safety_distance 0.8 → 0.4 lowers a safety margin. u in the Parameters pane takes it back."
         ]
-        session.console.set_parameters(NODE, {"safety_distance": 0.6})
-        session.console.set_parameters(NODE, {"turn_rate": 0.5})
+        session.console.parameters.set(NODE, {"safety_distance": 0.6})
+        session.console.parameters.set(NODE, {"turn_rate": 0.5})
         await session.settle()
         assert len(session.app._notifications) == 1
-        session.console.undo()
+        session.console.parameters.undo()
         await session.settle()
         *_, last = (each.message for each in session.app._notifications)
         assert last.startswith("⚠ turn_rate 0.5 → 1.0 raises a safety limit. U in the Parameters pane takes it back.")

@@ -57,7 +57,7 @@ def test_empty_plot_names_awaited_paths_or_the_key_to_press(wanted: tuple[str, .
 @pytest.mark.parametrize("wanted", ["/scan/ranges[2]", "/tf/transforms[0].rotation.z - 1", "max(/scan/ranges[4:8])"])
 def test_unknown_path_is_plotted_once_its_topic_appears(wanted: str) -> None:
     console, launcher = live()
-    console.plottable = lambda: ()  # type: ignore[method-assign]
+    console.plots.plottable = lambda: ()  # type: ignore[method-assign]
     console.series |= dict.fromkeys(
         ("/scan/ranges[2]", "/tf/transforms[0].rotation.z", "/scan/ranges[4:8].max()"), PAIR
     )

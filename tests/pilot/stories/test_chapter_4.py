@@ -119,10 +119,10 @@ def test_step_2_a_sine_wave_is_plotted(page: Terminals, robot: Program, publishe
     async def play(screen: Screen) -> None:
         await screen.line("ros2 run rqt_plot rqt_plot")
         assert screen.pane(PlotPane).display
-        await screen.until(lambda: SPEED in page.console.plottable(), "speed to plot")
+        await screen.until(lambda: SPEED in page.console.plots.plottable(), "speed to plot")
         await add_curve(screen, SPEED)
-        await screen.until(lambda: page.console.samples(SPEED).cursor >= 12, "samples")
-        values = page.console.samples(SPEED).values
+        await screen.until(lambda: page.console.plots.samples(SPEED).cursor >= 12, "samples")
+        values = page.console.plots.samples(SPEED).values
         steps = [later - earlier for earlier, later in pairwise(values)]
         assert all(1.0 <= each <= 3.0 for each in values)
         assert all(abs(each) < 0.1 for each in steps), "a sine whose argument grows by 0.1"
@@ -271,7 +271,9 @@ def test_the_workflow_shows_all_of_it_side_by_side(page: Terminals, robot: Progr
         await screen.press("p", "e")
         await screen.enter("4.5")
         await screen.shows("✓ Speed updated to 4.5 m/s", "/data_publisher", "4.5")
-        await screen.until(lambda: 4.5 in page.console.samples("/simple_robot:speed").values, "the value as a curve")
+        await screen.until(
+            lambda: 4.5 in page.console.plots.samples("/simple_robot:speed").values, "the value as a curve"
+        )
         assert {"plot", "parameters", "logs", "graph"} == places(screen).keys()
 
     page.show(play, (160, 50))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from bot_console.tui.console.recording import RecordingInfo
+from bot_console.tui.console.bags.port import RecordingInfo
 from piloting import Session, run
 from samples import live
 

@@ -78,7 +78,7 @@ def test_refusal_by_one_node_keeps_all_marks_and_shows_the_reason() -> None:
 def test_marking_can_be_resumed_before_the_answer() -> None:
     async def play(session: Session) -> None:
         answer: Future[tuple[SetOutcome, ...]] = Future()
-        session.console.set_all = lambda *given: answer  # type: ignore[method-assign]
+        session.console.parameters.set_all = lambda *given: answer  # type: ignore[method-assign]
         await mark_two(session)
         await session.press("a", "m")
         answer.set_result((SetOutcome(NAVIGATOR, "turn_rate", 0.98, True),))
@@ -196,7 +196,7 @@ def test_change_flashes_and_marks_show_its_source() -> None:
         assert not shown.flashing
         line = next(each for each in session.lines() if "turn_rate" in each)
         assert "•~" in line
-        session.console.set_parameters(NAVIGATOR, {"robot_name": "Ada"})
+        session.console.parameters.set(NAVIGATOR, {"robot_name": "Ada"})
         await session.settle()
         assert "•*" in next(each for each in session.lines() if "robot_name" in each)
 

@@ -12,7 +12,7 @@ from typing import TypeVar
 from bot_console.tui.cli.check.script import Step
 from bot_console.tui.console.model import LogFilter, ParameterInfo, SetOutcome
 from bot_console.tui.console.protocol import Console
-from bot_console.tui.console.traffic import Measure
+from bot_console.tui.console.topics.port import Measure
 from bot_console.tui.format import parse_value, value_text
 from bot_console.tui.panes.alarms.alarm import Alarm, AlarmText
 
@@ -92,7 +92,7 @@ class Runner:
             value = parse_value(text, parameter)
         except ValueError as error:
             return str(error)
-        outcomes = self._answer(self._console.set_parameters(node, {name: value}))
+        outcomes = self._answer(self._console.parameters.set(node, {name: value}))
         return outcomes[0] if outcomes else f"{node} does not answer"
 
     def _set(self, step: Step) -> str:
@@ -124,14 +124,14 @@ class Runner:
             return self._until(step.seconds, lambda: self._holds(alarm))
         finally:
             for path in alarm.paths:
-                self._console.unwatch(path, REQUESTER)
+                self._console.plots.unwatch(path, REQUESTER)
 
     def _holds(self, alarm: Alarm) -> str:
         for path in alarm.paths:
-            answer = self._console.watch(path, REQUESTER)
+            answer = self._console.plots.watch(path, REQUESTER)
             if not answer.ok:
                 return answer.text
-        if alarm.poll(self._console) or alarm.holds:
+        if alarm.poll(self._console.plots) or alarm.holds:
             return ""
         values = ", ".join(f"{path} = {alarm.values[path]:.6g}" for path in alarm.paths if path in alarm.values)
         return alarm.problem or values or f"nothing was received on {', '.join(alarm.paths)}"
@@ -157,7 +157,7 @@ class Runner:
 
     def _assert_rate(self, step: Step) -> str:
         topic, sign, wanted = step.words
-        traffic = self._console.traffic
+        traffic = self._console.topics
         traffic.measure([topic], REQUESTER)
         self._sleep(step.seconds)
 
@@ -203,7 +203,7 @@ class Runner:
 
         def poll() -> str:
             try:
-                found = self._console.matching_logs(which, 0, 1)
+                found = self._console.logs.matching(which, 0, 1)
             except ValueError as error:
                 return str(error)
             return "" if found else "no line of the log matches"
@@ -211,7 +211,7 @@ class Runner:
         return self._until(step.seconds, poll)
 
     def _call(self, step: Step) -> str:
-        answer = self._answer(self._console.call(step.words[0], step.words[1], {}))
+        answer = self._answer(self._console.topics.call_service(step.words[0], step.words[1], {}))
         if answer is None:
             return "no answer"
         return "" if answer.ok else answer.text or "it answered without success"
@@ -221,7 +221,7 @@ class Runner:
         return ""
 
     def _stop(self, step: Step) -> str:
-        self._console.all_stop(True, "a script")
+        self._console.drive.stop(True, "a script")
         return self._until(
             step.seconds, lambda: "" if self._console.snapshot().drive.stop_confirmed else "it was not acknowledged"
         )

@@ -124,8 +124,8 @@ def _running() -> tuple[str, list[LintFinding]]:
         return unreachable, []
     import time
 
-    from bot_console.tui.console.connection.ros_console import RosConsole
     from bot_console.tui.console.parameters.lint import faults
+    from bot_console.tui.console.ros_console import RosConsole
 
     console = RosConsole()
     console.start()

@@ -9,11 +9,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.graph.connections import connections, is_hidden, is_own_service, unconnected
 from bot_console.tui.console.graph.expected import Expected, differences, read, written
 from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.format import sanitize
 from bot_console.tui.session.reached_console import reached_console, settled
 from bot_console.tui.settings.settings import read_settings
@@ -110,12 +110,12 @@ def _known(console: RosConsole, wait: float) -> GraphInfo:
 def _measured(console: RosConsole, topics: list[str], seconds: float) -> Mapping[str, float | None]:
     if not topics:
         return {}
-    console.traffic.measure(topics)
+    console.topics.measure(topics)
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         time.sleep(min(1.0, max(0.0, end - time.monotonic())))
-        console.traffic.measured()
-    return {topic: each.rate for topic, each in console.traffic.measured().items()}
+        console.topics.measured()
+    return {topic: each.rate for topic, each in console.topics.measured().items()}
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -10,8 +10,8 @@ from concurrent.futures import TimeoutError as TooLate
 from typing import TypeVar
 
 from bot_console.tui.cli.verbs.stop import ask
-from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import ConsoleSnapshot, Value
+from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.format import counted, sanitize, value_text
 from bot_console.tui.session.reached_console import known, reached_console
 
@@ -51,7 +51,7 @@ def _reset(console: RosConsole, *, dry: bool) -> int:
     good = _lock()
     good = _put_back(console, moved, snapshot) and good
     for service in resets(snapshot):
-        answer = _wait(console.call(service, TRIGGER, {}))
+        answer = _wait(console.topics.call_service(service, TRIGGER, {}))
         message = answer.text if answer else "no answer"
         print(f"{service}: {sanitize(message)}")
         good = good and answer is not None and answer.ok
@@ -75,7 +75,7 @@ def _lock() -> bool:
 
 
 def _put_back(console: RosConsole, moved: Values, snapshot: ConsoleSnapshot) -> bool:
-    outcomes = _wait(console.set_all(moved, by="reset")) if moved else ()
+    outcomes = _wait(console.parameters.set_all(moved, by="reset")) if moved else ()
     refused = [each for each in outcomes or () if not each.accepted]
     if outcomes is None or refused:
         for each in refused:

@@ -1,4 +1,7 @@
-"""A bag as a read-only console: its topics, log, parameter changes, robot and series."""
+"""A bag as a console: its topics, log, parameter changes, robot and series.
+
+Its ports are those of a system that is never reached, so that they refuse all commands, with what the bag contains.
+"""
 
 from __future__ import annotations
 
@@ -7,13 +10,12 @@ from collections.abc import Sequence
 from typing import Any
 
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.bags.bag_topics import BagTopics
 from bot_console.tui.console.bags.contents import Contents
-from bot_console.tui.console.bags.traffic import BagTraffic
-from bot_console.tui.console.connection.no_console import NoConsole
-from bot_console.tui.console.log_protocol import LogSource, LogView
-from bot_console.tui.console.logs.file import open_log
-from bot_console.tui.console.logs.search import matching
-from bot_console.tui.console.logs.view import LogViews
+from bot_console.tui.console.bags.node_bags import NodeBags
+from bot_console.tui.console.gate import Gate
+from bot_console.tui.console.graph.node_graph import NodeGraph
+from bot_console.tui.console.logs.node_logs import NodeLogs
 from bot_console.tui.console.model import (
     Capabilities,
     Change,
@@ -22,68 +24,54 @@ from bot_console.tui.console.model import (
     GraphInfo,
     JournalState,
     LinkInfo,
-    LogFilter,
-    LogRecord,
-    ProfileDifference,
 )
+from bot_console.tui.console.parameters.node_parameters import NodeParameters
+from bot_console.tui.console.parameters.node_profiles import NodeProfiles
+from bot_console.tui.console.parameters.provenance import Provenance
 from bot_console.tui.console.plot.arrays import NotPlottable
 from bot_console.tui.console.plot.paths import number_paths
+from bot_console.tui.console.plot.port import Samples
 from bot_console.tui.console.plot.series import parse_path, reader
-from bot_console.tui.console.protocol import Samples
-from bot_console.tui.console.robot.robot_model import Pose
-from bot_console.tui.console.traffic import Traffic
+from bot_console.tui.console.robot.port import Drive
+from bot_console.tui.console.sensors.node_sensors import NodeSensors
 from bot_console.tui.text.expression.tree import is_parameter
 
 WHY = "this is a recording: it can be viewed, but nothing in it can be changed"
 
 
-class PastReading:
-    """The read-only data of a bag. The time axis begins with the bag."""
+class BagParameters(NodeParameters):
+    """The parameters that were recorded, and their changes."""
 
-    def __init__(self, contents: Contents, name: str) -> None:
+    def __init__(self, gate: Gate, contents: Contents) -> None:
+        super().__init__(gate, Provenance())
         self._contents = contents
-        self.views = LogViews(contents.logs)
-        self._begin = contents.metadata.begin
-        self._series: dict[str, Samples] = {}
-        known = contents.metadata.topics.values()
-        topics = sorted((Endpoint(each.name, (each.type,)) for each in known), key=lambda topic: topic.name)
-        self._snapshot = ConsoleSnapshot(
-            seq=1,
-            stamp=contents.metadata.end,
-            graph=GraphInfo(topics=tuple(topics)),
-            parameters=contents.parameters,
-            logs=contents.logs.state,
-            journal=JournalState(0, len(contents.changes)),
-            world=contents.world,
-            link=LinkInfo(f"recording {name}, {(contents.metadata.end - self._begin) / 1e9:.0f} s"),
-            capabilities=Capabilities(launch=WHY, live=WHY, change=WHY),
-        )
-
-    def snapshot(self) -> ConsoleSnapshot:
-        """The whole recording; always the same object."""
-        return self._snapshot
-
-    def log(self, seq: int) -> LogRecord | None:
-        """The log record with that number."""
-        return self._contents.logs.record(seq)
-
-    def matching_logs(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
-        """Numbers of the records that pass a filter."""
-        return matching(self._contents.logs, which, after, limit)
-
-    def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
-        """Search for records that pass a filter."""
-        return self.views.open(which, instead_of)
-
-    def open_log(self, path: str) -> LogSource:
-        """Open a saved log to read it alongside the bag."""
-        return open_log(path)
 
     def changes(self, after: int = 0) -> Sequence[Change]:
         """The parameter changes that parameter events reported."""
         return self._contents.changes[max(0, after) :]
 
-    def watch(self, path: str) -> Answer:
+
+class BagDrive:
+    """The robot as it was recorded: it can be looked at, and neither steered nor stopped."""
+
+    def __init__(self, contents: Contents) -> None:
+        self.pose_at = contents.past.at
+        self.move = self.stop = self.hold_early = self.settle_early = self._ignore
+        self.release = self.choose = self.steer = self._ignore
+
+    def _ignore(self, *given: object, **named: object) -> None:
+        """Do nothing: there is no robot."""
+
+
+class BagPlots:
+    """The series of a bag. The time axis begins with the bag."""
+
+    def __init__(self, contents: Contents) -> None:
+        self._contents = contents
+        self._begin = contents.metadata.begin
+        self._series: dict[str, Samples] = {}
+
+    def watch(self, path: str, requester: str = "") -> Answer:
         """Read a series; the answer says why if it cannot be plotted."""
         if path not in self._series:
             try:
@@ -92,7 +80,7 @@ class PastReading:
                 return Answer(False, str(error))
         return Answer(True, path)
 
-    def unwatch(self, path: str) -> None:
+    def unwatch(self, path: str, requester: str = "") -> None:
         """Discard a series."""
         self._series.pop(path, None)
 
@@ -109,8 +97,8 @@ class PastReading:
         topic = max(topics, key=len)
         read = reader(*parse_path(path[len(topic) + 1 :]))
         found = [(stamp, read(message), _header(message)) for stamp, message in self._contents.messages(topic)]
-        times = [self.plot_time(stamp) for stamp, _, _ in found]
-        headers = [math.nan if at is None else self.plot_time(at) for _, _, at in found]
+        times = [self.time(stamp) for stamp, _, _ in found]
+        headers = [math.nan if at is None else self.time(at) for _, _, at in found]
         problem = "" if found else f"{topic} is too large to be kept in memory" * (topic in self._contents.left_out)
         return Samples(times, [value for _, value, _ in found], len(found), problem or "", headers)
 
@@ -123,16 +111,12 @@ class PastReading:
         mine = [each for each in self._contents.changes if (each.node, each.name) == (node, name)]
         first = mine[0].old if mine else last.value
         points = [(self._begin, first), *((each.stamp, each.new) for each in mine)]
-        fine = [(self.plot_time(stamp), float(value)) for stamp, value in points if isinstance(value, (int, float))]
+        fine = [(self.time(stamp), float(value)) for stamp, value in points if isinstance(value, (int, float))]
         return Samples([time for time, _ in fine], [value for _, value in fine], len(fine))
 
-    def plot_time(self, stamp: int | None = None) -> float:
+    def time(self, stamp: int | None = None) -> float:
         """Seconds since the start of the bag; None stands for its end."""
         return ((self._contents.metadata.end if stamp is None else stamp) - self._begin) / 1e9
-
-    def pose_at(self, stamp: int) -> Pose | None:
-        """The robot's pose at a time."""
-        return self._contents.past.at(stamp)
 
     def plottable(self) -> Sequence[str]:
         """Paths of numeric fields and parameters."""
@@ -146,35 +130,50 @@ class PastReading:
         ]
         return sorted(paths, key=lambda path: (path.endswith("()"), path.endswith("]"), path))
 
-    def profile_differences(self, name: str) -> Sequence[ProfileDifference]:
-        """None."""
-        return ()
 
-
-class OpenedBag(NoConsole):
+class OpenedBag:
     """Shows a bag; every request that would change something is refused with the reason."""
 
     def __init__(self, contents: Contents, name: str) -> None:
-        self._reading = PastReading(contents, name)
-        self.topics = BagTraffic(contents, WHY)
-        super().__init__(WHY, self._reading)
+        about = contents.metadata
+        topics = sorted(
+            (Endpoint(each.name, (each.type,)) for each in about.topics.values()), key=lambda each: each.name
+        )
+        graph = GraphInfo(topics=tuple(topics))
+        self.gate = Gate(WHY)
+        self.parameters = BagParameters(self.gate, contents)
+        self.profiles = NodeProfiles(self.gate, self.parameters, _no_world)
+        self.logs = NodeLogs(self.gate)
+        self.logs.begin(contents.logs)
+        self.plots = BagPlots(contents)
+        self.drive: Drive = BagDrive(contents)
+        self.topics = BagTopics(self.gate, contents, graph)
+        self.graph = NodeGraph(self.gate)
+        self.sensors = NodeSensors(self.gate, lambda: graph)
+        self.bags = NodeBags(self.gate)
+        self._snapshot = ConsoleSnapshot(
+            seq=1,
+            stamp=about.end,
+            graph=graph,
+            parameters=contents.parameters,
+            logs=contents.logs.state,
+            journal=JournalState(0, len(contents.changes)),
+            world=contents.world,
+            link=LinkInfo(f"recording {name}, {(about.end - about.begin) / 1e9:.0f} s"),
+            capabilities=Capabilities(launch=WHY, live=WHY, change=WHY),
+        )
 
-    @property
-    def traffic(self) -> Traffic:
-        """The recorded messages."""
-        return self.topics
-
-    def watch(self, path: str, requester: str = "") -> Answer:
-        """Read a series."""
-        return self._reading.watch(path)
-
-    def unwatch(self, path: str, requester: str = "") -> None:
-        """Discard a series."""
-        self._reading.unwatch(path)
+    def snapshot(self) -> ConsoleSnapshot:
+        """The whole recording; always the same object."""
+        return self._snapshot
 
     def close(self) -> None:
         """End the search of the log."""
-        self._reading.views.close()
+        self.logs.close()
+
+
+async def _no_world() -> None:
+    """There is no simulator to reset."""
 
 
 def _header(message: Any) -> int | None:

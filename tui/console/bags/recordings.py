@@ -12,11 +12,11 @@ from typing import Any
 import rclpy
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.missing_packages import Missing
+from bot_console.tui.console.bags.port import Keeper, RecordingInfo
 from bot_console.tui.console.bags.recorder import CLOCK, PACE_S, Recorder, not_recorded
 from bot_console.tui.console.bags.recording_sinks import BagSink
 from bot_console.tui.console.bags.writer import BagWriter
-from bot_console.tui.console.connection.no_console import done
-from bot_console.tui.console.recording import Keeper, RecordingInfo
+from bot_console.tui.console.gate import done
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from rclpy.context import Context
 from rosidl_runtime_py.utilities import get_message

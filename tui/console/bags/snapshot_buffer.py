@@ -11,11 +11,11 @@ from typing import Any, Protocol
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.missing_packages import Missing
+from bot_console.tui.console.bags.port import RingSize
 from bot_console.tui.console.bags.qos import noted
 from bot_console.tui.console.bags.recorder import CLOCK, Ring, in_order
 from bot_console.tui.console.bags.recording_sinks import RingSink
 from bot_console.tui.console.bags.writer import BagWriter
-from bot_console.tui.console.recording import RingSize
 from bot_console.tui.files.save_file import NotSaved, typed_path
 
 PACE = 0.25

@@ -63,7 +63,7 @@ class TypeDiscovery:
                 self._waiting.append(type_name)
         if self._waiting and not self._busy:
             self._busy = True
-            self._calls.run(self._ask_all(), lambda why: None)
+            self._calls.run(self._ask_all)
 
     def explain(self, type_name: str, otherwise: str) -> str:
         """Why a type is unknown here if it was requested, else the other text; from any thread."""

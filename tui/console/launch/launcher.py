@@ -9,7 +9,7 @@ from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any, Protocol
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.connection.no_console import done
+from bot_console.tui.console.gate import done
 from bot_console.tui.console.graph.full_name import full_node_name
 from bot_console.tui.console.launch.arguments import read_arguments
 from bot_console.tui.console.launch.process import ENDED, KILLED, LaunchedProcess, Order

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO
 
-from bot_console.tui.console.log_protocol import LogView
+from bot_console.tui.console.logs.port import LogView
 from bot_console.tui.console.logs.saved import SavedLines
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.logs.view import LogViews
@@ -22,7 +22,7 @@ AT_ONCE = 1 << 18
 
 
 class LogFile:
-    """The records of a file; implements `tui.console.log_protocol.LogSource`."""
+    """The records of a file; implements `tui.console.logs.port.LogSource`."""
 
     def __init__(self, path: Path) -> None:
         """Raises `OSError` if the file cannot be read."""

@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
+from bot_console.tui.console.bags.port import RecordingInfo
 from bot_console.tui.console.model.changes import JournalState
 from bot_console.tui.console.model.graph import GraphInfo
 from bot_console.tui.console.model.launch import LaunchInfo
 from bot_console.tui.console.model.logs import LogState
 from bot_console.tui.console.model.parameters import ParameterTree
 from bot_console.tui.console.model.profiles import Profile
-from bot_console.tui.console.recording import RecordingInfo
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 
 

@@ -6,10 +6,13 @@ import threading
 from collections import deque
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from bot_console.tui.console.model import Change, ChangeSource, JournalState, Value
-from bot_console.tui.console.parameters.history import History
 from bot_console.tui.console.parameters.unsaved import Unsaved
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.parameters.history import History
 
 OURS = (ChangeSource.EDIT, ChangeSource.PROFILE, ChangeSource.FILE, ChangeSource.HISTORY)
 

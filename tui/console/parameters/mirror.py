@@ -6,6 +6,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Coroutine, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from types import MappingProxyType
 from typing import Any
 
@@ -116,7 +117,7 @@ class ParameterMirror:
     def _fill_window(self) -> None:
         while self._waiting and self._reading < WINDOW:
             self._reading += 1
-            self._calls.run(self._in_window(*self._waiting.popleft()))
+            self._calls.run(partial(self._in_window, *self._waiting.popleft()))
 
     async def _in_window(self, reading: Reading, node: str) -> None:
         try:

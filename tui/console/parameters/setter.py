@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.calls import Calls, NoAnswer
@@ -13,7 +14,7 @@ from bot_console.tui.console.parameters.expected import Expected, ParameterReque
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.mirror import ParameterMirror
 from bot_console.tui.console.values import refusal, to_message
-from rcl_interfaces.msg import Parameter, SetParametersResult
+from rcl_interfaces.msg import Parameter
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 
 
@@ -42,12 +43,44 @@ class ParameterSetter:
         self._journal.restarted(node, name)
 
     async def set(
-        self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool = False
+        self,
+        node: str,
+        values: Mapping[str, Value],
+        source: ChangeSource,
+        by: str = "",
+        *,
+        atomically: bool = False,
+        moves: list[Move] | None = None,
     ) -> tuple[SetOutcome, ...]:
-        """Set parameters of one node; never raises, every failure is an outcome. What is accepted can be undone."""
-        outcomes, move = await self._moved(_requests(node, values, source), atomically=atomically)
-        if move.after:
+        """Set parameters of one node; never raises, every failure is an outcome.
+
+        What was accepted can be undone: as a step of its own, or with `moves` as part of one that the caller makes.
+        """
+        requests = [ParameterRequest(node, name, value, source, by) for name, value in values.items()]
+        before = {name: self._value(node, name) for name in values}
+        try:
+            messages = [self._message(each) for each in requests]
+        except ValueError as error:
+            return self._all_refused(requests, before, ("console", str(error)))
+        for each in requests:
+            self._expected.add(each)
+        kind: Any = SetParametersAtomically if atomically else SetParameters
+        service = f"{node}/set_parameters_atomically" if atomically else f"{node}/set_parameters"
+        try:
+            answer = await self._calls.ask(kind, service, kind.Request(parameters=messages)) if requests else None
+        except NoAnswer as error:
+            return self._all_refused(requests, before, ("node", str(error)))
+        results = [answer.result] * len(requests) if atomically and answer else answer.results if answer else ()
+        outcomes = tuple(
+            self._outcome(request, before[request.name], result.successful, result.reason)
+            for request, result in zip(requests, results, strict=False)
+        )
+        taken = {each.name: each.value for each in outcomes if each.accepted}
+        move = Move(node, {name: before[name] for name in taken}, taken)
+        if taken and moves is None:
             self._journal.did(Step((move,)), source)
+        elif taken and moves is not None:
+            moves.append(move)
         return outcomes
 
     async def apply(self, name: str, wanted: Mapping[str, Mapping[str, Value]]) -> tuple[SetOutcome, ...]:
@@ -79,9 +112,8 @@ class ParameterSetter:
         # ROS has no transactions over several nodes. Nodes expected to refuse are asked first, before any other has
         # changed.
         for node in sorted(wanted, key=lambda each: not self._will_refuse(each, wanted[each])):
-            found, move = await self._moved(_requests(node, wanted[node], source, by), atomically=True)
+            found = await self.set(node, wanted[node], source, by, atomically=True, moves=moves)
             outcomes += found
-            moves += [move] if move.after else []
             bad = next((each for each in found if not each.accepted), None)
             if bad:
                 reported = f"not set because {bad.node} refused {bad.name}: {bad.reason}"
@@ -96,47 +128,9 @@ class ParameterSetter:
         """Restore the old values; returns the reasons of the nodes that refused."""
         stuck: dict[str, str] = {}
         for move in reversed(moves):
-            outcomes = await self._set(_requests(move.node, move.before, ChangeSource.ROLLBACK, why), atomically=True)
+            outcomes = await self.set(move.node, move.before, ChangeSource.ROLLBACK, why, atomically=True, moves=[])
             stuck.update({each.node: each.reason for each in outcomes if not each.accepted})
         return stuck
-
-    async def _moved(
-        self, requests: Sequence[ParameterRequest], *, atomically: bool
-    ) -> tuple[tuple[SetOutcome, ...], Move]:
-        """The outcome of each value, and what can be undone."""
-        before = {each.name: self._value(each.node, each.name) for each in requests}
-        outcomes = await self._set(requests, atomically=atomically)
-        taken = {each.name: each.value for each in outcomes if each.accepted}
-        node = requests[0].node if requests else ""
-        return outcomes, Move(node, {name: before[name] for name in taken}, taken)
-
-    async def _set(self, requests: Sequence[ParameterRequest], *, atomically: bool) -> tuple[SetOutcome, ...]:
-        """Send one node all its requests."""
-        before = {each.name: self._value(each.node, each.name) for each in requests}
-        try:
-            messages = [self._message(each) for each in requests]
-        except ValueError as error:
-            return self._all_refused(requests, before, ("console", str(error)))
-        for each in requests:
-            self._expected.add(each)
-        try:
-            results = await self._ask(requests[0].node, messages, atomically) if requests else ()
-        except NoAnswer as error:
-            return self._all_refused(requests, before, ("node", str(error)))
-        outcomes: list[SetOutcome] = []
-        for request, result in zip(requests, results, strict=False):
-            outcomes.append(self._outcome(request, before[request.name], result.successful, result.reason))
-        return tuple(outcomes)
-
-    async def _ask(self, node: str, messages: Sequence[Parameter], atomically: bool) -> Sequence[SetParametersResult]:
-        if atomically:
-            call = SetParametersAtomically.Request(parameters=list(messages))
-            answer = await self._calls.ask(SetParametersAtomically, f"{node}/set_parameters_atomically", call)
-            return [answer.result] * len(messages)
-        answer = await self._calls.ask(
-            SetParameters, f"{node}/set_parameters", SetParameters.Request(parameters=list(messages))
-        )
-        return answer.results
 
     def _outcome(self, request: ParameterRequest, old: Value, accepted: bool, reason: str) -> SetOutcome:
         if accepted:
@@ -166,15 +160,11 @@ class ParameterSetter:
         known = self._mirror.get(request.node, request.name)
         return to_message(request.name, request.value, known.kind) if known else to_message(request.name, request.value)
 
-    async def undo(self) -> Answer:
-        """Undo the last accepted change of this console."""
-        step = self._journal.take_undo()
-        return Answer(False, "nothing to undo") if step is None else await self._move(step, ChangeSource.UNDO)
-
-    async def redo(self) -> Answer:
-        """Repeat the last undone change."""
-        step = self._journal.take_redo()
-        return Answer(False, "nothing to redo") if step is None else await self._move(step, ChangeSource.REDO)
+    async def move(self, source: ChangeSource) -> Answer:
+        """Undo the last accepted change of this console, or repeat the last undone one."""
+        undone = source is ChangeSource.UNDO
+        step = self._journal.take_undo() if undone else self._journal.take_redo()
+        return Answer(False, f"nothing to {source.value}") if step is None else await self._move(step, source)
 
     async def _move(self, step: Step, source: ChangeSource) -> Answer:
         """Undo or redo a step; what a node refuses stays on the list."""
@@ -183,7 +173,7 @@ class ParameterSetter:
         refused: list[SetOutcome] = []
         for move in step.moves:
             values = _values(move, source)
-            outcomes = await self._set(_requests(move.node, values, source), atomically=len(values) > 1)
+            outcomes = await self.set(move.node, values, source, atomically=len(values) > 1, moves=[])
             bad = [each for each in outcomes if not each.accepted]
             (left if bad else done).append(move)
             refused += bad[:1]
@@ -197,12 +187,6 @@ class ParameterSetter:
         if refused:
             return Answer(False, "; ".join(f"{each.node} {each.name}: {each.reason}" for each in refused))
         return Answer(True, f"{source.value}: {_text(step, source)}")
-
-
-def _requests(
-    node: str, values: Mapping[str, Value], source: ChangeSource, by: str = ""
-) -> tuple[ParameterRequest, ...]:
-    return tuple(ParameterRequest(node, name, value, source, by) for name, value in values.items())
 
 
 def _none_of(

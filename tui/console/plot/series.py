@@ -9,7 +9,7 @@ from typing import Any, TypeAlias, cast
 
 import numpy as np
 from bot_console.tui.console.plot.arrays import NotPlottable, make
-from bot_console.tui.console.protocol import Samples
+from bot_console.tui.console.plot.port import Samples
 from bot_console.tui.text.expression.tree import OF_ARRAYS
 
 STEP = re.compile(r"([A-Za-z_]\w*)|\[(-?\d+)\]|\[(-?\d*):(-?\d*)\]")

@@ -12,8 +12,8 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import GraphInfo, Kind, ParameterTree, Value
 from bot_console.tui.console.plot.arrays import NotPlottable
 from bot_console.tui.console.plot.paths import example, message_class, number_paths
+from bot_console.tui.console.plot.port import Samples
 from bot_console.tui.console.plot.series import Series, parse_path, reader
-from bot_console.tui.console.protocol import Samples
 from bot_console.tui.text.expression.tree import is_parameter
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy

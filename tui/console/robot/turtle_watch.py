@@ -13,7 +13,7 @@ from typing import Any
 from bot_console.tui.console.model import GraphInfo, NodeInfo
 from bot_console.tui.console.robot.robot_model import Drawing, Pose, Turtle, TurtleField
 from bot_console.tui.console.topics.interfaces import interface
-from bot_console.tui.console.traffic import Payload
+from bot_console.tui.console.topics.port import Payload
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 

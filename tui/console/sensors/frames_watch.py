@@ -12,7 +12,7 @@ from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.sensors.frame_model import Frame, Frames
 from bot_console.tui.console.topics.interfaces import interface
 from bot_console.tui.console.topics.offered_topics import offered_qos
-from bot_console.tui.console.traffic import Payload
+from bot_console.tui.console.topics.port import Payload
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 

@@ -1,7 +1,4 @@
-"""Diagnostics, images and frames as the panes show them, and the protocol that provides them. Standard library only.
-
-`Sensors` is part of `Console` and is polled in the same way: nothing here blocks.
-"""
+"""Diagnostics, images and frames as the panes show them, and the port that provides them. Standard library only."""
 
 from __future__ import annotations
 
@@ -113,12 +110,6 @@ class Sensors(Protocol):
 
     def watch_frames(self, on: bool) -> None:
         """Start or stop listening to `/tf` and `/tf_static`."""
-        ...
-
-    def watch_nodes(self, on: bool) -> None:
-        """Start or stop checking which nodes do not respond (`GraphInfo.silent`), unless that is known from another
-        source.
-        """
         ...
 
     def frames(self) -> Frames:

@@ -1,68 +1,83 @@
-"""`Sensors` over the console's node."""
+"""The port for sensor data: diagnostics, images and frames, received by the console's node."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
-from bot_console.tui.console.calls import Calls
-from bot_console.tui.console.graph.watch import GraphWatch
+from bot_console.tui.console.gate import Gate
 from bot_console.tui.console.model import GraphInfo
-from bot_console.tui.console.sensors.diagnostics import DiagnosticsWatch
 from bot_console.tui.console.sensors.frame_model import Frames
-from bot_console.tui.console.sensors.frames_watch import FramesWatch
-from bot_console.tui.console.sensors.images import ImageWatch
 from bot_console.tui.console.sensors.model import Diagnostics, Picture
-from rclpy.node import Node
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.sensors.diagnostics import DiagnosticsWatch
+    from bot_console.tui.console.sensors.frames_watch import FramesWatch
+    from bot_console.tui.console.sensors.images import ImageWatch
+    from rclpy.node import Node
 
 
 class NodeSensors:
     """The robot's sensor data; its methods may be called from any thread, the executor does the work."""
 
-    def __init__(self, node: Node, calls: Calls, graph: Callable[[], GraphWatch]) -> None:
-        self._calls = calls
+    _diagnostics: DiagnosticsWatch | None = None
+    _images: ImageWatch
+    _frames: FramesWatch
+    """There from `attach` on, as is `_diagnostics`."""
+
+    def __init__(self, gate: Gate, graph: Callable[[], GraphInfo]) -> None:
+        self._gate = gate
         self._graph = graph
-        self._diagnostics = DiagnosticsWatch(node)
+        self._nothing: tuple[Diagnostics, Picture, Frames] = Diagnostics(), Picture(), Frames()
+
+    def attach(self, node: Node) -> None:
+        """The system has been reached."""
+        from bot_console.tui.console.sensors.diagnostics import DiagnosticsWatch
+        from bot_console.tui.console.sensors.frames_watch import FramesWatch
+        from bot_console.tui.console.sensors.images import ImageWatch
+
         self._images = ImageWatch(node)
         self._frames = FramesWatch(node)
+        self._diagnostics = DiagnosticsWatch(node)
 
     def follow(self, graph: GraphInfo) -> None:
         """Process a changed graph; called by the executor."""
-        self._diagnostics.follow(graph)
-        self._images.follow(graph)
-        self._frames.follow(graph)
+        if self._diagnostics is not None:
+            self._diagnostics.follow(graph)
+            self._images.follow(graph)
+            self._frames.follow(graph)
+
+    def _explained(self) -> tuple[Diagnostics, Picture, Frames]:
+        """What there is before the system is reached: nothing, with the reason; the same objects until that changes."""
+        why = self._gate.unreached
+        if self._nothing[0].problem != why:
+            self._nothing = Diagnostics(problem=why), Picture(problem=why), Frames(problem=why)
+        return self._nothing
 
     def diagnostics(self) -> Diagnostics:
         """The latest diagnostics."""
-        return self._diagnostics.diagnostics()
+        return self._diagnostics.diagnostics() if self._diagnostics else self._explained()[0]
 
     def watch_image(self, topic: str, columns: int, rows: int) -> None:
         """Receive the images of this topic."""
-
-        async def poll() -> None:
-            self._images.watch_image(topic, columns, rows, self._graph().info)
-
-        self._calls.run(poll(), lambda why: None)
+        self._when_open(lambda: self._images.watch_image(topic, columns, rows, self._graph()))
 
     def picture(self) -> Picture:
         """The newest image."""
-        return self._images.picture()
+        return self._images.picture() if self._diagnostics else self._explained()[1]
 
     def watch_frames(self, on: bool) -> None:
         """Start or stop listening to `/tf` and `/tf_static`."""
-
-        async def poll() -> None:
-            self._frames.poll(on, self._graph().info)
-
-        self._calls.run(poll(), lambda _: None)
-
-    def watch_nodes(self, on: bool) -> None:
-        """Start or stop checking which nodes of the graph respond."""
-
-        async def poll() -> None:
-            self._graph().watch_nodes(on)
-
-        self._calls.run(poll(), lambda _: None)
+        self._when_open(lambda: self._frames.poll(on, self._graph()))
 
     def frames(self) -> Frames:
         """The frames received while listening."""
-        return self._frames.frames()
+        return self._frames.frames() if self._diagnostics else self._explained()[2]
+
+    def _when_open(self, work: Callable[[], object]) -> None:
+        """Do something in the executor, as soon as the system is reached."""
+
+        async def run() -> None:
+            work()
+
+        self._gate.when_open(lambda: self._gate.run(run, lambda why: None, changes=False))

@@ -18,9 +18,9 @@ from bot_console.tui.console.topics.interfaces import (
     short_name,
 )
 from bot_console.tui.console.topics.message_tree import scalar_text
+from bot_console.tui.console.topics.port import Payload, Slot, Values
 from bot_console.tui.console.topics.typed import NOW, parse
 from bot_console.tui.console.topics.units import field_unit
-from bot_console.tui.console.traffic import Payload, Slot, Values
 from rosidl_runtime_py import message_to_ordereddict
 
 SHORT = 60

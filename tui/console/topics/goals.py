@@ -11,7 +11,7 @@ from typing import Any
 from bot_console.tui.console.topics.forms import filled, stamp
 from bot_console.tui.console.topics.interfaces import interface
 from bot_console.tui.console.topics.message_tree import tree
-from bot_console.tui.console.traffic import Field, Goal, Payload, Values
+from bot_console.tui.console.topics.port import Field, Goal, Payload, Values
 from rclpy.action import ActionClient
 from rclpy.node import Node
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
-from bot_console.tui.console.traffic import Payload
+from bot_console.tui.console.topics.port import Payload
 
 FOLDERS = {Payload.MESSAGE: "msg", Payload.REQUEST: "srv", Payload.GOAL: "action"}
 ARRAY = re.compile(r"sequence<(?P<of>[^,]+?)(?:,\s*\d+)?>|(?P<fixed>.+)\[(?P<count>\d+)\]")

@@ -10,7 +10,7 @@ from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.topics.followed_topic import FollowedTopic
 from bot_console.tui.console.topics.interfaces import interface
 from bot_console.tui.console.topics.message_tree import tree
-from bot_console.tui.console.traffic import LiveMessage, Payload
+from bot_console.tui.console.topics.port import LiveMessage, Payload
 from rclpy.node import Node
 
 MAX_AGES = 10

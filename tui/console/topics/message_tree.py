@@ -17,8 +17,8 @@ from bot_console.tui.console.topics.interfaces import (
     is_message,
     short_name,
 )
+from bot_console.tui.console.topics.port import Field
 from bot_console.tui.console.topics.units import field_unit
-from bot_console.tui.console.traffic import Field
 
 ELEMENTS = 8
 """Maximum number of array elements shown on separate lines, or together on one line."""

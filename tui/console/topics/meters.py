@@ -11,7 +11,7 @@ from typing import Any
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.topics.interfaces import HEADER, fields_of, interface
 from bot_console.tui.console.topics.offered_topics import offered_qos, offered_types_of
-from bot_console.tui.console.traffic import Measure, Payload
+from bot_console.tui.console.topics.port import Measure, Payload
 from rclpy.node import Node
 
 WINDOW = 5.0

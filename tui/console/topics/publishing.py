@@ -8,7 +8,7 @@ from typing import Any
 
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.topics.forms import filled, stamp
-from bot_console.tui.console.traffic import Payload, Repeated, Values
+from bot_console.tui.console.topics.port import Payload, Repeated, Values
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 

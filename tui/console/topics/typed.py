@@ -18,7 +18,7 @@ from bot_console.tui.console.topics.interfaces import (
     interface,
     is_message,
 )
-from bot_console.tui.console.traffic import Payload
+from bot_console.tui.console.topics.port import Payload
 from bot_console.tui.text.yaml_faults import UNREADABLE
 from rosidl_runtime_py import set_message_fields
 

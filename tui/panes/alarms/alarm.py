@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, cast
 
-from bot_console.tui.console.protocol import ConsoleReading, Samples
+from bot_console.tui.console.plot.port import Plots, Samples
 from bot_console.tui.panes.alarms.condition import Condition, read
 
 MAX_SAMPLES = 50
@@ -72,10 +72,10 @@ class Alarm:
         """The paths in its condition."""
         return self.condition.paths
 
-    def poll(self, console: ConsoleReading) -> list[float]:
+    def poll(self, plots: Plots) -> list[float]:
         """Process new samples in order; returns the values of the first path at which the alarm became active."""
         began: list[float] = []
-        for time, path, value in self._new(console):
+        for time, path, value in self._new(plots):
             self.values[path] = value
             before = self.holds
             self._judge()
@@ -86,11 +86,11 @@ class Alarm:
                 began.append(self.values[self.paths[0]])
         return began
 
-    def _new(self, console: ConsoleReading) -> list[tuple[float, str, float]]:
+    def _new(self, plots: Plots) -> list[tuple[float, str, float]]:
         """New samples (time, path, value) of all paths in order of time."""
         found: list[tuple[float, str, float]] = []
         for path in self.paths:
-            new: Samples = console.samples(path, self._cursors.get(path, 0))
+            new: Samples = plots.samples(path, self._cursors.get(path, 0))
             self._cursors[path] = new.cursor
             self.problem = new.problem or self.problem
             first = max(0, len(new.times) - MAX_SAMPLES)

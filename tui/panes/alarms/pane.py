@@ -94,7 +94,7 @@ class AlarmsPane(ListPane):
                 self._asked = now
                 self._watch(self._waiting)
             for alarm in self._alarms:
-                began = alarm.poll(self.console)
+                began = alarm.poll(self.console.plots)
                 if began and alarm.text.bell:
                     self.host.bell()
                 alarm.untold += began
@@ -110,7 +110,7 @@ class AlarmsPane(ListPane):
 
     def _watch(self, paths: Any) -> None:
         for path in tuple(paths):
-            answer = self.console.watch(path, REQUESTER)
+            answer = self.console.plots.watch(path, REQUESTER)
             if answer.ok:
                 self._waiting.pop(path, None)
             else:
@@ -127,7 +127,7 @@ class AlarmsPane(ListPane):
 
     def _arrange(self) -> None:
         self._drawn = self.clock()
-        now = self.console.plot_time()
+        now = self.console.plots.time()
         for alarm in self._alarms:
             waits = next((self._waiting[each] for each in alarm.paths if each in self._waiting), "")
             alarm.problem = waits or alarm.problem
@@ -184,7 +184,7 @@ class AlarmsPane(ListPane):
             self._ask("alarm", f"{alarm.text.name}: {alarm.text.condition}", alarm)
 
     def _ask(self, label: str, text: str, old: Alarm | None) -> None:
-        suggestions = self.console.plottable()  # these leave the old text unselected: usually its end is edited
+        suggestions = self.console.plots.plottable()  # these leave the old text unselected: usually its end is edited
         check, then = partial(self._wrong, old), partial(self._take, old)
         self.ask(Line(label, then, text=text, check=check, suggestions=suggestions))
 
@@ -215,7 +215,7 @@ class AlarmsPane(ListPane):
         wanted = {path for each in self._alarms for path in each.paths}
         for path in set(alarm.paths) - wanted if alarm else ():
             self._waiting.pop(path, None)
-            self.console.unwatch(path, REQUESTER)
+            self.console.plots.unwatch(path, REQUESTER)
 
     def _keep(self) -> None:
         why = self.state_store.put(STATE_NAME, [each.text.data for each in self._alarms])
@@ -246,7 +246,7 @@ class AlarmsPane(ListPane):
     def detach(self) -> None:
         """Stop watching all paths."""
         for path in {path for each in self._alarms for path in each.paths}:
-            self.console.unwatch(path, REQUESTER)
+            self.console.plots.unwatch(path, REQUESTER)
 
 
 def parted(typed: str) -> tuple[str, str]:

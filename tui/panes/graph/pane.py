@@ -164,8 +164,8 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             if self._frames.open:
                 self._report()
         if not self._measures or not self.display:
-            self._rates.rest(self.console.traffic)
-        elif self._rates.poll(self.console.traffic, self._shown.topics_drawn, self.clock()):
+            self._rates.rest(self.console.topics)
+        elif self._rates.poll(self.console.topics, self._shown.topics_drawn, self.clock()):
             self._draw()
 
     @property
@@ -180,12 +180,12 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         wanted = self.console.sensors if self.display else None
         if wanted is not self._asking_by:  # a different one, too, after a reconnection
             self._asking_by = wanted
-            self.console.sensors.watch_nodes(wanted is not None)
+            self.console.graph.watch_nodes(wanted is not None)
 
     def detach(self) -> None:
         """Stop measuring and probing."""
-        self.console.traffic.measure([], "graph")
-        self.console.sensors.watch_nodes(False)
+        self.console.topics.measure([], "graph")
+        self.console.graph.watch_nodes(False)
         self.console.sensors.watch_frames(False)
 
     def on_diagram_view_resized(self) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from bot_console.tui.console.traffic import Traffic
+from bot_console.tui.console.topics.port import Topics
 from bot_console.tui.text.figures import coarse_rate
 
 RATE_POLL_S = 2.0
@@ -24,7 +24,7 @@ class Rates:
         """The texts, or none."""
         return self.texts if on else {}
 
-    def poll(self, traffic: Traffic, topics: Sequence[str], now: float) -> bool:
+    def poll(self, traffic: Topics, topics: Sequence[str], now: float) -> bool:
         """Measure these topics, and read the rates every few seconds; returns whether any text has changed."""
         if now - self._polled < RATE_POLL_S:
             return False
@@ -35,7 +35,7 @@ class Rates:
         before, self.texts = self.texts, texts
         return texts != before
 
-    def rest(self, traffic: Traffic) -> None:
+    def rest(self, traffic: Topics) -> None:
         """Measure nothing."""
         if self._polled:
             self._polled = 0.0

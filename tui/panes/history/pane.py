@@ -77,7 +77,7 @@ class HistoryPane(ListPane):
         if snapshot.journal is not self._journal or snapshot.problem != problem:
             new = snapshot.journal
             if not self._every or new.end != self._journal.end or new.first != self._journal.first:
-                self._every = [*self.console.changes(ALL)]
+                self._every = [*self.console.parameters.changes(ALL)]
             self._journal = new
             self._arrange()
 
@@ -180,7 +180,7 @@ class HistoryPane(ListPane):
         values: dict[str, dict[str, Value]] = {}
         for each in found:
             values.setdefault(each.node, {})[each.name] = each.then
-        answer = self.console.set_all(values, ChangeSource.HISTORY)
+        answer = self.console.parameters.set_all(values, ChangeSource.HISTORY)
         answer.add_done_callback(lambda done: self.host.call_later(self._outcome, done))
 
     def _outcome(self, done: Future[tuple[SetOutcome, ...]]) -> None:

@@ -93,7 +93,7 @@ class LevelsScreen(DimmedScreen):
         self.query_one("#levels-state", StaticText).show_text(what or hint)
 
     def _ask(self, node: str) -> None:
-        answer = self._of_robot.logger_levels(node)
+        answer = self._of_robot.logs.levels(node)
         answer.add_done_callback(lambda done: self._host.call_later(self._came, node, done))
 
     def _came(self, node: str, done: Future[tuple[LoggerLevel, ...]]) -> None:
@@ -110,7 +110,7 @@ class LevelsScreen(DimmedScreen):
         """Set the level of the logger at the cursor."""
         level = self._list.current
         if level is not None:
-            answer = self._of_robot.set_logger_level(level.node, Severity(severity), level.logger)
+            answer = self._of_robot.logs.set_level(level.node, Severity(severity), level.logger)
             answer.add_done_callback(lambda done: self._host.call_later(partial(self._was_set, level.node), done))
 
     def _was_set(self, node: str, done: Future[Answer]) -> None:

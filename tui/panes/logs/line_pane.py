@@ -52,7 +52,7 @@ class LinePane(ListPane):
         if record is None:
             return
         events = self.console.snapshot().launch.timeline
-        found = preceding_events(record.stamp, self.console.changes(-(10**9)), events)
+        found = preceding_events(record.stamp, self.console.parameters.changes(-(10**9)), events)
         if not found:
             self.notify("No parameter was changed and nothing launched before this line.")
             return

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from bot_console.tui.console.log_protocol import LogFindings, LogView
+from bot_console.tui.console.logs.port import LogFindings, LogView
 from bot_console.tui.console.model import LogFilter
 
 OpenView = Callable[[LogFilter, "LogView | None"], LogView]

@@ -8,7 +8,7 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.log_protocol import LogFindings, LogSource, LogView
+from bot_console.tui.console.logs.port import LogFindings, LogSource, LogView
 from bot_console.tui.console.model import ConsoleSnapshot, LogFilter, LogState, Severity
 from bot_console.tui.files.save_file import save_file
 from bot_console.tui.format import SEVERITY_CHARACTERS, sanitize
@@ -340,7 +340,7 @@ class LogsPane(LinePane):
 
     def _open(self, path: str) -> None:
         try:
-            self._read(self.console.open_log(path.strip()))
+            self._read(self.console.logs.open(path.strip()))
         except ValueError as error:
             self.notify(str(error), severity="error")
 

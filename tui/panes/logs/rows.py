@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import ClassVar
 
-from bot_console.tui.console.log_protocol import LogNumbers, LogSource
+from bot_console.tui.console.logs.port import LogNumbers, LogSource
 from bot_console.tui.console.model import LogRecord, Severity
 from bot_console.tui.format import SEVERITY_CHARACTERS, clock_text, cut, sanitize
 from bot_console.tui.panes.logs.names import NodeNames

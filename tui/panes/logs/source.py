@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.log_protocol import LogView
+from bot_console.tui.console.logs.port import LogView
 from bot_console.tui.console.model import LogFilter, LogRecord, LogState
 from bot_console.tui.console.protocol import Console
 
 
 class LiveLog:
-    """The log of the running system; implements `tui.console.log_protocol.LogSource`."""
+    """The log of the running system; implements `tui.console.logs.port.LogSource`."""
 
     name = ""
 
@@ -22,15 +22,15 @@ class LiveLog:
 
     def record(self, seq: int) -> LogRecord | None:
         """The record with that number."""
-        return self._console.log(seq)
+        return self._console.logs.record(seq)
 
     def view(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
         """Search for the records that pass a filter."""
-        return self._console.view_logs(which, instead_of)
+        return self._console.logs.view(which, instead_of)
 
     def clear(self) -> None:
         """Forget all records."""
-        self._console.clear_logs()
+        self._console.logs.clear()
 
     def close(self) -> None:
         """Do nothing: the system's log stays open."""

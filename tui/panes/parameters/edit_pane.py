@@ -132,7 +132,7 @@ class EditPane(ListPane):
             self._list.refused.pop(key, None)  # a refusal of an earlier value would hide this mark
             self.redraw_marks()
             return
-        answer = self.console.set_parameters(parameter.node, {parameter.name: value}, ChangeSource.EDIT)
+        answer = self.console.parameters.set(parameter.node, {parameter.name: value}, ChangeSource.EDIT)
         self._wait_for(answer, {(parameter.node, parameter.name): value})
         answer.add_done_callback(lambda done: self.host.call_later(self._outcome, done))
 
@@ -217,7 +217,7 @@ class EditPane(ListPane):
     def _apply(self, values: dict[Key, Value]) -> None:
         # Not when the answer arrives: someone who presses m in the meantime wants to mark again.
         self.staging.marking = bool(self.staging.marked.keys() - values.keys())
-        answer = self.console.set_all(by_node(values), ChangeSource.EDIT)
+        answer = self.console.parameters.set_all(by_node(values), ChangeSource.EDIT)
         self._wait_for(answer, values)
         answer.add_done_callback(lambda done: self.host.call_later(self._applied, values, done))
 
@@ -247,7 +247,7 @@ class EditPane(ListPane):
         self._swap(self.staging.other)
 
     def _swap(self, values: dict[Key, Value]) -> None:
-        answer = self.console.set_all(by_node(values), ChangeSource.EDIT, SETS[1 - self.staging.live])
+        answer = self.console.parameters.set_all(by_node(values), ChangeSource.EDIT, SETS[1 - self.staging.live])
         self._wait_for(answer, values)
         answer.add_done_callback(lambda done: self.host.call_later(self._swapped, done))
 
@@ -282,7 +282,7 @@ class EditPane(ListPane):
 
     def _ask_score(self, known: Sequence[Tunable], text: str) -> None:
         tunables = find_tunables(text.split(), [*known])
-        find = partial(tuning.scores, self.console.plottable())
+        find = partial(tuning.scores, self.console.plots.plottable())
         then = partial(self._ask_runs, tunables)
         hint = "a score, or a formula such as mean_speed - 2*collisions"
         self.host.call_later(self.ask, Choice("Score: more is better", then, find=find, hint=hint))

@@ -109,7 +109,7 @@ class ParametersPane(EditPane):
 
     def _read_journal(self, snapshot: ConsoleSnapshot) -> None:
         """Learn which values are not saved, and which are not those of the start."""
-        for each in self.console.changes(self._read):
+        for each in self.console.parameters.changes(self._read):
             self._read = max(self._read, each.seq + 1)
             if each.accepted and each.by == RESTARTED:
                 self._starts[each.node, each.name] = each.new
@@ -263,11 +263,11 @@ class ParametersPane(EditPane):
 
     def action_undo(self) -> None:
         """Undo the last change made here."""
-        self.report_later(self.console.undo())
+        self.report_later(self.console.parameters.undo())
 
     def action_redo(self) -> None:
         """Redo."""
-        self.report_later(self.console.redo())
+        self.report_later(self.console.parameters.redo())
 
     def filter_is(self, words: str) -> None:
         """Show the parameters that pass; the cursor goes to one that is called like the last word."""
@@ -351,7 +351,7 @@ class ParametersPane(EditPane):
 
     def _save_what(self, nodes: tuple[str, ...], only_changed: bool) -> None:
         def save(path: Path) -> Answer:
-            answer = self.console.save_parameters(str(path), nodes, only_changed=only_changed)
+            answer = self.console.parameters.save(str(path), nodes, only_changed=only_changed)
             if answer.ok:
                 self.state_store.put(LAST_FILE, os.path.abspath(path))
             return answer

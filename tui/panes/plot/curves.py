@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
-from bot_console.tui.console.protocol import Console
+from bot_console.tui.console.plot.port import Plots
 from bot_console.tui.panes.plot.thresholds import Threshold
 from bot_console.tui.text.expression.tree import is_parameter
 
@@ -74,9 +74,9 @@ class Curve:
         place = int(np.searchsorted(times, time, side="right")) - 1
         return float(values[place]) if place >= 0 else None
 
-    def take_in(self, console: Console) -> bool:
+    def take_in(self, plots: Plots) -> bool:
         """Fetch new samples; whether there were any."""
-        samples = console.samples(self.path, self.cursor)
+        samples = plots.samples(self.path, self.cursor)
         changed = self.problem != samples.problem or samples.cursor != self.cursor
         self.cursor, self.problem = samples.cursor, samples.problem
         if len(samples.times):

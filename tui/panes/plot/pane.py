@@ -53,8 +53,8 @@ class PlotPane(PlotQuestions):
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
-        self._timeline = Timeline(self.console)
-        self._responses = Responses(self.console)
+        self._timeline = Timeline(self.console.plots)
+        self._responses = Responses(self.console.plots)
         self._form = "framed"
         self._expected: dict[str, str] = {}
         """What waits to be plotted, and why it cannot be yet where more is known than that it is not there."""
@@ -90,7 +90,7 @@ class PlotPane(PlotQuestions):
             self._wanted = True
         if snapshot.journal is not self._journal:
             self._journal = snapshot.journal
-            changes = self.console.changes()
+            changes = self.console.parameters.changes()
             self._timeline.marks_of(changes)
             self._responses.read(changes)
             self._wanted = True
@@ -98,7 +98,7 @@ class PlotPane(PlotQuestions):
             self.take_in(force=True)
 
     def _add_defaults(self) -> None:
-        known = self.console.plottable()
+        known = self.console.plots.plottable()
         for wanted in DEFAULTS:
             path = next((each for each in known if each.endswith(wanted)), None)
             if path is not None and path not in self.paths:
@@ -119,7 +119,7 @@ class PlotPane(PlotQuestions):
     def _take_expected(self, snapshot: ConsoleSnapshot) -> None:
         if not self._expected:
             return
-        known = self.console.plottable()
+        known = self.console.plots.plottable()
         topics = {each.name for each in snapshot.graph.topics}
         for wanted in tuple(self._expected):
             found = matching(wanted, known)
@@ -210,7 +210,7 @@ class PlotPane(PlotQuestions):
         if time is None:
             self.notify("No further change of a parameter is marked.")
             return
-        stamps = {self.console.plot_time(each.stamp): each.stamp for each in self.console.changes()}
+        stamps = {self.console.plots.time(each.stamp): each.stamp for each in self.console.parameters.changes()}
         if (stamp := stamps.get(time)) is not None:
             self._inspect(stamp)
 

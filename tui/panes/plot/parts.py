@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import Change
-from bot_console.tui.console.protocol import Console
+from bot_console.tui.console.plot.port import Plots
 from bot_console.tui.format import value_text
 from bot_console.tui.panes.plot.thresholds import first_crossed
 
@@ -38,8 +38,8 @@ STEPS = 20
 class Timeline:
     """Curves over a window of time that ends at the newest sample, or stands while paused."""
 
-    def __init__(self, console: Console) -> None:
-        self._console = console
+    def __init__(self, plots: Plots) -> None:
+        self._plots = plots
         self.curves: list[Curve] = []
         self.against = ""
         """The path of the curve that is drawn in place of time; empty: time."""
@@ -62,7 +62,7 @@ class Timeline:
         from bot_console.tui.panes.plot.formulas.formula import read
 
         found: Formula | str = text
-        if text not in self._console.plottable():
+        if text not in self._plots.plottable():
             try:
                 found = read(text)
             except ValueError as error:
@@ -72,7 +72,7 @@ class Timeline:
             return Answer(True, text)
         paths = (found,) if isinstance(found, str) else found.paths
         for at, path in enumerate(paths):
-            answer = self._console.watch(path) if path not in self._sources else Answer(True)
+            answer = self._plots.watch(path) if path not in self._sources else Answer(True)
             if not answer.ok:
                 self._forget(paths[:at])
                 return answer
@@ -107,7 +107,7 @@ class Timeline:
         for path in paths:
             if path not in needed:
                 self._sources.pop(path, None)
-                self._console.unwatch(path)
+                self._plots.unwatch(path)
 
     def time_of(self, by_header: bool) -> None:
         """Place samples by the headers of messages, or by when these came."""
@@ -124,10 +124,10 @@ class Timeline:
     def take_in(self) -> bool:
         """Fetch new samples; whether anything has to be drawn."""
         before = sum(each.cursor for each in self._sources.values())
-        changed = any([each.take_in(self._console) for each in self._sources.values()])
+        changed = any([each.take_in(self._plots) for each in self._sources.values()])
         for each in self.curves:
             if each.path not in self._sources:
-                each.take_in(self._console)
+                each.take_in(self._plots)
         if self.paused_at is not None:
             self.new_samples += sum(each.cursor for each in self._sources.values()) - before
         return changed
@@ -143,9 +143,7 @@ class Timeline:
             return
         from bot_console.tui.panes.plot.view import Mark
 
-        self.marks = [
-            Mark(self._console.plot_time(each.stamp), not each.accepted, change_text(each)) for each in changes
-        ]
+        self.marks = [Mark(self._plots.time(each.stamp), not each.accepted, change_text(each)) for each in changes]
 
     def watch_image(self, stamp: int | None) -> None:
         """Hold the window so that it shows a moment (ns since the epoch); at None let it follow again."""
@@ -155,7 +153,7 @@ class Timeline:
             return
         if self.paused_at is None:
             self.pause()
-        self.cursor = self._console.plot_time(stamp)
+        self.cursor = self._plots.time(stamp)
         end = self.paused_at or 0.0
         edge = self.window / 20
         if not end - self.window + edge <= self.cursor <= end - edge:
@@ -175,7 +173,7 @@ class Timeline:
 
     def stamp_of(self, time: float) -> int:
         """The moment (ns since the epoch) of a time of the axis."""
-        return round((time - self._console.plot_time(0)) * 1e9)
+        return round((time - self._plots.time(0)) * 1e9)
 
     def wall(self, time: float) -> float:
         """The same in s."""
@@ -205,7 +203,7 @@ class Timeline:
     def newest(self) -> float:
         """The time of the newest sample of a topic; with parameters alone, now."""
         streams = [end for each in self.curves if not each.steps and (end := each.end) is not None]
-        return max(streams) if streams else self._console.plot_time()
+        return max(streams) if streams else self._plots.time()
 
     def moment(self, across: int) -> object:
         """What a picture of so many cells tells of now; while it stays the same only the newest dots may differ."""

@@ -44,7 +44,7 @@ class PlotQuestions(Pane):
         """Ask for curves."""
         from bot_console.tui.panes.plot.formulas.suggestions import suggested
 
-        known = [each for each in self.console.plottable() if each.isprintable()]
+        known = [each for each in self.console.plots.plottable() if each.isprintable()]
         self.ask(
             Choice(
                 "Plot",

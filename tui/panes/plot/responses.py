@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from bot_console.tui.console.model import Change
-from bot_console.tui.console.protocol import Console
+from bot_console.tui.console.plot.port import Plots
 from bot_console.tui.format import sanitize
 from bot_console.tui.widgets.picture import Line
 
@@ -22,7 +22,7 @@ HOW = "No responses yet: mark values in the Parameters pane (m), then A there se
 class Responses:
     """What is compared: the curve that is chosen, against a reference, by a formula of one's own."""
 
-    console: Console
+    plots: Plots
     shown: bool = False
     reference: str = ""
     """The path of the curve that the response should follow; empty: none."""
@@ -39,7 +39,7 @@ class Responses:
         """The responses of a curve, each as long as the window (s), or until the other set was sent."""
         from bot_console.tui.panes.plot.step_response import response
 
-        starts = {name: self.console.plot_time(stamp) for name, stamp in self._moments.items()}
+        starts = {name: self.plots.time(stamp) for name, stamp in self._moments.items()}
         found: list[Response] = []
         for name, start in sorted(starts.items()):
             later = [each for each in starts.values() if each > start]
@@ -72,7 +72,7 @@ class Responses:
         curve = next((each for each in curves if each.path == self.reference), None)
         if curve is None:
             return None
-        end = self.console.plot_time(self._moments[of.name]) + float(of.times[-1])
+        end = self.plots.time(self._moments[of.name]) + float(of.times[-1])
         return curve.at(end)
 
     def caption(self, curves: Sequence[Curve], chosen: int) -> str:

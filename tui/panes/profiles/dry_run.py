@@ -58,7 +58,7 @@ class Asking:
     def _put(self, node: str, tree: ParameterTree, values: Mapping[str, Value]) -> None:
         kinds = {each.name: each.kind for each in tree.parameters}
         asked = question({name: (kinds[name], value) for name, value in values.items()})
-        done = self.console.call(f"{node}/{SERVICE}", TYPE, asked)
+        done = self.console.topics.call_service(f"{node}/{SERVICE}", TYPE, asked)
         done.add_done_callback(partial(self._answered, node, self._asked[node]))
 
     def _answered(self, node: str, asked: Asked, done: Future[Answer]) -> None:

@@ -108,7 +108,7 @@ class ProfilesPane(ListPane):
     def _compare(self) -> None:
         profile = self._list.current
         if profile is not None and not self._held:
-            self._differences = () if profile.problem else self.console.profile_differences(profile.name)
+            self._differences = () if profile.problem else self.console.profiles.differences(profile.name)
             self._asking.ask(self._differences, self._snapshot)
         shown = self.query_one(DifferenceRows)
         shown.exchange(entries(self._differences, self._outcomes, self._asking, shown.size.width or self.size.width))
@@ -220,7 +220,7 @@ class ProfilesPane(ListPane):
         self._reported = f"applying {name} ..."
         # The list stays while its values change one by one, and shows in the end what became of each.
         self._held = True
-        answer = self.console.apply_profile(name, reset_world=reset_world)
+        answer = self.console.profiles.apply(name, reset_world=reset_world)
         answer.add_done_callback(lambda done: self.host.call_later(self._outcome, name, reset_world, done))
         self._compare()
 
@@ -245,10 +245,10 @@ class ProfilesPane(ListPane):
         if place.strip().lower().startswith(ADDRESSES):
             self._reported = f"fetching {place.strip()} ..."
             self._compare()
-            answer = self.console.fetch_profile(place.strip())
+            answer = self.console.profiles.fetch(place.strip())
             answer.add_done_callback(lambda done: self.host.call_later(self._opened, answer_of(done)))
         else:
-            answer = self.console.open_profile(place)
+            answer = self.console.profiles.open(place)
             if answer.ok:
                 self.state_store.put(LAST_FILE, os.path.abspath(typed_path(place)))
             self._opened(answer)
@@ -319,13 +319,13 @@ class ProfilesPane(ListPane):
 
     def _replaced(self, profile: Profile, answer: Answer) -> None:
         if answer.ok:
-            self.console.apply_profile(profile.name)  # it has no values; the one of before is not in force any more
+            self.console.profiles.apply(profile.name)  # it has no values; the one of before is not in force any more
         self._reported = answer.text
         self._compare()
 
     def action_undo(self) -> None:
         """Undo the last change made here."""
-        self.console.undo().add_done_callback(lambda done: self.host.call_later(self._undone, done))
+        self.console.parameters.undo().add_done_callback(lambda done: self.host.call_later(self._undone, done))
 
     def _undone(self, done: Future[Answer]) -> None:
         self.report(answer_of(done))

@@ -50,7 +50,7 @@ class PresetMenu:
         if not asked:
             self.report(Answer(False, NOBODY))
         for each in asked:
-            answer = self.console.call(f"{each}/list", LIST, {})
+            answer = self.console.topics.call_service(f"{each}/list", LIST, {})
             answer.add_done_callback(partial(self._heard, asked, each))
 
     def _heard(self, asked: Sequence[str], keeper: str, done: Future[Answer]) -> None:
@@ -104,7 +104,7 @@ class PresetMenu:
         self.ask(Line(f"save what runs as a preset of {keeper}", partial(self._change, keeper, "save"), check=_unnamed))
 
     def _change(self, keeper: str, verb: str, name: str) -> None:
-        answer = self.console.call(f"{keeper}/{verb}", CHANGE, {"load_namespace": name.strip()})
+        answer = self.console.topics.call_service(f"{keeper}/{verb}", CHANGE, {"load_namespace": name.strip()})
         answer.add_done_callback(lambda done: self.later(self.report, answer_of(done)))
 
 

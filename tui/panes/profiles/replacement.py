@@ -8,8 +8,8 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field
 
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.model import Profile
-from bot_console.tui.console.protocol import Launcher
 
 
 @dataclass

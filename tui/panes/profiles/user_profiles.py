@@ -42,7 +42,7 @@ class OwnProfiles:
         self.later(self.ask, question)
 
     def _save(self, name: str, description: str) -> None:
-        self.report(self.console.save_profile(name, description))
+        self.report(self.console.profiles.save(name, description))
 
     def rename(self, profile: Profile) -> None:
         """Ask for a new name."""
@@ -57,7 +57,7 @@ class OwnProfiles:
         return _problem(to) or (f"there is a profile {to} already" if taken else "")
 
     def _rename(self, name: str, to: str) -> None:
-        self.report(self.console.rename_profile(name, to.strip()))
+        self.report(self.console.profiles.rename(name, to.strip()))
 
     def delete(self, profile: Profile) -> None:
         """Ask whether to delete its file."""
@@ -71,7 +71,7 @@ class OwnProfiles:
             self.ask(Confirmation(f"Delete the profile {profile.name}?", delete, gone=gone, reasons=reasons))
 
     def _delete(self, name: str, _: None) -> None:
-        self.report(self.console.delete_profile(name))
+        self.report(self.console.profiles.delete(name))
 
     def _gone(self, name: str) -> str:
         there = any(each.name == name for each in self.console.snapshot().profiles)

@@ -171,7 +171,7 @@ class SteeringPane(Pane):
         if self.state.armed:
             self._send()
         if self.state.armed:
-            self.console.steer(True)
+            self.console.drive.steer(True)
             if self.display:
                 self._draw()
 
@@ -179,21 +179,21 @@ class SteeringPane(Pane):
         armed = self.state.armed
         command = self.state.command(self.clock())
         if command is not None:
-            self.console.drive(*command)
+            self.console.drive.move(*command)
         if armed and self.state.expired:
             self._stand(DEAD_MAN)
             self._draw()
 
     def _stand(self, why: str) -> None:
         """Lock before releasing the steering, so that the robot's own program does not drive in between."""
-        self.console.all_stop(True, why)
-        self.console.steer(False)
+        self.console.drive.stop(True, why)
+        self.console.drive.steer(False)
 
     def _steer_no_more(self) -> None:
         """Stop steering, with zero velocity."""
         self.state.disarm()
         self._send()
-        self.console.steer(False)
+        self.console.drive.steer(False)
 
     def _disarm(self, why: str = "") -> None:
         if self.state.armed:
@@ -250,9 +250,9 @@ class SteeringPane(Pane):
 
     def _arm(self) -> None:
         """Take the steering before the lock is released: the robot stands until a key moves it."""
-        self.console.steer(True)
+        self.console.drive.steer(True)
         if self._snapshot.drive.stopped:
-            self.console.all_stop(False)
+            self.console.drive.stop(False)
         self._snapshot = self.console.snapshot()
         self.state.arm(self.clock())
         self._draw()
@@ -263,7 +263,7 @@ class SteeringPane(Pane):
             self._steer_no_more()
             self._draw()
         elif self._own_stop:
-            self.console.all_stop(False)
+            self.console.drive.stop(False)
 
     def action_disarm(self) -> None:
         """Send zero velocity and ignore keys."""
@@ -297,7 +297,7 @@ class SteeringPane(Pane):
             return
         self._disarm()
         at = drive.robots.index(drive.robot) if drive.robot in drive.robots else -1
-        self.console.choose_robot(drive.robots[(at + 1) % len(drive.robots)])
+        self.console.drive.choose(drive.robots[(at + 1) % len(drive.robots)])
 
     def action_deadman(self) -> None:
         """The next dead-man time."""

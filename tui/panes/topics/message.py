@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from bot_console.tui.console.traffic import Field, LiveMessage
+from bot_console.tui.console.topics.port import Field, LiveMessage
 from bot_console.tui.format import cut, sanitize
 from bot_console.tui.widgets.row_list import RowList
 from rich.cells import cell_len

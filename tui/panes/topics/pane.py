@@ -10,7 +10,7 @@ from typing import Any
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.console.traffic import LiveMessage
+from bot_console.tui.console.topics.port import LiveMessage
 from bot_console.tui.format import counted
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.topics.message import MessageRows
@@ -128,7 +128,7 @@ class TopicsPane(ListPane):
                 self._measure([])
             if self._message_polled_at:
                 self._message_polled_at = 0.0
-                self.console.traffic.listen("")
+                self.console.topics.listen("")
             return
         now = self.clock()
         if now - self._polled >= MEASURE_POLL_S:
@@ -149,17 +149,17 @@ class TopicsPane(ListPane):
     def detach(self) -> None:
         """Measure no more."""
         self._measure([])
-        self.console.traffic.listen("")
+        self.console.topics.listen("")
 
     def _measure(self, topics: list[str]) -> None:
         if topics != self._measuring:
             self._measuring = topics
-            self.console.traffic.measure(topics, "topics")
+            self.console.topics.measure(topics, "topics")
 
     def _poll(self, now: float) -> None:
         """Show what was measured since the last look, and measure what is in view now."""
         self._polled = now
-        shown, traffic = self._list, self.console.traffic
+        shown, traffic = self._list, self.console.topics
         self._measure(shown.in_view if self._kind is Kind.TOPICS and shown.display else [])
         if self._kind is Kind.TOPICS:
             shown.show_measured(traffic.measured(), traffic.repeated())
@@ -173,9 +173,9 @@ class TopicsPane(ListPane):
     def _poll_message(self, now: float) -> None:
         """Show the newest message, or, while frozen, how many have come since."""
         if not self._message_polled_at:
-            self.console.traffic.listen(self._topic)
+            self.console.topics.listen(self._topic)
         self._message_polled_at = now
-        heard = self.console.traffic.heard()
+        heard = self.console.topics.heard()
         if heard.topic != self._topic:
             heard = LiveMessage(self._topic)
         if not self._frozen and heard is not self._shown:
@@ -204,7 +204,7 @@ class TopicsPane(ListPane):
         status.show_text(text)
 
     def _about(self, row: Row) -> str:
-        traffic = self.console.traffic
+        traffic = self.console.topics
         repeated = traffic.repeated().get(row.name) if self._kind is Kind.TOPICS else None
         if repeated:
             return f"publishing here at {repeated.rate:g} Hz, {counted(repeated.count, 'message')}; x ends it"
@@ -255,7 +255,7 @@ class TopicsPane(ListPane):
     def _close(self) -> None:
         self._topic = self._list.opened = ""
         self._message_polled_at = 0.0
-        self.console.traffic.listen("")
+        self.console.topics.listen("")
         self.remove_class("opened")
         self.focus_target()
         self.call_after_refresh(self._laid_out)
@@ -308,7 +308,7 @@ class TopicsPane(ListPane):
             else:
                 self.post_message(self.PlotWanted(f"{self._topic}/{field.path}"))
         elif row is not None and self._kind is Kind.TOPICS:
-            paths = [each for each in self.console.plottable() if each.startswith(f"{row.name}/")]
+            paths = [each for each in self.console.plots.plottable() if each.startswith(f"{row.name}/")]
             if not paths:
                 self.notify(f"{row.name} has no number that could be plotted.", severity="warning")
             else:
@@ -332,10 +332,10 @@ class TopicsPane(ListPane):
         if row is None:
             return
         if self._kind is Kind.ACTIONS:
-            answer = self.console.traffic.cancel(row.name)
+            answer = self.console.topics.cancel(row.name)
             self.report(answer)
-        elif row.name in self.console.traffic.repeated():
-            self.console.traffic.stop(row.name)
+        elif row.name in self.console.topics.repeated():
+            self.console.topics.stop(row.name)
             self.notify(f"{row.name}: nothing is published from here any more")
         else:
             self.notify(f"Nothing is published to {row.name} from here at a rate.", severity="warning")
@@ -348,7 +348,7 @@ class TopicsPane(ListPane):
         if not row.type:
             self.notify(f"The type of {row.name} is not known.", severity="warning")
             return
-        traffic = self.console.traffic
+        traffic = self.console.topics
         try:
             traffic.slots(self._kind.payload, row.type, {})
         except ValueError as error:

@@ -8,7 +8,7 @@ from enum import Enum
 
 from bot_console.tui.console.model import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
 from bot_console.tui.console.query import Query
-from bot_console.tui.console.traffic import Payload
+from bot_console.tui.console.topics.port import Payload
 
 OWN = "/_bot_console"
 """How the names of the console's nodes begin, which listen so that something can be shown: none of the system."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from bot_console.tui.console.traffic import Goal, Measure, Repeated
+from bot_console.tui.console.topics.port import Goal, Measure, Repeated
 from bot_console.tui.format import cut, cut_name, sanitize
 from bot_console.tui.panes.topics.rows import Kind, Row
 from bot_console.tui.text.figures import age_text, amount_text, rate_text, span_text, steady

@@ -175,7 +175,7 @@ class WorldPane(Pane):
 
     def time_moved(self, stamp: int | None) -> None:
         """Show where the robot was at another moment."""
-        self._then = None if stamp is None else self.console.pose_at(stamp)
+        self._then = None if stamp is None else self.console.drive.pose_at(stamp)
         if self.is_mounted:
             self._draw()
 
@@ -218,7 +218,7 @@ class WorldPane(Pane):
         """The next robot, or a field of turtles."""
         robot = self.query_one(WorldMap).next_place()
         if robot and robot != self._snapshot.world.robot:
-            self.console.choose_robot(robot)
+            self.console.drive.choose(robot)
         self._facts()
 
     def action_zoom_map(self, step: int) -> None:

@@ -15,8 +15,8 @@ from bot_console.tui.cli.started_lines import launched_by
 from bot_console.tui.cli.verbs.colcon import answers
 from bot_console.tui.commanding.completing import live_names
 from bot_console.tui.console.command_line import Stream
+from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.protocol import Launcher
 from bot_console.tui.console.running_lines import RunningLine, goes_on
 
 LINE_TIMEOUT_S = 15.0

@@ -11,9 +11,9 @@ from functools import partial
 from typing import Any
 
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.bags.port import Keeper
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.model import LaunchInfo
-from bot_console.tui.console.recording import Keeper
 from bot_console.tui.session.launch_host.channel import Channel, Message
 from bot_console.tui.session.launch_host.plain_data import of_arguments, of_info
 from bot_console.tui.session.protocol import ClosableLauncher

@@ -6,8 +6,8 @@ import os
 from pathlib import Path
 
 from bot_console.tui.cli.attach_options import AttachOptions
-from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import Capabilities, LaunchInfo, Severity
+from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.session.attached import AttachedSession
 from bot_console.tui.session.machine.launchers import launcher_of_machine

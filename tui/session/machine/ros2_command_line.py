@@ -14,7 +14,7 @@ from concurrent.futures import Future
 
 from bot_console.tui.cli.in_background import in_background
 from bot_console.tui.console.command_line import Stream
-from bot_console.tui.console.connection.no_console import done
+from bot_console.tui.console.gate import done
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.running_lines import RunningLine, goes_on
 

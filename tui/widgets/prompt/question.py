@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from bot_console.tui.console.model import Kind, LaunchArgument, Value
-from bot_console.tui.console.traffic import Payload, Traffic
+from bot_console.tui.console.topics.port import Payload, Topics
 
 A = TypeVar("A")
 
@@ -117,7 +117,7 @@ class Fill(Question[None]):
     name: str
     """Of the topic, service or action."""
     type: str
-    traffic: Traffic
+    traffic: Topics
     """What sends it."""
 
 

@@ -35,8 +35,8 @@ class MyRobotControl(Vertical):
     def on_button_pressed(self, event: Button.Pressed) -> None:
         """Set the speed, and lock the robot or let it go."""
         stop = event.button.id == "stop"
-        self.system.all_stop(stop, "my_robot_control")
-        answer = self.system.set_parameters(NODE, {"max_speed": SLOW if stop else FAST})
+        self.system.drive.stop(stop, "my_robot_control")
+        answer = self.system.parameters.set(NODE, {"max_speed": SLOW if stop else FAST})
         word = "Stopped" if stop else "Running"
         # The answer comes in another thread than the one that draws.
         answer.add_done_callback(lambda done: self.app.call_later(self._report, word, done))

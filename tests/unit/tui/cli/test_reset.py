@@ -29,7 +29,7 @@ def robot(monkeypatch: pytest.MonkeyPatch) -> Robot:
     made = Robot(live()[0].current)
 
     def stop(verb: str, reason: str) -> tuple[bool, StopInfo]:
-        made.all_stop(True, reason)
+        made.stop(True, reason)
         return True, StopInfo(locks=2)
 
     monkeypatch.setattr(reset, "ask", stop)

@@ -6,9 +6,9 @@ import itertools
 
 import pytest
 import rclpy
-from bot_console.tui.console.connection import linked_console
-from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.graph.watch import GraphWatch
+from bot_console.tui.console.robot import robot_drive
+from bot_console.tui.console.ros_console import RosConsole
 from rclpy.context import Context
 from rigs import TIMEOUT_S, until
 from std_srvs.srv import Trigger
@@ -20,7 +20,7 @@ _domains = itertools.count(8000)
 def domain(monkeypatch):
     number = next(_domains)
     monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
-    monkeypatch.setattr(linked_console, "LAST_WORD", 0.0)
+    monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)
     return number
 
 
@@ -46,18 +46,18 @@ def console(domain):
 def test_before_it_is_connected_everything_is_refused_and_nothing_is_known(console):
     assert console.snapshot().graph.nodes == ()
     assert console.snapshot() is console.snapshot()
-    assert "still connecting" in console.undo().result(TIMEOUT_S).text
-    assert "still connecting" in console.set_parameters("/n", {"a": 1}).result(TIMEOUT_S)[0].reason
-    assert not console.watch("/t/data").ok
-    console.drive(1.0, 0.0)
-    console.all_stop()
-    assert list(console.changes()) == list(console.plottable()) == []
+    assert "still connecting" in console.parameters.undo().result(TIMEOUT_S).text
+    assert "still connecting" in console.parameters.set("/n", {"a": 1}).result(TIMEOUT_S)[0].reason
+    assert not console.plots.watch("/t/data").ok
+    console.drive.move(1.0, 0.0)
+    console.drive.stop()
+    assert list(console.parameters.changes()) == list(console.plots.plottable()) == []
 
 
 def test_pending_requests_are_answered_when_the_console_is_closed(console, idle):
     console.start()
     assert console.wait_ready(TIMEOUT_S)
-    waiting = console.call("/wait", "std_srvs/srv/Trigger", {})
+    waiting = console.topics.call_service("/wait", "std_srvs/srv/Trigger", {})
     console.close()
     answer = waiting.result(TIMEOUT_S)
     assert (answer.ok, answer.text) == (False, "the console has closed")
@@ -66,8 +66,10 @@ def test_pending_requests_are_answered_when_the_console_is_closed(console, idle)
 def test_a_broken_connection_reports_the_place_and_refuses_from_then_on(console, idle, monkeypatch):
     console.start()
     assert console.wait_ready(TIMEOUT_S)
-    waiting = console.call("/wait", "std_srvs/srv/Trigger", {})
-    assert not console.call("/nowhere", "std_srvs/srv/Trigger", {}).result(TIMEOUT_S).ok, "so the one before is sent"
+    waiting = console.topics.call_service("/wait", "std_srvs/srv/Trigger", {})
+    assert not console.topics.call_service("/nowhere", "std_srvs/srv/Trigger", {}).result(TIMEOUT_S).ok, (
+        "so the one before is sent"
+    )
 
     def broken(self):
         raise RuntimeError("the graph is gone")
@@ -77,7 +79,7 @@ def test_a_broken_connection_reports_the_place_and_refuses_from_then_on(console,
     assert "the graph is gone" in console.snapshot().problem
     assert "test_connection.py" in console.snapshot().problem
     assert "the graph is gone" in waiting.result(TIMEOUT_S).text
-    assert "the graph is gone" in console.undo().result(TIMEOUT_S).text
+    assert "the graph is gone" in console.parameters.undo().result(TIMEOUT_S).text
 
 
 def test_closing_before_it_is_connected_leaves_no_thread(console):
@@ -98,7 +100,7 @@ def test_system_started_from_a_file_has_the_profile_of_that_file(domain, tmp_pat
 
 
 def test_a_stop_requested_before_connecting_is_sent_once_connected(console):
-    console.all_stop(True, "at the first key")
+    console.drive.stop(True, "at the first key")
     console.start()
     assert console.wait_ready(TIMEOUT_S)
     assert console.snapshot().drive.stopped_here
@@ -106,8 +108,8 @@ def test_a_stop_requested_before_connecting_is_sent_once_connected(console):
 
 
 def test_a_stop_withdrawn_before_connecting_is_not_sent(console):
-    console.all_stop(True)
-    console.all_stop(False)
+    console.drive.stop(True)
+    console.drive.stop(False)
     console.start()
     assert console.wait_ready(TIMEOUT_S)
     assert not console.snapshot().drive.stopped

@@ -7,9 +7,9 @@ import threading
 from collections.abc import Iterator
 
 import pytest
-from bot_console.tui.console.connection import linked_console
-from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.graph.watch import GraphWatch
+from bot_console.tui.console.robot import robot_drive
+from bot_console.tui.console.ros_console import RosConsole
 from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
@@ -25,7 +25,7 @@ def console(monkeypatch: pytest.MonkeyPatch) -> Iterator[RosConsole]:
     """Connected to a base with a lock."""
     domain = next(_domains)
     monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
-    monkeypatch.setattr(linked_console, "LAST_WORD", 0.0)
+    monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)
     context = Context()
     context.init(["test"], domain_id=domain)
     node = Node("simulator", context=context)
@@ -58,9 +58,9 @@ def test_stop_and_release_are_acknowledged_during_a_long_graph_poll(
     monkeypatch.setattr(GraphWatch, "poll", poll)
     assert watching.wait(TIMEOUT_S)
     try:
-        console.all_stop()
+        console.drive.stop()
         until(lambda: console.snapshot().drive.stop_confirmed, "the acknowledgement")
-        console.all_stop(False)
+        console.drive.stop(False)
         until(lambda: not console.snapshot().drive.stopped, "the release")
         assert not over.is_set()
     finally:

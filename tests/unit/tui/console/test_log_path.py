@@ -7,9 +7,9 @@ from collections import Counter
 
 import pytest
 from bot_console.runtime.importer import install
-from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.model import LogFilter
+from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.session.composition import Launching
 from launcher_bench import HEAD
 
@@ -75,7 +75,7 @@ def texts(console, words):
     while console.snapshot().logs.end != last:
         last = console.snapshot().logs.end
         time.sleep(0.2)
-    return Counter(console.log(seq).text for seq in console.matching_logs(LogFilter(words=words), 0))
+    return Counter(console.logs.record(seq).text for seq in console.logs.matching(LogFilter(words=words), 0))
 
 
 def expected(name, count):

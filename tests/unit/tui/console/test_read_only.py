@@ -5,61 +5,46 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from bot_console.tui.console.connection.no_console import NoCommandLine
-from bot_console.tui.console.connection.read_only import WHY, ReadOnlyCommandLine, ReadOnlyConsole, ReadOnlyLauncher
-from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.protocol import Launcher
-from fakes.console import FakeConsole
-from samples import navigator
+from bot_console.tui.console.gate import READ_ONLY, Gate
+from bot_console.tui.console.gated_lines import GatedLines
+from bot_console.tui.console.launch.gated_launcher import GatedLauncher
+from bot_console.tui.console.launch.port import Launcher
+from bot_console.tui.console.ros_console import RosConsole
+from fakes.command_line import FakeCommandLine
+from fakes.launcher import FakeLauncher
 
 
 @pytest.fixture
-def fake() -> FakeConsole:
-    return FakeConsole(ConsoleSnapshot(parameters={"/robot_navigator": navigator()}))
+def gate() -> Gate:
+    gate = Gate("")
+    gate.read_only = READ_ONLY
+    return gate
 
 
-def test_everything_can_be_read_and_nothing_changed(fake: FakeConsole) -> None:
-    reported: list[str] = []
-    console = ReadOnlyConsole(fake, reported.append)
-    assert console.snapshot() is console.snapshot() and console.snapshot().graph is fake.snapshot().graph
-    assert console.snapshot().drive.refused == console.snapshot().capabilities.change == WHY
-    fake.change(problem="another snapshot")
-    before = console.snapshot().capabilities
-    fake.change(problem="")
-    assert console.snapshot().capabilities is before, "what is the same needs not be drawn again"
-    node = next(iter(fake.snapshot().parameters))
-    name = fake.snapshot().parameters[node].parameters[0].name
-    before = fake.snapshot().parameters
-    [outcome] = console.set_parameters(node, {name: 99}).result(0)
-    assert (outcome.accepted, outcome.reason) == (False, WHY)
-    for answer in (console.undo(), console.redo(), console.call("/reset", "std_srvs/srv/Trigger", {})):
-        assert (answer.result(0).ok, answer.result(0).text) == (False, WHY)
+def test_commands_are_refused_in_every_state_and_the_snapshot_says_so() -> None:
+    console = RosConsole()
+    console.refuse_changes()
+    assert console.snapshot() is console.snapshot()
+    assert console.snapshot().drive.refused == console.snapshot().capabilities.change == READ_ONLY
+    [outcome] = console.parameters.set("/n", {"a": 99}).result(0)
+    assert (outcome.accepted, outcome.reason) == (False, READ_ONLY)
+    answers = [console.parameters.undo(), console.parameters.redo()]
+    answers += [console.topics.call_service("/reset", "std_srvs/srv/Trigger", {})]
+    assert [(each.result(0).ok, each.result(0).text) for each in answers] == [(False, READ_ONLY)] * 3
+    assert not console.topics.publish("/t", "std_msgs/msg/String", {}).ok
     with pytest.raises(ValueError, match="read-only"):
-        console.apply_profile("indoor").result(0)
-    console.drive(1.0, 0.0)
-    console.steer(True)
-    assert fake.snapshot().parameters is before
-    assert fake.asked == []
-
-
-def test_the_robot_can_be_stopped_but_not_released(fake: FakeConsole) -> None:
-    reported: list[str] = []
-    console = ReadOnlyConsole(fake, reported.append)
-    console.all_stop(True)
-    assert fake.snapshot().drive.stopped
-    console.all_stop(False)
-    console.release(["another"])
-    assert fake.snapshot().drive.stopped and len(reported) == 2 and WHY in reported[0]
-    assert fake.asked == [("all_stop", True)]
+        console.profiles.apply("indoor").result(0)
 
 
 @pytest.mark.parametrize("verb", ["start", "stop", "kill", "restart"])
-def test_no_process_can_be_started_or_ended(verb: str) -> None:
-    launcher: Launcher = ReadOnlyLauncher()
-    assert getattr(launcher, verb)("a").result(0).text == WHY
-    assert launcher.launch("x.launch.py", {}).result(0).text == WHY
+def test_no_process_can_be_started_or_ended(verb: str, gate: Gate) -> None:
+    behind = FakeLauncher((), ("x.launch.py",))
+    launcher: Launcher = GatedLauncher(gate, behind)
+    assert getattr(launcher, verb)("a").result(0).text == READ_ONLY
+    assert launcher.launch("x.launch.py", {}).result(0).text == READ_ONLY
     with pytest.raises(ValueError, match="read-only"):
         launcher.arguments("x.launch.py")
+    assert launcher.files() == () and behind.asked == []
 
 
 @pytest.mark.parametrize(
@@ -77,13 +62,8 @@ def test_no_process_can_be_started_or_ended(verb: str) -> None:
         ("", False),
     ],
 )
-def test_only_lines_that_read_are_run(line: str, runs: bool) -> None:
-    ran: list[str] = []
-
-    class Lines(NoCommandLine):
-        def run(self, line: str) -> Any:
-            ran.append(line)
-            return super().run(line)
-
-    answer = ReadOnlyCommandLine(Lines()).run(line)
-    assert bool(ran) is runs and (runs or WHY in answer.result(0))
+def test_only_lines_that_read_are_run(line: str, runs: bool, gate: Gate) -> None:
+    asked: list[tuple[Any, ...]] = []
+    lines = GatedLines(gate, FakeCommandLine(asked))
+    answer = lines.run(line)
+    assert bool(asked) is runs and (runs or READ_ONLY in answer.result(0))

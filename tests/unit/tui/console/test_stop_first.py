@@ -9,16 +9,17 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from bot_console.tui.console.connection import linked_console
-from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.graph.warnings import GraphWarnings
 from bot_console.tui.console.logs.rosout import RosoutWatch
 from bot_console.tui.console.model import ChangeSource, LogFilter
 from bot_console.tui.console.parameters.history import History
 from bot_console.tui.console.parameters.journal import Journal
 from bot_console.tui.console.parameters.profile_store import ProfileStore
+from bot_console.tui.console.robot import robot_drive
 from bot_console.tui.console.robot.drive_link import DriveLink
 from bot_console.tui.console.robot.drive_node import DriveNode
+from bot_console.tui.console.robot.world_watch import WorldWatch
+from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.widgets.status_bar import status_text
 from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
 from diagnostic_msgs.msg import DiagnosticArray
@@ -58,7 +59,7 @@ class Base:
 def base(monkeypatch: pytest.MonkeyPatch) -> Iterator[Base]:
     domain = next(_domains)
     monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
-    monkeypatch.setattr(linked_console, "LAST_WORD", 0.0)
+    monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)
     made = Base(domain)
     yield made
     made.close()
@@ -83,7 +84,7 @@ PARTS: dict[str, tuple[object, str]] = {
     "the log": (RosoutWatch, "__init__"),
     "the warnings about the graph": (GraphWarnings, "follow"),
     "the profiles, later": (ProfileStore, "reload_if_changed"),
-    "everything shown": (linked_console.LinkedConsole, "__init__"),
+    "everything shown": (WorldWatch, "__init__"),
 }
 
 
@@ -94,11 +95,11 @@ def test_a_stop_reaches_the_robot_whatever_else_fails(
     monkeypatch.setattr(owner, name, broken)
     console.start()
     console.wait_ready(TIMEOUT_S)
-    console.all_stop(True, "a foot under the wheel")
+    console.drive.stop(True, "a foot under the wheel")
     until(base.held, "the lock")
     until(lambda: console.snapshot().drive.stop_confirmed, "the acknowledgement")
     assert "ALL STOP held" in status_text(console.snapshot())
-    console.all_stop(False)
+    console.drive.stop(False)
     until(lambda: not base.held(), "the release")
 
 
@@ -112,7 +113,7 @@ def test_a_console_connects_without_a_failing_store_and_reports_it_once(
     assert console.wait_ready(TIMEOUT_S)
     until(lambda: console.snapshot().graph.nodes, "the graph")
     assert console.snapshot().problem == ""
-    message = [console.log(each) for each in console.matching_logs(LogFilter(), 0)]
+    message = [console.logs.record(each) for each in console.logs.matching(LogFilter(), 0)]
     assert sum("whatever it is" in each.text for each in message if each) == 1
 
 
@@ -128,8 +129,8 @@ def test_a_history_with_an_unreadable_row_is_reported_once_and_ends_nothing(
     link.close()
     console.start()
     assert console.wait_ready(TIMEOUT_S)
-    assert [each.new for each in console.changes(-10)] == [2]
-    message = [console.log(each) for each in console.matching_logs(LogFilter(), 0)]
+    assert [each.new for each in console.parameters.changes(-10)] == [2]
+    message = [console.logs.record(each) for each in console.logs.matching(LogFilter(), 0)]
     assert sum("1 row of the history cannot be read" in each.text for each in message if each) == 1
 
 
@@ -143,9 +144,9 @@ def test_an_error_in_the_robots_reports_is_logged_once_and_the_link_stays_up(
     until(lambda: verdicts.publish(DiagnosticArray()) or console.snapshot().logs.end, "the report")
     for _ in range(3):
         verdicts.publish(DiagnosticArray())
-    console.all_stop()
+    console.drive.stop()
     until(base.held, "the lock")
-    message = [console.log(each) for each in console.matching_logs(LogFilter(), 0)]
+    message = [console.logs.record(each) for each in console.logs.matching(LogFilter(), 0)]
     assert sum("whatever it is" in each.text for each in message if each) == 1
 
 
@@ -161,17 +162,17 @@ def test_a_stop_that_cannot_be_sent_is_reported_at_once(
         monkeypatch.setattr(DriveNode, "__init__", broken)
         console.start()
         console.wait_ready(TIMEOUT_S)
-    console.all_stop()
+    console.drive.stop()
     assert status_text(console.snapshot()).startswith(message_of)
     assert console.snapshot().drive.stopped_here
-    console.all_stop(False)
+    console.drive.stop(False)
     assert "STOP" not in status_text(console.snapshot())
 
 
 def test_closing_while_only_the_stop_is_connected_leaves_no_thread(
     base: Base, console: RosConsole, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(linked_console.LinkedConsole, "__init__", broken)
+    monkeypatch.setattr(WorldWatch, "__init__", broken)
     before = set(threading.enumerate())
     console.start()
     console.wait_ready(TIMEOUT_S)

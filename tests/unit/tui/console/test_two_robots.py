@@ -6,8 +6,9 @@ import itertools
 from collections.abc import Iterator
 
 import pytest
-from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.model import Capabilities, Endpoint, GraphInfo, LaunchInfo, LinkInfo, NodeInfo
 from bot_console.tui.console.node import ConsoleNode
+from bot_console.tui.console.node_ports import NodePorts
 from bot_console.tui.console.robot.drive_link import SILENCE, VERDICT_LIFETIME_S, DriveLink
 from bot_console.tui.console.robot.drive_node import DriveNode
 from bot_console.tui.console.robot.fleet import Fleet, steered_of
@@ -232,15 +233,22 @@ def test_keys_meant_for_a_robot_that_has_left_do_not_drive_the_next_one(robots: 
 def test_choosing_a_robot_changes_control_and_view_together() -> None:
     context = Context()
     context.init([], domain_id=next(_domains))
-    console = ConsoleNode(DriveNode(context, lambda error: None), lambda *_: None)
+    ports = NodePorts(
+        lambda: DriveNode(context, lambda error: None), Capabilities(), launch_info=LaunchInfo, link=LinkInfo,
+        buffer=None, types=None,
+    )  # fmt: skip
+    robot = ports.drive.connect()
+    console = ConsoleNode(robot, ports)
+    ports.gate.open(console.executor.create_task)
     try:
         spaces = ("", "/robot2")
         graph = GraphInfo(nodes=tuple(node(f"{s}/base", f"{s}/cmd_vel", f"{s}/odom={ODOMETRY}") for s in spaces))
-        console.world.follow(graph)
-        console.drive.follow(graph)
-        console.choose_robot("/robot2")
+        console._world.follow(graph)
+        robot.link.follow(graph)
+        ports.drive.choose("/robot2")
         console.executor.spin_once(timeout_sec=0)
-        world = console.world.info
-        assert (world.robot, console.drive.info(world).robot) == ("/robot2", "/robot2")
+        world = ports.drive.world
+        assert (world.robot, ports.drive.info(world).robot) == ("/robot2", "/robot2")
     finally:
-        console.close("the test has ended")
+        console.close()
+        ports.drive.leave()

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.attach_options import parse
-from bot_console.tui.console.connection.no_console import NoCommandLine
-from bot_console.tui.console.connection.read_only import ReadOnlyConsole, ReadOnlyLauncher
-from bot_console.tui.console.connection.ros_console import RosConsole
+from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.session.attached import AttachedSession
+from fakes.command_line import FakeCommandLine
+from fakes.launcher import FakeLauncher
 
 
 @pytest.mark.parametrize("words", [[], ["--pane", "logs"]])
@@ -17,8 +17,11 @@ def test_read_only_option_reaches_the_session(words: list[str]) -> None:
 
 
 @pytest.mark.parametrize("read_only", [False, True])
-def test_panes_of_attached_session_get_read_only_wrappers(read_only: bool) -> None:
-    console = RosConsole()
-    app = AttachedSession(console, NoCommandLine(), Options(attach=True, read_only=read_only)).app
-    assert isinstance(app.console_of_robot, ReadOnlyConsole) is read_only
-    assert isinstance(app.launcher, ReadOnlyLauncher) is read_only
+def test_panes_of_attached_session_get_a_console_launcher_and_lines_that_change_nothing(read_only: bool) -> None:
+    console, launcher, asked = RosConsole(), FakeLauncher((), ("x.launch.py",)), []
+    options = Options(attach=True, read_only=read_only)
+    app = AttachedSession(console, FakeCommandLine(asked), options, launcher=launcher).app
+    assert bool(app.console_of_robot.gate.read_only) is read_only
+    assert app.launcher is not None and bool(app.launcher.files()) is not read_only
+    app.command_handler.runner._lines.run("ros2 param set /a b 1")
+    assert bool(asked) is not read_only

@@ -12,10 +12,10 @@ from bot_console.runtime.workspace import discover
 from bot_console.tui.cli.started_lines import launched_by
 from bot_console.tui.cli.verbs.colcon import answers
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.connection.no_console import done
-from bot_console.tui.console.connection.read_only import ReadOnlyLauncher
+from bot_console.tui.console.gate import done
 from bot_console.tui.session.embedded.ros2_command_line import Ros2CommandLine
 from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH
+from fakes.launcher import FakeLauncher
 
 TIMEOUT_S = 30.0
 
@@ -52,10 +52,11 @@ def test_unmatched_quotation_mark_is_reported():
         Ros2CommandLine().run("ros2 topic pub 'x").result(TIMEOUT_S)
 
 
-class Launches(ReadOnlyLauncher):
+class Launches(FakeLauncher):
     """Keeps what it is asked to launch."""
 
     def __init__(self, answer: Answer) -> None:
+        super().__init__()
         self.launched: list[tuple[str, dict[str, str]]] = []
         self._answer = answer
 

@@ -83,7 +83,7 @@ def test_the_robot_is_held_before_the_terminal_is_left() -> None:
     console.change(drive=replace(console.current.drive, lockable=True, stop_confirmed=False))
     away, shell = leaving(console)
     reasons: list[Any] = []
-    console.all_stop = lambda hold=True, reason="": reasons.append((hold, reason))  # type: ignore[method-assign]
+    console.drive.stop = lambda hold=True, reason="": reasons.append((hold, reason))  # type: ignore[method-assign]
     away.sleep()
     away.sleep()
     assert reasons == [(True, ASLEEP)] and shell.done == []
@@ -98,7 +98,7 @@ def test_unacknowledged_stop_is_awaited_only_for_a_limited_time() -> None:
     console = live()[0]
     console.change(drive=replace(console.current.drive, lockable=True, stop_confirmed=False))
     away, shell = leaving(console)
-    console.all_stop = lambda hold=True, reason="": None  # type: ignore[method-assign]
+    console.drive.stop = lambda hold=True, reason="": None  # type: ignore[method-assign]
     away.sleep()
     for _ in range(round(STOP_TIMEOUT_S / STOP_POLL_S) + 1):
         if shell.timers:

@@ -6,8 +6,8 @@ from dataclasses import replace
 from types import MappingProxyType
 
 import pytest
+from bot_console.tui.console.bags.port import RecordingInfo
 from bot_console.tui.console.model import ConsoleSnapshot, LaunchInfo, LinkInfo, LogState, Severity
-from bot_console.tui.console.recording import RecordingInfo
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.widgets.status_bar import drive_figures, reason_first, status_text
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from bot_console.tui.console.protocol import Console
+from bot_console.tui.console.plot.port import Plots
 from bot_console.tui.panes.plot.curves import Array, Curve, stepped
 from bot_console.tui.panes.plot.formulas.formula import Formula, Held
 
@@ -36,7 +36,7 @@ class Computed(Curve):
         ends = [end for each in leads if (end := self._parts[each].end) is not None]
         return max(ends, default=None)
 
-    def take_in(self, console: Console) -> bool:
+    def take_in(self, plots: Plots) -> bool:
         """Nothing is fetched, the parts are; whether they have changed."""
         cursor = sum(each.cursor for each in self._parts.values())
         problem = next((each.problem for each in self._parts.values() if each.problem), "")

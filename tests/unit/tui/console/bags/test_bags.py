@@ -224,7 +224,7 @@ def test_a_topic_of_an_impossible_type_is_reported(tmp_path: Path, type_name: st
     console = OpenedBag(Contents(Bag(tmp_path)), "bag")
     console.topics.listen("/words")
     assert "cannot be read" in console.topics.heard().problem
-    assert not console.watch("/words/data").ok
+    assert not console.plots.watch("/words/data").ok
     console.close()
 
 

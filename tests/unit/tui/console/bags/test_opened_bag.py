@@ -82,38 +82,38 @@ def test_messages_are_those_of_the_time_being_viewed(console: OpenedBag) -> None
 def test_log_parameter_changes_and_world_come_from_the_bag(console: OpenedBag) -> None:
     now = console.snapshot()
     assert [each.name for each in now.graph.topics] == ["/map", "/odom", "/parameter_events", "/rosout"]
-    line = console.log(0)
+    line = console.logs.record(0)
     assert line is not None and (line.text, line.stamp) == ("too fast", (BEGIN + 5) * SECOND)
-    (change,) = console.changes()
+    (change,) = console.parameters.changes()
     assert (change.node, change.name, change.old, change.new) == ("/nav", "max_speed", 1.0, 2.5)
     assert change.stamp == (BEGIN + 4) * SECOND and now.journal.end == 1 and not now.journal.can_undo
     assert now.world.map is not None and now.world.map.width == 2 and len(now.world.trail) == 10
-    assert console.pose_at((BEGIN + 3) * SECOND + 1) == Pose(3.0, 0.0, 0.0)
+    assert console.drive.pose_at((BEGIN + 3) * SECOND + 1) == Pose(3.0, 0.0, 0.0)
     assert "10 s" in now.link.to and console.snapshot() is now
 
 
 def test_values_are_plotted_over_the_time_of_the_bag(console: OpenedBag) -> None:
     path = "/odom/twist.twist.linear.x"
-    assert path in console.plottable() and "/nav:max_speed" in console.plottable()
-    assert console.watch(path).ok and console.watch("/nav:max_speed").ok
-    samples = console.samples(path)
+    assert path in console.plots.plottable() and "/nav:max_speed" in console.plots.plottable()
+    assert console.plots.watch(path).ok and console.plots.watch("/nav:max_speed").ok
+    samples = console.plots.samples(path)
     assert list(samples.times) == [float(second) for second in range(1, 11)]
     assert list(samples.values) == pytest.approx([second / 10 for second in range(1, 11)])
     assert list(samples.headers) == [second - 0.5 for second in range(1, 11)]
-    assert len(console.samples(path, samples.cursor).times) == 0, "nothing more comes"
-    changed = console.samples("/nav:max_speed")
+    assert len(console.plots.samples(path, samples.cursor).times) == 0, "nothing more comes"
+    changed = console.plots.samples("/nav:max_speed")
     assert list(zip(changed.times, changed.values, strict=True)) == [(0.0, 1.0), (4.0, 2.5)]
-    assert console.watch("/odom/pose.covariance[0:2].max()").ok, "the colon of a slice names no parameter"
-    assert console.plot_time() == 10.0 and console.plot_time((BEGIN + 2) * SECOND) == 2.0
+    assert console.plots.watch("/odom/pose.covariance[0:2].max()").ok, "the colon of a slice names no parameter"
+    assert console.plots.time() == 10.0 and console.plots.time((BEGIN + 2) * SECOND) == 2.0
     for wrong in ("/odom/no.such", "/nothing/data", "/nav:none", "/odom"):
-        assert not console.watch(wrong).ok and console.watch(wrong).text
+        assert not console.plots.watch(wrong).ok and console.plots.watch(wrong).text
 
 
 def test_every_change_is_refused(console: OpenedBag) -> None:
     assert "robot" not in status_text(console.snapshot()), "none is waited for"
-    (outcome,) = console.set_parameters("/nav", {"max_speed": 1.0}).result()
+    (outcome,) = console.parameters.set("/nav", {"max_speed": 1.0}).result()
     assert not outcome.accepted and outcome.reason == WHY
-    assert console.undo().result().text == WHY and console.recording.start("x").result().text == WHY
+    assert console.parameters.undo().result().text == WHY and console.bags.start("x").result().text == WHY
 
 
 def test_the_largest_topic_of_a_bag_that_is_too_large_is_left_out(

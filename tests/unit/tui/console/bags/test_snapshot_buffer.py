@@ -7,9 +7,9 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+from bot_console.tui.console.bags.port import RingSize
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.snapshot_buffer import SnapshotBuffer
-from bot_console.tui.console.recording import RingSize
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message
 from rosgraph_msgs.msg import Clock

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Coroutine
+from collections.abc import Callable, Coroutine
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
@@ -42,8 +42,8 @@ class Graph:
         reported = yield type_name, type_hash
         return "" if reported == "/knows" else "has not described it"
 
-    def run(self, work: Coroutine[Any, Any, None], refused: object) -> None:
-        asyncio.run(work)
+    def run(self, work: Callable[[], Coroutine[Any, Any, None]]) -> None:
+        asyncio.run(work())
 
     async def ask(self, kind: object, service: str, request: Any) -> str:
         assert request.type_name.startswith("told_nowhere/") and request.include_type_sources

@@ -33,7 +33,7 @@ class Asked:
         self.value, self.description = 1.5, ""
 
     def run(self, work):
-        self.tasks.append(asyncio.ensure_future(work))
+        self.tasks.append(asyncio.ensure_future(work()))
 
     def forget(self, prefix):
         pass

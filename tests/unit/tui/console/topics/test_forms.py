@@ -7,7 +7,7 @@ import math
 import pytest
 from bot_console.tui.console.topics.forms import filled, slots, stamp, typed_fields, wrong
 from bot_console.tui.console.topics.message_tree import tree
-from bot_console.tui.console.traffic import Payload
+from bot_console.tui.console.topics.port import Payload
 from builtin_interfaces.msg import Time
 from sensor_msgs.msg import BatteryState, Image, LaserScan
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any, cast
 
 import numpy as np
-from bot_console.tui.console.protocol import Console, Samples
+from bot_console.tui.console.plot.port import Samples
+from bot_console.tui.console.protocol import Console
 from bot_console.tui.panes.plot.curves import MAX_SAMPLES, Curve
 
 

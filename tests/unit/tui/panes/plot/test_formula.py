@@ -89,7 +89,7 @@ def detach(console: FakeConsole) -> list[str]:
 def test_shared_paths_are_released_with_their_last_curve() -> None:
     console = FakeConsole()
     console.series |= {A: ([1.0, 2.0], [1.0, 2.0]), "/c/y": ([0.5, 1.5], [10.0, 20.0]), "/c/z": ([], [])}
-    timeline = Timeline(console)
+    timeline = Timeline(console.plots)
     assert timeline.add(f"{A} + /c/y").ok and timeline.add(A).ok
     assert [each[1] for each in console.asked] == [A, "/c/y"], "each is watched once"
     assert timeline.take_in()

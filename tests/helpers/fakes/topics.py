@@ -1,4 +1,4 @@
-"""`FakeTraffic`: scripted topics, services and actions, with the forms and messages of the real one."""
+"""`FakeTopics`: scripted topics, services and actions, with the forms and messages of the real one."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from typing import Any
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.topics import forms
 from bot_console.tui.console.topics.message_tree import tree
-from bot_console.tui.console.traffic import Goal, LiveMessage, Measure, Payload, Repeated, Reply, Slot, Values
+from bot_console.tui.console.topics.port import Goal, LiveMessage, Measure, Payload, Repeated, Reply, Slot, Values
 
 
-class FakeTraffic:
+class FakeTopics:
     """Keeps the requests it received; measurements and messages are set by the test."""
 
     def __init__(self, asked: list[tuple[Any, ...]]) -> None:

@@ -8,11 +8,11 @@ from collections.abc import Iterator
 
 import pytest
 import rclpy
-from bot_console.tui.console.connection import linked_console
-from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.robot import robot_drive
+from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.console.topics.offered_topics import offered_qos
-from bot_console.tui.console.traffic import Payload
+from bot_console.tui.console.topics.port import Payload
 from example_interfaces.action import Fibonacci
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
@@ -76,7 +76,7 @@ class Robot:
 def robot(monkeypatch: pytest.MonkeyPatch) -> Iterator[Robot]:
     number = next(_domains)
     monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
-    monkeypatch.setattr(linked_console, "LAST_WORD", 0.0)
+    monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)
     made = Robot(number)
     yield made
     made.close()
@@ -94,7 +94,7 @@ def console(robot: Robot) -> Iterator[RosConsole]:
 def test_a_topic_is_measured_with_the_qos_offered_and_released(console: RosConsole) -> None:
     graph: GraphInfo = console.snapshot().graph
     assert not offered_qos(graph, "/odom").reliable, "best effort is offered, so best effort is asked for"
-    traffic = console.traffic
+    traffic = console.topics
     traffic.measure(["/odom"])
     found = until(lambda: next((e for e in traffic.measured().values() if e.count > 20 and e.rate), None), "messages")
     assert 10 < found.rate < 100 and found.bandwidth == pytest.approx(found.rate * 724, rel=0.3)
@@ -104,15 +104,15 @@ def test_a_topic_is_measured_with_the_qos_offered_and_released(console: RosConso
 
 
 def test_the_newest_message_is_shown_as_lines(console: RosConsole) -> None:
-    console.traffic.listen("/odom")
-    heard = until(lambda: console.traffic.heard() if console.traffic.heard().count else None, "a message")
+    console.topics.listen("/odom")
+    heard = until(lambda: console.topics.heard() if console.topics.heard().count else None, "a message")
     assert {each.path: each.text for each in heard.fields}["pose.pose.position.x"] == "4.25"
-    console.traffic.listen("/nowhere")
-    until(lambda: "no topic /nowhere" in console.traffic.heard().problem, "the problem")
+    console.topics.listen("/nowhere")
+    until(lambda: "no topic /nowhere" in console.topics.heard().problem, "the problem")
 
 
 def test_a_message_is_published_once_or_at_a_rate_until_stopped(console: RosConsole, robot: Robot) -> None:
-    traffic = console.traffic
+    traffic = console.topics
     assert traffic.publish("/cmd_vel", TWIST, {"linear.x": "0.5"}).ok
     until(lambda: robot.velocities == [0.5], "the one message")
     assert not traffic.publish("/cmd_vel", TWIST, {"linear.x": "fast"}).ok
@@ -120,23 +120,23 @@ def test_a_message_is_published_once_or_at_a_rate_until_stopped(console: RosCons
     assert traffic.publish("/cmd_vel", TWIST, {"linear.x": "0.7"}, 100.0).ok
     until(lambda: robot.velocities.count(0.7) > 5, "messages at a rate")
     assert traffic.repeated()["/cmd_vel"].rate == 100.0
-    console.all_stop()
+    console.drive.stop()
     until(lambda: not traffic.repeated(), "an end of that")
     assert [dict(each) for each in traffic.earlier("/cmd_vel")] == [{"linear.x": "0.5"}, {"linear.x": "0.7"}]
 
 
 def test_a_service_is_called_and_its_response_shown(console: RosConsole) -> None:
-    reply = console.traffic.call("/enable", SET_BOOL, {"data": "true"}).result(TIMEOUT_S)
+    reply = console.topics.call("/enable", SET_BOOL, {"data": "true"}).result(TIMEOUT_S)
     assert reply.ok and reply.seconds > 0
     assert [(each.name, each.text) for each in reply.fields] == [("success", "true"), ("message", "it is on")]
-    wrong = console.traffic.call("/enable", SET_BOOL, {"data": "perhaps"}).result(TIMEOUT_S)
+    wrong = console.topics.call("/enable", SET_BOOL, {"data": "perhaps"}).result(TIMEOUT_S)
     assert not wrong.ok and "neither true nor false" in wrong.text
-    gone = console.traffic.call("/nowhere", SET_BOOL, {}).result(TIMEOUT_S)
+    gone = console.topics.call("/nowhere", SET_BOOL, {}).result(TIMEOUT_S)
     assert not gone.ok and "no service /nowhere" in gone.text
 
 
 def test_a_goal_gives_feedback_and_a_result(console: RosConsole, robot: Robot) -> None:
-    traffic = console.traffic
+    traffic = console.topics
     assert traffic.send_goal("/count", FIBONACCI, {"order": "3"}).ok
     until(lambda: traffic.goals()["/count"].feedback_count if "/count" in traffic.goals() else 0, "feedback")
     assert traffic.goals()["/count"].feedback[0].text == "[0, 1]"
@@ -148,7 +148,7 @@ def test_a_goal_gives_feedback_and_a_result(console: RosConsole, robot: Robot) -
 
 
 def test_a_goal_can_be_cancelled(console: RosConsole) -> None:
-    traffic = console.traffic
+    traffic = console.topics
     traffic.send_goal("/count", FIBONACCI, {})
     until(lambda: traffic.goals().get("/count") and traffic.goals()["/count"].status == "executing", "the goal to run")
     assert traffic.cancel("/count").ok
@@ -156,12 +156,12 @@ def test_a_goal_can_be_cancelled(console: RosConsole) -> None:
 
 
 def test_the_command_line_sends_the_same(console: RosConsole) -> None:
-    line = console.traffic.line(Payload.MESSAGE, "/cmd_vel", TWIST, {"linear.x": "0.5"}, 10)
+    line = console.topics.line(Payload.MESSAGE, "/cmd_vel", TWIST, {"linear.x": "0.5"}, 10)
     assert line == "ros2 topic pub --rate 10 /cmd_vel geometry_msgs/msg/Twist '{linear: {x: 0.5}}'"
-    assert console.traffic.line(Payload.REQUEST, "/enable", SET_BOOL, {"data": "yes"}).endswith("'{data: true}'")
+    assert console.topics.line(Payload.REQUEST, "/enable", SET_BOOL, {"data": "yes"}).endswith("'{data: true}'")
 
 
 def test_before_the_console_is_connected_everything_is_refused_with_a_reason() -> None:
-    idle = RosConsole().traffic
+    idle = RosConsole().topics
     assert "still connecting" in idle.heard().problem and not idle.publish("/t", TWIST, {}).ok
     assert not idle.call("/s", SET_BOOL, {}).result(0).ok and not idle.measured() and not idle.cancel("/a").ok

@@ -1,11 +1,14 @@
-"""The protocols by which panes read logs: sources of records, and searches over them. Standard library only."""
+"""The log, as the panes read and search it: the system's own, and saved ones. Standard library only."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Protocol
 
-from bot_console.tui.console.model import LogFilter, LogRecord, LogState
+from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.model import LogFilter, LoggerLevel, LogRecord, LogState, Severity
 
 
 class LogNumbers(Protocol):
@@ -76,4 +79,39 @@ class LogSource(Protocol):
 
     def close(self) -> None:
         """Stop reading."""
+        ...
+
+
+class Logs(Protocol):
+    """The system's log, and the levels of its loggers; `ConsoleSnapshot.logs` says which records are kept."""
+
+    def record(self, seq: int) -> LogRecord | None:
+        """The record with that number; None when it was dropped or has not arrived yet."""
+        ...
+
+    def matching(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
+        """Numbers, ascending, of the kept records from `after` on that match the filter; with a limit, the newest.
+
+        Raises `ValueError` with a readable message for a regular expression that does not compile.
+        """
+        ...
+
+    def view(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
+        """Start a search that follows new records; it ends the one given as `instead_of`."""
+        ...
+
+    def open(self, path: str) -> LogSource:
+        """Read a saved log and follow it as it grows; raises `ValueError` with the reason when that fails."""
+        ...
+
+    def clear(self) -> None:
+        """Discard all records; numbering continues."""
+        ...
+
+    def set_level(self, node: str, severity: Severity, logger: str = "") -> Future[Answer]:
+        """Set the level of a node's logger, or of one of its children; UNSET inherits the parent's level."""
+        ...
+
+    def levels(self, node: str) -> Future[tuple[LoggerLevel, ...]]:
+        """The levels of a node's logger and of its children that have logged; raises `ValueError` with the reason."""
         ...

@@ -1,4 +1,4 @@
-"""Recording as the panes see it. Standard library only."""
+"""Recording into bags, as the panes see it. Standard library only."""
 
 from __future__ import annotations
 

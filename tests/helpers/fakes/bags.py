@@ -6,10 +6,10 @@ from concurrent.futures import Future
 from typing import Any
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.recording import RecordingInfo
+from bot_console.tui.console.bags.port import RecordingInfo
 
 
-class FakeRecording:
+class FakeBags:
     """Records nothing, but reports that it does."""
 
     def __init__(self, console: Any) -> None:

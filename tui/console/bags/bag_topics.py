@@ -1,25 +1,27 @@
-"""`Traffic` of a bag: mean rates and sizes, and the messages at a moment."""
+"""The topics of a bag: mean rates and sizes, and the messages at a moment."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
 from bot_console.tui.console.bags.contents import Contents
-from bot_console.tui.console.topics.idle_traffic import IdleTraffic
+from bot_console.tui.console.gate import Gate
+from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.topics.message_tree import tree
-from bot_console.tui.console.traffic import LiveMessage, Measure
+from bot_console.tui.console.topics.node_topics import NodeTopics
+from bot_console.tui.console.topics.port import LiveMessage, Measure
 
 
-class BagTraffic(IdleTraffic):
-    """Shows the last message up to the time being viewed; refuses to send, with the reason."""
+class BagTopics(NodeTopics):
+    """Shows the last message up to the time being viewed; no node is attached, so that nothing can be sent."""
 
-    def __init__(self, contents: Contents, why: str) -> None:
-        super().__init__(why)
+    def __init__(self, gate: Gate, contents: Contents, graph: GraphInfo) -> None:
+        super().__init__(gate, lambda: graph)
         self._contents = contents
         self._topic = ""
         self._stamp: int | None = None
         self._heard = LiveMessage()
-        self._measured: Mapping[str, Measure] | None = None
+        self._means: Mapping[str, Measure] | None = None
 
     def time_moved(self, stamp: int | None) -> None:
         """Show the messages at a time (ns since the epoch); None stands for the end."""
@@ -27,14 +29,14 @@ class BagTraffic(IdleTraffic):
 
     def measured(self) -> Mapping[str, Measure]:
         """Mean rates (Hz) and bytes per second over the whole bag."""
-        if self._measured is None:
+        if self._means is None:
             about = self._contents.metadata
             span = (about.end - about.begin) / 1e9 or 1.0
-            self._measured = {
+            self._means = {
                 name: Measure(topic.count / span, self._contents.size(name) / span, count=topic.count)
                 for name, topic in about.topics.items()
             }
-        return self._measured
+        return self._means
 
     def listen(self, topic: str) -> None:
         """Show this topic."""

@@ -1,7 +1,4 @@
-"""Topics, services and actions as a person inspects and uses them. Standard library only.
-
-`Traffic` is part of `Console` and is polled in the same way: nothing here blocks.
-"""
+"""Topics, services and actions, as a person inspects and uses them. Standard library only."""
 
 from __future__ import annotations
 
@@ -129,7 +126,7 @@ Values = Mapping[str, str]
 """What was typed into a form, by path; unchanged fields are left out."""
 
 
-class Traffic(Protocol):
+class Topics(Protocol):
     """Topics, services and actions of a ROS system, as a person uses them."""
 
     def measure(self, topics: Collection[str], requester: str = "") -> None:
@@ -178,6 +175,10 @@ class Traffic(Protocol):
 
     def call(self, service: str, type_name: str, values: Values) -> Future[Reply]:
         """Call a service."""
+        ...
+
+    def call_service(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
+        """Call a service with the given request fields; the answer is what it says of its success."""
         ...
 
     def send_goal(self, action: str, type_name: str, values: Values) -> Answer:

@@ -1,0 +1,142 @@
+"""The stop key works while the console starts, once it is lost, read-only or closed, until the robot confirms."""
+
+from __future__ import annotations
+
+import asyncio
+import itertools
+import threading
+from collections.abc import Callable, Iterator
+
+import pytest
+from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.console.gate import CLOSED, READ_ONLY
+from bot_console.tui.console.graph.warnings import GraphWarnings
+from bot_console.tui.console.model import GraphInfo, LogFilter
+from bot_console.tui.console.robot import robot_drive
+from bot_console.tui.console.ros_console import RosConsole
+from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
+from rclpy.clock import Clock, ClockType
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rigs import TIMEOUT_S, until
+
+_domains = itertools.count(8600)
+
+
+class Base:
+    """A robot's base with a lock, served in a thread."""
+
+    def __init__(self, domain: int) -> None:
+        self.context = Context()
+        self.context.init(["test"], domain_id=domain)
+        self.node = Node("simulator", context=self.context)
+        self.stop = EmergencyStop(self.node, Clock(clock_type=ClockType.STEADY_TIME), BASE, ARBITER, lambda: None)
+        self._executor = SingleThreadedExecutor(context=self.context)
+        self._executor.add_node(self.node)
+        self._thread = threading.Thread(target=self._executor.spin, daemon=True)
+        self._thread.start()
+
+    def is_held(self) -> bool:
+        return self.stop.lock.held
+
+    def close(self) -> None:
+        self._executor.shutdown()
+        self._thread.join(TIMEOUT_S)
+        self.node.destroy_node()
+        self.context.try_shutdown()
+
+
+@pytest.fixture
+def base(monkeypatch: pytest.MonkeyPatch) -> Iterator[Base]:
+    domain = next(_domains)
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+    monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)
+    made = Base(domain)
+    yield made
+    made.close()
+
+
+def connect(console: RosConsole) -> None:
+    console.start()
+    assert console.wait_ready(TIMEOUT_S)
+
+
+def lose(console: RosConsole, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the console's own node fail."""
+
+    def broken(self: GraphWarnings, graph: GraphInfo) -> None:
+        raise RuntimeError("no warnings any more")
+
+    monkeypatch.setattr(GraphWarnings, "follow", broken)
+    connect(console)
+    until(lambda: console.snapshot().problem, "the end of the connection")
+
+
+def press_stop(console: RosConsole, play: Callable[[BotConsoleApp], None], *keys: str) -> None:
+    """Show a console, press the stop key and perhaps others, then do something while it is shown."""
+
+    async def main() -> None:
+        app = BotConsoleApp(console, refresh_hz=0)
+        async with app.run_test(size=(80, 24)) as pilot:
+            await pilot.press("exclamation_mark", *keys)
+            await asyncio.to_thread(play, app)
+
+    asyncio.run(main())
+
+
+def status(app: BotConsoleApp) -> str:
+    """The status line as it is drawn now."""
+    app.call_from_thread(app.pull)
+    return str(app.parts.status.render())
+
+
+@pytest.mark.parametrize("state", ["starting", "connected", "lost", "read-only", "closed"])
+def test_stop_key_locks_the_robot_in_every_state(state: str, base: Base, monkeypatch: pytest.MonkeyPatch) -> None:
+    console = RosConsole()
+    if state == "read-only":
+        console.refuse_changes()
+    if state in ("connected", "read-only", "closed"):
+        connect(console)
+    if state == "lost":
+        lose(console, monkeypatch)
+    if state == "closed":
+        console.close()
+
+    def play(app: BotConsoleApp) -> None:
+        if state == "starting":
+            assert "STOP NOT SENT: the console is still connecting" in status(app)
+            assert not base.is_held()
+            connect(console)
+        until(base.is_held, "the lock")
+        until(lambda: console.snapshot().drive.stop_confirmed, "the confirmation")
+        assert "ALL STOP held" in status(app)
+
+    try:
+        press_stop(console, play)
+        assert base.is_held()
+    finally:
+        console.close()
+
+
+@pytest.mark.parametrize(("state", "why"), [("read-only", READ_ONLY), ("closed", CLOSED)])
+def test_second_press_releases_nothing_where_commands_are_refused(state: str, why: str, base: Base) -> None:
+    console = RosConsole()
+    if state == "read-only":
+        console.refuse_changes()
+    connect(console)
+    if state == "closed":
+        console.close()
+
+    def play(app: BotConsoleApp) -> None:
+        until(lambda: console.snapshot().drive.stop_confirmed, "the confirmation")
+        app.call_from_thread(app.pull)
+        app.call_from_thread(app.action_all_stop)
+        texts = [console.logs.record(each) for each in console.logs.matching(LogFilter(), 0)]
+        assert any(each and f"the robot stays locked: {why}" in each.text for each in texts)
+        assert base.is_held()
+
+    try:
+        press_stop(console, play)
+    finally:
+        console.close()

@@ -1,0 +1,59 @@
+"""The port for recording, in front of the recorder, which is there once the system is reached."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import TYPE_CHECKING
+
+from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.bags.port import Keeper, RecordingInfo
+from bot_console.tui.console.gate import Gate, done
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.bags.recordings import Recordings
+
+NOTHING_RECORDED = RecordingInfo()
+
+
+class NodeBags:
+    """Records all topics; a bag changes nothing in the system, so that a read-only console records too."""
+
+    def __init__(self, gate: Gate, buffer: Keeper | None = None) -> None:
+        """`buffer` keeps the last minutes; None: they are not kept."""
+        self._gate = gate
+        self._buffer = buffer
+        self._recordings: Recordings | None = None
+
+    def attach(self) -> None:
+        """The system has been reached."""
+        from bot_console.tui.console.bags.recordings import Recordings
+
+        self._recordings = Recordings(self._buffer)
+
+    @property
+    def info(self) -> RecordingInfo:
+        """The state of recording."""
+        return self._recordings.info if self._recordings else NOTHING_RECORDED
+
+    def start(self, folder: str) -> Future[Answer]:
+        """Record all topics into a new bag."""
+        return self._order(lambda recordings: recordings.start(folder))
+
+    def stop(self) -> Future[Answer]:
+        """Close the bag."""
+        return self._order(lambda recordings: recordings.stop())
+
+    def keep(self, folder: str) -> Future[Answer]:
+        """Save the last minutes from memory."""
+        return self._order(lambda recordings: recordings.keep(folder))
+
+    def _order(self, order: Callable[[Recordings], Future[Answer]]) -> Future[Answer]:
+        if self._recordings is None or self._gate.unreached:
+            return done(Answer(False, self._gate.unreached))
+        return order(self._recordings)
+
+    def close(self) -> None:
+        """Finish the bag being recorded."""
+        if self._recordings is not None:
+            self._recordings.close()

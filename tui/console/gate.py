@@ -1,0 +1,130 @@
+"""The gate in front of all commands: shut while the console starts, when it is lost, read-only or closed.
+
+Standard library only. A stop does not come this way: nothing may refuse it, see `robot/robot_drive.py`.
+"""
+
+from __future__ import annotations
+
+import inspect
+import threading
+from collections.abc import Callable, Coroutine
+from concurrent.futures import Future
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+T = TypeVar("T")
+STARTING = "the console is still connecting to the ROS system"
+CLOSED = "the console has closed"
+READ_ONLY = "this console is read-only (--read-only)"
+
+
+@dataclass(frozen=True)
+class _Pending:
+    """How to express a refusal as a result, and the coroutine that is to produce the result."""
+
+    refused: Callable[[str], Any]
+    task: Coroutine[Any, Any, None]
+
+
+class Gate:
+    """Lets commands and queries through to the system, or refuses them with the reason; for any thread."""
+
+    def __init__(self, why: str = STARTING) -> None:
+        """`why` is the reason given until `open`; empty where there is nothing to wait for."""
+        self.unreached = why
+        """Why nothing can be asked of the system; empty while it can be reached."""
+        self.read_only = ""
+        """Why this console changes nothing; empty if it may."""
+        self._start: Callable[[Coroutine[Any, Any, None]], object] | None = None
+        self._pending: dict[Future[Any], _Pending] = {}
+        self._queries: list[Callable[[], object]] = []
+        self._lock = threading.Lock()
+
+    @property
+    def refusal(self) -> str:
+        """Why a command that changes something is refused; empty if it may pass."""
+        return self.read_only or self.unreached
+
+    def open(self, start: Callable[[Coroutine[Any, Any, None]], object]) -> None:
+        """Let requests through: `start` runs a coroutine, from any thread. Queries that have waited are made now."""
+        with self._lock:
+            self._start, self.unreached = start, ""
+            queries, self._queries = self._queries, []
+        for query in queries:
+            query()
+
+    def close(self, why: str) -> None:
+        """Refuse all pending and all later requests with this reason."""
+        with self._lock:
+            self.unreached = why
+            self._queries = []
+            waiting = list(self._pending)
+        for outcome in waiting:
+            self._refuse(outcome, why)
+
+    def when_open(self, query: Callable[[], object]) -> None:
+        """Make a query now, or as soon as the system is reached; never once it is lost or the console has closed."""
+        with self._lock:
+            if self.unreached == STARTING:
+                self._queries.append(query)
+            if self.unreached:
+                return
+        query()
+
+    def run(
+        self, work: Callable[[], Coroutine[Any, Any, T]], refused: Callable[[str], T], *, changes: bool = True
+    ) -> Future[T]:
+        """Run a coroutine in the console's executor.
+
+        The future is always completed: `refused` turns the reason of a refusal into a result, or raises it. What only
+        reads, and so has `changes` false, passes in a read-only console too.
+        """
+        outcome: Future[T] = Future()
+
+        async def guarded() -> None:
+            try:
+                result = await work()
+            except Exception as error:  # goes to the holder of the future
+                if self._claim(outcome):
+                    outcome.set_exception(error)
+            else:
+                if self._claim(outcome):
+                    outcome.set_result(result)
+
+        task = guarded()
+        with self._lock:
+            why = self.refusal if changes else self.unreached
+            self._pending[outcome] = _Pending(refused, task)
+        if why or self._start is None:
+            self._refuse(outcome, why)
+        else:
+            self._start(task)
+        return outcome
+
+    def _claim(self, outcome: Future[Any]) -> _Pending | None:
+        """Remove a pending entry: the caller that gets it is the one to complete it."""
+        with self._lock:
+            return self._pending.pop(outcome, None)
+
+    def _refuse(self, outcome: Future[Any], why: str) -> None:
+        pending = self._claim(outcome)
+        if pending is None:
+            return
+        if inspect.getcoroutinestate(pending.task) == inspect.CORO_CREATED:
+            pending.task.close()  # otherwise the interpreter warns that it was never awaited
+        try:
+            outcome.set_result(pending.refused(why))
+        except Exception as error:  # of `refused`, which may raise the reason
+            outcome.set_exception(error)
+
+
+def refuse(why: str) -> Any:
+    """Raise a refusal, for futures that have no other way to express it."""
+    raise ValueError(why)
+
+
+def done(value: T) -> Future[T]:
+    """A future that is already done, with its result."""
+    future: Future[T] = Future()
+    future.set_result(value)
+    return future

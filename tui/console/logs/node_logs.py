@@ -1,0 +1,122 @@
+"""The port for logs: the records of `/rosout` and of processes, searches over them, and the levels of loggers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import Future
+from functools import partial
+from typing import TYPE_CHECKING
+
+from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.gate import Gate, refuse
+from bot_console.tui.console.logs.port import LogFindings, LogSource, LogView
+from bot_console.tui.console.model import LogFilter, LoggerLevel, LogRecord, LogState, Severity
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.logs.levels import LoggerLevels
+    from bot_console.tui.console.logs.store import LogStore
+    from bot_console.tui.console.logs.view import LogViews
+
+NO_RECORDS = LogState()
+
+
+class _NoNumbers(tuple[int, ...]):
+    def place(self, number: int) -> int:
+        return 0
+
+    def count(self, index: object) -> int:
+        return 0
+
+
+class _PendingView:
+    """A search requested before the log exists: it finds nothing until it can be opened."""
+
+    def __init__(self, logs: NodeLogs, which: LogFilter) -> None:
+        self._logs = logs
+        self._which = which
+        self._view: LogView | None = None
+
+    def poll(self) -> LogFindings:
+        """What has been found so far."""
+        if self._view is None and self._logs.exists:
+            self._view = self._logs.view(self._which)
+        return self._view.poll() if self._view else LogFindings(_NoNumbers())
+
+
+class NodeLogs:
+    """The log; it reads what has arrived, also after the console has closed."""
+
+    _levels: LoggerLevels
+    """There from `attach` on, and used only by what has passed the gate."""
+
+    def __init__(self, gate: Gate) -> None:
+        self._gate = gate
+        self._store: LogStore | None = None
+        self._views: LogViews | None = None
+
+    def begin(self, store: LogStore | None = None) -> None:
+        """Keep records from now on, or read those of a store; in the console's own thread, since it imports numpy."""
+        from bot_console.tui.console.logs.store import LogStore
+        from bot_console.tui.console.logs.view import LogViews
+
+        self._store = LogStore() if store is None else store
+        self._views = LogViews(self._store)
+
+    def attach(self, levels: LoggerLevels) -> None:
+        """The system has been reached."""
+        self._levels = levels
+
+    @property
+    def exists(self) -> bool:
+        """Whether records are kept yet."""
+        return self._views is not None
+
+    def add(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
+        """Add a record, in any thread; those before `begin` are lost."""
+        if self._store is not None:
+            self._store.add(stamp, severity, name, text, site)
+
+    @property
+    def state(self) -> LogState:
+        """Which records are kept."""
+        return self._store.state if self._store else NO_RECORDS
+
+    def record(self, seq: int) -> LogRecord | None:
+        """The record with that number."""
+        return self._store.record(seq) if self._store else None
+
+    def matching(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
+        """Numbers of the records that pass a filter."""
+        if self._store is None:
+            return ()
+        from bot_console.tui.console.logs.search import matching
+
+        return matching(self._store, which, after, limit)
+
+    def view(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
+        """Search for records that pass a filter, as soon as there is a log."""
+        return self._views.open(which, instead_of) if self._views else _PendingView(self, which)
+
+    def open(self, path: str) -> LogSource:
+        """Read a saved log."""
+        from bot_console.tui.console.logs.file import open_log
+
+        return open_log(path)
+
+    def clear(self) -> None:
+        """Discard all records."""
+        if self._store is not None:
+            self._store.clear()
+
+    def set_level(self, node: str, severity: Severity, logger: str = "") -> Future[Answer]:
+        """Set a logger's level through the logger service of its node, if it has one."""
+        return self._gate.run(lambda: self._levels.set(node, severity, logger), partial(Answer, False))
+
+    def levels(self, node: str) -> Future[tuple[LoggerLevel, ...]]:
+        """The levels of a node's loggers."""
+        return self._gate.run(lambda: self._levels.of(node), refuse, changes=False)
+
+    def close(self) -> None:
+        """Stop searching."""
+        if self._views is not None:
+            self._views.close()

@@ -1,0 +1,121 @@
+"""The ports of a console that has a ROS node, and the snapshot that is composed of what they know."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from bot_console.tui.console.bags.node_bags import NodeBags
+from bot_console.tui.console.gate import READ_ONLY, Gate
+from bot_console.tui.console.graph.node_graph import NodeGraph
+from bot_console.tui.console.logs.node_logs import NodeLogs
+from bot_console.tui.console.model import Capabilities, ConsoleSnapshot, LaunchInfo, LinkInfo, Severity
+from bot_console.tui.console.parameters.node_parameters import NodeParameters
+from bot_console.tui.console.parameters.node_profiles import NodeProfiles
+from bot_console.tui.console.parameters.provenance import Provenance
+from bot_console.tui.console.plot.node_plots import NodePlots
+from bot_console.tui.console.robot.robot_drive import RobotDrive
+from bot_console.tui.console.sensors.node_sensors import NodeSensors
+from bot_console.tui.console.topics.node_topics import NodeTopics
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.bags.port import Keeper
+    from bot_console.tui.console.graph.type_discovery import TypeSource
+    from bot_console.tui.console.robot.drive_node import DriveNode
+
+NOWHERE = ("", "", 0)
+LABEL = "bot-console"
+
+
+class NodePorts:
+    """All ports; they exist before the node does, and `ConsoleNode` attaches them to it."""
+
+    def __init__(
+        self,
+        connect_robot: Callable[[], DriveNode],
+        capabilities: Capabilities,
+        *,
+        launch_info: Callable[[], LaunchInfo],
+        link: Callable[[], LinkInfo],
+        buffer: Keeper | None,
+        types: TypeSource | None,
+    ) -> None:
+        self.gate = Gate()
+        self._capabilities = capabilities
+        self._launch_info = launch_info
+        self._link = link
+        self.problem = ""
+        """Why the console itself cannot go on; empty when all is well."""
+        provenance = Provenance(self._profile_at)
+        self.start_values = provenance.starts
+        self.logs = NodeLogs(self.gate)
+        self.graph = NodeGraph(self.gate)
+        self.topics = NodeTopics(self.gate, lambda: self.graph.info, types)
+        self.drive = RobotDrive(
+            self.gate,
+            connect_robot,
+            network=link,
+            on_stop=self.topics.stop,
+            report=lambda text: self.printed(Severity.WARN, LABEL, text),
+        )
+        self.plots = NodePlots(self.gate, lambda: self.graph.info, lambda: self.parameters.trees)
+        self.parameters = NodeParameters(self.gate, provenance, self.plots.parameter_is, self.logs.add)
+        self.profiles = NodeProfiles(
+            self.gate, self.parameters, lambda: self.topics.request("/reset", "std_srvs/srv/Trigger", {})
+        )
+        self.sensors = NodeSensors(self.gate, lambda: self.graph.info)
+        self.bags = NodeBags(self.gate, buffer)
+        self._by_path: tuple[object, dict[str, str]] = (), {}
+        self._snapshot = ConsoleSnapshot(capabilities=capabilities)
+
+    def refuse_changes(self) -> None:
+        """Make the console read-only; a stop still passes."""
+        self.gate.read_only = READ_ONLY
+        self._capabilities = replace(self._capabilities, change=READ_ONLY)
+
+    def _profile_at(self, path: str) -> str:
+        """The name of the profile with that path; empty if there is none."""
+        if self._by_path[0] is not self.profiles.all:
+            self._by_path = self.profiles.all, {os.path.realpath(each.path): each.name for each in self.profiles.all}
+        return self._by_path[1].get(os.path.realpath(path), "")
+
+    def printed(self, severity: int, label: str, text: str) -> None:
+        """Receive a line that a process printed."""
+        self.logs.add(time.time_ns(), severity, label, text, NOWHERE)
+
+    def snapshot(self) -> ConsoleSnapshot:
+        """What is known now; the same object when nothing changed, and unchanged parts are the same objects."""
+        old = self._snapshot
+        world = self.drive.world
+        new = ConsoleSnapshot(
+            seq=old.seq,
+            graph=self.graph.info,
+            parameters=self.parameters.trees,
+            logs=self.logs.state,
+            journal=self.parameters.journal,
+            world=world,
+            drive=self.drive.info(world),
+            launch=self._launch_info(),
+            link=self._link(),
+            recording=self.bags.info,
+            profiles=self.profiles.all,
+            active_profile=self.profiles.active,
+            profile_changes=self.profiles.changes,
+            capabilities=self._capabilities,
+            problem=self.problem,
+        )
+        if not _same(old, new):
+            self._snapshot = replace(new, seq=old.seq + 1)
+        return self._snapshot
+
+
+def _same(old: ConsoleSnapshot, new: ConsoleSnapshot) -> bool:
+    """Whether every part is the same object, or an equal text or number."""
+    for name in new.__dataclass_fields__:
+        value, before = getattr(new, name), getattr(old, name)
+        if value is not before and not (isinstance(value, (str, int)) and value == before):
+            return False
+    return True

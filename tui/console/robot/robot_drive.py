@@ -1,0 +1,241 @@
+"""The port for the robot: steers it through the gate, and stops it in every state of the console.
+
+A stop requested before there is a link to the robot is kept and sent with the link. Once the console has closed, the
+link is opened again for it, until the robot confirms.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from bot_console.tui.console.gate import CLOSED, STARTING, Gate
+from bot_console.tui.console.model import LinkInfo
+from bot_console.tui.console.robot.robot_model import DriveInfo, Pose, WorldInfo
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.robot.drive_link import DriveLink
+    from bot_console.tui.console.robot.drive_node import DriveNode
+    from bot_console.tui.console.robot.world_watch import WorldWatch
+
+LAST_ZERO_TIMEOUT_S = 0.15
+"""Seconds allowed for the final zero Twist, or the lock, to reach the robot before anything is shut down."""
+CONFIRMATION_POLL_S = 0.1
+RECONNECT_PAUSE_S = 1.0
+NO_WORLD = WorldInfo()
+IDLE = DriveInfo()
+NOT_YET = DriveInfo(
+    stopped=True,
+    stopped_here=True,
+    unsent="the console is still connecting; the stop is sent as soon as it is connected",
+)
+NOT_CONNECTED = DriveInfo(
+    stopped=True, stopped_here=True, unsent="this console is not connected; run bot-console stop in another terminal"
+)
+
+
+class RobotDrive:
+    """Steers and stops the robot; methods may be called from any thread."""
+
+    def __init__(
+        self,
+        gate: Gate,
+        connect: Callable[[], DriveNode],
+        *,
+        network: Callable[[], LinkInfo],
+        on_stop: Callable[[], None],
+        report: Callable[[str], None],
+    ) -> None:
+        """`connect` opens a link to the robot; `network` returns the state of the network.
+
+        `on_stop` ends what would drive the robot again after its release; `report` receives refusals of requests that
+        return no answer.
+        """
+        self._gate = gate
+        self._connect = connect
+        self._network = network
+        self._on_stop = on_stop
+        self._report = report
+        # Reentrant: a signal that ends the console stops the robot too, even during a stop.
+        self._lock = threading.RLock()
+        self._node: DriveNode | None = None
+        """The node that stops the robot, whatever else works."""
+        self._link: DriveLink | None = None
+        """Its link; it says what is known also after the node has closed."""
+        self._world: WorldWatch | None = None
+        self._request: tuple[bool, str] | None = None
+        """The newest stop, or release, that was requested while there was no link."""
+        self._presses: set[str] = set()
+        self._zeroed = False
+        """Whether the network was silent when the last command was sent."""
+        self._shown: tuple[DriveInfo | None, DriveInfo] = None, IDLE
+        """What is known of a robot that may not be released from here, and how that is shown."""
+        self._reopening: threading.Thread | None = None
+
+    def connect(self) -> DriveNode:
+        """Connect to the robot's stop, and send what was requested before."""
+        node = self._connect()
+        with self._lock:
+            self._node, self._link = node, node.link
+            if self._request is not None:
+                node.link.stop(*self._request)
+            for each in self._presses:
+                node.link.hold_early(each)
+            self._request = None
+        return node
+
+    def attach(self, world: WorldWatch) -> None:
+        """The robot's surroundings are watched from now on."""
+        self._world = world
+
+    @property
+    def world(self) -> WorldInfo:
+        """The robot's surroundings; the same object until they change."""
+        return self._world.info if self._world else NO_WORLD
+
+    def info(self, world: WorldInfo) -> DriveInfo:
+        """The state of the command chain; the same object while nothing changes."""
+        if not self._network().silent_s:
+            self._zero_again()
+        if self._is_unsent:
+            return NOT_YET if self._gate.unreached == STARTING else NOT_CONNECTED
+        known = self._link.info(world) if self._link else IDLE
+        if not self._gate.read_only:
+            return known
+        if self._shown[0] is not known:
+            self._shown = known, replace(known, refused=self._gate.read_only)
+        return self._shown[1]
+
+    @property
+    def _is_unsent(self) -> bool:
+        """Whether a stop was requested that could not be sent."""
+        stopped = self._request is not None and self._request[0]
+        return self._node is None and (stopped or bool(self._presses))
+
+    def stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
+        """Lock the robot's emergency stop, or withdraw the stop; a stop passes in every state of the console."""
+        why = self._gate.read_only or (CLOSED if self._gate.unreached == CLOSED else "")
+        if not hold and why:
+            self._report(f"the robot stays locked: {why}")
+            return
+        with self._lock:
+            if self._node is not None:
+                self._node.link.stop(hold, reason)
+            else:
+                self._request = hold, reason
+                self._open_again()
+        if hold:
+            # otherwise repeated messages would drive the robot again as soon as it is released
+            self._on_stop()
+
+    def hold_early(self, press: str) -> None:
+        """Stop the robot for a key press that is not processed yet."""
+        with self._lock:
+            if self._node is not None:
+                self._node.link.hold_early(press)
+            else:
+                self._presses.add(press)
+                self._open_again()
+        self._on_stop()
+
+    def settle_early(self, press: str, *, keep: bool) -> None:
+        """Keep that stop, or withdraw it if it was sent for this key press alone."""
+        with self._lock:
+            self._presses.discard(press)
+            if self._node is not None:
+                self._node.link.settle_early(press, keep=keep)
+            elif keep:
+                self._request = True, "ALL STOP"
+
+    def _open_again(self) -> None:
+        """Open a link for a stop, unless the first one is still being opened."""
+        is_busy = self._reopening is not None and self._reopening.is_alive()
+        if self._is_unsent and self._gate.unreached != STARTING and not is_busy:
+            self._reopening = threading.Thread(target=self._stop_alone, name="bot-console-stop", daemon=True)
+            self._reopening.start()
+
+    def _stop_alone(self) -> None:
+        """Send a stop that nothing else can send any more, until the robot confirms it."""
+        wait = threading.Event().wait
+        while self._is_unsent:
+            try:
+                node = self.connect()
+            except Exception:  # whatever prevents it: the status line says that the stop is not sent
+                wait(RECONNECT_PAUSE_S)
+                continue
+            node.follow_alone()
+            while node.link.info(NO_WORLD).stopped_here and not node.link.info(NO_WORLD).stop_confirmed:
+                wait(CONFIRMATION_POLL_S)
+            self.leave()
+
+    def release(self, others: Sequence[str]) -> None:
+        """Withdraw this console's stop and those of others."""
+        if self._gate.refusal or self._node is None:
+            self.stop(False)
+        else:
+            self._node.link.stop(False, "", others)
+
+    def move(self, linear: float, angular: float) -> None:
+        """Send a velocity command; while the network is silent, only a zero."""
+        if self._node is None or (self._gate.refusal and (linear, angular) != (0.0, 0.0)):
+            return
+        if not self._network().silent_s:
+            self._zero_again()
+            self._node.link.drive(linear, angular)
+        elif not self._zeroed:
+            # Commands queued while the link is cut arrive late: the last of them has to be a zero.
+            self._zeroed = True
+            self._node.link.drive(0.0, 0.0)
+
+    def _zero_again(self) -> None:
+        """Repeat the zero velocity after a long silence, in which queued messages were lost."""
+        if self._zeroed:
+            self._zeroed = False
+            if self._node is not None:
+                self._node.link.drive(0.0, 0.0)
+
+    def steer(self, hold: bool) -> None:
+        """Take control of the robot, or hand it back."""
+        if self._node is not None and not (hold and self._gate.refusal):
+            self._node.link.steer(hold)
+
+    def choose(self, robot: str) -> None:
+        """Drive another robot, and watch its surroundings."""
+        if self._node is None or self._gate.unreached:
+            return
+        self._node.link.choose(robot)
+
+        async def watch() -> None:
+            if self._world is not None:
+                self._world.choose(robot)
+
+        self._gate.run(watch, lambda why: None, changes=False)
+
+    def pose_at(self, stamp: int) -> Pose | None:
+        """The robot's pose at a time."""
+        return self._world.past.at(stamp) if self._world else None
+
+    def await_held(self, timeout_s: float) -> None:
+        """Wait until a stop holds the robot, at most this long; returns at once when there is no connection."""
+        if self._node is not None:
+            self._node.link.await_standing(timeout_s)
+
+    def follow_alone(self) -> None:
+        """Keep what can still stop the robot running, after everything else has failed."""
+        if self._node is not None:
+            self._node.follow_alone()
+
+    def send_last_zero(self) -> None:
+        """Send zero velocity, or lock a robot that is being steered, and wait until that has arrived."""
+        if self._node is not None:
+            self._node.link.close(LAST_ZERO_TIMEOUT_S)
+
+    def leave(self) -> None:
+        """Close the link."""
+        with self._lock:
+            node, self._node = self._node, None
+        if node is not None:
+            node.close()
+            node.context.try_shutdown()
