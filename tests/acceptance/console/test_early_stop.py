@@ -111,5 +111,5 @@ def test_robot_is_held_once_while_the_screen_hangs_and_its_turn_keeps_it(console
     console.until("hold_early")
     assert console.notes() == ["hangs", "hold_early ('1',) {}"]
     (console.folder / "resume").write_text("go on")
-    console.until("all_stop")
-    assert console.notes()[2:] == ["settle_early ('1',) {'keep': True}", "all_stop (True,) {}"]
+    console.until("stop")
+    assert console.notes()[2:] == ["settle_early ('1',) {'keep': True}", "stop (True,) {}"]
