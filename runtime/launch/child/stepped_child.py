@@ -26,12 +26,13 @@ class SteppedChild(ForkedChild):
         super().__init__(name, output, loop)
         self._member = member
         self._report = Report()
+        self._exit_report = b""
         self._input = -1
 
     def read_all(self, report: int, stdout: int, stderr: int, data: int, stdin: int) -> None:
         """Read these descriptors in its turns; `stdin` is our end of its standard input."""
         self._input = stdin
-        self._member.read(report, self._take_report, partial(self._in_loop, self.all_reported))
+        self._member.read(report, self._take_report, self._pass_on_exit)
         self._member.read(data, partial(self._in_loop, self.news.feed), partial(self._in_loop, self.news_end))
         for fd, end in ((1, stdout), (2, stderr)):
             self._member.read(
@@ -43,7 +44,15 @@ class SteppedChild(ForkedChild):
     def _take_report(self, data: bytes) -> None:
         self._report.feed(data)
         self._member.pid, self._member.exit_code = self._report.pid or 0, self._report.exit_code
-        self._in_loop(self.reported, data)
+        if self._report.exit_code is None:
+            self._in_loop(self.reported, data)
+        else:
+            self._exit_report = data
+
+    def _pass_on_exit(self) -> None:
+        if self._exit_report:
+            self._in_loop(self.reported, self._exit_report)
+        self._in_loop(self.all_reported)
 
     def _in_loop(self, callback: Callable[..., Any], *arguments: Any) -> None:
         try:

@@ -82,6 +82,7 @@ class MemberProcess:
         self._poll.register(own, select.POLLIN)
         self._peer = relay.add(self.deliver)
         self._over = False
+        self._ends: list[Callable[[], None]] = []
         self.exit_code: int | None = None
         """Set by one of the readers."""
 
@@ -135,7 +136,7 @@ class MemberProcess:
         finally:
             self._over = True
             self._peer.leave()
-            self._finish()
+            self._finish(task)
 
     def _turn(self, task: ScheduledTask) -> Any:
         """Let the process run until all its threads wait; return its answer, None if it has ended instead."""
@@ -187,14 +188,17 @@ class MemberProcess:
             reader.take(data)
             return
         self._close(descriptor)
-        reader.end()
+        if self._over:
+            self._ends.append(reader.end)
+        else:
+            reader.end()
 
     def _close(self, descriptor: int) -> None:
         self._poll.unregister(descriptor)
         del self._readers[descriptor]
         os.close(descriptor)
 
-    def _finish(self) -> None:
+    def _finish(self, task: ScheduledTask) -> None:
         """Read the rest, until the exit code is there; what its child processes write later is lost."""
         self._poll.unregister(self._channel)
         self._channel.close()
@@ -203,7 +207,11 @@ class MemberProcess:
                 self._read_ready(None)
         for descriptor, reader in list(self._readers.items()):
             self._close(descriptor)
-            reader.end()
+            self._ends.append(reader.end)
+        # Its last output is handled before anybody hears that it has ended.
+        task.scheduler.wait(task, None, task.scheduler.now)
+        for end in self._ends:
+            end()
 
 
 class _Watch:

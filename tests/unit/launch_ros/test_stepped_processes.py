@@ -273,7 +273,7 @@ def test_crash_in_c_is_reported_with_its_line(step: Any, nodes: Any) -> None:
     assert 'program0", line 4 in <module>' in done.text and "exit code -6" in done.text
 
 
-def test_traceback_begins_in_the_program(step: Any, nodes: Any) -> None:
+def test_traceback_begins_in_the_program_and_precedes_its_end(step: Any, nodes: Any) -> None:
     lines = step(*nodes("1 / 0")).lines
     assert lines[0] == "Traceback (most recent call last):" and 'program0", line 2, in <module>' in lines[1]
 
