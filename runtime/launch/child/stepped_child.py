@@ -32,14 +32,14 @@ class SteppedChild(ForkedChild):
     def read_all(self, report: int, stdout: int, stderr: int, data: int, stdin: int) -> None:
         """Read these descriptors in its turns; `stdin` is our end of its standard input."""
         self._input = stdin
-        self._member.read(report, self._take_report, self._pass_on_exit)
-        self._member.read(data, partial(self._in_loop, self.news.feed), partial(self._in_loop, self.news_end))
+        self._member.read(report, self._take_report, self._pass_on_exit, at_once=True)
         for fd, end in ((1, stdout), (2, stderr)):
             self._member.read(
                 end,
                 partial(self._in_loop, self.pipe_data_received, fd),
                 partial(self._in_loop, self.pipe_connection_lost, fd, None),
             )
+        self._member.read(data, partial(self._in_loop, self.news.feed), partial(self._in_loop, self.news_end))
 
     def _take_report(self, data: bytes) -> None:
         self._report.feed(data)

@@ -11,7 +11,8 @@ import signal
 import socket
 from collections.abc import Callable
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ..notices import notify
 from ..stepping.own_thread import start_own_thread
@@ -53,11 +54,15 @@ class Relay(Protocol):
         ...
 
 
-class Reader(NamedTuple):
+@dataclass
+class Reader:
     """Takes what a process writes to one of its pipes."""
 
     take: Callable[[bytes], None]
     end: Callable[[], None]
+    at_once: bool
+    held: list[bytes] = field(default_factory=list[bytes])
+    """What is passed on at the end of the turn."""
 
 
 class MemberProcess:
@@ -77,12 +82,13 @@ class MemberProcess:
         self._inbox: list[Operation] = []
         self._wakeup = clock.wakeup()
         self._readers: dict[int, Reader] = {}
+        """Of the open pipes, by descriptor."""
+        self._pipes: list[Reader] = []
         self._poll = select.poll()
         # The first to be looked at: what the process has written before its answer is then seen with the answer.
         self._poll.register(own, select.POLLIN)
         self._peer = relay.add(self.deliver)
         self._over = False
-        self._ends: list[Callable[[], None]] = []
         self.exit_code: int | None = None
         """Set by one of the readers."""
 
@@ -92,9 +98,16 @@ class MemberProcess:
         self._task = start_own_thread(self.clock, self._run)
         self._task.hold_clock()
 
-    def read(self, descriptor: int, take: Callable[[bytes], None], end: Callable[[], None]) -> None:
-        """Pass on what the process writes to a pipe, and the pipe's end; owns the descriptor from now on."""
-        self._readers[descriptor] = Reader(take, end)
+    def read(
+        self, descriptor: int, take: Callable[[bytes], None], end: Callable[[], None], *, at_once: bool = False
+    ) -> None:
+        """Pass on what the process writes to a pipe, and the pipe's end; owns the descriptor from now on.
+
+        That happens at the end of each turn, in the order in which the pipes were given: how the process's writing and
+        the reading here overlap must not decide the order. With `at_once` it happens as it comes.
+        """
+        reader = self._readers[descriptor] = Reader(take, end, at_once)
+        self._pipes.append(reader)
         self._poll.register(descriptor, select.POLLIN)
 
     def deliver(self, operation: Operation) -> None:
@@ -125,6 +138,7 @@ class MemberProcess:
                 self._read_ready(None)
             self._channel.send(tuple(self._welcome))
             while (answer := self._turn(task)) is not None:
+                self._pass_on()
                 now, due, operations, stalls = answer
                 self.clock.advance_to(now)
                 self.clock.add_stalls(stalls)
@@ -156,6 +170,8 @@ class MemberProcess:
                 else:
                     self._read(descriptor)
             if answered:
+                while len(ready) > 1 and self._read_ready(0):
+                    pass
                 break
             if not ready and not task.detached and (line := watch.blocked_in()):
                 self._go_on_without(task, line)
@@ -172,10 +188,9 @@ class MemberProcess:
 
     def _read_ready(self, timeout_ms: int | None) -> bool:
         """Wait for what the process writes to its pipes; return whether there was anything."""
-        ready = self._poll.poll(timeout_ms)
-        for descriptor, _ in ready:
-            if descriptor in self._readers:
-                self._read(descriptor)
+        ready = [descriptor for descriptor, _ in self._poll.poll(timeout_ms) if descriptor in self._readers]
+        for descriptor in ready:
+            self._read(descriptor)
         return bool(ready)
 
     def _read(self, descriptor: int) -> None:
@@ -184,19 +199,24 @@ class MemberProcess:
             data = os.read(descriptor, _CHUNK)
         except OSError:  # a terminal whose other end is closed
             data = b""
-        if data:
+        if not data:
+            self._close(descriptor)
+        elif reader.at_once:
             reader.take(data)
-            return
-        self._close(descriptor)
-        if self._over:
-            self._ends.append(reader.end)
         else:
-            reader.end()
+            reader.held.append(data)
 
     def _close(self, descriptor: int) -> None:
         self._poll.unregister(descriptor)
         del self._readers[descriptor]
         os.close(descriptor)
+
+    def _pass_on(self) -> None:
+        """Pass on what the process has written."""
+        for each in self._pipes:
+            if each.held:
+                each.take(b"".join(each.held))
+                each.held.clear()
 
     def _finish(self, task: ScheduledTask) -> None:
         """Read the rest, until the exit code is there; what its child processes write later is lost."""
@@ -205,13 +225,13 @@ class MemberProcess:
         while self._readers and (self.exit_code is None or self._read_ready(0)):
             if self.exit_code is None:
                 self._read_ready(None)
-        for descriptor, reader in list(self._readers.items()):
+        for descriptor in list(self._readers):
             self._close(descriptor)
-            self._ends.append(reader.end)
+        self._pass_on()
         # Its last output is handled before anybody hears that it has ended.
         task.scheduler.wait(task, None, task.scheduler.now)
-        for end in self._ends:
-            end()
+        for each in self._pipes:
+            each.end()
 
 
 class _Watch:
