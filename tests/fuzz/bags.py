@@ -15,7 +15,7 @@ from files import FOLDER, file
 
 def bag(suffix: str) -> Callable[[str], None]:
     def run(text: str) -> None:
-        from bot_console.tui.cli.verbs.bag import _info
+        from bot_console.tui.cli.bags.info import info
         from bot_console.tui.console.bags.contents import Contents
         from bot_console.tui.console.bags.opened_bag import OpenedBag
         from bot_console.tui.console.bags.reader import Bag
@@ -25,7 +25,7 @@ def bag(suffix: str) -> Callable[[str], None]:
         folder.mkdir()
         (folder / f"a{suffix}").write_bytes(text.encode("latin-1", "replace"))
         with redirect_stdout(io.StringIO()):
-            _info(argparse.Namespace(bag=folder))
+            info(argparse.Namespace(bag=folder, topic_name=False, verbose=True))
         console = OpenedBag(Contents(Bag(folder)), "bag")
         for topic in console.topics.measured():
             console.topics.listen(topic)

@@ -84,7 +84,7 @@ def _console(words: list[str]) -> str:
     if name == "export":
         return "" if len(words) == 2 else "wants one folder"
     if name == "bag":
-        bag._parser().parse_args(words[1:])
+        bag.parser().parse_args(words[1:])
         return ""
     if name == "ros2":
         return _console(words[1:])

@@ -40,6 +40,7 @@ def test_included_packages_are_the_expected_ones() -> None:
         "map_msgs",
         "nav2_msgs",
         "pcl_msgs",
+        "rosbag2_interfaces",
         "turtlebot3_msgs",
         "vision_msgs",
     }

@@ -159,7 +159,7 @@ _TYPE = _names("interface", "list")
 
 _OURS: dict[str, Sequence[str]] = {
     "attach": (),
-    "bag": ("info", "open", "play", "record", "snapshot"),
+    "bag": ("burst", "convert", "info", "list", "open", "play", "record", "reindex", "snapshot"),
     "check": (),
     "config": (),
     "daemon": ("start", "status", "stop"),

@@ -77,6 +77,12 @@ class Metadata:
 
     files: list[FilePart]
     topics: dict[str, Topic] = field(default_factory=dict[str, Topic])
+    storage: str = "mcap"
+    """`mcap` or `sqlite3`."""
+    compression: str = ""
+    """`file` or `message`; empty: not compressed by rosbag2."""
+    custom: dict[str, str] = field(default_factory=dict[str, str])
+    """Further facts that the recorder was given."""
 
     @property
     def begin(self) -> int:
@@ -101,16 +107,16 @@ class Metadata:
         times = _times(self.begin, self.end, self.count)
         return {
             "version": VERSION,
-            "storage_identifier": "mcap",
+            "storage_identifier": self.storage,
             "duration": times["duration"],
             "starting_time": times["starting_time"],
             "message_count": self.count,
             "topics_with_message_count": list(_topics(self.topics.values())),
-            "compression_format": "",
-            "compression_mode": "",
+            "compression_format": "zstd" if self.compression else "",
+            "compression_mode": self.compression.upper(),
             "relative_file_paths": [each.path for each in self.files],
             "files": [{"path": each.path, **_times(each.begin, each.end, each.count)} for each in self.files],
-            "custom_data": None,
+            "custom_data": self.custom or None,
             "ros_distro": "jazzy",
         }
 

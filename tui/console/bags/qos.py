@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, cast
 
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+import yaml
+from bot_console.tui.text.yaml_faults import UNREADABLE
+from rclpy.duration import Duration
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 
 FOREVER = {"sec": 9223372036, "nsec": 854775807}
 """How ROS 2 writes an infinite duration."""
+POLICIES: Mapping[str, Any] = {
+    "history": HistoryPolicy, "reliability": ReliabilityPolicy, "durability": DurabilityPolicy,
+    "liveliness": LivelinessPolicy,
+}  # fmt: skip
+"""Policies that are words in a file, by their names there."""
+DURATIONS = frozenset(["deadline", "lifespan", "liveliness_lease_duration"])
 
 
 def noted(profiles: Iterable[QoSProfile]) -> list[dict[str, Any]]:
@@ -42,3 +51,40 @@ def offered(entries: Iterable[Mapping[str, Any]]) -> QoSProfile:
         reliability=ReliabilityPolicy.BEST_EFFORT if weak else ReliabilityPolicy.RELIABLE,
         durability=DurabilityPolicy.TRANSIENT_LOCAL if latching else DurabilityPolicy.VOLATILE,
     )
+
+
+def read_overrides(text: str) -> dict[str, QoSProfile]:
+    """Profiles by topic, from a YAML file as `--qos-profile-overrides-path` takes it.
+
+    Raises `ValueError` that says what is wrong.
+    """
+    try:
+        data: Any = yaml.safe_load(text)
+    except UNREADABLE as error:
+        raise ValueError(f"it is no YAML: {' '.join(str(error).split())}") from None
+    if not isinstance(data, dict):
+        raise ValueError("it has to map topics to QoS profiles")
+    found = cast("dict[Any, Any]", data)
+    return {f"/{str(topic).lstrip('/')}": _profile(str(topic), policies) for topic, policies in found.items()}
+
+
+def _profile(topic: str, policies: Any) -> QoSProfile:
+    if not isinstance(policies, dict):
+        raise ValueError(f"{topic}: it has to map policies to values")
+    given: dict[str, Any] = {}
+    for name, value in cast("dict[str, Any]", policies).items():
+        kind = POLICIES.get(name)
+        try:
+            if kind is not None:
+                given[name] = kind[str(value).upper()]
+            elif name in DURATIONS:
+                given[name] = Duration(seconds=value["sec"], nanoseconds=value["nsec"])
+            elif name == "depth":
+                given[name] = max(0, int(value))
+            elif name != "avoid_ros_namespace_conventions":
+                raise ValueError(f"{topic}: there is no policy '{name}'")
+        except (KeyError, TypeError):
+            raise ValueError(f"{topic}: {name} cannot be '{value}'") from None
+    if "depth" not in given and given.get("history") != HistoryPolicy.KEEP_ALL:
+        given["depth"] = 10
+    return QoSProfile(**given)

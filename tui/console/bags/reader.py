@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 import yaml
 from bot_console.tui.console.bags.compression import ZSTD, unpack_file, unpack_message
 from bot_console.tui.console.bags.damage import NoBag, reading_errors, repair
-from bot_console.tui.console.bags.metadata import FILE, FilePart, Metadata
+from bot_console.tui.console.bags.metadata import FILE, FilePart, Metadata, Topic
 from bot_console.tui.console.bags.missing_packages import check
 from bot_console.tui.console.bags.sqlite_file import SqliteFile
 from bot_console.tui.text.yaml_faults import UNREADABLE
@@ -44,16 +44,20 @@ class Entry(NamedTuple):
 class Bag:
     """A bag opened for reading."""
 
-    def __init__(self, path: Path) -> None:
-        """Raises `NoBag`, and `Missing` without `mcap`."""
+    def __init__(self, path: Path, *, listed: bool = True) -> None:
+        """The files that its metadata lists, or all in the folder.
+
+        Raises `NoBag`, and `Missing` without `mcap`.
+        """
         check()
         self.path = path
-        self.files = _files(path)
+        about = _about(path)
+        self.files = _files(path, about if listed else {})
         self.repaired: list[str] = []
         """What was done to files that were unfinished."""
         self._unpacked: Path | None = None
         self._opened = [(each, self._open(each, self._plain(each))) for each in self.files]
-        self.metadata = Metadata([])
+        self.metadata = Metadata([], storage=self.storage, compression=_compression(about), custom=_custom(about))
         for file, contents in self._opened:
             self._note(file, contents)
         if self.repaired and path.is_dir() and self._unpacked is None:
@@ -66,6 +70,16 @@ class Bag:
         """
         found = (_messages(file, contents, topics, begin) for file, contents in self._opened)
         return heapq.merge(*found, key=lambda entry: entry.received)
+
+    @property
+    def topics(self) -> Mapping[str, Topic]:
+        """By name."""
+        return self.metadata.topics
+
+    @property
+    def span(self) -> tuple[int, int]:
+        """Times of the first and the last message (ns since the epoch); 0 if there is none."""
+        return self.metadata.begin, self.metadata.end
 
     @property
     def storage(self) -> str:
@@ -111,12 +125,11 @@ class Bag:
         self.metadata.files.append(part)
 
 
-def _files(path: Path) -> list[Path]:
+def _files(path: Path, about: Mapping[str, Any]) -> list[Path]:
     if path.is_file():
         return [path]
     if not path.is_dir():
         raise NoBag(f"{path}: no such bag")
-    about = _about(path)
     compression = str(about.get("compression_format") or "")
     if compression not in ("", "none", "zstd"):
         raise NoBag(f"{path} is compressed with {compression}, which cannot be unpacked here; only zstd can")
@@ -139,6 +152,17 @@ def _about(path: Path) -> Mapping[str, Any]:
         if isinstance(about, dict):
             return cast("dict[str, Any]", about)
     return {}
+
+
+def _compression(about: Mapping[str, Any]) -> str:
+    mode = str(about.get("compression_mode") or "").lower()
+    return mode if mode in ("file", "message") else ""
+
+
+def _custom(about: Mapping[str, Any]) -> dict[str, str]:
+    custom = about.get("custom_data")
+    facts = cast("dict[Any, Any]", custom) if isinstance(custom, dict) else {}
+    return {str(key): str(value) for key, value in facts.items()}
 
 
 def _messages(

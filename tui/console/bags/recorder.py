@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Protocol
 
 from bot_console.tui.console.bags.qos import noted
+from bot_console.tui.console.bags.sim_time import SimTime
 from bot_console.tui.console.offered_qos import OfferedSubscription
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -55,14 +57,31 @@ class Recorder:
     callbacks.
     """
 
-    def __init__(self, node: Node, sink: Sink, wanted: Callable[[str], bool], find: Callable[[str], Any]) -> None:
-        """`find` returns the class of a type name, and raises `ImportError` and the like if there is none."""
+    def __init__(
+        self,
+        node: Node,
+        sink: Sink,
+        wanted: Callable[[str, Sequence[str]], bool],
+        find: Callable[[str], Any],
+        *,
+        poll_s: float = TOPIC_POLL_S,
+        sim_time: bool = False,
+    ) -> None:
+        """`wanted` says whether a topic of some types is to be recorded, and is asked every `poll_s` seconds.
+
+        `find` returns the class of a type name, and raises `ImportError` and the like if there is none. With
+        `sim_time`, messages are stamped with the time of /clock, and those before its first message are discarded.
+        """
         self._node = node
         self._sink = sink
         self._wanted = wanted
         self._find = find
-        self._polled = 0.0
+        self._poll_s = poll_s
+        self._polled, self._flushed = -math.inf, time.monotonic()
         self._last = 0
+        self._sim_time = SimTime(node) if sim_time else None
+        self.paused = False
+        """Whether messages are discarded instead of recorded."""
         self.subscribed: dict[str, OfferedSubscription] = {}
         self.unknown: dict[str, str] = {}
         """Topics that cannot be recorded for now, and why: a type may become known later."""
@@ -73,34 +92,42 @@ class Recorder:
         self._take()
         for each in self.subscribed.values():
             each.destroy()
+        if self._sim_time is not None:
+            self._sim_time.destroy()
 
     def turn(self) -> None:
         """Take waiting messages; from time to time search for new topics, and flush. To be called every `PACE_S`
         seconds.
         """
         self._take()
-        if time.monotonic() - self._polled >= TOPIC_POLL_S:
-            self._polled = time.monotonic()
+        now = time.monotonic()
+        if now - self._polled >= self._poll_s:
+            self._polled = now
             self._poll()
+        if now - self._flushed >= TOPIC_POLL_S:
+            self._flushed = now
+            self._sink.flush()
+            for each in self.subscribed.values():
+                each.follow()
 
     def _take(self) -> None:
         now = time.time_ns()
         found = [(sent, name, data) for name, each in self.subscribed.items() for data, sent in each.drain()]
-        for received, name, data, sent in in_order(found, now, self._last):
+        if self._sim_time is not None:
+            self._sim_time.update()
+        for received, name, data, sent in () if self.paused else in_order(found, now, self._last):
             self._last = received
-            self._sink.write(name, data, received, sent)
+            at = received if self._sim_time is None else self._sim_time.at(received)
+            if at is not None:
+                self._sink.write(name, data, at, sent)
 
     def _poll(self) -> None:
-        """Subscribe to new topics, follow changes of QoS, and flush."""
-        self._sink.flush()
+        """Subscribe to new topics."""
         for name, types in self._node.get_topic_names_and_types():
-            if self._wanted(name):
-                self._follow(name, types)
+            if name not in self.subscribed and self._wanted(name, types):
+                self._subscribe(name, types)
 
-    def _follow(self, name: str, types: list[str]) -> None:
-        if name in self.subscribed:
-            self.subscribed[name].follow()
-            return
+    def _subscribe(self, name: str, types: list[str]) -> None:
         if len(types) != 1:
             self.unknown[name] = f"it has several types: {', '.join(types)}"
             return

@@ -130,7 +130,7 @@ class Recordings:
                     self._recorder.turn() if wanted else self._recorder.close()
                     self._recorder = self._recorder if wanted else None
                 elif wanted:
-                    self._recorder = Recorder(node, self._sink, CLOCK.__ne__, get_message)
+                    self._recorder = Recorder(node, self._sink, lambda name, _: name != CLOCK, get_message)
                 self._obey()  # after the turn, so that a bag which is closed now contains everything that came before
             if self._recorder is not None:
                 self._recorder.close()

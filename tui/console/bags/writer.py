@@ -2,79 +2,131 @@
 
 from __future__ import annotations
 
-import os
 import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from bot_console.tui.console.bags.definitions import definition, interface_type_name
-from bot_console.tui.console.bags.metadata import FilePart, Metadata, Topic, metadata_yaml
+from bot_console.tui.console.bags.metadata import FilePart, Metadata, Topic
 from bot_console.tui.console.bags.missing_packages import check
+from bot_console.tui.console.bags.storages import McapStorage, SqliteStorage, Storage
 from bot_console.tui.files.save_file import NotSaved
 
-FLUSH = 0.5
+FLUSH_S = 0.5
 """Seconds after which buffered data is written at the latest."""
+OVERHEAD_BYTES = 40
+"""About what a file needs for a message beside its data."""
+
+
+@dataclass(frozen=True)
+class Writing:
+    """The options for writing a bag."""
+
+    storage: str = "mcap"
+    """`mcap` or `sqlite3`."""
+    preset: str = "none"
+    """For MCAP as in rosbag2: `zstd_fast` and `zstd_small` compress chunks, `fastwrite` leaves out checksums."""
+    compression: str = "none"
+    """`message` or `file`: compressed with zstd."""
+    max_bytes: int = 0
+    """Size (bytes) from which on the next file is begun; 0: one file."""
+    max_seconds: float = 0.0
+    """Seconds of messages after which the next file is begun; 0: one file."""
+    custom: Mapping[str, str] = field(default_factory=dict[str, str])
+    """Further facts for the metadata."""
 
 
 class BagWriter:
     """A new bag folder. Raises `Missing` without `mcap`, and `NotSaved` if the folder exists or cannot be created."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, how: Writing | None = None) -> None:
         check()
-        from mcap.writer import CompressionType, Writer
-
         self.folder = folder
-        self.metadata = Metadata([FilePart(f"{folder.name}_0.mcap")])
+        self.how = how or Writing()
+        self.metadata = Metadata([], storage=self.how.storage, custom=dict(self.how.custom))
+        self._definitions: dict[str, str] = {}
+        self._compress: Any = None
+        if self.how.compression != "none":
+            from zstandard import ZstdCompressor
+
+            self.metadata.compression = self.how.compression
+            self._compress = ZstdCompressor()
         try:
             folder.mkdir(parents=True)
-            self._file = (folder / self.metadata.files[0].path).open("xb")
+            self._storage = self._next()
         except FileExistsError:
             raise NotSaved(f"{folder} exists already; choose another name") from None
         except OSError as error:
             raise NotSaved(f"{folder}: {error.strerror or error}") from error
-        self._writer = Writer(self._file, compression=CompressionType.NONE)
-        self._writer.start(profile="ros2", library="bot-console")
-        self._channels: dict[str, int] = {}
-        self._schemas: dict[str, int] = {}
-        self._numbers: dict[int, int] = {}
         self.flush()  # so that a recorder killed before its first message leaves an empty bag instead of a broken file
         self.metadata.save(folder)
 
     def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
         """Add a topic; call it before its first message."""
-        if name in self._channels:
-            return
-        type = interface_type_name(kind)
-        if type not in self._schemas:
-            text = definition(kind).encode()
-            self._schemas[type] = self._writer.register_schema(name=type, encoding="ros2msg", data=text)
-        offered = metadata_yaml(qos)
-        facts = {"offered_qos_profiles": offered, "topic_type_hash": type_hash}
-        self._channels[name] = self._writer.register_channel(
-            topic=name, message_encoding="cdr", schema_id=self._schemas[type], metadata=facts
-        )
-        self.metadata.topics[name] = Topic(name, type, qos, type_hash)
+        if name not in self.metadata.topics:
+            self.add(Topic(name, interface_type_name(kind), qos, type_hash), definition(kind))
+
+    def add(self, topic: Topic, definition: str) -> None:
+        """Add a topic by the text of its definition."""
+        self._storage.topic(topic, definition)
+        self.metadata.topics[topic.name] = topic
+        self._definitions[topic.name] = definition
 
     def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
         """Add a message (CDR), with the times (ns since the epoch) at which it was received and sent."""
-        channel = self._channels[topic]
-        number = self._numbers[channel] = self._numbers.get(channel, -1) + 1
-        self._writer.add_message(channel, log_time=received, data=data, publish_time=sent or received, sequence=number)
+        part = self.metadata.files[-1]
+        if part.count and self._full(part, received):
+            self.split()
+            part = self.metadata.files[-1]
+        if self.how.compression == "message":
+            data = self._compress.compress(data)
+        self._storage.write(topic, data, received, sent)
+        self._bytes += len(data) + OVERHEAD_BYTES
         self.metadata.topics[topic].count += 1
-        self.metadata.files[-1].count += 1
-        self.metadata.files[-1].seen(received)
-        if time.monotonic() - self._flushed > FLUSH:
+        part.count += 1
+        part.seen(received)
+        if time.monotonic() - self._flushed > FLUSH_S:
             self.flush()
+
+    def split(self) -> None:
+        """Begin the next file."""
+        self._finish()
+        self._storage = self._next()
+        for name, topic in self.metadata.topics.items():
+            self._storage.topic(topic, self._definitions[name])
+        self.metadata.save(self.folder)
 
     def flush(self) -> None:
         """Pass what is buffered to the operating system."""
         self._flushed = time.monotonic()
-        self._writer.flush()
+        self._storage.flush()
 
     def close(self) -> None:
         """Finish the file and the folder's metadata."""
-        self._writer.finish()
-        self._file.flush()
-        os.fsync(self._file.fileno())
-        self._file.close()
+        self._finish()
         self.metadata.save(self.folder)
+
+    def _full(self, part: FilePart, received: int) -> bool:
+        seconds = (received - part.begin) / 1e9
+        return 0 < self.how.max_bytes <= self._bytes or 0 < self.how.max_seconds <= seconds
+
+    def _next(self) -> Storage:
+        number, how = len(self.metadata.files), self.how
+        name = f"{self.folder.name}_{number}.{'db3' if how.storage == 'sqlite3' else 'mcap'}"
+        path, self._bytes = self.folder / name, 0
+        self.metadata.files.append(FilePart(name))
+        if how.storage == "sqlite3":
+            return SqliteStorage(path)
+        return McapStorage(path, compressed=how.preset.startswith("zstd"), crc=how.preset != "fastwrite")
+
+    def _finish(self) -> None:
+        self._storage.close()
+        if self.how.compression == "file":
+            part = self.metadata.files[-1]
+            path = self.folder / part.path
+            part.path += ".zstd"
+            with path.open("rb") as file, (self.folder / part.path).open("xb") as packed:
+                self._compress.copy_stream(file, packed, size=path.stat().st_size)
+            path.unlink()

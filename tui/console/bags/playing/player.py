@@ -1,4 +1,4 @@
-"""Plays a bag: publishes its messages in order and with their original timing."""
+"""Plays bags: publishes their messages in order and with their original timing, and can be paused and moved."""
 
 from __future__ import annotations
 
@@ -6,12 +6,38 @@ import threading
 import time
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Protocol
 
+from bot_console.tui.console.bags.metadata import Topic
 from bot_console.tui.console.bags.playing.control_topics import controls
 from bot_console.tui.console.bags.qos import offered
-from bot_console.tui.console.bags.reader import Bag
+from bot_console.tui.console.bags.reader import Entry
+from rclpy.duration import Duration
 from rclpy.node import Node
+from rclpy.qos import QoSProfile
+
+CLOCK = "/clock"
+STOP_POLL_S = 0.1
+"""How long a player waits at most before it looks whether it is to stop."""
+MIN_RATE, MAX_RATE = 0.01, 1e9
+
+
+class Recorded(Protocol):
+    """One bag, or several that are played together."""
+
+    @property
+    def topics(self) -> Mapping[str, Topic]:
+        """By name."""
+        ...
+
+    @property
+    def span(self) -> tuple[int, int]:
+        """Times of the first and the last message (ns since the epoch)."""
+        ...
+
+    def messages(self, topics: Collection[str] | None = None, begin: int = 0) -> Any:
+        """Messages since a time, in order."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -22,19 +48,28 @@ class Playing:
     """Seconds of the bag that pass in one second."""
     offset: float = 0.0
     """Seconds to skip at the start of the bag."""
+    end: int | None = None
+    """The time (ns since the epoch) at which to stop; None: at the end of the bag."""
     loop: bool = False
+    paused: bool = False
     topics: Collection[str] | None = None
     """Topics to play; None: all except those that control a robot, see `control_topics`."""
+    chosen: Callable[[str], bool] = field(default=lambda _: True)
+    """Which of the others to play, by name."""
     remaps: Mapping[str, str] = field(default_factory=dict[str, str])
     """New names by recorded topic name."""
+    qos: Mapping[str, QoSProfile] = field(default_factory=dict[str, QoSProfile])
+    """Profiles by recorded topic name that replace the recorded ones."""
     clock: float = 0.0
     """Rate (Hz) at which the bag's time is published on /clock; 0: never."""
+    clock_topics: Collection[str] | None = ()
+    """Topics before whose messages the time is published, too; None: all."""
 
 
 class Player:
-    """Publishes the messages of a bag through a node."""
+    """Publishes the messages of a bag through a node. Its methods may be called from any thread."""
 
-    def __init__(self, node: Node, bag: Bag, how: Playing, find: Callable[[str], Any]) -> None:
+    def __init__(self, node: Node, bag: Recorded, how: Playing, find: Callable[[str], Any]) -> None:
         """`find` returns the class of a type name; topics of unknown types are listed in `unknown` and left out.
 
         Topics that control a robot are listed in `left_out`, unless `how.topics` names them. A topic that is remapped
@@ -46,11 +81,108 @@ class Player:
         self.unknown: dict[str, str] = {}
         self.left_out: list[str] = []
         self.published = 0
+        self._choose(node, find)
+        clock_topics = how.clock_topics is None or bool(how.clock_topics)
+        self._clock = Clock(node, how.clock) if how.clock > 0 or clock_topics else None
+        self._changed = threading.Condition()
+        self.begin, last = bag.span
+        self.end = last if how.end is None else min(last, how.end)
+        self._from = min(self.begin + int(how.offset * 1e9), self.end)
+        self._position, self._since = self._from, time.monotonic()
+        """A time of the bag, and the time (s) at which it was reached."""
+        self._rate, self._paused, self._loop = how.rate, how.paused, how.loop
+        self._steps = 0
+        self._jump: int | None = None
+
+    @property
+    def position(self) -> int:
+        """The time of the bag that is being played (ns since the epoch)."""
+        with self._changed:
+            return min(self._now(), self.end)
+
+    @property
+    def rate(self) -> float:
+        """Seconds of the bag that pass in one second."""
+        return self._rate
+
+    @rate.setter
+    def rate(self, rate: float) -> None:
+        with self._changed:
+            self._anchor(self._now())
+            self._rate = min(max(rate, MIN_RATE), MAX_RATE)
+            self._changed.notify_all()
+
+    @property
+    def paused(self) -> bool:
+        """Whether time stands still."""
+        return self._paused
+
+    @paused.setter
+    def paused(self, paused: bool) -> None:
+        with self._changed:
+            self._anchor(self._now())
+            self._paused = paused
+            self._changed.notify_all()
+
+    @property
+    def loop(self) -> bool:
+        """Whether it starts again at the end."""
+        return self._loop
+
+    @loop.setter
+    def loop(self, loop: bool) -> None:
+        self._loop = loop
+
+    def step(self, count: int = 1) -> None:
+        """Pause, and publish the next messages."""
+        with self._changed:
+            if not self._paused:
+                self._anchor(self._now())
+                self._paused = True
+            self._steps += count
+            self._changed.notify_all()
+
+    def seek(self, stamp: int) -> None:
+        """Continue at a time of the bag (ns since the epoch), or at its nearer end."""
+        with self._changed:
+            self._jump = min(max(stamp, self.begin), self.end)
+            self._steps = 0
+            self._anchor(self._jump)
+            self._changed.notify_all()
+
+    def run(self, stopped: threading.Event) -> None:
+        """Play until the end, or until `stopped` is set; blocks."""
+        begin: int | None = self._from
+        with self._changed:
+            self._anchor(self._from)
+        while begin is not None and not stopped.is_set():
+            begin = self._play(begin, stopped)
+            if begin is None and self._loop and not stopped.is_set():
+                begin = self._from
+                with self._changed:
+                    self._anchor(begin)
+
+    def burst(self, count: int) -> None:
+        """Publish the next messages at once; 0 means all."""
+        for number, entry in enumerate(self._bag.messages(self._publishers, self._from), 1):
+            self._publish(entry)
+            self._anchor(entry.received)
+            if number == count:
+                return
+
+    def wait_for_acknowledgements(self, timeout_ms: int) -> None:
+        """Wait until the subscribers have received all messages, at most so long; 0 means for ever."""
+        timeout = Duration(nanoseconds=timeout_ms * 10**6) if timeout_ms else Duration(seconds=-1)
+        for each in self._publishers.values():
+            each.wait_for_all_acked(timeout)
+
+    def _choose(self, node: Node, find: Callable[[str], Any]) -> None:
+        how = self._how
         named = None if how.topics is None else {_absolute(each) for each in how.topics}
         remaps = {_absolute(old): new for old, new in how.remaps.items()}
-        for name, topic in bag.metadata.topics.items():
+        for name, topic in self._bag.topics.items():
             target = remaps.get(name, name)
-            if named is not None and name not in named:
+            if (named is not None and name not in named) or not how.chosen(name) or (name == CLOCK and how.clock > 0):
                 continue
             if named is None and (controls(name, topic.type) or controls(target, topic.type)):
                 self.left_out.append(name)
@@ -61,33 +193,63 @@ class Player:
             except (ImportError, AttributeError, ValueError) as error:
                 self.unknown[name] = f"its type {topic.type} is not available here ({error})"
                 continue
-            self._publishers[name] = node.create_publisher(kind, target, offered(topic.qos))
-        self._clock = Clock(node, how.clock) if how.clock > 0 else None
+            self._publishers[name] = node.create_publisher(kind, target, how.qos.get(name) or offered(topic.qos))
 
-    def run(self, stopped: threading.Event) -> None:
-        """Play until the end, or until `stopped` is set; blocks."""
-        while not stopped.is_set():
-            self._once(stopped)
-            if not self._how.loop:
-                return
+    def _play(self, begin: int, stopped: threading.Event) -> int | None:
+        """Play from a time on; returns where to continue if it was moved, None at the end."""
+        for entry in self._bag.messages(self._publishers, begin):
+            if entry.received > self.end:
+                break
+            if not self._wait(entry, stopped):
+                return self._jumped()
+            self._publish(entry)
+        while self._paused and not stopped.is_set():  # one who steps or seeks may come back from the end
+            with self._changed:
+                if self._jump is not None:
+                    break
+                self._steps = 0
+                self._changed.wait(STOP_POLL_S)
+        return self._jumped()
 
-    def _once(self, stopped: threading.Event) -> None:
-        first = self._bag.metadata.begin + int(self._how.offset * 1e9)
-        begun = time.monotonic()
-        for entry in self._bag.messages(self._publishers, first):
-            due = begun + (entry.received - first) / 1e9 / self._how.rate
-            while (wait := due - time.monotonic()) > 0:
-                step = wait if self._clock is None else min(wait, self._clock.period)
-                if stopped.wait(step):
-                    return
-                if self._clock is not None:
-                    self._clock.report(first + int((time.monotonic() - begun) * 1e9 * self._how.rate))
-            if stopped.is_set():
-                return
-            if self._clock is not None:
-                self._clock.report(entry.received)
-            self._publishers[entry.topic].publish(entry.data)
-            self.published += 1
+    def _wait(self, entry: Entry, stopped: threading.Event) -> bool:
+        """Wait until a message is due; False if it was stopped or moved instead."""
+        while True:
+            with self._changed:
+                if stopped.is_set() or self._jump is not None:
+                    return False
+                if self._steps:
+                    self._steps -= 1
+                    self._anchor(entry.received)
+                    return True
+                wait = (entry.received - self._now()) / 1e9 / self._rate
+                if not self._paused and wait <= 0:
+                    return True
+                period = STOP_POLL_S if self._clock is None else min(self._clock.period, STOP_POLL_S)
+                self._changed.wait(period if self._paused else min(wait, period))
+                now = self._now()
+            if self._how.clock > 0 and self._clock is not None:
+                self._clock.report(min(now, entry.received))
+
+    def _publish(self, entry: Entry) -> None:
+        topics = self._how.clock_topics
+        if self._clock is not None:
+            due = topics is None or entry.topic in topics
+            if due or self._how.clock > 0:
+                self._clock.report(entry.received, now=due)
+        self._publishers[entry.topic].publish(entry.data)
+        self.published += 1
+
+    def _jumped(self) -> int | None:
+        with self._changed:
+            jump, self._jump = self._jump, None
+            return jump
+
+    def _now(self) -> int:
+        passed = 0.0 if self._paused else time.monotonic() - self._since
+        return self._position + int(passed * 1e9 * self._rate)
+
+    def _anchor(self, position: int) -> None:
+        self._position, self._since = position, time.monotonic()
 
 
 def _absolute(topic: str) -> str:
@@ -101,13 +263,13 @@ class Clock:
         from rosgraph_msgs.msg import Clock as Message
 
         self._message = Message
-        self._publisher = node.create_publisher(Message, "/clock", 10)
-        self.period = 1.0 / rate
-        self._reported = 0
+        self._publisher = node.create_publisher(Message, CLOCK, 10)
+        self.period = 1.0 / rate if rate else float("inf")
+        self._reported = -1
 
-    def report(self, stamp: int) -> None:
-        """Publish a time (ns), unless another was published less than one period before it."""
-        if 0 <= stamp - self._reported < self.period * 1e9:
+    def report(self, stamp: int, *, now: bool = False) -> None:
+        """Publish a time (ns), unless another was published less than one period before it; `now` does in any case."""
+        if not now and 0 <= stamp - self._reported < self.period * 1e9:
             return
         self._reported = stamp
         message = self._message()

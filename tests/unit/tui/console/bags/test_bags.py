@@ -248,7 +248,7 @@ def test_recorded_messages_can_be_played(tmp_path: Path, node: rclpy.node.Node) 
     other = node.create_publisher(String, "/hidden", 10)
     publisher.publish(String(data="before"))
     writer = BagWriter(tmp_path / "bag")
-    recorder = Recorder(node, writer, lambda name: name == "/words", get_message)
+    recorder = Recorder(node, writer, lambda name, _: name == "/words", get_message)
     for text in ("one", "two"):
         publisher.publish(String(data=text))
         other.publish(String(data="no"))

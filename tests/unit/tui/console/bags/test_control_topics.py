@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 import rclpy
+from bot_console.tui.cli.bags import common, play
 from bot_console.tui.cli.verbs import bag as verb
 from bot_console.tui.console.bags.playing.control_topics import controls
 from bot_console.tui.console.bags.playing.player import Player, Playing
@@ -85,8 +86,8 @@ def test_a_topic_remapped_to_a_control_topic_is_left_out(node: rclpy.node.Node, 
 def test_the_warning_reports_what_is_left_out_and_how_to_include_it(
     recorded: Bag, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(verb, "reach_system", lambda: "")
-    monkeypatch.setattr(verb, "READY", 0.0)
+    monkeypatch.setattr(common, "reach_system", lambda: "")
+    monkeypatch.setattr(play, "READY_S", 0.0)
     try:
         assert verb.run(["play", str(recorded.path), "-r", "1e6"]) == 0
     finally:

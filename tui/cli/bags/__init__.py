@@ -1,0 +1,1 @@
+"""The verbs of `bot-console bag`: their arguments, and what they do."""

@@ -1,0 +1,146 @@
+"""`bag convert`, `reindex` and `list`."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, cast
+
+import yaml
+from bot_console.tui.cli.bags.play import report_repaired
+from bot_console.tui.format import sanitize
+from bot_console.tui.text.yaml_faults import UNREADABLE
+
+PLUGINS: Mapping[str, tuple[str, ...]] = {
+    "storage": ("mcap", "sqlite3"),
+    "converter": (),
+    "compression": ("rosbag2_compression_zstd::ZstdCompressor",),
+    "decompression": ("rosbag2_compression_zstd::ZstdDecompressor",),
+}
+"""The names under which rosbag2 lists what can be done here, too."""
+DONE_HERE = frozenset(
+    ["uri", "storage_id", "max_bagfile_size", "max_bagfile_duration", "storage_preset_profile", "topics", "services",
+     "topic_types", "all", "all_topics", "all_services", "regex", "exclude_regex", "exclude_topics",
+     "exclude_topic_types", "exclude_services", "exclude", "compression_mode", "compression_format", "custom_data",
+     "include_hidden_topics", "include_unpublished_topics"]
+)  # fmt: skip
+"""Keys of an output that are followed; others are ignored with a line."""
+
+
+def add_convert_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of `convert`."""
+    parser.add_argument("-i", "--input", nargs="+", action="append", required=True, metavar=("BAG", "STORAGE"))
+    parser.add_argument("-o", "--output-options", type=Path, required=True, metavar="FILE", help="YAML: output_bags")
+
+
+def convert(given: argparse.Namespace) -> int:
+    """Write bags anew with other settings; 0 done, 1 failed."""
+    from bot_console.tui.console.bags.reader import Bag
+
+    try:
+        outputs = _outputs(given.output_options)
+        bags = [Bag(Path(each[0])) for each in given.input]
+        for each in bags:
+            report_repaired(each)
+        for each in outputs:
+            _write(bags, each)
+    except (OSError, ValueError, re.error) as error:
+        print(sanitize(str(error)), file=sys.stderr)
+        return 1
+    return 0
+
+
+def _outputs(path: Path) -> list[dict[str, Any]]:
+    try:
+        data: Any = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except UNREADABLE as error:
+        raise ValueError(f"{path} is no YAML: {' '.join(str(error).split())}") from None
+    listed: Any = cast("dict[str, Any]", data).get("output_bags") if isinstance(data, dict) else None
+    found = cast("list[Any]", listed) if isinstance(listed, list) else []
+    if not found or not all(isinstance(each, dict) and "uri" in each for each in found):
+        raise ValueError(f"{path} has to list 'output_bags', each with a 'uri'")
+    return found
+
+
+def _write(bags: list[Any], output: Mapping[str, Any]) -> None:
+    from bot_console.tui.cli.bags.record_arguments import wanted_topics
+    from bot_console.tui.console.bags.definitions import class_of, definition
+    from bot_console.tui.console.bags.together import BagsTogether
+    from bot_console.tui.console.bags.writer import BagWriter, Writing
+
+    unknown = sorted(output.keys() - DONE_HERE)
+    if unknown:
+        print(
+            sanitize(f"{output['uri']}: ignored, since nothing here depends on it: {', '.join(unknown)}"),
+            file=sys.stderr,
+        )
+    bag = BagsTogether(bags)
+    wanted = wanted_topics(_filters(output), lambda _: True, lambda _: True)
+    writer = BagWriter(
+        Path(str(output["uri"])),
+        Writing(
+            str(output.get("storage_id") or "mcap"), str(output.get("storage_preset_profile") or "none"),
+            str(output.get("compression_mode") or "none").lower(), int(output.get("max_bagfile_size") or 0),
+            float(output.get("max_bagfile_duration") or 0), dict(output.get("custom_data") or {}),
+        ),
+    )  # fmt: skip
+    for name, topic in bag.topics.items():
+        if not wanted(name, [topic.type]):
+            continue
+        try:
+            text = definition(class_of(topic.type))
+        except (ImportError, AttributeError, ValueError) as error:
+            text = ""
+            print(sanitize(f"{name}: written without the definition of {topic.type} ({error})"), file=sys.stderr)
+        writer.add(type(topic)(topic.name, topic.type, topic.qos, topic.type_hash, 0, topic.encoding), text)
+    for entry in bag.messages(list(writer.metadata.topics)):
+        writer.write(entry.topic, entry.data, entry.received, 0)
+    writer.close()
+    print(sanitize(f"{writer.metadata.count} messages of {len(writer.metadata.topics)} topics in {writer.folder}"))
+
+
+def _filters(output: Mapping[str, Any]) -> argparse.Namespace:
+    def several(name: str) -> list[str]:
+        listed: list[Any] = output.get(name) or []
+        return [str(each) for each in listed]
+
+    patterns = {
+        name: re.compile(str(output[name])) if output.get(name) else None for name in ("regex", "exclude_regex")
+    }
+    lists = ("topics", "services", "topic_types", "exclude_topics", "exclude_topic_types", "exclude_services")
+    flags = ("all", "all_topics", "all_services")
+    chosen = {name: several(name) for name in lists} | {name: bool(output.get(name)) for name in flags} | patterns
+    if output.get("exclude") and not patterns["exclude_regex"]:  # the name of earlier releases
+        chosen["exclude_regex"] = re.compile(str(output["exclude"]))
+    anything = any(chosen[name] for name in ("topics", "services", "topic_types", "regex", *flags))
+    chosen["all"] = chosen["all"] or not anything
+    return argparse.Namespace(
+        **chosen, topics_positional=[], include_hidden_topics=True, include_unpublished_topics=True,
+        ignore_leaf_topics=False,
+    )  # fmt: skip
+
+
+def reindex(given: argparse.Namespace) -> int:
+    """Write the metadata of a bag folder anew; 0 done, 1 failed."""
+    from bot_console.tui.console.bags.reader import Bag
+
+    if not given.bag.is_dir():
+        print(f"{given.bag}: not the folder of a bag", file=sys.stderr)
+        return 1
+    bag = Bag(given.bag, listed=False)
+    report_repaired(bag)
+    bag.metadata.save(given.bag)
+    print(sanitize(f"{bag.metadata.count} messages of {len(bag.metadata.topics)} topics in {given.bag}"))
+    return 0
+
+
+def list_plugins(given: argparse.Namespace) -> int:
+    """Print the names of plug-ins; returns 0."""
+    if given.verbose:
+        print(f"available {given.plugin_type} plugins are:")
+    for each in PLUGINS[given.plugin_type]:
+        print(f"name: {each}" if given.verbose else each)
+    return 0
