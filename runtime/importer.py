@@ -15,9 +15,9 @@ from importlib.machinery import ModuleSpec, PathFinder
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from bot_console.runtime.interface_finder import InterfaceFinder, interface_folders, spec_on_path
-from bot_console.runtime.missing_packages import explain_missing_package
+from bot_console.runtime.interfaces.interface_finder import InterfaceFinder, interface_folders, spec_on_path
 from bot_console.runtime.process.crashes import explain_with
+from bot_console.runtime.programs.missing_packages import explain_missing_package
 from bot_console.runtime.rosidl.sources import EXAMPLES, add_source
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from importlib.machinery import ModuleSpec, PathFinder
 from types import ModuleType
 
-from bot_console.runtime.child_discovery import let_children_meet
+from bot_console.runtime.children.child_discovery import let_children_meet
 from bot_console.runtime.importer import install
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import close_shared_buses, share_domains

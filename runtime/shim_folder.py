@@ -16,10 +16,10 @@ from functools import cache
 from importlib.machinery import PathFinder
 from pathlib import Path
 
-from bot_console.runtime.further_interfaces import added_by_user, unverified_folders
+from bot_console.runtime.files.user_folders import cache_folder
 from bot_console.runtime.importer import DEMOS, OWN_PACKAGES, PACKAGES, generated_packages
+from bot_console.runtime.interfaces.further_interfaces import added_by_user, unverified_folders
 from bot_console.runtime.process.scratch import scratch
-from bot_console.runtime.user_folders import cache_folder
 
 PACKAGE = Path(__file__).absolute().parents[1]
 SHIMS = Path(__file__).absolute().parent / "shims"

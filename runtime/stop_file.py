@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bot_console.runtime.domain_id import domain_id
-from bot_console.runtime.user_folders import state_folder
+from bot_console.runtime.files.user_folders import state_folder
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -14,9 +14,9 @@ from fnmatch import fnmatch
 from pathlib import Path
 
 import yaml
-from bot_console.runtime.further_interfaces import unverified_folders
 from bot_console.runtime.importer import install, is_embedded
-from bot_console.runtime.missing_packages import explain_missing_package
+from bot_console.runtime.interfaces.further_interfaces import unverified_folders
+from bot_console.runtime.programs.missing_packages import explain_missing_package
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "what-runs.md"
 HEAD = """# What runs

@@ -14,8 +14,8 @@ from concurrent.futures import Future
 from typing import Any, cast
 
 import launch.logging
-from bot_console.runtime.exit_messages import limit_fault
 from bot_console.runtime.process.stepping.event_loop import new_event_loop
+from bot_console.runtime.programs.exit_messages import limit_fault
 from launch.event_handlers import OnIncludeLaunchDescription, OnShutdown
 from launch.events import IncludeLaunchDescription, Shutdown
 from launch.launch_context import LaunchContext

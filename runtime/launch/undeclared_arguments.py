@@ -6,7 +6,7 @@ from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 import launch.logging
-from bot_console.runtime.hints import did_you_mean
+from bot_console.runtime.programs.hints import did_you_mean
 from launch.action import Action
 
 if TYPE_CHECKING:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import launch.logging
 from ament_index_python.packages import PackageNotFoundError
-from bot_console.runtime.hints import at, no_package
-from bot_console.runtime.missing_packages import what_brings
+from bot_console.runtime.programs.hints import at, no_package
+from bot_console.runtime.programs.missing_packages import what_brings
 from bot_console.runtime.workspace.choices import package_names
 from bot_console.runtime.workspace.executables import executables
 from bot_console.runtime.workspace.not_found import to_add

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ament_index_python.packages import PackageNotFoundError, get_package_prefix
-from bot_console.runtime.plain_file import examine
+from bot_console.runtime.programs.plain_file import examine
 from bot_console.runtime.workspace.builtin_package import ROOT, is_own
 from bot_console.runtime.workspace.demos import IMPORT_NAME
 from bot_console.runtime.workspace.discover import workspace
@@ -83,9 +83,9 @@ def os_command(package: str | None, command: list[str], at: int) -> list[str]:
     """
     executable = _known(package, command[at])
     if executable is not None and executable.entry_point is not None:
-        runner = [sys.executable, "-m", "bot_console.runtime.run", executable.package, executable.name]
+        runner = [sys.executable, "-m", "bot_console.runtime.programs.run", executable.package, executable.name]
     elif _is_python(command[at]) and not any(map(_is_interpreter, command[:at])):
-        runner = [sys.executable, "-m", "bot_console.runtime.run", command[at]]
+        runner = [sys.executable, "-m", "bot_console.runtime.programs.run", command[at]]
     else:
         return command
     return [*command[:at], *runner, *command[at + 1 :]]

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from bot_console.runtime.hints import is_read
 from bot_console.runtime.process.scratch import scratch_file
+from bot_console.runtime.programs.hints import is_read
 from bot_console.runtime.rmw.parameter_places import FROM_LAUNCH
 from bot_console.runtime.workspace.parameter_files import hint_for
 from launch_ros.descriptions.parameter_file import PREFIX

@@ -6,9 +6,9 @@ from collections.abc import Collection, Iterator, Sequence
 from types import FunctionType, TracebackType
 from typing import TYPE_CHECKING, Any
 
-from bot_console.runtime.hints import at, key_of_another_node
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
+from bot_console.runtime.programs.hints import at, key_of_another_node
 from bot_console.runtime.rmw import names, remapping
 from bot_console.runtime.rmw.parameter_places import place_of_key
 from bot_console.runtime.rmw.parameter_precedence import COMMAND_LINE, key_matches

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from bot_console.runtime.hints import assignment, did_you_mean
+from bot_console.runtime.programs.hints import assignment, did_you_mean
 from bot_console.runtime.rmw.lexer import GrammarError, Lexeme, Lexer
 from bot_console.runtime.rmw.names import validate_namespace
 from bot_console.runtime.rmw.parameter_precedence import ParameterTable, ParameterYamlError

@@ -7,8 +7,8 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-from bot_console.runtime import hints
-from bot_console.runtime.remote_address import is_remote
+from bot_console.runtime.files.remote_address import is_remote
+from bot_console.runtime.programs import hints
 from bot_console.runtime.rmw.names import validate_namespace, validate_node_name
 from bot_console.runtime.rmw.parameter_overrides import NodeOverrides, ParameterOverrides, ParameterYamlError
 from bot_console.runtime.rmw.parameter_value import ValueWriter, yaml_events
@@ -22,7 +22,7 @@ def read_parameter_file(path: str, overrides: ParameterOverrides) -> None:
     import yaml
 
     if is_remote(path):
-        from bot_console.runtime.remote_parameters import RemoteError, local_copy
+        from bot_console.runtime.files.remote_parameters import RemoteError, local_copy
 
         try:
             path = str(local_copy(path))

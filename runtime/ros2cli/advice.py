@@ -7,8 +7,8 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
 
-from bot_console.runtime.hints import did_you_mean, is_read
-from bot_console.runtime.hints import wrong_type as _written
+from bot_console.runtime.programs.hints import did_you_mean, is_read
+from bot_console.runtime.programs.hints import wrong_type as _written
 
 FEW = 8
 """Names that fit a hint of one line or two."""

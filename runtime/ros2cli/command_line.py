@@ -10,7 +10,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from functools import partial
 
-from bot_console.runtime.exit_messages import ended_code, place_fault
+from bot_console.runtime.programs.exit_messages import ended_code, place_fault
 from ros2cli.advice import advise, usage
 from ros2cli.command import Command, Result, Verb
 

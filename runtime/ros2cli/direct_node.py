@@ -10,7 +10,7 @@ from types import TracebackType
 from typing import Any, NamedTuple
 
 import rclpy
-from bot_console.runtime.exit_messages import is_read
+from bot_console.runtime.programs.exit_messages import is_read
 from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.endpoints import Owner
 from bot_console.runtime.rmw.names import full_name

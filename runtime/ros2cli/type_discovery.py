@@ -9,7 +9,7 @@ from collections.abc import Callable
 from contextlib import nullcontext
 from typing import TYPE_CHECKING, Any
 
-from bot_console.runtime.learned_interfaces import TYPE_NAME, learned_folders
+from bot_console.runtime.interfaces.learned_interfaces import TYPE_NAME, learned_folders
 from rosidl_runtime_py.utilities import get_message
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ def full_type_name(kind: str, type_name: str) -> str:
 
 def _learned(node: Node, type_name: str) -> str | None:
     """Learn a type (an action's also by its parts); returns "", why it failed, or None if no node has it."""
-    from bot_console.runtime.type_inquiry import inquiries, whole
+    from bot_console.runtime.interfaces.type_inquiry import inquiries, whole
 
     why = None
     for name, inquiry in inquiries(node.context.get_domain_id(), whole(type_name)).items():

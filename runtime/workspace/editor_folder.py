@@ -12,13 +12,13 @@ import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
+from bot_console.runtime.files.user_folders import cache_folder
 from bot_console.runtime.importer import PACKAGES, RUNTIME
-from bot_console.runtime.interface_finder import interface_folders
-from bot_console.runtime.plain_file import QT
+from bot_console.runtime.interfaces.interface_finder import interface_folders
+from bot_console.runtime.programs.plain_file import QT
 from bot_console.runtime.rosidl.sources import EXAMPLES
 from bot_console.runtime.rosidl.stubs import package_stubs
 from bot_console.runtime.rosidl.texts import KINDS, PREFIX
-from bot_console.runtime.user_folders import cache_folder
 
 WINDOWS = '''\
 """A package of desktop ROS 2: bot-console cannot run it, since it opens windows. Known here for the editor only."""

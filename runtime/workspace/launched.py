@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from bot_console.runtime.importer import node_modules
-from bot_console.runtime.plain_file import then_main
 from bot_console.runtime.process import entry_point_program, file_program
+from bot_console.runtime.programs.plain_file import then_main
 from bot_console.runtime.workspace.discover import Workspace, use, workspace
 
 Program = Callable[[], object]

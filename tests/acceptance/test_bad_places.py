@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from bot_console.runtime.exit_messages import run_and_report
+from bot_console.runtime.programs.exit_messages import run_and_report
 from bot_console.tui.console.model import ProcessState
 from bot_console.tui.session.embedded.child_host import start_host
 from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH
@@ -172,7 +172,7 @@ def test_node_below_a_path_that_is_not_utf_8_logs_as_usual(tmp_path: Path) -> No
 
 def test_character_missing_in_the_c_locale_is_replaced(tmp_path: Path) -> None:
     program = (
-        "from bot_console.runtime.exit_messages import run_and_report; "
+        "from bot_console.runtime.programs.exit_messages import run_and_report; "
         "run_and_report(lambda: print(chr(0xfffd), 'held') or 0)"
     )
     locale = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}

@@ -19,7 +19,7 @@ PLANTED = {
     "tui/session/live.py": "import bot_console.runtime.importer",
     "tui/session/launch_host/host.py": "import bot_console.runtime.importer",
     "tui/session/embedded/domain.py": "import bot_console.tui.app",
-    "runtime/run.py": "import bot_console.tui.format",
+    "runtime/programs/run.py": "import bot_console.tui.format",
     "runtime/process/current.py": "import bot_console.runtime.rmw.bus",
     "runtime/rmw/local.py": "import rclpy",
     "nodes/robot_node.py": "import bot_console.runtime.importer",

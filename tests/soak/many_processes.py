@@ -21,7 +21,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from bot_console.runtime.warm_up import warm_up
+from bot_console.runtime.children.warm_up import warm_up
 
 PROCESSES = 50
 TIMEOUT_S = 120.0

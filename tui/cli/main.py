@@ -60,7 +60,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if words == ["--version"]:
         print(f"bot-console {__version__}")
         return 0
-    from bot_console.runtime.exit_messages import help_is_english, report_help_errors
+    from bot_console.runtime.programs.exit_messages import help_is_english, report_help_errors
 
     help_is_english()
     report_help_errors()
@@ -114,7 +114,7 @@ def _in_workspace(words: Words) -> Words:
 
 def program() -> NoReturn:
     """The entry point of the process."""
-    from bot_console.runtime.exit_messages import run_and_report
+    from bot_console.runtime.programs.exit_messages import run_and_report
 
     end_program(run_and_report(_program))
 

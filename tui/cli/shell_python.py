@@ -10,7 +10,7 @@ import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from bot_console.runtime.child_environment import EMBEDDED
+from bot_console.runtime.children.child_environment import EMBEDDED
 from bot_console.runtime.shim_folder import BESIDE, SHIMS
 
 ANSWER_TIMEOUT_S = 10.0

@@ -17,10 +17,10 @@ from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING
 
-from bot_console.runtime.hints import SHOW
 from bot_console.runtime.importer import install
 from bot_console.runtime.process import NodeProcess
 from bot_console.runtime.process.session_end import end_session
+from bot_console.runtime.programs.hints import SHOW
 from bot_console.runtime.rmw.middleware import bus_of
 from bot_console.runtime.rmw.zenoh.domain.sockets import lives
 from bot_console.tui.cli.interruptible_wait import wait_interruptibly

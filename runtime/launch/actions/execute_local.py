@@ -8,8 +8,8 @@ import traceback
 from typing import TYPE_CHECKING, Any
 
 import launch.logging
-from bot_console.runtime.exit_messages import limit_fault
 from bot_console.runtime.importer import is_installed
+from bot_console.runtime.programs.exit_messages import limit_fault
 from launch.action import Action
 from launch.child import Child, PythonProgram, start_child
 from launch.conditions import evaluate_condition_expression

@@ -8,7 +8,7 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 
-from bot_console.runtime.own_processes import beginnings, begun, fork_server
+from bot_console.runtime.children.own_processes import beginnings, begun, fork_server
 from bot_console.runtime.process.fork_server import Job, Report
 from launch.child.child import Output
 from launch.child.process_reports import NewsReader

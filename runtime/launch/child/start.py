@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from bot_console.runtime.child_environment import child_environment
-from bot_console.runtime.hints import for_children
+from bot_console.runtime.children.child_environment import child_environment
 from bot_console.runtime.process import current
 from bot_console.runtime.process.lockstep.coordinator import coordinator_of
+from bot_console.runtime.programs.hints import for_children
 from launch.child.child import Child, Output
 from launch.child.forked_child import start_forked_child
 from launch.child.node_child import start_node_child

@@ -10,7 +10,7 @@ from contextlib import ExitStack
 from functools import partial
 from typing import Any
 
-from bot_console.runtime.own_processes import MEMBER_PROGRAM, fork_server
+from bot_console.runtime.children.own_processes import MEMBER_PROGRAM, fork_server
 from bot_console.runtime.process.fork_server import Job, Report
 from bot_console.runtime.process.lockstep.coordinator import Coordinator
 from bot_console.runtime.process.lockstep.member_process import MemberProcess

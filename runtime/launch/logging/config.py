@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable
 from typing import TextIO
 
-from bot_console.runtime.unwritable_log import LogFile
+from bot_console.runtime.files.unwritable_log import LogFile
 from launch.logging import formats
 from launch.logging.formats import Format
 from launch.logging.log_directory import new_run_directory

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
+from bot_console.runtime.files.remote_address import is_remote
 from bot_console.runtime.process.scratch import scratch_file
-from bot_console.runtime.remote_address import is_remote
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 
@@ -64,7 +64,7 @@ _copies: WeakKeyDictionary[LaunchContext, dict[str, Path]] = WeakKeyDictionary()
 
 
 def _fetched(context: LaunchContext, address: str) -> Path:
-    from bot_console.runtime.remote_parameters import local_copy
+    from bot_console.runtime.files.remote_parameters import local_copy
 
     copies = _copies.setdefault(context, {})
     if address not in copies:

@@ -6,9 +6,9 @@ import os
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from bot_console.runtime.hints import at, is_read, not_declared
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
+from bot_console.runtime.programs.hints import at, is_read, not_declared
 from bot_console.runtime.rmw.parameter_places import place_of
 from bot_console.runtime.rmw.parameter_precedence import COMMAND_LINE, key_matches
 

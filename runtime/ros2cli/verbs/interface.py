@@ -9,8 +9,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from bot_console.runtime.further_interfaces import NotAdded, add, unverified_folders
-from bot_console.runtime.interface_finder import interface_folders
+from bot_console.runtime.interfaces.further_interfaces import NotAdded, add, unverified_folders
+from bot_console.runtime.interfaces.interface_finder import interface_folders
 from ros2cli.command import Command, Result, Verb
 from ros2cli.interface_text import show_text
 from ros2cli.type_discovery import learned, not_installed

@@ -86,7 +86,7 @@ def _wait_for(command: list[str]) -> int:
 def _command(executable: Executable) -> list[str]:
     from bot_console.runtime.workspace.program import is_python
 
-    runner = [sys.executable, "-m", "bot_console.runtime.run"]
+    runner = [sys.executable, "-m", "bot_console.runtime.programs.run"]
     if executable.path is None:
         return [*runner, executable.package, executable.name]
     return [*runner, str(executable.path)] if is_python(executable.path) else [str(executable.path)]

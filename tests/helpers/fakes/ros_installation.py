@@ -17,7 +17,7 @@ HOOK = """\
 import sys
 
 sys.path.append({helpers!r})
-from bot_console.runtime.child_discovery import let_children_meet
+from bot_console.runtime.children.child_discovery import let_children_meet
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
 
 share_domains()

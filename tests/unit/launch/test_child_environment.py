@@ -14,8 +14,8 @@ import pytest
 if os.name != "posix":
     pytest.skip("needs a shell", allow_module_level=True)
 
-from bot_console.runtime.child_discovery import let_children_meet
-from bot_console.runtime.child_environment import child_environment
+from bot_console.runtime.children.child_discovery import let_children_meet
+from bot_console.runtime.children.child_environment import child_environment
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
 from bot_console.runtime.shim_folder import shim_folder
 from bot_console.runtime.workspace import discover

@@ -14,7 +14,7 @@ import pytest
 if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
 
-from bot_console.runtime.hints import SHOW
+from bot_console.runtime.programs.hints import SHOW
 from launch.actions import IncludeLaunchDescription
 from launch.child import close_fork_server
 from launching import Launch

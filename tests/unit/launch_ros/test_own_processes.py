@@ -15,7 +15,7 @@ import pytest
 if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
 
-from bot_console.runtime import own_processes
+from bot_console.runtime.children import own_processes
 from bot_console.runtime.process import stepped
 from launch.actions import EmitEvent, ExecuteProcess, RegisterEventHandler, Shutdown
 from launch.child import News, begin_children_with, close_fork_server, fork_server, on_news

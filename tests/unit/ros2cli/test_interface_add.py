@@ -6,7 +6,7 @@ import importlib
 from pathlib import Path
 
 import pytest
-from bot_console.runtime import further_interfaces
+from bot_console.runtime.interfaces import further_interfaces
 from bot_console.runtime.workspace import discover
 
 

@@ -36,7 +36,7 @@ MODULES = (
 
 def warm_up() -> None:
     """What the fork server does once at its start."""
-    from bot_console.runtime.warm_up import warm_up as warm_runtime
+    from bot_console.runtime.children.warm_up import warm_up as warm_runtime
 
     warm_runtime()
     for name in MODULES:

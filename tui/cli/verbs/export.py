@@ -15,7 +15,7 @@ def run(words: list[str]) -> int:
     parser = argparse.ArgumentParser("bot-console export", description="Write the robot's package for colcon.")
     parser.add_argument("folder", metavar="DIR", help="folder in which the package's folder is created")
     given = parser.parse_args(words)
-    from bot_console.runtime.exit_messages import place_fault
+    from bot_console.runtime.programs.exit_messages import place_fault
     from bot_console.runtime.workspace.exporting import NAME, export
 
     try:

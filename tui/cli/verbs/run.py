@@ -24,7 +24,7 @@ def run(words: list[str]) -> int:
             parser.error("--prefix is for a program in this terminal: leave out --watch and --headless")
         return _prefixed(given.prefix, rest)
     if not (given.watch or given.headless):
-        from bot_console.runtime.run import main
+        from bot_console.runtime.programs.run import main
         from bot_console.tui.session.embedded.domain import take_part
         from bot_console.tui.session.embedded.reaching import named_routers, reach_system
 

@@ -7,8 +7,8 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from bot_console.runtime.exit_messages import ended_code
 from bot_console.runtime.importer import install
+from bot_console.runtime.programs.exit_messages import ended_code
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.format import sanitize
 from bot_console.tui.session.embedded.reaching import reach_system

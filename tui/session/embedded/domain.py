@@ -54,7 +54,7 @@ def join_domain() -> str:
     global _taking_part
     if alone := why_alone():
         return alone
-    from bot_console.runtime.child_discovery import let_children_meet
+    from bot_console.runtime.children.child_discovery import let_children_meet
     from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
 
     share_domains()
@@ -79,7 +79,7 @@ def note_connection() -> None:
 
 def isolate_from_domain() -> None:
     """Isolate the contexts initialised from now on, and the programs of launches, from all other programs."""
-    from bot_console.runtime.child_discovery import let_children_meet
+    from bot_console.runtime.children.child_discovery import let_children_meet
     from bot_console.runtime.rmw.local import local_bus
     from bot_console.runtime.rmw.middleware import choose_middleware
 

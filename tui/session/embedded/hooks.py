@@ -12,7 +12,7 @@ class DomainTypes:
 
     def inquiries(self, domain: int, type_name: str) -> Mapping[str, Generator[tuple[str, str], Any, str]]:
         """The queries to send for a type, by node of another process that can be asked."""
-        from bot_console.runtime.type_inquiry import inquiries
+        from bot_console.runtime.interfaces.type_inquiry import inquiries
 
         return inquiries(domain, type_name)
 
@@ -33,7 +33,7 @@ def frozen_nodes(domain: int) -> Mapping[int, Sequence[str]]:
 
 def fetched(address: str) -> Path:
     """The local copy of a parameter file on a server."""
-    from bot_console.runtime.remote_parameters import local_copy
+    from bot_console.runtime.files.remote_parameters import local_copy
 
     return local_copy(address)
 

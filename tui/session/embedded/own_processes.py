@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
-from bot_console.runtime.own_processes import CAN_FORK, begin_children_with, fork_off_server, fork_server
+from bot_console.runtime.children.own_processes import CAN_FORK, begin_children_with, fork_off_server, fork_server
+from bot_console.runtime.children.warm_up import import_shared
 from bot_console.runtime.process.current import MAIN
 from bot_console.runtime.process.fork_server import has_one_thread
 from bot_console.runtime.process.notices import notify
@@ -13,7 +14,6 @@ from bot_console.runtime.process.watch.busy_watch import busy_watch
 from bot_console.runtime.process.watch.gil_watch import GilWatch
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
-from bot_console.runtime.warm_up import import_shared
 
 SHARE = f"{share_domains.__module__}:{share_domains.__name__}"
 

@@ -8,7 +8,7 @@ import os
 from logging.handlers import RotatingFileHandler
 from pathlib import Path
 
-from bot_console.runtime.unwritable_log import UnwritableLog
+from bot_console.runtime.files.unwritable_log import UnwritableLog
 
 STANDARD_STREAMS = (1, 2)
 LAUNCH_BYTES = 2_000_000

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 import rclpy
-from bot_console.runtime.exit_messages import run_and_report
+from bot_console.runtime.programs.exit_messages import run_and_report
 from bot_console.tui.cli.main import main
 from bot_console.tui.cli.verbs import background
 from bot_console.tui.session import reached_stop

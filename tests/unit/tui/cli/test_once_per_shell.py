@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from bot_console.runtime import exit_messages
+from bot_console.runtime.programs import exit_messages
 from bot_console.tui.cli.foreground import once_per_shell
 from bot_console.tui.cli.foreground.once_per_shell import FOLDER, report_once
 

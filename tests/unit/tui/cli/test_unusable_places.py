@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from bot_console.runtime.exit_messages import run_and_report
+from bot_console.runtime.programs.exit_messages import run_and_report
 from bot_console.tui.cli import screen
 from bot_console.tui.cli.arguments import parse
 from bot_console.tui.cli.main import main

@@ -21,7 +21,7 @@ from email.message import Message
 from pathlib import Path
 from typing import IO, Any
 
-from bot_console.runtime.user_folders import cache_folder
+from bot_console.runtime.files.user_folders import cache_folder
 
 SCHEME = "https://"
 MAX_FILE_BYTES = 1_000_000

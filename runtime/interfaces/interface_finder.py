@@ -25,8 +25,8 @@ def interface_folders() -> Mapping[str, Path]:
 
     Those of the workspace take precedence, then those added by the user, the included ones, and the learned ones.
     """
-    from bot_console.runtime.further_interfaces import added_by_user, unverified_folders
-    from bot_console.runtime.learned_interfaces import learned_folders
+    from bot_console.runtime.interfaces.further_interfaces import added_by_user, unverified_folders
+    from bot_console.runtime.interfaces.learned_interfaces import learned_folders
     from bot_console.runtime.workspace.discover import workspace
 
     theirs = {name: each.folder for name, each in workspace().packages.items() if each.has_interfaces}
@@ -156,7 +156,7 @@ class InterfaceLoader:
         if self._kept is not None:
             module.__spec__ = self._kept
             return
-        from bot_console.runtime.interface_cache import compiled
+        from bot_console.runtime.interfaces.interface_cache import compiled
 
         name = module.__name__
         code = compiled(name, self._defining(name), lambda: self.get_source(name))

@@ -9,7 +9,7 @@ import os
 import sys
 from collections.abc import Iterable, Mapping
 
-from bot_console.runtime.child_discovery import children_meet
+from bot_console.runtime.children.child_discovery import children_meet
 from bot_console.runtime.commands import BIN, COMMAND_VARIABLE, command
 from bot_console.runtime.importer import is_installed
 from bot_console.runtime.shim_folder import shim_folder

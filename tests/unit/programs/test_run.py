@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from bot_console.runtime.run import main
+from bot_console.runtime.programs.run import main
 from bot_console.runtime.workspace import discover
 from systems import Program, System, system
 

@@ -10,9 +10,9 @@ from collections.abc import Iterator, Mapping
 from functools import cache
 from pathlib import Path
 
-from bot_console.runtime.user_folders import data_folder
+from bot_console.runtime.files.user_folders import data_folder
 
-UNVERIFIED = Path(__file__).resolve().parent / "rosidl" / "unverified"
+UNVERIFIED = Path(__file__).resolve().parents[1] / "rosidl" / "unverified"
 """Definitions whose fields come from public sources and whose hashes were not compared with ROS 2."""
 KINDS = ("msg", "srv", "action")
 

@@ -10,7 +10,7 @@ import os
 import re
 from collections.abc import Iterable, Sequence
 
-from bot_console.runtime.exit_messages import is_read as stderr_is_terminal
+from bot_console.runtime.programs.exit_messages import is_read as stderr_is_terminal
 
 SHOW = "BOT_CONSOLE_HINTS"
 """Set for processes of a launch whose output a person reads: in a terminal, or in the console's log."""

@@ -6,7 +6,7 @@ import sys
 
 import platformdirs
 import pytest
-from bot_console.runtime import user_folders
+from bot_console.runtime.files import user_folders
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere platformdirs is asked")

@@ -11,8 +11,8 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from bot_console.runtime import learned_interfaces
-from bot_console.runtime.learned_interfaces import learn
+from bot_console.runtime.interfaces import learned_interfaces
+from bot_console.runtime.interfaces.learned_interfaces import learn
 from bot_console.runtime.rosidl.received_descriptions import describe_texts
 from bot_console.runtime.rosidl.type_hash import text_of_description
 

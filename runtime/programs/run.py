@@ -11,7 +11,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from bot_console.runtime.child_environment import child_environment
+from bot_console.runtime.children.child_environment import child_environment
 from bot_console.runtime.importer import install
 from bot_console.runtime.rmw.parameter_file import find_with
 from bot_console.runtime.shim_folder import shim_folder
@@ -86,7 +86,7 @@ def run_package(package: str, words: Sequence[str]) -> int:
 
 def run_file(path: Path, words: Sequence[str]) -> int:
     """Run a Python file as `python FILE` does; if it only defines `main()`, call that, as `ros2 run` would."""
-    from bot_console.runtime.plain_file import examine, then_main
+    from bot_console.runtime.programs.plain_file import examine, then_main
 
     if not path.is_file():
         return _refuse(f"{path} does not exist")

@@ -14,9 +14,9 @@ from pathlib import Path
 from types import CodeType
 from typing import Any
 
-from bot_console.runtime.user_folders import cache_folder
+from bot_console.runtime.files.user_folders import cache_folder
 
-GENERATOR = Path(__file__).resolve().parent / "rosidl"
+GENERATOR = Path(__file__).resolve().parents[1] / "rosidl"
 
 
 def compiled(module: str, definition: str, source: Callable[[], str]) -> CodeType:

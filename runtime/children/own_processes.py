@@ -14,8 +14,8 @@ from typing import Any
 from bot_console.runtime.process.fork_server import ForkServer, function_named
 
 CAN_FORK = hasattr(os, "fork")
-WARM_UP = "bot_console.runtime.warm_up:warm_up"
-PREPARE = "bot_console.runtime.import_prefetch:import_needed"
+WARM_UP = "bot_console.runtime.children.warm_up:warm_up"
+PREPARE = "bot_console.runtime.children.import_prefetch:import_needed"
 MEMBER_PROGRAM = "bot_console.runtime.rmw.lockstep.member_program:member_program"
 """The function of jobs whose process takes part in a stepped run; named only, as launch does not depend on rmw."""
 

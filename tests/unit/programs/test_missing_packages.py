@@ -6,8 +6,8 @@ import runpy
 from pathlib import Path
 
 import pytest
-from bot_console.runtime.missing_packages import explain_missing_package
 from bot_console.runtime.process.crashes import explanation
+from bot_console.runtime.programs.missing_packages import explain_missing_package
 
 
 def failure(statement: str) -> BaseException:

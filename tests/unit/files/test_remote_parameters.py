@@ -13,8 +13,8 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import pytest
-from bot_console.runtime import remote_parameters
-from bot_console.runtime.remote_parameters import RemoteError, local_copy
+from bot_console.runtime.files import remote_parameters
+from bot_console.runtime.files.remote_parameters import RemoteError, local_copy
 from bot_console.runtime.rmw.arguments import ArgumentsError, parse
 from launch_ros.parameter_descriptions import ParameterFile
 

@@ -8,9 +8,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from bot_console.runtime import further_interfaces, interface_cache
+from bot_console.runtime.files.user_folders import cache_folder
+from bot_console.runtime.interfaces import further_interfaces, interface_cache
 from bot_console.runtime.rosidl.cdr import deserialize, serialize
-from bot_console.runtime.user_folders import cache_folder
 
 PACKAGES = sorted(further_interfaces.unverified_folders())
 

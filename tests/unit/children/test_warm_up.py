@@ -10,7 +10,7 @@ import pytest
 
 CODE = """
 import os, sys, threading
-from bot_console.runtime.warm_up import warm_up
+from bot_console.runtime.children.warm_up import warm_up
 before = set(os.listdir("/proc/self/fd"))
 warm_up()
 print(threading.active_count(), len(os.listdir("/proc/self/task")))
@@ -31,7 +31,7 @@ def test_warm_up_leaves_one_thread_no_descriptor_and_an_empty_graph() -> None:
 
 
 def test_shared_imports_register_no_exit_functions() -> None:
-    text = "import atexit\nfrom bot_console.runtime.warm_up import import_shared\nimport_shared()\n"
+    text = "import atexit\nfrom bot_console.runtime.children.warm_up import import_shared\nimport_shared()\n"
     text += "print(atexit._ncallbacks())"  # the server drops all of them, as it drops those of its parent
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
     assert done.stdout == "0\n"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Generator, Mapping, Sequence
 from typing import Any
 
-from bot_console.runtime.learned_interfaces import FALSE, UNREADABLE, learn, refusal
+from bot_console.runtime.interfaces.learned_interfaces import FALSE, UNREADABLE, learn, refusal
 from bot_console.runtime.rmw.middleware import bus_of
 from bot_console.runtime.rosidl.parse import DefinitionError
 from bot_console.runtime.rosidl.received_descriptions import ACTION_TYPES, describe_action, plain_description

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 import rclpy
+from bot_console.runtime.interfaces.type_inquiry import inquiry, whole
 from bot_console.runtime.rosidl.type_hash import text
-from bot_console.runtime.type_inquiry import inquiry, whole
 from example_interfaces.action import Fibonacci
 from rclpy.action import ActionClient
 from type_description_interfaces.srv import GetTypeDescription

@@ -1,0 +1,1 @@
+"""Files of the user and of servers that the runtime reads, and its log files."""
