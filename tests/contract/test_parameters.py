@@ -82,6 +82,33 @@ def test_the_reason_of_the_nodes_own_callback_is_reported_verbatim(rig: Rig) -> 
     assert (outcome.accepted, outcome.reason, outcome.refused_by) == (False, TOO_FAST, "callback")
 
 
+def test_values_set_in_a_burst_are_undone_one_by_one(rig: Rig) -> None:
+    values = 1.1, 1.2, 1.3
+    for value in values:
+        (outcome,) = setting(rig, {"speed": value})
+        assert outcome.accepted
+    setting(rig, {"speed": 1.3})  # it has this value already: neither a change nor something to undo
+    for value in (1.2, 1.1, 1.0):
+        assert rig.console.parameters.undo().result(TIMEOUT_S).ok
+        shown(rig, "speed", value)
+    assert not rig.console.snapshot().journal.can_undo
+    until(lambda: len(rig.console.parameters.changes()) == 6, "the journal")
+    assert [(each.old, each.new) for each in rig.console.parameters.changes()] == [
+        *((1.0, 1.1), (1.1, 1.2), (1.2, 1.3)),
+        *((1.3, 1.2), (1.2, 1.1), (1.1, 1.0)),
+    ]
+
+
+def test_undo_passes_over_what_has_been_undone_elsewhere(rig: Rig) -> None:
+    assert setting(rig, {"count": 4})[0].accepted
+    assert setting(rig, {"speed": 1.5})[0].accepted
+    shown(rig, "speed", 1.5)
+    rig.set_elsewhere("speed", 1.0)
+    shown(rig, "speed", 1.0)
+    assert rig.console.parameters.undo().result(TIMEOUT_S).ok
+    shown(rig, "count", 3)
+
+
 def test_each_of_several_values_has_its_outcome(rig: Rig) -> None:
     outcomes = setting(rig, {"speed": 9.0, "count": 5})
     assert [(each.name, each.accepted) for each in outcomes] == [("speed", False), ("count", True)]

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from bot_console.tui.console.model import Change, ChangeSource, ConsoleSnapshot
+from bot_console.tui.console.model import Change, ChangeSource, ConsoleSnapshot, same
 from bot_console.tui.console.parameters.port import Parameters
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.format import value_text
 
 BACK = {ChangeSource.EDIT: "u", ChangeSource.REDO: "u", ChangeSource.UNDO: "U"}
 """The sources of the changes that are told of, with the key that takes each back; others are asked about before."""
+MAX_WAITING_CALLS = 10
+"""Calls, ten of them a second, for which a change may wait until its key takes it back: other nodes of the same set may
+still refuse, which takes it back by itself.
+"""
 
 
 class SafetyNews:
@@ -20,26 +24,44 @@ class SafetyNews:
         self._parameters = parameters
         self._end: int | None = None
         self._reported: set[tuple[str, str]] = set()
+        self._waiting: dict[tuple[str, str], tuple[Change, str, int]] = {}
+        """Changes that are not announced yet, each with how it makes the robot less safe, and the calls since then."""
 
     def since(self, snapshot: ConsoleSnapshot) -> Sequence[str]:
         """What to announce of the edits since the last call."""
         before, self._end = self._end, snapshot.journal.end
-        if before is None or before == self._end:
-            return ()
-        changes = self._parameters.changes(before)
-        return [text for each in changes if (text := self._news(each, snapshot))]
+        if before is not None and before != self._end:
+            for each in self._parameters.changes(before):
+                self._notice(each, snapshot)
+        return [text for key in [*self._waiting] if (text := self._news(key, snapshot))]
 
-    def _news(self, change: Change, snapshot: ConsoleSnapshot) -> str:
+    def _notice(self, change: Change, snapshot: ConsoleSnapshot) -> None:
+        """Let a change wait that is to be announced."""
         tree = snapshot.parameters.get(change.node)
         parameter = tree.get(change.name) if tree else None
         if parameter is None or not change.accepted:
-            return ""
+            return
         key, why = (change.node, change.name), takes_safety(parameter, change.old, change.new)
-        reported = key in self._reported
+        self._waiting.pop(key, None)
         if not why:
             self._reported.discard(key)
-        if not why or reported or change.source not in BACK:
+        elif key not in self._reported and change.source in BACK:
+            self._waiting[key] = change, why, 0
+
+    def _news(self, key: tuple[str, str], snapshot: ConsoleSnapshot) -> str:
+        """The text about a change that waits, once it is certain what takes it back; empty until then."""
+        change, why, calls = self._waiting[key]
+        journal = snapshot.journal
+        goes_back = key in (journal.redoes if change.source is ChangeSource.UNDO else journal.undoes)
+        if not goes_back and calls < MAX_WAITING_CALLS:
+            self._waiting[key] = change, why, calls + 1
             return ""
+        del self._waiting[key]
+        tree = snapshot.parameters.get(change.node)
+        parameter = tree.get(change.name) if tree else None
+        if parameter is None or not same(parameter.value, change.new):
+            return ""  # it has been taken back already
         self._reported.add(key)
         values = f"{value_text(change.old)} → {value_text(change.new)}"
-        return f"⚠ {change.name} {values} {why}. {BACK[change.source]} in the Parameters pane takes it back."
+        way_back = f"{BACK[change.source]} in the Parameters pane" if goes_back else "b in the History pane"
+        return f"⚠ {change.name} {values} {why}. {way_back} takes it back."

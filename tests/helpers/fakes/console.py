@@ -27,6 +27,7 @@ from bot_console.tui.console.model import (
     SetOutcome,
     Severity,
     Value,
+    same,
 )
 from bot_console.tui.console.parameters.file.saving import save
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
@@ -178,7 +179,9 @@ class FakeConsole(FakeProfiles, FakeSeries):
     ) -> tuple[tuple[SetOutcome, ...], tuple[Move, ...]]:
         before = {name: self._value(node, name) for name in values}
         outcomes = self.take(node, values, source, atomically=atomically, by=by)
-        taken = {each.name: each.value for each in outcomes if each.accepted}
+        taken = {
+            each.name: each.value for each in outcomes if each.accepted and not same(before[each.name], each.value)
+        }
         return outcomes, (Move(node, {name: before[name] for name in taken}, taken),) if taken else ()
 
     def take(
@@ -193,6 +196,8 @@ class FakeConsole(FakeProfiles, FakeSeries):
                 for each in outcomes
             ]
         for each in outcomes:
+            if each.accepted and same(self._value(node, each.name), each.value):
+                continue
             entry = Change(
                 self._end, START, node, each.name, self._value(node, each.name), each.value, source,
                 each.accepted, each.reason, by, answered=each.refused_by != "node",
@@ -281,7 +286,10 @@ class FakeConsole(FakeProfiles, FakeSeries):
 
     def _move(self, source: ChangeSource) -> Future[Answer]:
         undone = source is ChangeSource.UNDO
-        step = None if self.closed else (self._steps.take_undo() if undone else self._steps.take_redo())
+        take = self._steps.take_undo if undone else self._steps.take_redo
+        step = None if self.closed else take()
+        while step is not None and not step.changes(source, self._value):
+            step = take()
         if step is None:
             return done(Answer(False, CLOSED if self.closed else f"nothing to {source.value}"))
         refused: list[SetOutcome] = []

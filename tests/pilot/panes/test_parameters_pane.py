@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from concurrent.futures import Future
 from dataclasses import replace
 from types import MappingProxyType
@@ -9,6 +10,7 @@ from types import MappingProxyType
 import pytest
 from bot_console.tui.console.model import RESTARTED, Change, ChangeSource, JournalState, SetOutcome
 from bot_console.tui.panes.parameters.pane import ParametersPane
+from bot_console.tui.panes.parameters.pending_sets import EVENT_TIMEOUT_S
 from bot_console.tui.panes.parameters.table import ParameterRows
 from piloting import Clock, Session, run
 from samples import empty, faulty, live
@@ -64,6 +66,79 @@ def test_unanswered_value_is_shown_as_pending(monkeypatch: pytest.MonkeyPatch) -
         pane.tick()
         await session.settle()
         assert "answered yet" not in session.text() and "no answer within 3 s" in session.text()
+
+    run(live(), play)
+
+
+def test_burst_of_steps_continues_from_the_value_in_flight_and_sends_only_the_newest(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    async def play(session: Session) -> None:
+        answers: list[Future[tuple[SetOutcome, ...]]] = []
+        sent: list[float] = []
+
+        def send(node: str, values: Mapping[str, float], source: ChangeSource) -> Future[tuple[SetOutcome, ...]]:
+            sent.extend(values.values())
+            answers.append(Future())
+            return answers[-1]
+
+        def accept() -> None:
+            answers[-1].set_result((SetOutcome("/robot_navigator", "max_speed", sent[-1], True),))
+
+        pane = session.pane(ParametersPane)
+        pane.clock = Clock()
+        monkeypatch.setattr(session.console.parameters, "set", send)
+        await session.press("1")
+        await go_to(session, "max_speed")
+        await session.press(*["plus"] * 10)
+        assert sent == [1.05]
+        accept()
+        await session.settle()
+        assert sent == [1.05, 1.5]
+        await session.press("minus")
+        accept()
+        await session.settle()
+        assert sent == [1.05, 1.5, 1.45]
+        accept()
+        await session.settle()
+        await session.press("plus")  # The node has accepted 1.45, but its parameter event has not arrived.
+        assert sent[-1] == 1.5
+        answers[-1].set_result((SetOutcome("/robot_navigator", "max_speed", 1.5, False, "too fast", "callback"),))
+        pane.clock.now += EVENT_TIMEOUT_S
+        await session.settle()
+        await session.press("plus")
+        assert sent[-1] == 1.05, "the node has not announced anything"
+
+    run(live(), play)
+
+
+def test_steps_after_a_refused_one_are_dropped(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def play(session: Session) -> None:
+        answer: Future[tuple[SetOutcome, ...]] = Future()
+        sent: list[object] = []
+        monkeypatch.setattr(session.console.parameters, "set", lambda *given: sent.append(given) or answer)
+        await session.press("1")
+        await go_to(session, "max_speed")
+        await session.press("plus", "plus", "plus")
+        answer.set_result((SetOutcome("/robot_navigator", "max_speed", 1.05, False, "not now", "callback"),))
+        await session.settle()
+        assert len(sent) == 1 and "not now" in session.text()
+
+    run(live(), play)
+
+
+def test_escape_from_a_filter_keeps_what_is_marked() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1")
+        await go_to(session, "max_speed")
+        await session.press("m", "plus", "slash")
+        await session.type("speed")
+        await session.press("enter", "escape")
+        assert session.pane(ParametersPane).words == "" and "1 marked" in session.text()
+        await session.press("escape")
+        assert "1 marked" in session.text()
+        await session.press("x")
+        assert "0 marked" in session.text()
 
     run(live(), play)
 

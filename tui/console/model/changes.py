@@ -78,3 +78,6 @@ class JournalState:
     """Node and name of each value that was set from this console and is in no file, so that it would be lost."""
     problem: str = ""
     """Why changes are not kept for later runs; empty if they are, or if that was not requested."""
+    undoes: tuple[tuple[str, str], ...] = ()
+    """Node and name of each value that the next undo takes back; `redoes`: that the next redo sets again."""
+    redoes: tuple[tuple[str, str], ...] = ()

@@ -27,20 +27,35 @@ class Expected:
 
     def __init__(self) -> None:
         self._requests: dict[tuple[str, str], deque[ParameterRequest]] = {}
+        self._accepted: dict[tuple[str, str], ParameterRequest] = {}
 
     def add(self, request: ParameterRequest) -> None:
         """Add a request."""
         self._requests.setdefault((request.node, request.name), deque(maxlen=EACH)).append(request)
+
+    def accept(self, request: ParameterRequest) -> None:
+        """Note that a node has accepted a request, unless its event has arrived before the answer."""
+        key = request.node, request.name
+        if request in self._requests.get(key, ()):
+            self._accepted[key] = request
+
+    def accepted(self, node: str, name: str) -> ParameterRequest | None:
+        """The request for a parameter that was accepted last, if its event is still to come."""
+        return self._accepted.get((node, name))
 
     def announced(self, node: str, name: str, value: Value) -> ParameterRequest | None:
         """The request that caused an event; None if it was not made here."""
         found = next((each for each in self._requests.get((node, name), ()) if each.value == value), None)
         if found:
             self.forget(found)
+        elif (node, name) in self._accepted:  # somebody else has set it since
+            del self._accepted[node, name]
         return found
 
     def forget(self, request: ParameterRequest) -> None:
-        """Remove a request that was refused or answered."""
+        """Remove a request that was refused or announced."""
+        if self._accepted.get((request.node, request.name)) is request:
+            del self._accepted[request.node, request.name]
         requests = self._requests.get((request.node, request.name))
         if requests and request in requests:
             requests.remove(request)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from bot_console.tui.console.model import Change, ChangeSource, JournalState, Value
+from bot_console.tui.console.model import Change, ChangeSource, JournalState, Value, same
 from bot_console.tui.console.parameters.unsaved import Unsaved
 
 if TYPE_CHECKING:
@@ -33,6 +33,15 @@ class Step:
     moves: tuple[Move, ...]
     profiles: tuple[str, str] | None = None
     """The active profile before and after the step, if it changed."""
+
+    def changes(self, source: ChangeSource, value: Callable[[str, str], Value]) -> bool:
+        """Whether undoing or redoing it changes anything; `value` returns the value of a node's parameter."""
+        wanted = (
+            (move.node, name, new)
+            for move in self.moves
+            for name, new in (move.before if source is ChangeSource.UNDO else move.after).items()
+        )
+        return bool(self.profiles) or any(not same(value(node, name), new) for node, name, new in wanted)
 
 
 EARLIER = 5_000
@@ -171,7 +180,13 @@ class Journal:
     def _renew(self) -> None:
         first = self._end - len(self._changes)
         steps = bool(self._undo), bool(self._redo)
-        self._state = JournalState(first, self._end, first, *steps, self._unsaved.names, self._problem)
+        next_ones = (_keys(self._undo[-1]) if self._undo else (), _keys(self._redo[-1]) if self._redo else ())
+        self._state = JournalState(first, self._end, first, *steps, self._unsaved.names, self._problem, *next_ones)
+
+
+def _keys(step: Step) -> tuple[tuple[str, str], ...]:
+    """Node and name of each parameter of a step."""
+    return tuple((move.node, name) for move in step.moves for name in move.after)
 
 
 def _without(step: Step, node: str, name: str) -> Step:

@@ -9,7 +9,7 @@ from typing import Any
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.calls import Calls, NoAnswer
-from bot_console.tui.console.model import RESTARTED, ChangeSource, SetOutcome, Value
+from bot_console.tui.console.model import RESTARTED, ChangeSource, SetOutcome, Value, same
 from bot_console.tui.console.parameters.expected import Expected, ParameterRequest
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.mirror import ParameterMirror
@@ -33,7 +33,7 @@ class ParameterSetter:
         """Process a parameter event: ours if it was expected, else a change made elsewhere; returns its source."""
         request = self._expected.announced(node, name, new)
         source = request.source if request else ChangeSource.OTHER
-        if old != new or request:
+        if not same(old, new):
             self._journal.record(time.time_ns(), node, name, (old, new), source, by=request.by if request else "")
         return source
 
@@ -75,7 +75,8 @@ class ParameterSetter:
             self._outcome(request, before[request.name], result.successful, result.reason)
             for request, result in zip(requests, results, strict=False)
         )
-        taken = {each.name: each.value for each in outcomes if each.accepted}
+        changed = (each for each in outcomes if each.accepted and not same(before[each.name], each.value))
+        taken = {each.name: each.value for each in changed}
         move = Move(node, {name: before[name] for name in taken}, taken)
         if taken and moves is None:
             self._journal.did(Step((move,)), source)
@@ -134,6 +135,7 @@ class ParameterSetter:
 
     def _outcome(self, request: ParameterRequest, old: Value, accepted: bool, reason: str) -> SetOutcome:
         if accepted:
+            self._expected.accept(request)
             return SetOutcome(request.node, request.name, request.value, True)
         self._expected.forget(request)
         why = reason or "the node gave no reason"
@@ -153,8 +155,10 @@ class ParameterSetter:
         self._journal.record(time.time_ns(), *of, why, request.by, answered=by != "node")
 
     def _value(self, node: str, name: str) -> Value:
+        """The value of a parameter, also where the event of the last accepted request has not arrived yet."""
+        accepted = self._expected.accepted(node, name)
         known = self._mirror.get(node, name)
-        return known.value if known else None
+        return accepted.value if accepted else known.value if known else None
 
     def _message(self, request: ParameterRequest) -> Parameter:
         known = self._mirror.get(request.node, request.name)
@@ -162,9 +166,11 @@ class ParameterSetter:
 
     async def move(self, source: ChangeSource) -> Answer:
         """Undo the last accepted change of this console, or repeat the last undone one."""
-        undone = source is ChangeSource.UNDO
-        step = self._journal.take_undo() if undone else self._journal.take_redo()
-        return Answer(False, f"nothing to {source.value}") if step is None else await self._move(step, source)
+        take = self._journal.take_undo if source is ChangeSource.UNDO else self._journal.take_redo
+        while step := take():
+            if step.changes(source, self._value):  # else others have made that change already
+                return await self._move(step, source)
+        return Answer(False, f"nothing to {source.value}")
 
     async def _move(self, step: Step, source: ChangeSource) -> Answer:
         """Undo or redo a step; what a node refuses stays on the list."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from functools import partial
 
-from bot_console.tui.console.model import ChangeSource, Kind, ParameterInfo, SetOutcome, Value
+from bot_console.tui.console.model import ChangeSource, Kind, ParameterInfo, SetOutcome, Value, same
 from bot_console.tui.console.parameter_types import ARRAYS
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.format import field_text, value_text
@@ -72,8 +72,11 @@ class EditPane(ListPane):
         raise NotImplementedError
 
     def _now(self, parameter: ParameterInfo) -> Value:
-        """The value from which a step continues: the marked one, else the present one."""
-        return self.staging.marked.get((parameter.node, parameter.name), parameter.value)
+        """The value from which a step continues: the marked one, else one on its way, else the present one."""
+        key = (parameter.node, parameter.name)
+        if key in self.staging.marked:
+            return self.staging.marked[key]
+        return self.unanswered.value(key, parameter.value, self.clock())
 
     def action_edit(self) -> None:
         """Edit a value, toggle a boolean, list the elements of an array, or fold or unfold a node or group."""
@@ -132,14 +135,30 @@ class EditPane(ListPane):
             self._list.refused.pop(key, None)  # a refusal of an earlier value would hide this mark
             self.redraw_marks()
             return
-        answer = self.console.parameters.set(parameter.node, {parameter.name: value}, ChangeSource.EDIT)
-        self._wait_for(answer, {(parameter.node, parameter.name): value})
-        answer.add_done_callback(lambda done: self.host.call_later(self._outcome, done))
+        if not self.unanswered.keep((parameter.node, parameter.name), value):
+            self._send((parameter.node, parameter.name), value)
+
+    def _send(self, key: Key, value: Value) -> None:
+        """Send a value; when it is accepted, the newest one that was asked for meanwhile follows."""
+        node, name = key
+        answer = self.console.parameters.set(node, {name: value}, ChangeSource.EDIT)
+        self._wait_for(answer, {key: value})
+        answer.add_done_callback(lambda done: self.host.call_later(self._sent, key, value, done))
+
+    def _sent(self, key: Key, value: Value, done: Future[tuple[SetOutcome, ...]]) -> None:
+        accepted, newest = self._outcome(done), self.unanswered.take(key)
+        if accepted and newest is not None and not same(newest, value):
+            self._send(key, newest)
 
     def _wait_for(self, answer: Future[tuple[SetOutcome, ...]], values: Mapping[Key, Value]) -> None:
         """Track sent values until they are answered."""
         number = self.unanswered.sent(values, self.clock())
-        answer.add_done_callback(lambda _: self.host.call_later(self.unanswered.answered, number))
+        answer.add_done_callback(lambda done: self.host.call_later(self._answered, number, done))
+
+    def _answered(self, number: int, done: Future[tuple[SetOutcome, ...]]) -> None:
+        outcomes = () if done.exception() else done.result()
+        accepted = {(each.node, each.name): each.value for each in outcomes if each.accepted}
+        self.unanswered.answered(number, accepted, self.clock())
 
     def _outcome(self, done: Future[tuple[SetOutcome, ...]]) -> bool:
         """Mark refused values; returns whether all were accepted."""
@@ -156,14 +175,21 @@ class EditPane(ListPane):
         self.redraw_marks()
         return all(each.accepted for each in done.result())
 
-    def action_dismiss(self) -> bool:
-        """Dismiss the refusal at the cursor, or unmark its value; returns whether there was one."""
-        row = self._list.current
-        key = (row.node, row.parameter.name if row.parameter else "") if row else ("", "")
-        marked = self._list.refused.pop(key, None) is not None or self.staging.marked.pop(key, None) is not None
-        if marked:
+    def action_dismiss(self) -> None:
+        """Dismiss the refusal at the cursor, or unmark its value."""
+        if not self.dismiss_refusal() and self.staging.marked.pop(self._key_at(), None) is not None:
             self.redraw_marks()
-        return marked
+
+    def dismiss_refusal(self) -> bool:
+        """Dismiss the refusal at the cursor; returns whether there was one."""
+        refused = self._list.refused.pop(self._key_at(), None) is not None
+        if refused:
+            self.redraw_marks()
+        return refused
+
+    def _key_at(self) -> Key:
+        row = self._list.current
+        return (row.node, row.parameter.name if row.parameter else "") if row else ("", "")
 
     def action_nudge(self, steps: int) -> None:
         """Move a number by its step, or by a hundredth of its range."""

@@ -257,8 +257,8 @@ class ParametersPane(EditPane):
         return details(row.parameter, self._list.refused.get(key), self.staging.marked.get(key), marks, late)
 
     def action_clear_filter(self) -> None:
-        """Take the mark at the cursor away, or else the filter."""
-        if not self.action_dismiss():
+        """Take the filter away, or else a refusal at the cursor; what is marked stays marked."""
+        if self.words or not self.dismiss_refusal():
             super().action_clear_filter()
 
     def action_undo(self) -> None:
