@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bot_console.runtime.domain_id import domain_id
-from bot_console.runtime.files.user_folders import state_folder
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -19,6 +18,8 @@ def stop_file() -> Path:
 
     An invalid domain, which is reported when a context is made, counts as 0.
     """
+    from bot_console.runtime.files.user_folders import state_folder  # with pathlib, which --version does without
+
     try:
         domain = domain_id()
     except ValueError:

@@ -240,6 +240,13 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("logs.copy", "y", "copy", "Copy the message"),
         Key("logs.save", "S", "save", "Save the lines shown to a file", shown="S"),
     ),
+    "lesson": (
+        Key("lesson.next", "n,right", "go(1)", "The next step, done or not", footer=True, shown="n", short="Next"),
+        Key("lesson.previous", "p,left", "go(-1)", "The step before", footer=True, shown="p", short="Before"),
+        Key("lesson.open", "o", "go(0)", "The next step that is not done", footer=True, short="Open"),
+        Key("lesson.copy", "y", "copy", "Copy what is to be typed or written", footer=True, short="Copy"),
+        Key("lesson.detail", "enter", "detail", "The whole step over all panes", footer=True, short="Whole"),
+    ),
     "world": (
         Key("world.in", "plus,equals_sign", "zoom_map(1)", "Zoom in", footer=True, shown="+"),
         Key("world.out", "minus", "zoom_map(-1)", "Zoom out", footer=True, shown="-"),

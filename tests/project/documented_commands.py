@@ -22,9 +22,25 @@ INLINE = re.compile(
     r"(?<!`)`((?:NO_COLOR=1 )?bot-console [^`\s]+ [^`]+|ros2 [^`\s]+ [^`\s]+ [^`]+|python tools/[^`]+)`"
 )
 """A command in a sentence; shorter ones only name a command."""
-OWN = set(["stop", "release", "reset", "check", "up", "down", "status", "attach", "doctor", "router", "lint", "graph"])
+OWN = set(
+    [
+        "stop",
+        "release",
+        "reset",
+        "check",
+        "up",
+        "down",
+        "status",
+        "attach",
+        "doctor",
+        "router",
+        "lint",
+        "graph",
+        "learn",
+    ]
+)
 """Our own commands whose arguments are not checked."""
-ELSEWHERE = {"source", "python3", "pip", "eval", "pytest", "tmux", "cd", "export", "set"}
+ELSEWHERE = {"source", "mkdir", "python3", "pip", "eval", "pytest", "tmux", "cd", "export", "set"}
 PACKAGE, SYSTEM = "bot_console_robot", "robot_system.launch.py"
 ENVIRONMENT = re.compile(r"[A-Z_]+=.*")
 

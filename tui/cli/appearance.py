@@ -13,6 +13,8 @@ from bot_console.tui.keys.remapping import remap
 from bot_console.tui.layout.arrangement import Arrangement
 from bot_console.tui.layout.form import NoLayout
 from bot_console.tui.layout.named import OVERVIEW
+from bot_console.tui.learn.layout import NAME as LESSON_LAYOUT
+from bot_console.tui.learn.layout import WithLesson
 from bot_console.tui.pane_table import PANES
 from bot_console.tui.settings.layouts import FileLayouts
 from bot_console.tui.settings.settings import Settings, read_settings
@@ -27,7 +29,10 @@ def appearance_of(options: Options) -> Appearance:
     keys = remap(settings.keys)
     store = FileLayouts([each.id for each in PANES])
     notes = list(settings.problems)
-    arrangement = _arrangement(options, settings, store, notes)
+    if options.layout == LESSON_LAYOUT:
+        arrangement = Arrangement(WithLesson(store), LESSON_LAYOUT)
+    else:
+        arrangement = _arrangement(options, settings, store, notes)
     store.layouts()
     return Appearance(
         arrangement,

@@ -11,7 +11,7 @@ from typing import Any
 
 from bot_console.tui import __version__
 from bot_console.tui.opening import Opening, is_rqt, rqt_opening
-from bot_console.tui.pane_table import PANES
+from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.session.embedded.named_profile import (
     NamedProfile,
     NoProfileError,
@@ -75,6 +75,8 @@ class Options:
     """With `attach`: the endpoints of a robot on the network; empty for this machine."""
     read_only: bool = False
     """Whether the console may not change anything."""
+    extra_panes: Sequence[PaneEntry] = ()
+    """Panes that a command brings along, as plug-ins."""
 
     @property
     def profile_arguments(self) -> dict[str, str]:

@@ -27,6 +27,7 @@ _COMMANDS = {
     "export": "verbs.export:run",
     "graph": "verbs.graph:run",
     "launch": "verbs.ros2:launch",
+    "learn": "learn:run",
     "launch_test": "verbs.testing:launch_test",
     "lint": "lint.run:run",
     "release": "verbs.stop:release",
@@ -55,11 +56,31 @@ _ROS2 = {
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command line and return its exit code: 0 done, 1 failed, 2 wrong usage."""
+    """Run a command line and return its exit code: 0 done, 1 failed, 2 wrong usage.
+
+    While a lesson is open in this domain, it learns of the command.
+    """
     words = list(sys.argv[1:] if argv is None else argv)
     if words == ["--version"]:
         print(f"bot-console {__version__}")
         return 0
+    from bot_console.tui.learn.open_lesson import wanted_log
+
+    log = wanted_log() if words[:1] not in ([], ["learn"], ["complete"], ["stop"], ["release"]) else ""
+    if not log:
+        return _main(words)
+    from bot_console.tui.learn.command_log import append
+
+    append(log, words, None)
+    code = 1
+    try:
+        code = _main(words)
+    finally:
+        append(log, words, code)
+    return code
+
+
+def _main(words: Words) -> int:
     from bot_console.runtime.programs.exit_messages import help_is_english, report_help_errors
 
     help_is_english()

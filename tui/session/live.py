@@ -66,7 +66,7 @@ class Session:
         return self.connected.begin()
 
     def _plugins(self) -> Sequence[PaneEntry]:
-        return self.connected.plugins()
+        return [*self._options.extra_panes, *self.connected.plugins()]
 
     def _is_connected(self) -> bool:
         return "connected" in self.__dict__

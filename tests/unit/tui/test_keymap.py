@@ -14,6 +14,7 @@ from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.key import Key
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.panes.broken_pane import BrokenPane
+from bot_console.tui.panes.lesson.pane import LessonPane
 from bot_console.tui.panes.logs.levels_screen import LevelsScreen
 from bot_console.tui.panes.logs.rules_screen import RulesScreen
 from bot_console.tui.screens.arrange import ArrangeScreen
@@ -60,6 +61,7 @@ OWNERS = {
     "broken": BrokenPane,
     **SCREENS,
     **{each.id: each.load() for each in PANES},
+    "lesson": LessonPane,
 }
 KEYS = [(scope, key) for scope, keys in TABLE.items() for key in keys]
 ROOT = Path(tui.__path__[0])

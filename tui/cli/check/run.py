@@ -40,13 +40,22 @@ def run(words: list[str]) -> int:
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("script", metavar="SCRIPT", help="file of steps; - reads them from standard input")
+    parser.add_argument(
+        "script", metavar="SCRIPT", help="file of steps; - reads them from standard input; with --course: a workspace"
+    )
     parser.add_argument("--json", action="store_true", help="print the report as one JSON object")
     parser.add_argument("--stop", action="store_true", help="stop at the first step that fails")
+    parser.add_argument("--course", metavar="COURSE", help="grade the workspace SCRIPT by the rows of a course")
+    parser.add_argument("--junit", metavar="FILE", help="with --course: also write a report of JUnit")
+    parser.add_argument("--allow-network", action="store_true", help="with --course: also where it cannot be closed in")
     parser.add_argument("--wait", type=float, default=10.0, metavar="S", help="seconds to wait for nodes (10)")
     given = parser.parse_args(words)
     if not given.script:
         parser.error("name a script")
+    if given.course is not None:
+        from bot_console.tui.cli.check.grade import run_grading
+
+        return run_grading(given)
     try:
         steps = read(_text(given.script))
     except (OSError, UnicodeDecodeError, ScriptError) as error:

@@ -14,6 +14,8 @@ from bot_console.tui.cli.lint.parameter_file import dead_values, is_meant, refus
 from bot_console.tui.cli.lint.python_file import Declared
 from bot_console.tui.cli.lint.python_file import lint as lint_python
 
+INDEX = "course.md"
+"""The file that makes a folder a course."""
 READ_TIMEOUT_S = 5.0
 """Seconds within which the parameters of running nodes are read."""
 
@@ -25,13 +27,17 @@ def run(words: list[str]) -> int:
         description="Find parameters without description, range, unit or validation, and values that reach none.",
         epilog="exit codes: 0 nothing found, 1 something found, 2 wrong usage",
     )
-    parser.add_argument("what", metavar="PACKAGE | FILE | FOLDER | running", help="running: the nodes of the domain")
+    parser.add_argument(
+        "what", metavar="PACKAGE | FILE | FOLDER | COURSE | running", help="running: the nodes of the domain"
+    )
     parser.add_argument(
         "--json",
         action="store_true",
         help="print the findings as JSON (`mend` is now `hint`, and is dropped in the next release)",
     )
     given = parser.parse_args(words)
+    if (Path(given.what) / INDEX).is_file():
+        return _course(Path(given.what))
     problem, found = _running() if given.what == "running" else _of_files(given.what)
     if problem:
         print(problem, file=sys.stderr)
@@ -46,6 +52,19 @@ def run(words: list[str]) -> int:
             print(each.text())
         print(f"{len(found)} found" if found else "nothing found", file=sys.stderr)
     return 1 if found else 0
+
+
+def _course(folder: Path) -> int:
+    from bot_console.tui.learn.course import CourseError, read_course
+
+    try:
+        course = read_course(folder)
+    except CourseError as error:
+        print(error)
+        return 1
+    chapters, steps, rows = len(course.chapters), len(course.steps()), len(course.rows())
+    print(f"nothing found in {chapters} chapters, {steps} steps and {rows} rows of grading", file=sys.stderr)
+    return 0
 
 
 def _of_files(what: str) -> tuple[str, list[LintFinding]]:

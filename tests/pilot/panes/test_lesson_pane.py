@@ -1,0 +1,133 @@
+"""The lesson pane shows the step, what it waits for, and goes on when it is done."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.appearance import Appearance
+from bot_console.tui.arrangement.plugin_pane import PluginEntry
+from bot_console.tui.console.model import Change, ChangeSource
+from bot_console.tui.layout.arrangement import Arrangement, Forgetful
+from bot_console.tui.learn.course import read_course
+from bot_console.tui.learn.layout import NAME, WithLesson
+from bot_console.tui.learn.lesson import CourseLesson
+from bot_console.tui.panes.lesson.pane import LessonPane
+from fakes.command_line import FakeCommandLine
+from piloting import Session
+from rest import at_rest
+from samples import live
+
+CHAPTER = """# One
+
+## Set the speed
+
+Why it [matters].
+
+```console
+ros2 param set /robot speed 2.0
+```
+
+```step
+saw-set speed 2.0
+```
+
+## Look at the plot
+
+```step
+saw-pane plot
+```
+"""
+
+
+class Clock:
+    """Time that goes on with each reading."""
+
+    now = 0.0
+
+    def __call__(self) -> float:
+        self.now += 10.0
+        return self.now
+
+
+def run(folder: Path, play: Callable[[Session], Awaitable[None]], size: tuple[int, int]) -> None:
+    (folder / "course.md").write_text("# C\n", encoding="utf-8")
+    (folder / "1.md").write_text(CHAPTER, encoding="utf-8")
+    lesson = CourseLesson(read_course(folder), folder, None, Clock())
+    entry = PluginEntry("lesson", "", "Lesson", "", find=lambda: LessonPane.of(lesson), source="a test")
+
+    async def main() -> None:
+        console, launcher = live()
+        app = BotConsoleApp(
+            console,
+            launcher,
+            FakeCommandLine(console.asked),
+            refresh_hz=0,
+            appearance=replace(Appearance(), arrangement=Arrangement(WithLesson(Forgetful()), NAME)),
+            plugins=lambda: [entry],
+        )
+        with at_rest():
+            async with app.run_test(size=size, notifications=True) as pilot:
+                session = Session(app, pilot, console, launcher)
+                await session.settle()
+                await session.settle()
+                await play(session)
+                assert app.faults.seen == []
+
+    asyncio.run(main())
+
+
+async def look(session: Session) -> None:
+    """Let the lesson look at what has happened."""
+    for _ in range(5):
+        session.pane(LessonPane).tick()
+    await session.settle()
+
+
+@pytest.mark.parametrize("size", [(80, 24), (120, 40)])
+def test_step_is_shown_and_the_next_one_once_it_is_done(size: tuple[int, int], tmp_path: Path) -> None:
+    async def play(session: Session) -> None:
+        assert "1/2 Set the speed" in session.text()
+        assert "waiting for: speed to be set to 2.0" in session.text()
+        assert "ros2 param set /robot speed 2.0" in session.text()
+        session.console.journal.append(Change(5, 0, "/robot", "speed", 1.0, 2.0, ChangeSource.OTHER))
+        await look(session)
+        assert "2/2 Look at the plot" in session.text()
+        assert "1 of 2 done" in session.text()
+        await session.press("4")
+        await look(session)
+        await session.press("0")
+        assert "2 of 2 done" in session.text()
+
+    run(tmp_path, play, size)
+
+
+def test_keys_show_other_steps_copy_and_open_the_whole_step(tmp_path: Path) -> None:
+    async def play(session: Session) -> None:
+        pane = session.pane(LessonPane)
+        pane.focus_target()
+        await session.press("n")
+        assert "2/2 Look at the plot" in session.text()
+        await session.press("p", "y")
+        assert session.app.clipboard == "ros2 param set /robot speed 2.0"
+        await session.press("enter")
+        assert "One, step 1 of 2" in session.text()
+        assert "Why it [matters]." in session.text()
+        await session.press("escape", "n", "o")
+        assert "1/2 Set the speed" in session.text()
+
+    run(tmp_path, play, (120, 40))
+
+
+def test_enter_does_not_make_a_step_done(tmp_path: Path) -> None:
+    async def play(session: Session) -> None:
+        session.pane(LessonPane).focus_target()
+        await session.press("enter", "escape", "n", "n", "p")
+        await look(session)
+        assert "0 of 2 done" in session.text()
+
+    run(tmp_path, play, (120, 40))

@@ -1,0 +1,48 @@
+"""`learn` and `lint` of a course without a screen."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from bot_console.tui.cli.learn import run
+from bot_console.tui.cli.lint.run import run as lint
+
+
+def test_list_shows_steps_and_what_the_next_one_misses(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["--list", "--workspace", str(tmp_path)]) == 0
+    printed = capsys.readouterr().out
+    assert "○ A node with a parameter" in printed
+    assert f"there is no file *.py in {tmp_path}" in printed
+
+
+def test_new_course_lints_and_lists(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["--new", str(tmp_path / "c")]) == 0
+    assert lint([str(tmp_path / "c")]) == 0
+    assert run([str(tmp_path / "c"), "--list", "--workspace", str(tmp_path)]) == 0
+    assert "0 of 1 done" in capsys.readouterr().out
+
+
+def test_new_course_never_replaces_a_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["--new", str(tmp_path)]) == 1
+    assert capsys.readouterr().err == f"not written: {tmp_path}: File exists\n"
+
+
+def test_lint_names_the_line_of_a_mistake(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    run(["--new", str(tmp_path / "c")])
+    chapter = tmp_path / "c" / "01-first-chapter.md"
+    chapter.write_text(chapter.read_text("utf-8").replace("saw-set", "saw-sett"), "utf-8")
+    assert lint([str(tmp_path / "c")]) == 1
+    assert f"{chapter}:15: 'saw-sett' is not one of" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "text"),
+    [
+        (["nowhere"], 2, "there is no course 'nowhere'; there are week6"),
+        (["--workspace", "nowhere"], 1, "there is no folder nowhere: make it (`mkdir -p nowhere/src`)"),
+    ],
+)
+def test_what_is_not_there_is_named(words: list[str], code: int, text: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(words) == code
+    assert text in capsys.readouterr().err

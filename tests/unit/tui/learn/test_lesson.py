@@ -1,0 +1,332 @@
+"""A step is done when its deeds were seen and its states hold, and only then."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from bot_console.tui.console.model import (
+    Change,
+    ChangeSource,
+    ConsoleSnapshot,
+    Endpoint,
+    GraphInfo,
+    Kind,
+    NodeInfo,
+    ParameterInfo,
+    ParameterTree,
+    Range,
+)
+from bot_console.tui.console.robot.robot_model import Pose, WorldInfo
+from bot_console.tui.learn.command_log import append, read_log
+from bot_console.tui.learn.conditions import Condition, read_condition
+from bot_console.tui.learn.course import Course, Step, find_course, read_course
+from bot_console.tui.learn.deeds import Command, Deeds
+from bot_console.tui.learn.files import WorkspaceFiles
+from bot_console.tui.learn.judging import missing
+from bot_console.tui.learn.lesson import CourseLesson
+from bot_console.tui.learn.lesson_view import OnScreen
+
+WEEK6 = read_course(find_course("week6"))
+MANIFEST = """\
+<package><name>intelligent_robot</name>
+<export><build_type>ament_python</build_type></export></package>
+"""
+SETUP = """\
+from setuptools import setup
+setup(
+    name='intelligent_robot',
+    packages=['intelligent_robot'],
+    data_files=[('share/intelligent_robot/launch', ['launch/x.launch.py']),
+                ('share/intelligent_robot/config', ['config/x.yaml'])],
+    entry_points={'console_scripts': ['robot_node = intelligent_robot.robot_node:main']},
+)
+"""
+
+
+class Clock:
+    """Time that goes on by more than the interval between two looks at the files with each reading."""
+
+    now = 0.0
+
+    def __call__(self) -> float:
+        self.now += 10.0
+        return self.now
+
+
+def parameter(node: str, name: str, value: Any, **facts: Any) -> ParameterInfo:
+    kind = {bool: Kind.BOOL, int: Kind.INTEGER, float: Kind.DOUBLE, str: Kind.STRING}[type(value)]
+    return ParameterInfo(node, name, kind, value, **facts)
+
+
+def snapshot(*parameters: ParameterInfo, topics: tuple[str, ...] = (), **parts: Any) -> ConsoleSnapshot:
+    nodes = sorted({each.node for each in parameters})
+    trees = {node: ParameterTree(node, tuple(each for each in parameters if each.node == node)) for node in nodes}
+    graph = GraphInfo(tuple(NodeInfo(each) for each in nodes), tuple(Endpoint(each, ()) for each in topics))
+    return ConsoleSnapshot(parameters=trees, graph=graph, **parts)
+
+
+def change(name: str, value: Any, *, accepted: bool = True, reason: str = "") -> Change:
+    return Change(0, 0, "/n", name, 0.0, value, ChangeSource.EDIT, accepted, reason)
+
+
+def why(text: str, deeds: Deeds | None = None, folder: Path = Path("/nonexistent")) -> str:
+    return missing(read_condition(text), deeds or Deeds(), WorkspaceFiles(folder), {})
+
+
+def seen(*parameters: ParameterInfo, **facts: Any) -> Deeds:
+    deeds = Deeds(**facts)
+    deeds.observe(snapshot(*parameters))
+    return deeds
+
+
+SPEED = parameter("/robot", "speed", 1.0)
+
+
+@pytest.mark.parametrize(
+    ("condition", "deeds", "text"),
+    [
+        ("saw-node robot", seen(SPEED), ""),
+        ("saw-node robto", seen(SPEED), "waiting for: node /robto; did you mean robot?"),
+        ("saw-node * with speed", seen(SPEED), ""),
+        ("saw-node * with sped", seen(SPEED), "waiting for: a node with a parameter sped; did you mean speed?"),
+        ("saw-parameter speed described", seen(SPEED), "speed has no description: give declare_parameter a Par"),
+        ("saw-parameter speed limited", seen(SPEED), "speed has no range: give its ParameterDescriptor"),
+        ("saw-parameter speed limited", seen(parameter("/r", "speed", 1.0, range=Range(0.0, 1.0))), ""),
+        ("saw-parameter speed == 2.0", seen(SPEED), "waiting for: speed with the value 2.0; it is 1.0"),
+        ("saw-set speed 2.0", seen(changes=[change("speed", 2.0)]), ""),
+        ("saw-set speed 2.0", seen(changes=[change("speed", 3.0)]), "waiting for: speed to be set to 2.0"),
+        ("saw-set speed", seen(changes=[change("speed", 9.0, accepted=False)]), "waiting for: somebody to set speed"),
+        ("saw-refused speed fast", seen(changes=[change("speed", 9.0, accepted=False, reason="too fast")]), ""),
+        ("saw-refused speed", seen(changes=[change("speed", 9.0)]), "speed took 9.0: the callback has to return Set"),
+        ("saw-refused speed", seen(commands=[Command(("ros2", "param", "set", "/n", "speed", "9"), 1)]), ""),
+        (
+            "saw-refused speed",
+            seen(commands=[Command(("param", "set", "/n", "other", "9"), 1)]),
+            "waiting for: a value",
+        ),
+        ("saw-command param get * speed", seen(commands=[Command(("ros2", "param", "get", "/n", "speed"), 0)]), ""),
+        (
+            "saw-command param get",
+            seen(commands=[Command(("param", "get"), 2)]),
+            "waiting for: param get; it ended wit",
+        ),
+        ("saw-failure run * speed:=2", seen(commands=[Command(("run", "a.py", "-p", "speed:=2"), 1)]), ""),
+        (
+            "saw-failure run *",
+            seen(commands=[Command(("run", "a.py"), 0)]),
+            "waiting for: run *, to see it fail; it di",
+        ),
+        ("saw-failure run *", seen(commands=[Command(("run", "a.py"), None)]), "waiting for: run *, to see it fail"),
+        ("saw-launch *.launch.py a:=*", seen(commands=[Command(("launch", "p", "x.launch.py", "a:=1"))]), ""),
+        (
+            "saw-launch *.launch.py b:=*",
+            seen(commands=[Command(("launch", "p", "x.launch.py", "a:=1"))]),
+            "waiting for",
+        ),
+        ("saw-curve linear", seen(curves={"/odom/twist.twist.linear.x"}), ""),
+        ("saw-curve linear", seen(), "waiting for: a curve of linear in the plot"),
+        ("saw-layout *", seen(layouts={"mine"}), ""),
+        ("saw-layout *", seen(), "waiting for: a saved layout"),
+        ("saw-pane graph", seen(panes={"plot"}), "waiting for: the pane graph"),
+        ("saw-steering", seen(), "waiting for: the robot to be driven by your keys"),
+        ("saw-move 2", seen(metres=1.5), "waiting for: the robot to drive 0.5 m"),
+    ],
+)
+def test_missing_deed_is_named(condition: str, deeds: Deeds, text: str) -> None:
+    found = why(condition, deeds)
+    assert found.startswith(text) and bool(found) == bool(text), found
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    folder = tmp_path / "src" / "intelligent_robot"
+    for path, text in {
+        "package.xml": MANIFEST,
+        "setup.py": SETUP,
+        "intelligent_robot/__init__.py": "",
+        "intelligent_robot/robot_node.py": "self.declare_parameter('speed', 1.0)\n",
+        "launch/x.launch.py": "",
+        "launch/y.launch.py": "",
+        "config/x.yaml": "robot:\n  ros__parameters:\n    speed: 1.0\n",
+        "config/wrong.yaml": "robot:\n  ros_parameters:\n    speed: 1.0\n",
+    }.items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_text(text, encoding="utf-8")
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("condition", "text"),
+    [
+        ("expect-file robot_node.py contains declare_parameter", ""),
+        ("expect-file robot_node.py contains callback", "intelligent_robot/robot_node.py has no callback"),
+        ("expect-file *.cpp", "there is no file *.cpp in "),
+        ("expect-entry-point robot_node", ""),
+        (
+            "expect-entry-point robot_nod",
+            "has no line for robot_nod in console_scripts; did you mean robot_node?",
+        ),
+        ("expect-installed launch/x.launch.py", ""),
+        (
+            "expect-installed launch/*.launch.py",
+            "launch/y.launch.py is not installed: data_files of setup.py has no",
+        ),
+        ("expect-parameter-file config/x.yaml speed 1.0", ""),
+        ("expect-parameter-file config/x.yaml speed 2.0", "config/x.yaml gives speed the value 1.0, not 2.0"),
+        ("expect-parameter-file config/x.yaml sped", "config/x.yaml gives no sped; did you mean speed?"),
+        ("expect-parameter-file config/wrong.yaml", "config/wrong.yaml:2: ros_parameters has one underscore"),
+    ],
+)
+def test_missing_state_of_the_workspace_is_named(condition: str, text: str, package: Path) -> None:
+    found = why(condition, folder=package)
+    assert text in found and bool(found) == bool(text), found
+
+
+def lesson(folder: Path, text: str, commands: Path | None = None) -> CourseLesson:
+    course = folder / "course"
+    course.mkdir(exist_ok=True)
+    (course / "course.md").write_text("# C\n", encoding="utf-8")
+    (course / "1.md").write_text(f"# One\n{text}", encoding="utf-8")
+    return CourseLesson(read_course(course), folder, commands, Clock())
+
+
+TWO = "## A\n```step\nsaw-set speed 2.0\nexpect-file a.txt\n```\n## B\n```step\nsaw-node b\n```\n"
+
+
+def test_step_is_done_by_its_deeds_and_open_again_when_a_state_is_lost(tmp_path: Path) -> None:
+    held = lesson(tmp_path, TWO)
+    assert held.observe(snapshot(), [change("speed", 2.0)], OnScreen()) == []
+    (tmp_path / "a.txt").touch()
+    assert held.observe(snapshot(), [], OnScreen()) == ["A"]
+    assert held.view().title == "B"
+    (tmp_path / "a.txt").unlink()
+    assert held.observe(snapshot(), [], OnScreen()) == []
+    assert held.view().done == 0
+
+
+def test_steps_may_be_done_in_any_order(tmp_path: Path) -> None:
+    held = lesson(tmp_path, TWO)
+    assert held.observe(snapshot(parameter("/b", "x", 1)), [], OnScreen()) == ["B"]
+    assert (held.view().title, held.view().done) == ("A", 1)
+
+
+def test_deeds_are_kept_in_the_workspace(tmp_path: Path) -> None:
+    lesson(tmp_path, TWO).observe(snapshot(parameter("/b", "x", 1)), [change("speed", 2.0)], OnScreen())
+    assert [held for held, _ in lesson(tmp_path, TWO).view().waits] == [True, False]
+
+
+def test_progress_that_cannot_be_read_is_kept_and_reported(tmp_path: Path) -> None:
+    path = tmp_path / ".bot-console" / "course.json"
+    path.parent.mkdir()
+    path.write_text("{", encoding="utf-8")
+    held = lesson(tmp_path, TWO)
+    assert str(path) in held.view().problem
+    held.observe(snapshot(parameter("/b", "x", 1)), [], OnScreen())
+    assert path.read_text(encoding="utf-8") == "{"
+    assert json.loads((tmp_path / ".bot-console" / "course-2.json").read_text(encoding="utf-8"))["held"]["b"]
+
+
+def test_robot_has_to_drive_after_the_other_deeds_of_the_step(tmp_path: Path) -> None:
+    held = lesson(tmp_path, "## A\n```step\nsaw-set speed 2.0\nsaw-move 1\n```\n")
+
+    def drive(*places: float) -> list[str]:
+        return [
+            title
+            for x in places
+            for title in held.observe(snapshot(world=WorldInfo(pose=Pose(x, 0.0, 0.0))), [], OnScreen())
+        ]
+
+    assert drive(0.0, 0.5, 1.0, 1.5, 2.0) == []
+    held.observe(snapshot(), [change("speed", 2.0)], OnScreen())
+    assert drive(2.5) == []
+    assert drive(3.0, 3.5) == ["A"]
+
+
+def test_robot_that_is_put_elsewhere_has_not_driven(tmp_path: Path) -> None:
+    held = lesson(tmp_path, "## A\n```step\nsaw-move 1\n```\n")
+    for x in (0.0, 5.0, -5.0):
+        assert held.observe(snapshot(world=WorldInfo(pose=Pose(x, 0.0, 0.0))), [], OnScreen()) == []
+
+
+def test_own_names_of_the_student_are_followed(tmp_path: Path) -> None:
+    text = "## A\n```console\nros2 param list /{node}\n```\n```step\nsaw-node * with speed as node\n```\n"
+    held = lesson(tmp_path, text)
+    held.observe(snapshot(parameter("/my_own", "speed", 1.0)), [], OnScreen())
+    assert held.view().snippets == (("", "ros2 param list /my_own"),)
+
+
+def test_commands_of_other_terminals_count(tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    log.touch()
+    held = lesson(tmp_path, "## A\n```step\nsaw-command param list\n```\n", log)
+    append(str(log), ["ros2", "param", "list", "\udcff"], None)
+    with log.open("a", encoding="utf-8") as file:
+        file.write("no json\n[]\n")
+    append(str(log), ["ros2", "param", "list", "\udcff"], 1)
+    assert held.observe(snapshot(), [], OnScreen()) == []
+    append(str(log), ["ros2", "param", "list"], 0)
+    assert held.observe(snapshot(), [], OnScreen()) == ["A"]
+    assert [each.code for each in read_log(log)] == [1, 0]
+
+
+def deed(condition: Condition, deeds: Deeds) -> bool:
+    """Do what a condition asks for; False for states of files."""
+    words = [each.replace("*", "x") for each in condition.words]
+    name = words[0] if words else ""
+    match condition.verb:
+        case "saw-node":
+            given = dict(zip(condition.words[1::2], condition.words[2::2], strict=True))
+            deeds.nodes.add(f"/{name}")
+            if "with" in given:
+                deeds.parameters[f"/{name}", given["with"]] = parameter(f"/{name}", given["with"], 1.0)
+        case "saw-parameter":
+            value = words[words.index("==") + 1] if "==" in words else 1.0
+            deeds.parameters["/n", name] = parameter("/n", name, str(value), description="d", range=Range(0.0, 1.0))
+        case "saw-set":
+            value = float(words[1]) if len(words) > 1 else 1.0
+            deeds.changes.append(change(name, value))
+        case "saw-refused":
+            deeds.changes.append(change(name, 1.0, accepted=False, reason=" ".join(words[1:])))
+        case "saw-command":
+            deeds.commands.append(Command(tuple(words), 0))
+        case "saw-failure":
+            deeds.commands.append(Command(tuple(words), 1))
+        case "saw-launch":
+            deeds.commands.append(Command(("launch", *words), None))
+        case "saw-steering":
+            deeds.steered = True
+        case "saw-move":
+            deeds.metres += float(name)
+        case "saw-topic" | "saw-pane" | "saw-curve" | "saw-layout" | "saw-profile":
+            getattr(deeds, f"{condition.verb.removeprefix('saw-')}s").add(name)
+        case _:
+            return False
+    return True
+
+
+@pytest.mark.parametrize("step", WEEK6.steps(), ids=lambda each: each.id)
+def test_each_deed_of_the_course_counts_and_is_asked_for_when_left_out(step: Step, tmp_path: Path) -> None:
+    deeds_asked = [each for each in step.conditions if each.verb.startswith("saw-")]
+    for left_out in (None, *deeds_asked):
+        deeds = Deeds()
+        for each in deeds_asked:
+            assert each == left_out or deed(each, deeds)
+        open_ones = [each for each in deeds_asked if missing(each, deeds, WorkspaceFiles(tmp_path), {})]
+        assert open_ones == ([left_out] if left_out else []) or _same_deed(left_out, deeds_asked)
+
+
+def _same_deed(left_out: Condition | None, others: list[Condition]) -> bool:
+    """Whether another condition of the step asks for a deed that is also this one."""
+    assert left_out is not None
+    deeds = Deeds()
+    for each in others:
+        assert each == left_out or deed(each, deeds)
+    return not missing(left_out, deeds, WorkspaceFiles(Path("/nonexistent")), {})
+
+
+def test_course_has_unique_steps_that_ask_for_something() -> None:
+    assert isinstance(WEEK6, Course)
+    assert all(each.conditions for each in WEEK6.steps())

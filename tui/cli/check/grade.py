@@ -1,0 +1,45 @@
+"""`bot-console check WORKSPACE --course COURSE`: grades a student's workspace."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+from bot_console.tui.format import sanitize
+from bot_console.tui.learn.course import CourseError, find_course, read_course
+from bot_console.tui.learn.grading import as_json, as_junit, grade, table
+from bot_console.tui.learn.sandbox import NoSandboxError
+
+
+def run_grading(given: argparse.Namespace) -> int:
+    """Grade and print the table; 0 if all rows passed, 1 if not or if it cannot be graded, 2 for wrong usage."""
+    workspace = Path(given.script).resolve()
+    if not workspace.is_dir():
+        print(f"there is no folder {given.script}: name the workspace that is to be graded", file=sys.stderr)
+        return 2
+    try:
+        course = read_course(find_course(given.course))
+    except CourseError as error:
+        print(error, file=sys.stderr)
+        return 2
+    if not course.rows():
+        print(f"the course '{course.name}' has no row to grade by (a fence ```grade)", file=sys.stderr)
+        return 2
+    try:
+        results = list(grade(course, workspace, allow_network=given.allow_network))
+    except NoSandboxError as refused:
+        print(refused, file=sys.stderr)
+        return 1
+    if given.json:
+        print(json.dumps(as_json(course, results), indent=2))
+    else:
+        print("\n".join(sanitize(line) for line in table(results).splitlines()))
+    if given.junit:
+        try:
+            Path(given.junit).write_text(as_junit(course, results), encoding="utf-8")
+        except OSError as error:
+            print(f"{given.junit} is not written: {error.strerror}", file=sys.stderr)
+            return 1
+    return 0 if not any(each.why for each in results) else 1

@@ -1,0 +1,82 @@
+"""The student's workspace: its files and packages, as conditions ask for them."""
+
+from __future__ import annotations
+
+import fnmatch
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+from bot_console.runtime.workspace.discover import Workspace, default_folders
+from bot_console.runtime.workspace.package import Package
+
+SKIPPED = frozenset(("build", "install", "log", "__pycache__", "node_modules"))
+MAX_FILES = 5000
+"""Files of a workspace that are looked at."""
+MAX_FILE_BYTES = 1_000_000
+
+
+class WorkspaceFiles:
+    """One look at a workspace. Make a new one to see what has changed since."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self._packages: list[Package] | None = None
+        self._listed: list[Path] | None = None
+
+    def matching(self, pattern: str) -> list[Path]:
+        """The files whose path within the workspace ends with a pattern of shells, such as `config/*.yaml`."""
+        wanted = f"*/{pattern.lstrip('/')}"
+        return [each for each in self._files() if fnmatch.fnmatch(f"/{each.relative_to(self.folder)}", wanted)]
+
+    def text(self, path: Path) -> str:
+        """The text of a file; empty if it cannot be read or is too large."""
+        try:
+            return path.read_text(encoding="utf-8", errors="replace") if path.stat().st_size <= MAX_FILE_BYTES else ""
+        except OSError:
+            return ""
+
+    def packages(self) -> list[Package]:
+        """The packages, the one that was changed last first."""
+        if self._packages is None:
+            found = Workspace(list(default_folders(self.folder))).packages.values()
+            inside = [each for each in found if self.folder.resolve() in each.folder.resolve().parents]
+            inside += [each for each in found if each.folder.resolve() == self.folder.resolve()]
+            self._packages = sorted(inside, key=lambda each: -_changed(each.folder))
+        return self._packages
+
+    def package_name(self, usual: str) -> str:
+        """The student's package: the one that the course calls so, else the one that was changed last; else `usual`."""
+        found = [each.name for each in self.packages()]
+        return usual if usual in found else next(iter(found), usual)
+
+    def name_of(self, path: Path) -> str:
+        """How a file is called in a text."""
+        return str(path.relative_to(self.folder))
+
+    def stamp(self) -> int:
+        """A number that changes when a file is added, removed or written."""
+        return hash(tuple((str(each), _changed(each)) for each in self._files()))
+
+    def _files(self) -> list[Path]:
+        if self._listed is None:
+            self._listed = sorted(_below(self.folder))
+        return self._listed
+
+
+def _below(folder: Path) -> Iterator[Path]:
+    count = 0
+    for place, folders, files in os.walk(folder):
+        folders[:] = sorted(each for each in folders if each not in SKIPPED and not each.startswith("."))
+        for each in files:
+            count += 1
+            if count > MAX_FILES:
+                return
+            yield Path(place) / each
+
+
+def _changed(path: Path) -> float:
+    try:
+        return path.stat().st_mtime_ns
+    except OSError:
+        return 0

@@ -1,0 +1,91 @@
+"""Rows of a grading: what to start, a script of `bot-console check` to run on it, and runs in simulated time. Pure."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from bot_console.tui.cli.check.script import read as read_script
+from bot_console.tui.learn.conditions import VERBS, Condition, read_condition
+
+STARTERS = ("run", "launch")
+"""What a line that starts something begins with: a command of the program."""
+DRIVE = re.compile(r"drive (\d+) s (.+?) (?:>|more than) (\d+(?:\.\d+)?) m")
+DRIVE_USAGE = "drive SECONDS s PACKAGE FILE [NAME:=VALUE ...] > METRES m"
+
+
+class Drive(NamedTuple):
+    """A run in simulated time, with a fixed seed: what is launched, for how long, and how far the robot has to get."""
+
+    seconds: int
+    words: tuple[str, ...]
+    metres: float
+
+
+@dataclass(frozen=True)
+class GradeRow:
+    """A row: its points, states of files, what to start, and the script that is run on it."""
+
+    title: str
+    points: float
+    files: tuple[Condition, ...] = ()
+    starts: tuple[tuple[str, ...], ...] = ()
+    script: str = ""
+    drives: tuple[Drive, ...] = ()
+    line: int = 0
+
+
+def read_grade_row(about: str, body: Sequence[str], line: int) -> GradeRow:
+    """Read a fence `grade POINTS Title`; raises `ValueError` with the line of a mistake."""
+    head, _, title = about.partition(" ")
+    try:
+        points = float(head)
+    except ValueError:
+        raise ValueError(f"{line}: write ```grade POINTS Title") from None
+    starts: list[tuple[str, ...]] = []
+    files: list[Condition] = []
+    steps: list[str] = []
+    drives: list[Drive] = []
+    for number, text in enumerate(body, line + 1):
+        stripped = text.strip()
+        word = stripped.partition(" ")[0]
+        if not stripped or stripped.startswith("#"):
+            continue
+        if word in STARTERS:
+            starts.append(_words(stripped, number))
+        elif word == "drive":
+            drives.append(_drive(stripped, number))
+        elif word in VERBS and word.startswith("expect-"):
+            files.append(read_condition(stripped, number))
+        else:
+            steps.append(_step(stripped, number))
+    if steps and not starts:
+        raise ValueError(f"{line}: nothing is started: begin with `run PACKAGE EXECUTABLE` or `launch PACKAGE FILE`")
+    if not (steps or files or drives):
+        raise ValueError(f"{line}: the row checks nothing")
+    return GradeRow(title.strip(), points, tuple(files), tuple(starts), "\n".join(steps), tuple(drives), line)
+
+
+def _words(text: str, line: int) -> tuple[str, ...]:
+    try:
+        return tuple(shlex.split(text))
+    except ValueError as error:
+        raise ValueError(f"{line}: {error}; put what contains blanks or quotes into quotes") from None
+
+
+def _drive(text: str, line: int) -> Drive:
+    found = DRIVE.fullmatch(text)
+    if found is None:
+        raise ValueError(f"{line}: write {DRIVE_USAGE}")
+    return Drive(int(found[1]), _words(found[2], line), float(found[3]))
+
+
+def _step(text: str, line: int) -> str:
+    try:
+        read_script(text)
+    except ValueError as error:
+        raise ValueError(f"{line}: {str(error).partition(': ')[2] or error}") from None
+    return text

@@ -1,0 +1,145 @@
+"""Grades a workspace by the rows of a course: each in a fresh copy and a domain of its own."""
+
+from __future__ import annotations
+
+import json
+import shlex
+import tempfile
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+from bot_console.tui.learn.course import Course
+from bot_console.tui.learn.deeds import Deeds
+from bot_console.tui.learn.files import WorkspaceFiles
+from bot_console.tui.learn.grade_row import Drive, GradeRow
+from bot_console.tui.learn.judging import missing, with_names
+from bot_console.tui.learn.sandbox import Finished, Sandbox, make_sandbox
+
+ROW_TIMEOUT_S = 90.0
+"""Seconds that a row may take."""
+NODES_WAIT_S = 15
+"""Seconds that the nodes of a row have until they are there."""
+SEED = 1
+SHELL = """\
+{starts}
+$BOT_CONSOLE check "$HOME/script" --json --wait {wait} > "$HOME/report" 2> "$HOME/problem"
+"""
+DRIVE = '$BOT_CONSOLE --headless --fast --seed {seed} --duration {seconds} --launch {words} > "$HOME/report"'
+STEP_LINES = 3
+"""Lines of a program's output that explain a failure."""
+
+
+@dataclass(frozen=True)
+class RowResult:
+    """A row and why it failed; an empty text if it passed."""
+
+    row: GradeRow
+    why: str
+
+    @property
+    def points(self) -> float:
+        """The points it got."""
+        return 0.0 if self.why else self.row.points
+
+
+def grade(course: Course, workspace: Path, *, allow_network: bool = False) -> Iterator[RowResult]:
+    """The results, row by row; raises `NoSandboxError` if the workspace cannot be closed in."""
+    for row in course.rows():
+        with tempfile.TemporaryDirectory(prefix="bc-grade-", ignore_cleanup_errors=True) as folder:
+            sandbox = make_sandbox(workspace, Path(folder), allow_network=allow_network)
+            yield RowResult(row, _why(row, sandbox, course))
+
+
+def _why(row: GradeRow, sandbox: Sandbox, course: Course) -> str:
+    files = WorkspaceFiles(sandbox.workspace)
+    names = {**course.defaults, "package": files.package_name(course.defaults.get("package", ""))}
+    for condition in row.files:
+        if why := missing(condition, Deeds(), files, names):
+            return why.replace(f"{sandbox.workspace}", "the workspace")
+    if row.script and (why := _script(row, sandbox, names)):
+        return why
+    return next((why for each in row.drives if (why := _drive(each, sandbox, names))), "")
+
+
+def _script(row: GradeRow, sandbox: Sandbox, names: dict[str, str]) -> str:
+    (sandbox.folder / "home" / "script").write_text(with_names(row.script, names), encoding="utf-8")
+    starts = [f"$BOT_CONSOLE {_line(words, names)} &" for words in row.starts]
+    done = sandbox.run(SHELL.format(starts="\n".join(starts), wait=NODES_WAIT_S), ROW_TIMEOUT_S)
+    report = _report(sandbox)
+    if not isinstance(report, dict):
+        problem = _text(sandbox.folder / "home" / "problem").strip()
+        return done.why or _explained(problem or "the nodes did not start", done)
+    failed = [each for each in report["steps"] if not each["ok"]]
+    return f"{failed[0]['text']}: {failed[0]['why']}" if failed else done.why
+
+
+def _drive(drive: Drive, sandbox: Sandbox, names: dict[str, str]) -> str:
+    line = DRIVE.format(seed=SEED, seconds=drive.seconds, words=_line(drive.words, names))
+    done = sandbox.run(line, ROW_TIMEOUT_S)
+    report = _report(sandbox)
+    if done.why or not isinstance(report, dict) or "distance" not in report:
+        return done.why or _explained("the run has no report", done)
+    way = float(report["distance"])
+    return "" if way > drive.metres else f"the robot drove {way:.2f} m in {drive.seconds} s, not {drive.metres:g} m"
+
+
+def _line(words: Sequence[str], names: dict[str, str]) -> str:
+    return " ".join(shlex.quote(with_names(each, names)) for each in words)
+
+
+def _report(sandbox: Sandbox) -> Any:
+    try:
+        found: Any = json.loads(_text(sandbox.folder / "home" / "report"))
+    except ValueError:
+        return None
+    return found
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return ""
+
+
+def _explained(why: str, done: Finished) -> str:
+    lines = [each.strip() for each in done.output.splitlines() if each.strip()]
+    return f"{why} ({' / '.join(lines[-STEP_LINES:])})" if lines else why
+
+
+def table(results: Sequence[RowResult]) -> str:
+    """The results as a table: passed or not, points, the row and why it failed."""
+    lines: list[str] = []
+    for each in results:
+        lines.append(f"{'FAIL' if each.why else 'ok  '}  {each.points:g}/{each.row.points:g}  {each.row.title}")
+        if each.why:
+            lines.append(f"           {each.why}")
+    got, most = sum(each.points for each in results), sum(each.row.points for each in results)
+    return "\n".join([*lines, f"{got:g} of {most:g} points"])
+
+
+def as_json(course: Course, results: Sequence[RowResult]) -> dict[str, Any]:
+    """The results as JSON data."""
+    rows = [
+        {"title": each.row.title, "ok": not each.why, "why": each.why, "points": each.points, "of": each.row.points}
+        for each in results
+    ]
+    return {"course": course.name, "points": sum(e.points for e in results), "rows": rows}
+
+
+def as_junit(course: Course, results: Sequence[RowResult]) -> str:
+    """The results as a report of JUnit."""
+    failures = str(sum(bool(each.why) for each in results))
+    suite = ElementTree.Element("testsuite", name=course.name, tests=str(len(results)), failures=failures)
+    for each in results:
+        case = ElementTree.SubElement(suite, "testcase", classname=course.name, name=each.row.title)
+        if each.why:
+            ElementTree.SubElement(case, "failure", message=_printable(each.why))
+    return ElementTree.tostring(suite, encoding="unicode")
+
+
+def _printable(text: str) -> str:
+    return "".join(each if each.isprintable() or each == "\n" else "?" for each in text)

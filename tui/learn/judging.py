@@ -1,0 +1,250 @@
+"""Whether a condition holds, and if not, what is missing: the texts are those of `lint` and of the runtime's hints."""
+
+from __future__ import annotations
+
+import fnmatch
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+from bot_console.runtime.programs import hints
+from bot_console.tui.cli.lint.run import lint_files
+from bot_console.tui.console.parameters.file.text import sections
+from bot_console.tui.console.parameters.file.yaml_tree import Scalar
+from bot_console.tui.console.parameters.file.yaml_tree import Sequence as YamlSequence
+from bot_console.tui.format import value_text
+from bot_console.tui.learn.conditions import Condition
+from bot_console.tui.learn.deeds import Deeds, names_of
+from bot_console.tui.learn.files import WorkspaceFiles
+
+
+def missing(condition: Condition, deeds: Deeds, files: WorkspaceFiles, names: dict[str, str]) -> str:
+    """What is missing, in a sentence; empty if the condition holds. `names` learns what `as` gives a name to."""
+    words = [with_names(each, names) for each in condition.words]
+    if condition.verb == "saw-node":
+        return _node(words, deeds, names)
+    if condition.verb.startswith("saw-"):
+        return _DEEDS[condition.verb](words, deeds)
+    return _STATES[condition.verb](words, files)
+
+
+def with_names(text: str, names: Mapping[str, str]) -> str:
+    """A text with `{name}` replaced by what the name stands for; other braces stay as they are."""
+    for name, value in names.items():
+        text = text.replace(f"{{{name}}}", value)
+    return text
+
+
+def _node(words: Sequence[str], deeds: Deeds, names: dict[str, str]) -> str:
+    given = dict(zip(words[1::2], words[2::2], strict=True))
+    wanted, parameter = words[0], given.get("with", "")
+    found = [each for each in sorted(deeds.nodes) if wanted == "*" or each.lstrip("/") == wanted.lstrip("/")]
+    having = [each for each in found if not parameter or (each, parameter) in deeds.parameters]
+    if having:
+        if "as" in given:
+            names[given["as"]] = having[-1].lstrip("/")
+        return ""
+    who = "a node" if wanted == "*" else f"node /{wanted.lstrip('/')}"
+    if not found:
+        near = (
+            "" if wanted == "*" else hints.did_you_mean(wanted.lstrip("/"), [each.lstrip("/") for each in deeds.nodes])
+        )
+        return f"waiting for: {who}{f' with a parameter {parameter}' if parameter else ''}{near}"
+    near = hints.did_you_mean(parameter, names_of({key: at for key, at in deeds.parameters.items() if key[0] in found}))
+    return f"waiting for: {who} with a parameter {parameter}{near}"
+
+
+def _parameter(words: Sequence[str], deeds: Deeds) -> str:
+    name, wanted = words[0], words[words.index("==") + 1] if "==" in words else None
+    found = deeds.values_of(name)
+    if not found:
+        return f"waiting for: a node with a parameter {name}{hints.did_you_mean(name, names_of(deeds.parameters))}"
+    if "described" in words and not any(each.description for each in found):
+        return f"{name} has no description: give declare_parameter a ParameterDescriptor(description=...)"
+    if "limited" in words and not any(each.range for each in found):
+        return f"{name} has no range: give its ParameterDescriptor a floating_point_range or an integer_range"
+    if wanted is not None and not any(value_text(each.value) == wanted for each in found):
+        return f"waiting for: {name} with the value {wanted}; it is {value_text(found[-1].value)}"
+    return ""
+
+
+def _set(words: Sequence[str], deeds: Deeds) -> str:
+    values = deeds.values_set(words[0])
+    if len(words) == 1:
+        return "" if values else f"waiting for: somebody to set {words[0]}"
+    same = any(_same(each, words[1]) for each in values)
+    return "" if same else f"waiting for: {words[0]} to be set to {words[1]}"
+
+
+def _same(one: str, other: str) -> bool:
+    try:
+        return float(one) == float(other)
+    except ValueError:
+        return one.strip("'\"") == other.strip("'\"")
+
+
+def _refused(words: Sequence[str], deeds: Deeds) -> str:
+    reasons = deeds.refusals(words[0])
+    if any(len(words) == 1 or not each or words[1].lower() in each.lower() for each in reasons):
+        return ""
+    accepted = deeds.values_set(words[0])
+    if accepted:
+        return f"{words[0]} took {accepted[-1]}: the callback has to return SetParametersResult(successful=False, ...)"
+    return f"waiting for: a value of {words[0]} that is refused"
+
+
+def _command(words: Sequence[str], deeds: Deeds) -> str:
+    ran = [each for each in deeds.commands if _in_order(words, each.words)]
+    if any(not each.code for each in ran):
+        return ""
+    failed = f"; it ended with exit code {ran[-1].code}" if ran else ""
+    return f"waiting for: {' '.join(words)}{failed}"
+
+
+def _failure(words: Sequence[str], deeds: Deeds) -> str:
+    ran = [each for each in deeds.commands if _in_order(words, each.words)]
+    if any(each.code for each in ran):
+        return ""
+    went_on = "; it did not fail" if any(each.code == 0 for each in ran) else ""
+    return f"waiting for: {' '.join(words)}, to see it fail{went_on}"
+
+
+def _in_order(wanted: Sequence[str], given: Sequence[str]) -> bool:
+    left = iter(given)
+    return all(any(fnmatch.fnmatch(each, want) for each in left) for want in wanted)
+
+
+def _launch(words: Sequence[str], deeds: Deeds) -> str:
+    file, argument = words[0], words[1] if len(words) > 1 else ""
+    for each in deeds.commands:
+        rest = [*(each.words[1:] if each.words[:1] == ("ros2",) else each.words)]
+        launched = rest[:1] == ["launch"] and any(fnmatch.fnmatch(word, f"*{file}") for word in rest[1:])
+        if launched and (not argument or any(fnmatch.fnmatch(word, argument) for word in rest)):
+            return ""
+    if not argument and any(fnmatch.fnmatch(each, f"*{file}") for each in deeds.launches):
+        return ""
+    return f"waiting for: a launch of {file}{f' with {argument}' if argument else ''}"
+
+
+def _moved(words: Sequence[str], deeds: Deeds) -> str:
+    left = float(words[0]) - (deeds.metres - deeds.metres_before)
+    return "" if left <= 0 else f"waiting for: the robot to drive {left:.1f} m"
+
+
+def _among(what: str, of: Callable[[Deeds], set[str]]) -> Callable[[Sequence[str], Deeds], str]:
+    def judge(words: Sequence[str], deeds: Deeds) -> str:
+        found = of(deeds)
+        held = bool(found) if words[0] == "*" else any(fnmatch.fnmatch(each, words[0]) for each in found)
+        return "" if held else f"waiting for: {what.format('' if words[0] == '*' else words[0]).rstrip()}"
+
+    return judge
+
+
+_DEEDS: Mapping[str, Callable[[Sequence[str], Deeds], str]] = {
+    "saw-parameter": _parameter,
+    "saw-set": _set,
+    "saw-refused": _refused,
+    "saw-command": _command,
+    "saw-failure": _failure,
+    "saw-launch": _launch,
+    "saw-topic": _among("topic {}", lambda deeds: deeds.topics),
+    "saw-pane": _among("the pane {}", lambda deeds: deeds.panes),
+    "saw-curve": lambda words, deeds: (
+        "" if any(words[0] in each for each in deeds.curves) else f"waiting for: a curve of {words[0]} in the plot"
+    ),
+    "saw-layout": _among("a saved layout {}", lambda deeds: deeds.layouts),
+    "saw-profile": _among("a profile {} to be applied", lambda deeds: deeds.profiles),
+    "saw-steering": lambda words, deeds: "" if deeds.steered else "waiting for: the robot to be driven by your keys",
+    "saw-move": _moved,
+}
+
+
+def _file(words: Sequence[str], files: WorkspaceFiles) -> str:
+    found = files.matching(words[0])
+    if not found:
+        return f"there is no file {words[0]} in {files.folder}"
+    if len(words) == 1 or any(words[2] in files.text(each) for each in found):
+        return ""
+    return f"{files.name_of(found[-1])} has no {words[2]}"
+
+
+def _entry_point(words: Sequence[str], files: WorkspaceFiles) -> str:
+    packages = files.packages()
+    if not packages:
+        return "there is no package yet: a folder with package.xml and setup.py"
+    for each in packages:
+        if words[0] in each.executables or (words[0] == "*" and each.executables):
+            return ""
+    if packages[0].problem:
+        return packages[0].problem
+    what = "console script" if words[0] == "*" else f"line for {words[0]}"
+    near = hints.did_you_mean(words[0], packages[0].executables)
+    return f"{files.name_of(packages[0].folder / 'setup.py')} has no {what} in console_scripts{near}"
+
+
+def _installed(words: Sequence[str], files: WorkspaceFiles) -> str:
+    wanted = files.matching(words[0])
+    if not wanted:
+        return f"there is no file {words[0]} in {files.folder}"
+    for package in files.packages():
+        installed = {each.resolve() for _, sources in package.data_files for each in sources}
+        wanted = [each for each in wanted if each.resolve() not in installed]
+    if not wanted:
+        return ""
+    return f"{files.name_of(wanted[0])} is not installed: data_files of setup.py has no line for it"
+
+
+def _parameter_file(words: Sequence[str], files: WorkspaceFiles) -> str:
+    found = files.matching(words[0])
+    if not found:
+        return f"there is no file {words[0]} in {files.folder}"
+    why = ""
+    for path in found:
+        findings = [each for each in lint_files([path], path) if each.fault == "refused"]
+        if findings:
+            why = _at_place(findings[0].place, findings[0].line, findings[0].hint or findings[0].subject, files)
+            continue
+        try:
+            read = sections(files.text(path))
+        except ValueError as error:
+            why = f"{files.name_of(path)}: {error}"
+            continue
+        values = {name: _written(place) for section in read for name, place in section.places.items()}
+        if not read:
+            why = f"{files.name_of(path)} has no ros__parameters below a node's name"
+        elif len(words) > 1 and words[1] not in values:
+            why = f"{files.name_of(path)} gives no {words[1]}{hints.did_you_mean(words[1], values)}"
+        elif len(words) > 2 and not _same(values[words[1]], words[2]):
+            why = f"{files.name_of(path)} gives {words[1]} the value {values[words[1]]}, not {words[2]}"
+        else:
+            return ""
+    return why
+
+
+def _written(place: Scalar | YamlSequence) -> str:
+    return place.text if isinstance(place, Scalar) else "a list"
+
+
+def _no_findings(words: Sequence[str], files: WorkspaceFiles) -> str:
+    found = files.matching(words[0])
+    if not found:
+        return f"there is no file {words[0]} in {files.folder}"
+    findings = lint_files(found)
+    if not findings:
+        return ""
+    first = findings[0]
+    return _at_place(first.place, first.line, f"{first.subject}: {first.fault}; {first.hint}", files)
+
+
+def _at_place(place: str, line: int, text: str, files: WorkspaceFiles) -> str:
+    path = Path(place)
+    name = files.name_of(path) if files.folder in path.parents else place
+    return f"{name}:{line}: {text}" if line else f"{name}: {text}"
+
+
+_STATES: Mapping[str, Callable[[Sequence[str], WorkspaceFiles], str]] = {
+    "expect-file": _file,
+    "expect-entry-point": _entry_point,
+    "expect-installed": _installed,
+    "expect-parameter-file": _parameter_file,
+    "expect-no-findings": _no_findings,
+}

@@ -1,0 +1,140 @@
+"""A course that is being worked through: which steps are done, and what the one that is shown waits for."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+
+from bot_console.tui.console.model import Change, ConsoleSnapshot
+from bot_console.tui.learn.command_log import read_log
+from bot_console.tui.learn.conditions import Condition
+from bot_console.tui.learn.course import Course, Step
+from bot_console.tui.learn.deeds import Deeds
+from bot_console.tui.learn.files import WorkspaceFiles
+from bot_console.tui.learn.judging import missing, with_names
+from bot_console.tui.learn.lesson_view import LessonView, OnScreen
+from bot_console.tui.learn.progress import Progress, read_progress
+
+FILES_POLL_S = 1.0
+"""Seconds between two looks at the files of the workspace and at the commands of other terminals."""
+
+
+class CourseLesson:
+    """Judges all steps, whichever is shown: steps may be done in any order, and are open again when a state is lost."""
+
+    def __init__(
+        self,
+        course: Course,
+        workspace: Path,
+        commands: Path | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """`commands` is the file in which the command lines of the domain are written down."""
+        self.course = course
+        self._workspace = workspace
+        self._commands = commands
+        self._clock = clock
+        self._deeds = Deeds()
+        self._files = WorkspaceFiles(workspace)
+        self._looked = float("-inf")
+        self._metres_before: dict[str, float] = {}
+        """By step, how far the robot had driven when all but the driving was done."""
+        self._missing: dict[str, list[str]] = {}
+        """By step, what each condition misses; an empty text is a condition that holds."""
+        self.progress: Progress = read_progress(workspace, course.name)
+        self._steps = course.steps()
+        self._at = next((n for n, each in enumerate(self._steps) if each.id == self.progress.at), 0)
+        self._judge()
+
+    def observe(self, snapshot: ConsoleSnapshot, changes: Iterable[Change], screen: OnScreen) -> Sequence[str]:
+        """Take in what has happened; the titles of steps that are done since. Steps that are shown and done go on."""
+        self._deeds.observe(snapshot)
+        self._deeds.add_changes(changes)
+        self._deeds.panes |= {screen.pane} - {""}
+        self._deeds.curves |= screen.curves
+        self._deeds.layouts |= screen.layouts
+        self._deeds.steered |= screen.steers
+        now = self._clock()
+        if now - self._looked < FILES_POLL_S:
+            return ()
+        self._looked = now
+        self._files = WorkspaceFiles(self._workspace)
+        if self._commands is not None:
+            self._deeds.commands = read_log(self._commands)
+        before = {each.id for each in self._steps if self.is_done(each)}
+        self._judge()
+        new = [each for each in self._steps if each.id not in before and self.is_done(each)]
+        if any(each is self._steps[self._at] for each in new):
+            self.go(0)
+        return [each.title for each in new]
+
+    def is_done(self, step: Step) -> bool:
+        """Whether all conditions of a step hold."""
+        return not any(self._missing[step.id])
+
+    def what_is_missing(self, step: Step) -> list[str]:
+        """What each condition of a step misses; an empty text for one that holds."""
+        return self._missing[step.id]
+
+    def view(self) -> LessonView:
+        """The step to show now."""
+        step = self._steps[self._at]
+        waits = tuple(
+            (not why, self._asked(condition) if not why else self._with_hint(condition, why))
+            for condition, why in zip(step.conditions, self._missing[step.id], strict=True)
+        )
+        return LessonView(
+            self.course.chapter_of(step).title,
+            step.title,
+            self._at + 1,
+            len(self._steps),
+            sum(self.is_done(each) for each in self._steps),
+            self._named(step.text),
+            tuple((self._named(each.path), self._named(each.text)) for each in step.snippets),
+            waits,
+            self.progress.problem,
+        )
+
+    def go(self, by: int) -> None:
+        """Show the step so many further on, done or not; 0: the next that is open."""
+        if by:
+            self._at = max(0, min(len(self._steps) - 1, self._at + by))
+        else:
+            order = [*range(self._at + 1, len(self._steps)), *range(self._at + 1)]
+            self._at = next((each for each in order if not self.is_done(self._steps[each])), self._at)
+        self.progress.at = self._steps[self._at].id
+        self.progress.save()
+
+    def _judge(self) -> None:
+        names = {**self.course.defaults, **self.progress.names}
+        names["package"] = self._files.package_name(self.course.defaults.get("package", ""))
+        changed = False
+        for step in self._steps:
+            held = self.progress.held.setdefault(step.id, [])
+            self._missing[step.id] = []
+            self._deeds.metres_before = self._metres_before.get(step.id, self._deeds.metres)
+            for condition in step.conditions:
+                why = "" if condition.once and condition.text in held else self._why(condition, names)
+                self._missing[step.id].append(why)
+                if condition.once and not why and condition.text not in held:
+                    held.append(condition.text)
+                    changed = True
+            left = [each for each, why in zip(step.conditions, self._missing[step.id], strict=True) if why]
+            if all(each.verb == "saw-move" for each in left):
+                self._metres_before.setdefault(step.id, self._deeds.metres)
+        if changed or names != self.progress.names:
+            self.progress.names = names
+            self.progress.save()
+
+    def _why(self, condition: Condition, names: dict[str, str]) -> str:
+        return missing(condition, self._deeds, self._files, names)
+
+    def _with_hint(self, condition: Condition, why: str) -> str:
+        return f"{why}: {self._named(condition.hint)}" if condition.hint else why
+
+    def _asked(self, condition: Condition) -> str:
+        return self._named(condition.text)
+
+    def _named(self, text: str) -> str:
+        return with_names(text, self.progress.names)

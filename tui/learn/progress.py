@@ -1,0 +1,55 @@
+"""What a student has done, kept in the workspace so that it moves with it."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, cast
+
+FOLDER = ".bot-console"
+VERSION = 1
+
+
+@dataclass
+class Progress:
+    """The deeds that have been seen, by step; the names that the student uses; and the step that was shown last."""
+
+    path: Path
+    held: dict[str, list[str]] = field(default_factory=dict[str, list[str]])
+    names: dict[str, str] = field(default_factory=dict[str, str])
+    at: str = ""
+    problem: str = ""
+    """Why it could not be read or written; empty if it could."""
+
+    def save(self) -> None:
+        """Write it, in one piece; `problem` says why that failed."""
+        text = json.dumps({"version": VERSION, "at": self.at, "held": self.held, "names": self.names}, indent=1)
+        new = self.path.with_name(self.path.name + ".new")
+        try:
+            self.path.parent.mkdir(exist_ok=True)
+            new.write_text(text, encoding="utf-8")
+            os.replace(new, self.path)
+        except OSError as error:
+            self.problem = f"progress is not kept: {self.path}: {error.strerror}"
+
+
+def read_progress(workspace: Path, course: str) -> Progress:
+    """The progress of a course; an empty one for a file that cannot be read, which then is not written over."""
+    path = workspace / FOLDER / f"{course}.json"
+    progress = Progress(path)
+    try:
+        found: Any = json.loads(path.read_text(encoding="utf-8"))
+        if found["version"] != VERSION:
+            raise ValueError(f"version {found['version']} is not {VERSION}")
+        for step, texts in cast("dict[str, Any]", found["held"]).items():
+            progress.held[step] = [str(each) for each in texts]
+        progress.names = {str(name): str(value) for name, value in found["names"].items()}
+        progress.at = str(found["at"])
+    except FileNotFoundError:
+        pass
+    except (OSError, ValueError, TypeError, KeyError, AttributeError) as error:
+        progress.problem = f"{path} cannot be read ({error}): the course begins anew beside it"
+        progress.path = path.with_name(f"{course}-2.json")
+    return progress

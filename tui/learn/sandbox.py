@@ -1,0 +1,161 @@
+"""Runs what a student has written, closed in as far as the kernel allows it.
+
+A copy of the workspace, a network and process table of its own (user, network and process namespaces of Linux), a limit
+of time, and one of memory that all processes of a run share. It protects the network, other processes and the machine's
+memory from mistakes; it does not hide the files of the account that grades.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+NAMESPACES = ("unshare", "--user", "--map-root-user", "--net", "--pid", "--fork", "--kill-child", "--mount-proc")
+MAX_MEMORY_BYTES = 2_000_000_000
+"""Resident memory of all processes of a run together."""
+MEMORY_POLL_S = 0.2
+MAX_OUTPUT_BYTES = 2_000_000
+SKIPPED = shutil.ignore_patterns(".git", "build", "install", "log", "__pycache__", ".bot-console")
+
+
+class NoSandboxError(RuntimeError):
+    """The kernel gives no namespace of its own to programs of users."""
+
+
+@dataclass(frozen=True)
+class Finished:
+    """How a run has ended; `why` is empty unless it was ended for a limit."""
+
+    code: int
+    output: str
+    why: str = ""
+
+
+@dataclass(frozen=True)
+class Sandbox:
+    """A copy of a workspace in `folder`, and the prefix of commands that run closed in; empty: with the network."""
+
+    folder: Path
+    prefix: Sequence[str]
+
+    @property
+    def workspace(self) -> Path:
+        """The copy."""
+        return self.folder / "ws"
+
+    def run(self, script: str, seconds: float) -> Finished:
+        """Run a shell script in the copy for at most so many seconds; nothing that it has started outlives it."""
+        output = self.folder / "output"
+        with output.open("wb") as file:
+            process = subprocess.Popen(
+                [*self.prefix, "sh", "-c", script],
+                cwd=self.workspace,
+                env=self._environment(),
+                stdin=subprocess.DEVNULL,
+                stdout=file,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
+            why = _wait(process, seconds)
+        text = output.read_bytes()[-MAX_OUTPUT_BYTES:].decode("utf-8", "replace")
+        return Finished(process.returncode, text, why)
+
+    def _environment(self) -> dict[str, str]:
+        kept = {name: value for name, value in os.environ.items() if name in ("PATH", "LANG", "LC_ALL", "PYTHONPATH")}
+        home = str(self.folder / "home")
+        return {
+            **kept,
+            "HOME": home,
+            "ROS_HOME": home,
+            "TMPDIR": home,
+            "BOT_CONSOLE_USER_DIR": home,
+            "BOT_CONSOLE_SOCKET_DIR": str(self.folder / "s"),
+            "BOT_CONSOLE": f"{sys.executable} -m bot_console.tui",
+        }
+
+
+def make_sandbox(workspace: Path, folder: Path, *, allow_network: bool) -> Sandbox:
+    """Copy a workspace into an empty folder; raises `NoSandboxError` if it cannot be closed in and has to be."""
+    prefix: Sequence[str] = NAMESPACES
+    if not can_close_in():
+        if not allow_network:
+            raise NoSandboxError(
+                "this system gives programs no network namespace of their own, so that what is graded could reach the "
+                "network: grade in a container without one and add --allow-network, or accept it with --allow-network"
+            )
+        prefix = ()
+    shutil.copytree(workspace, folder / "ws", ignore=SKIPPED, symlinks=True)
+    for each in ("home", "s"):
+        (folder / each).mkdir(mode=0o700)
+    return Sandbox(folder, prefix)
+
+
+def can_close_in() -> bool:
+    """Whether programs of this user can have namespaces of their own."""
+    if not sys.platform.startswith("linux") or shutil.which(NAMESPACES[0]) is None:
+        return False
+    try:
+        return subprocess.run([*NAMESPACES, "true"], capture_output=True, check=False, timeout=10).returncode == 0
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+
+
+def _wait(process: subprocess.Popen[bytes], seconds: float) -> str:
+    """Wait for the end; why it was ended before, if so."""
+    deadline = time.monotonic() + seconds
+    while True:
+        try:
+            process.wait(MEMORY_POLL_S)
+            return ""
+        except subprocess.TimeoutExpired:
+            pass
+        why = ""
+        if time.monotonic() > deadline:
+            why = f"it took longer than {seconds:g} s"
+        elif _memory_below(process.pid) > MAX_MEMORY_BYTES:
+            why = f"it took more than {MAX_MEMORY_BYTES // 1_000_000} MB of memory"
+        if why:
+            _kill_below(process.pid)
+            process.wait()
+            return why
+
+
+def _below(pid: int) -> list[int]:
+    """A process and all that descend from it."""
+    children: dict[int, list[int]] = {}
+    for each in os.listdir("/proc") if os.path.isdir("/proc") else ():
+        if each.isdigit():
+            try:
+                parent = int(Path(f"/proc/{each}/stat").read_text("utf-8").rpartition(")")[2].split()[1])
+            except (OSError, ValueError, IndexError):
+                continue
+            children.setdefault(parent, []).append(int(each))
+    found = [pid]
+    for each in found:
+        found += children.get(each, [])
+    return found
+
+
+def _memory_below(pid: int) -> int:
+    page = os.sysconf("SC_PAGE_SIZE")
+    total = 0
+    for each in _below(pid):
+        try:
+            total += int(Path(f"/proc/{each}/statm").read_text("utf-8").split()[1]) * page
+        except (OSError, ValueError, IndexError):
+            continue
+    return total
+
+
+def _kill_below(pid: int) -> None:
+    for each in reversed(_below(pid)):
+        try:
+            os.kill(each, 9)
+        except OSError:
+            continue

@@ -1,0 +1,1 @@
+"""The lesson pane: the step of a course that is being worked through."""
