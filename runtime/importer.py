@@ -15,6 +15,7 @@ from importlib.machinery import ModuleSpec, PathFinder
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from bot_console.runtime.distribution import distribution
 from bot_console.runtime.interfaces.interface_finder import InterfaceFinder, interface_folders, spec_on_path
 from bot_console.runtime.process.crashes import explain_with
 from bot_console.runtime.programs.missing_packages import explain_missing_package
@@ -159,7 +160,7 @@ def install() -> None:
     """Make the ROS names refer to the embedded runtime; a second call does nothing."""
     if is_installed():
         return
-    os.environ.setdefault("ROS_DISTRO", "jazzy")  # as in a shell that has sourced ROS 2
+    os.environ.setdefault("ROS_DISTRO", distribution().name)  # as in a shell that has sourced ROS 2
     sys.meta_path.insert(0, _finder)
     # Just before the path: a folder `my_interfaces` without `__init__.py` would be a namespace package there.
     place = sys.meta_path.index(PathFinder) if PathFinder in sys.meta_path else len(sys.meta_path)

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from bot_console.runtime.distribution import distribution
 from bot_console.runtime.process import ProcessLocal, explain_with
 from rclpy.context import Context as Context
 from rclpy.impl.unused_overrides import report_unused_overrides
@@ -44,8 +45,11 @@ def init(
     context: Context | None = None,
     domain_id: int | None = None,
     signal_handler_options: SignalHandlerOptions | None = None,
-) -> None:
-    """Initialise; `args` None means `sys.argv`. Raises `RuntimeError` the second time, `RCLError` for bad arguments."""
+) -> Any:
+    """Initialise; `args` None means `sys.argv`. Raises `RuntimeError` the second time, `RCLError` for bad arguments.
+
+    Returns what the distribution returns: nothing, or a context manager that shuts down.
+    """
     default = get_default_context()
     chosen: Context = default if context is None else context
     if signal_handler_options is None:
@@ -53,6 +57,22 @@ def init(
     if signal_handler_options:
         install_signal_handlers(signal_handler_options)
     chosen.init(args, domain_id=domain_id)
+    return InitContextManager(chosen, bool(signal_handler_options)) if distribution().init_is_context_manager else None
+
+
+class InitContextManager:
+    """What `init` returns in some distributions: in a `with` block, it shuts down at the end."""
+
+    def __init__(self, context: Context, installed_signal_handlers: bool) -> None:
+        self.context = context
+        self.installed_signal_handlers = installed_signal_handlers
+
+    def __enter__(self) -> InitContextManager:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        default = self.context is get_default_context()
+        try_shutdown(context=None if default else self.context, uninstall_handlers=self.installed_signal_handlers)
 
 
 def get_global_executor() -> Executor:
@@ -137,8 +157,9 @@ def spin(node: Node, executor: Executor | None = None) -> None:
     try:
         executor.add_node(node)
         report_unused_overrides(executor.context)
-        while executor.context.ok():
-            executor.spin_once()
+        with executor._entered():  # pyright: ignore[reportPrivateUsage] -- one library
+            while executor.context.ok():
+                executor.spin_once()
     finally:
         executor.remove_node(node)
 

@@ -13,7 +13,7 @@ from types import TracebackType
 from typing import Any
 
 from bot_console.runtime.process import current
-from rclpy.clock_type import ClockType
+from rclpy.clock_type import ClockType, TimeClockType
 from rclpy.duration import Duration
 from rclpy.exceptions import NotInitializedException
 from rclpy.impl.any_clock import AnyClock
@@ -106,18 +106,20 @@ class JumpHandle:
 class Clock(AnyClock):
     """A clock; one of type ROS_TIME is made as a `ROSClock`."""
 
-    def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:
+    def __new__(cls, *, clock_type: ClockType | TimeClockType = ClockType.SYSTEM_TIME) -> Clock:
         """Choose the class by the type."""
+        if isinstance(clock_type, TimeClockType):
+            clock_type = ClockType(clock_type)
         if not isinstance(clock_type, ClockType):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
             raise TypeError("Clock type must be a ClockType enum")
         kind: Any = ROSClock if clock_type is ClockType.ROS_TIME else cls
         return super().__new__(kind)
 
-    def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
-        self._clock_type = clock_type
+    def __init__(self, *, clock_type: ClockType | TimeClockType = ClockType.SYSTEM_TIME) -> None:
+        self._clock_type = ClockType(clock_type)
         self._source = current().clock
         # Chosen once: a timer reads its clock several times per call.
-        self._read = self._source.steady_ns if clock_type is ClockType.STEADY_TIME else self._source.system_ns
+        self._read = self._source.steady_ns if self._clock_type is ClockType.STEADY_TIME else self._source.system_ns
         self._jump_handles: list[JumpHandle] = []
         self._timers: weakref.WeakSet[Any] = weakref.WeakSet()
         self._lock = threading.Lock()

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from types import MethodType, TracebackType
 from typing import Any
 
+from bot_console.runtime.distribution import distribution
 from bot_console.runtime.domain_id import domain_id as environments_domain
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.bus import Bus, Thing
@@ -84,7 +85,7 @@ class Context:
 
     def _require_init(self) -> None:
         if not self._initialized:
-            raise TypeError(NOT_INITIALIZED)
+            raise distribution().error_before_init(NOT_INITIALIZED)
 
     def require_running(self, what: str) -> None:
         """Raise `TypeError` before `init` and `RCLError` after the shutdown: `what` cannot be made then."""
@@ -119,7 +120,8 @@ class Context:
         if not self._initialized:
             raise RuntimeError("Context must be initialized before it can be shutdown")
         if self.ended:
-            raise RCLError("failed to shutdown: rcl_shutdown already called on the given context")
+            kind, text = distribution().second_shutdown
+            raise RCLError(text) if kind == RCLError.__name__ else RuntimeError(text)
         self._end()
 
     def try_shutdown(self) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from bot_console.runtime.distribution import distribution
 from rclpy.constants import S_TO_NS
 
 MAX_NS = 2**63
@@ -55,6 +56,21 @@ class Duration:
     def __ge__(self, other: Any) -> bool:
         if isinstance(other, Duration):
             return self._nanoseconds >= other._nanoseconds
+        return NotImplemented
+
+    def __add__(self, other: Any) -> Duration:
+        if isinstance(other, Duration) and distribution().durations_add_up:
+            return Duration(nanoseconds=self._nanoseconds + other._nanoseconds)
+        return NotImplemented
+
+    def __sub__(self, other: Any) -> Duration:
+        if isinstance(other, Duration) and distribution().durations_add_up:
+            return Duration(nanoseconds=self._nanoseconds - other._nanoseconds)
+        return NotImplemented
+
+    def __mul__(self, other: Any) -> Duration:
+        if isinstance(other, (int, float)) and distribution().durations_add_up:
+            return Duration(nanoseconds=int(self._nanoseconds * other))
         return NotImplemented
 
     def to_msg(self) -> Any:

@@ -8,11 +8,13 @@ from __future__ import annotations
 import math
 from _thread import allocate_lock
 from collections import deque
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Generator
+from contextlib import contextmanager
 from operator import attrgetter
 from types import TracebackType
 from typing import Any
 
+from bot_console.runtime.distribution import distribution
 from bot_console.runtime.process import current
 from rclpy.deadlock import WARNING_DELAY_NS, report_future, runs_in_callback
 from rclpy.impl.explanations import spun_twice
@@ -42,7 +44,7 @@ class TaskQueue:
         self, callback: Callable[..., Any] | Coroutine[Any, Any, Any], *args: Any, **kwargs: Any
     ) -> Task[Any]:
         """Schedule a function or coroutine in this executor; thread-safe."""
-        if self._is_shutdown:
+        if self._is_shutdown and not distribution().closed_executor_takes_work:
             raise AttributeError("this executor was shut down: it takes no more tasks")
         task: Task[Any] = Task(callback, args, kwargs, executor=self)
         self._enter(task, None)
@@ -82,12 +84,12 @@ class TaskQueue:
             raise error
 
     def _collect_tasks(self) -> list[Task[Any]]:
-        """The tasks that can continue, newest first."""
+        """The tasks that can continue, in the order of the distribution."""
         with self._lock:
             tasks, self._ready_tasks = self._ready_tasks, []
             if len(tasks) > 1:
                 order = {task: place for place, task in enumerate(self._tasks)}
-                tasks.sort(key=lambda task: order.get(task, 0), reverse=True)
+                tasks.sort(key=lambda task: order.get(task, 0), reverse=distribution().newest_task_first)
         return tasks
 
     def _forget(self, task: Task[Any]) -> None:
@@ -152,9 +154,24 @@ class Executor(TaskQueue, ReadyCallbacks):
         self._is_shutdown = False
         self.is_global = False
         """Whether it is the one of `rclpy.spin`, which ends silently with `rclpy.shutdown`."""
+        self._spinning = 0
+        """How many calls of `spin` and the like run."""
         self._polled = False
         """Whether the last call that gave work was one that does not wait."""
         self._context.on_end(self.wake)
+
+    @property
+    def is_spinning(self) -> bool:
+        """Whether `spin` or `spin_until_future_complete` runs, of this executor or, with it, of `rclpy`."""
+        return self._spinning > 0
+
+    @contextmanager
+    def _entered(self) -> Generator[None]:
+        self._spinning += 1
+        try:
+            yield
+        finally:
+            self._spinning -= 1
 
     @property
     def context(self) -> Any:
@@ -190,7 +207,7 @@ class Executor(TaskQueue, ReadyCallbacks):
         self._nodes[node] = self._node_count
         self._node_count += 1
         node.executor = self
-        if self._is_shutdown:
+        if self._is_shutdown and not distribution().closed_executor_takes_work:
             raise AttributeError("this executor was shut down: it serves no more nodes")
         node._ros_attach(self, self._nodes[node])
         self.wake()
@@ -216,8 +233,9 @@ class Executor(TaskQueue, ReadyCallbacks):
     def spin(self) -> None:
         """Run callbacks until shut down; raises `ExternalShutdownException` if the context is, while none runs."""
         report_unused_overrides(self._context)
-        while self._context.ok() and not self._is_shutdown:
-            self.spin_once()
+        with self._entered():
+            while self._context.ok() and not self._is_shutdown:
+                self.spin_once()
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Run one callback; None or a negative time-out waits for ever, 0 not at all."""
@@ -230,6 +248,10 @@ class Executor(TaskQueue, ReadyCallbacks):
 
     def spin_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
         """Run callbacks until the future is done or cancelled, or the time-out (s) expires."""
+        with self._entered():
+            self._spin_until(future, timeout_sec)
+
+    def _spin_until(self, future: Future[Any], timeout_sec: float | None) -> None:
         future._when_settled(self.wake)
         timeout = timeout_sec_to_nsec(timeout_sec)
         start = self._clock.steady_ns()
@@ -448,8 +470,9 @@ class MultiThreadedExecutor(Executor):
     def spin(self) -> None:
         """Run callbacks until shut down; returns silently if the context is shut down."""
         report_unused_overrides(self._context)
-        while self._context.ok() and not self._is_shutdown:
-            self.spin_once()
+        with self._entered():
+            while self._context.ok() and not self._is_shutdown:
+                self.spin_once()
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
         """Shut down, and end the pool's threads."""

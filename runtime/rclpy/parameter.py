@@ -5,6 +5,7 @@ from __future__ import annotations
 from enum import Enum
 from typing import TYPE_CHECKING, Any, cast
 
+from bot_console.runtime.distribution import distribution
 from bot_console.runtime.rmw.parameter_types import ARRAYS, BY_CLASS, BY_CODE, STRING
 from rclpy.impl.parameter_file_sections import chosen_values
 from rclpy.impl.parameter_values import FIELDS, infer, value_fits
@@ -14,13 +15,17 @@ if TYPE_CHECKING:
     from rcl_interfaces.msg import Parameter as ParameterMsg
     from rcl_interfaces.msg import ParameterValue
 
+    _TypeBase = Enum
+else:
+    _TypeBase = distribution().parameter_type_base
+
 PARAMETER_SEPARATOR_STRING = "."
 
 
 class Parameter:
     """An immutable parameter."""
 
-    class Type(Enum):
+    class Type(_TypeBase):
         """Types of a parameter; the values are those of `rcl_interfaces/msg/ParameterType`."""
 
         NOT_SET = 0

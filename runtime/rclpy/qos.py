@@ -6,6 +6,7 @@ import warnings
 from enum import Enum
 from typing import Any
 
+from bot_console.runtime.distribution import distribution
 from rclpy.duration import Duration
 from rclpy.impl.qos_policies import DurabilityPolicy as DurabilityPolicy
 from rclpy.impl.qos_policies import HistoryPolicy as HistoryPolicy
@@ -40,7 +41,7 @@ class InvalidQoSProfileException(Exception):
     """A profile lacks history or depth."""
 
     def __init__(self, *args: Any) -> None:
-        Exception.__init__(self, "Invalid QoSProfile", *args)
+        Exception.__init__(self, *distribution().invalid_qos_prefix, *args)
 
 
 class QoSProfile:
@@ -229,6 +230,16 @@ qos_profile_best_available = _all("BEST_AVAILABLE", DEFAULT_DEPTH, HistoryPolicy
 qos_profile_action_status_default = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
+_ROSOUT = QoSProfile(
+    depth=1000,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+    lifespan=Duration(seconds=10),
+)
+if distribution().has_rosout_preset:
+    qos_profile_rosout_default = _ROSOUT
+
+
 class QoSPresetProfiles(Enum):
     """The presets by name."""
 
@@ -241,6 +252,8 @@ class QoSPresetProfiles(Enum):
     PARAMETER_EVENTS = qos_profile_parameter_events
     ACTION_STATUS_DEFAULT = qos_profile_action_status_default
     BEST_AVAILABLE = qos_profile_best_available
+    if distribution().has_rosout_preset:
+        ROSOUT_DEFAULT = _ROSOUT
 
     @classmethod
     def short_keys(cls) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from rclpy.clock_type import ClockType
+from rclpy.clock_type import ClockType, TimeClockType
 from rclpy.constants import S_TO_NS
 from rclpy.duration import Duration
 from rclpy.impl.reexports import reexporting
@@ -22,8 +22,10 @@ class Time:
     __hash__ = None  # type: ignore[assignment] -- not hashable, as upstream
 
     def __init__(
-        self, *, seconds: float = 0, nanoseconds: int = 0, clock_type: ClockType = ClockType.SYSTEM_TIME
+        self, *, seconds: float = 0, nanoseconds: int = 0, clock_type: ClockType | TimeClockType = ClockType.SYSTEM_TIME
     ) -> None:
+        if isinstance(clock_type, TimeClockType):
+            clock_type = ClockType(clock_type)
         if not isinstance(clock_type, ClockType):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
             raise TypeError("Clock type must be a ClockType enum")
         if seconds < 0:
@@ -50,9 +52,9 @@ class Time:
         return self._nanoseconds
 
     @property
-    def clock_type(self) -> ClockType:
-        """The kind of clock."""
-        return self._clock_type
+    def clock_type(self) -> TimeClockType:
+        """The kind of clock; equal to the member of `ClockType`."""
+        return TimeClockType(self._clock_type)
 
     def seconds_nanoseconds(self) -> tuple[int, int]:
         """Whole seconds and the ns beyond them."""
@@ -119,7 +121,7 @@ class Time:
         return TimeMessage(sec=seconds, nanosec=nanoseconds)
 
     @classmethod
-    def from_msg(cls, msg: Any, clock_type: ClockType = ClockType.ROS_TIME) -> Time:
+    def from_msg(cls, msg: Any, clock_type: ClockType | TimeClockType = ClockType.ROS_TIME) -> Time:
         """The time in a `builtin_interfaces/Time`; raises `TypeError` for anything else."""
         from builtin_interfaces.msg import Time as TimeMessage
 

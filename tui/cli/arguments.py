@@ -256,6 +256,7 @@ def option_parser() -> argparse.ArgumentParser:
     add("--launch", metavar="FILE", help="open the console on this launch file instead; also: --launch PACKAGE FILE")
     add("--pane", default="overview", help="pane to open first")
     add("--workspace", action="append", type=Path, metavar="DIR", help="folder with packages; may be repeated")
+    add("--distro", metavar="NAME", help="ROS 2 distribution whose answers are given: jazzy (default) or kilted")
     add("--headless", action="store_true", help="no screen: logs on stderr, a JSON report on stdout at the end")
     add("--fast", action="store_true", help="with --headless: simulated time, as fast as possible, reproducible")
     add_profile_folders(parser)

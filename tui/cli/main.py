@@ -86,7 +86,7 @@ def _main(words: Words) -> int:
     help_is_english()
     report_help_errors()
     try:
-        words = _in_workspace(words)
+        words = _in_workspace(_of_distro(words))
     except ValueError as error:
         print(f"bot-console: {error}", file=sys.stderr)
         return 2
@@ -120,6 +120,15 @@ def _main(words: Words) -> int:
         from bot_console.tui.cli.screen import run as show
 
         return show(options)
+
+
+def _of_distro(words: Words) -> Words:
+    """Process the choice of a distribution; raises `ValueError` if there is none of that name."""
+    if not os.environ.get("BOT_CONSOLE_DISTRO") and not any(each.startswith("--distro") for each in words):
+        return words
+    from bot_console.tui.cli.distro_option import without_distro
+
+    return without_distro(words, lambda word: word in ros2.VERBS or word in _COMMANDS)
 
 
 def _in_workspace(words: Words) -> Words:

@@ -45,7 +45,8 @@ class IncludeLaunchDescription(Action, IncludesDescription):
         _, kwargs = super().parse(entity, parser)
         kwargs["launch_description_source"] = parser.parse_substitution(entity.get_attr("file"))
         arguments: list[Pair] = []
-        for each in entity.get_attr("arg", data_type=list, optional=True) or ():
+        given = [entity.get_attr(tag, data_type=list, optional=True) or () for tag in ("arg", "let")]
+        for each in (*given[0], *given[1]):
             name, value = each.get_attr("name"), each.get_attr("value")
             arguments.append((parser.parse_substitution(name), parser.parse_substitution(value)))
             each.assert_entity_completely_parsed()

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import launch.logging
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
+from launch.substitutions.path_join_substitution import PathJoinSubstitution
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -23,6 +24,10 @@ class LaunchLogDir(Substitution):
         if len(data) != 0:
             raise TypeError("launch_log_dir/log_dir substitution doesn't expect arguments")
         return cls, {}
+
+    def __truediv__(self, additional_path: Any) -> PathJoinSubstitution:
+        """Return a path below."""
+        return PathJoinSubstitution([self, additional_path])
 
     def describe(self) -> str:
         """Return a description such as `LaunchLogDir()`."""

@@ -167,6 +167,7 @@ class ActionServer(ActionEntity):
             self._debug("New goal rejected: {}", request.goal_id.uuid)
             return
         self._debug("New goal accepted: {}", request.goal_id.uuid)
+        self._publish_status()
         await call(self._handle_accepted_callback, handle)
 
     async def _accepted(self, request: Any, uuid: bytes) -> ServerGoalHandle | None:

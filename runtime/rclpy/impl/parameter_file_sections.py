@@ -8,11 +8,12 @@ from typing import Any, NamedTuple, cast
 from bot_console.runtime.rmw.parameter_precedence import key_matches
 
 KEYWORD = "ros__parameters"
+MISSING = object()
 _WILDCARDS = frozenset(("*", "**"))
 
 
 class Section(NamedTuple):
-    """The parameters below one path of keys; `values` is None where there is no `ros__parameters`."""
+    """The parameters below one path of keys; `values` is `MISSING` where there is no `ros__parameters`."""
 
     top: Any
     """The key at the top of the file, for messages."""
@@ -40,7 +41,7 @@ def chosen_values(content: Any, use_wildcard: bool, target_nodes: Sequence[str] 
         raise RuntimeError("Param file does not contain selected parameters")
     found: dict[str, Any] = {}
     for section in sorted(usable, key=lambda each: not each.has_wildcard):
-        if section.values is None:
+        if section.values is MISSING:
             raise RuntimeError(f"YAML file is not a valid ROS parameter file for node {section.top}")
         found.update(section.values)
     return found
@@ -59,7 +60,7 @@ def _for_targets(sections: Sequence[Section], targets: Sequence[str], keys: list
 def _sections(top: Any, path: str, value: Any) -> Iterator[Section]:
     below = cast("dict[Any, Any]", value) if isinstance(value, dict) else {}
     if KEYWORD in below or not below:
-        yield Section(top, path, below.get(KEYWORD))
+        yield Section(top, path, below.get(KEYWORD, MISSING))
         return
     for key, inner in below.items():
         yield from _sections(top, _below(path, key), inner)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from typing import Any
 
+from bot_console.runtime.distribution import distribution
 from bot_console.runtime.process import current
 from rclpy.impl.log_filters import Site, detect
 from rclpy.impl.log_routing import state
@@ -64,6 +66,9 @@ class RcutilsLogger:
 
     def warn(self, message: str, **kwargs: Any) -> bool:
         """Log as `warning` does."""
+        if distribution().warn_is_deprecated:
+            text = "Deprecated in favor of :py:classmethod:RcutilsLogger.warning:."
+            warnings.warn(text, DeprecationWarning, stacklevel=2)
         return self._log(message, WARN, kwargs)
 
     def error(self, message: str, **kwargs: Any) -> bool:

@@ -6,6 +6,7 @@ import traceback
 from collections.abc import Callable
 from typing import Any
 
+from bot_console.runtime.distribution import distribution
 from lifecycle_msgs.msg import State, Transition
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.impl.reexports import reexporting
@@ -79,11 +80,19 @@ class LifecycleNodeMixin(ManagedEntity):
         machine = self._state_machine
         number, label = machine.current_state
         before = LifecycleState(label=label, state_id=number)
-        machine.trigger_transition_by_id(transition_id, True)
-        answer = self.__call_back(before)
-        machine.trigger_transition_by_label(answer.to_label(), True)
-        if answer is TransitionCallbackReturn.ERROR:
-            machine.trigger_transition_by_label(self.__call_back(before).to_label(), True)
+        problem = f"Unable to start transition {transition_id} from current state {machine.current_state}"
+        try:
+            machine.trigger_transition_by_id(transition_id, True)
+            answer = self.__call_back(before)
+            problem = f"Failed to complete transition {transition_id}, current state is {machine.current_state}"
+            machine.trigger_transition_by_label(answer.to_label(), True)
+            if answer is TransitionCallbackReturn.ERROR:
+                machine.trigger_transition_by_label(self.__call_back(before).to_label(), True)
+        except RCLError:
+            if distribution().invalid_transition_ends_node:
+                raise
+            self._logger.error(problem)
+            return TransitionCallbackReturn.ERROR
         return answer
 
     def __call_back(self, before: LifecycleState) -> TransitionCallbackReturn:

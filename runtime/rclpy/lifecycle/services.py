@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from bot_console.runtime.distribution import distribution
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 from lifecycle_msgs.msg import State, Transition, TransitionDescription
@@ -48,7 +49,7 @@ class LifecycleServices:
                 response.success = False
                 return response
         valid = [each[0] for each in self._machine.available_transitions]
-        if transition not in valid:
+        if transition not in valid and distribution().invalid_transition_ends_node:
             notify(current(), self._fatal(transition))
         response.success = self._change_state(transition) is TransitionCallbackReturn.SUCCESS
         return response

@@ -367,3 +367,11 @@ def test_source_without_description_is_rejected() -> None:
     with pytest.raises(RuntimeError, match=r"called without launch description being set"):
         LaunchDescriptionSource().get_launch_description(LaunchContext())
     assert IncludeLaunchDescription(LaunchDescriptionSource()).get_sub_entities() == []
+
+
+@pytest.mark.parametrize("tag", ["arg", "let"])
+def test_arguments_of_an_include_are_given_by_arg_or_let(run_file: Launch, tmp_path: Any, tag: str) -> None:
+    inner = '<launch><arg name="who"/><log message="hello $(var who) $(any true false) $(all true false)"/></launch>'
+    (tmp_path / "inner.launch.xml").write_text(inner)
+    outer = f'<launch><include file="{tmp_path}/inner.launch.xml"><{tag} name="who" value="me"/></include></launch>'
+    assert run_file(outer, "outer.launch.xml").message == ["hello me true false"]

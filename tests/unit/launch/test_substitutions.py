@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -19,6 +20,7 @@ from launch.substitutions import (
     FindExecutable,
     IfElseSubstitution,
     LaunchConfiguration,
+    LaunchLogDir,
     NotEqualsSubstitution,
     NotSubstitution,
     OrSubstitution,
@@ -31,6 +33,7 @@ from launch.substitutions import (
     ThisLaunchFileDir,
 )
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.substitutions import FindPackagePrefix, FindPackageShare
 
 from launch import LaunchContext
 
@@ -200,3 +203,21 @@ def test_error_names_type_of_the_invalid_item() -> None:
 def test_if_else_needs_at_least_one_value() -> None:
     with pytest.raises(RuntimeError):
         IfElseSubstitution("true")
+
+
+def test_folder_of_the_log_can_be_extended() -> None:
+    context = LaunchContext()
+    assert (LaunchLogDir() / "x" / "y").perform(context) == f"{LaunchLogDir().perform(context)}/x/y"
+
+
+def test_path_stands_in_the_place_of_a_text(tmp_path: Path) -> None:
+    context = LaunchContext()
+    assert PathJoinSubstitution([tmp_path, "x"]).perform(context) == f"{tmp_path}/x"
+    assert perform_substitutions(context, normalize_to_list_of_substitutions([tmp_path, "!"])) == f"{tmp_path}!"
+
+
+@pytest.mark.parametrize("kind", [FindPackageShare, FindPackagePrefix])
+def test_folder_of_a_package_can_be_extended(kind: Any) -> None:
+    context = LaunchContext()
+    found = kind("bot_console_robot")
+    assert (found / "x").perform(context) == f"{found.perform(context)}/x"

@@ -389,3 +389,12 @@ def test_person_is_advised_on_two_threads_that_spin(ros: Any, monkeypatch: pytes
     thread.join()
     assert len(lines) == 1
     assert lines[0].startswith(f"{__file__}:") and "give each thread an executor of its own" in lines[0]
+
+
+def test_executor_knows_whether_it_spins(ros: Any) -> None:
+    node, seen = ros.node(), []
+    executor, done = node.executor, Future()
+    node.create_guard_condition(lambda: (seen.append(executor.is_spinning), done.set_result(None))).trigger()
+    assert not executor.is_spinning
+    executor.spin_until_future_complete(done)
+    assert seen == [True] and not executor.is_spinning

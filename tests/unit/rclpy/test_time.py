@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from builtin_interfaces.msg import Duration as DurationMessage
 from builtin_interfaces.msg import Time as TimeMessage
+from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 from rclpy.duration import Duration, Infinite
 from rclpy.time import Time
@@ -102,7 +103,7 @@ def test_times_and_durations_can_be_added_and_subtracted() -> None:
     assert five + second == second + five == Time(seconds=6)
     assert five - second == Time(seconds=4)
     ros = Time(seconds=1, clock_type=ClockType.ROS_TIME)
-    assert (ros + second).clock_type is ClockType.ROS_TIME
+    assert (ros + second).clock_type == ClockType.ROS_TIME
 
 
 def test_times_can_be_compared() -> None:
@@ -129,7 +130,7 @@ def test_times_and_durations_print_as_upstream(value: Any, shown: str, text: str
 
 def test_times_and_durations_convert_to_messages() -> None:
     assert Time(seconds=3, nanoseconds=4).to_msg() == TimeMessage(sec=3, nanosec=4)
-    assert Time.from_msg(TimeMessage(sec=3, nanosec=4)).clock_type is ClockType.ROS_TIME
+    assert Time.from_msg(TimeMessage(sec=3, nanosec=4)).clock_type == ClockType.ROS_TIME
     assert Time.from_msg(TimeMessage(sec=3), clock_type=ClockType.SYSTEM_TIME) == Time(seconds=3)
     assert Duration(seconds=-1.5).to_msg() == DurationMessage(sec=-2, nanosec=500_000_000)
     assert Duration.from_msg(Duration(seconds=-1.5).to_msg()) == Duration(seconds=-1.5)
@@ -139,3 +140,12 @@ def test_times_and_durations_convert_to_messages() -> None:
 def test_times_are_immutable() -> None:
     with pytest.raises(AttributeError):
         Time().nanoseconds = 5  # type: ignore[misc]
+
+
+def test_clock_type_of_a_time_prints_by_name_and_equals_the_clocks() -> None:
+    for kind in (ClockType.ROS_TIME, ClockType.SYSTEM_TIME, ClockType.STEADY_TIME):
+        time = Time(seconds=1, clock_type=kind)
+        assert str(time.clock_type) == f"{time.clock_type}" == f"ClockType.{kind.name}"
+        assert time.clock_type == kind and kind == time.clock_type and int(time.clock_type) == kind.value
+        assert Time(clock_type=time.clock_type) - Time(clock_type=kind) == Duration()
+        assert Clock(clock_type=time.clock_type).clock_type is kind
