@@ -15,6 +15,7 @@ from rclpy.node import Node
 from rclpy.qos import QoSCompatibility, qos_check_compatible
 
 if TYPE_CHECKING:
+    from bot_console.tui.console.graph.observer import Observer
     from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 RMW_ZENOH = "rmw_zenoh_cpp"
@@ -26,7 +27,7 @@ Ask = Callable[[str], "Sequence[TopicEndpointInfo]"]
 class UnheardPairs:
     """Keeps the findings of each topic; a topic is examined again only when its endpoints have changed."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node | Observer) -> None:
         self._publishers: Ask = node.get_publishers_info_by_topic
         self._subscriptions: Ask = node.get_subscriptions_info_by_topic
         self._nodes: dict[str, NodeInfo] = {}

@@ -9,6 +9,7 @@ from time import monotonic, thread_time
 from typing import Any
 
 from bot_console.tui.console.graph.full_name import full_node_name
+from bot_console.tui.console.graph.observer import Observer
 from bot_console.tui.console.graph.pairs import UnheardPairs
 from bot_console.tui.console.graph.unresponsive_nodes import SilentNodes
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
@@ -66,6 +67,7 @@ class GraphWatch:
         self.info = GraphInfo()
         self._frozen = frozen
         self._node = node
+        self._observer = Observer(node)
         self._changed = changed
         self._nodes: dict[Owner, tuple[Answer, NodeInfo]] = {}
         self._topics: Pairs = []
@@ -75,7 +77,7 @@ class GraphWatch:
         self._rests_until = 0.0
         self._reported = events is not None
         self._asks_nodes = foreign or events is None
-        self._unheard = UnheardPairs(node)
+        self._unheard = UnheardPairs(self._observer)
         self._silence = SilentNodes(node, self._silent_are)
         self._end = events(node.context.get_domain_id(), self._news.append) if events else _nothing
         node.create_timer(GRAPH_POLL_S, self._tick)
@@ -83,6 +85,8 @@ class GraphWatch:
     def _tick(self) -> None:
         if (self._news or not (self._reported and self._polled)) and monotonic() >= self._rests_until:
             began = thread_time()
+            if not self._reported:
+                self._observer.poll()
             self.poll()
             took = thread_time() - began
             if took > LONG:
@@ -102,12 +106,13 @@ class GraphWatch:
     def close(self) -> None:
         """Stop receiving events."""
         self._end()
+        self._observer.close()
 
     def poll(self) -> None:
         """Query the graph now."""
         known = self._unchanged()  # before the queries: changes made meanwhile are queried again
         self._polled = True
-        node = self._node
+        node = self._observer.node
         profiles = Profiles(node)
         owners = Counter(node.get_node_names_and_namespaces())
         nodes = {
@@ -157,9 +162,9 @@ class GraphWatch:
         changed = [(_answer(nodes, each), _answer(self._nodes, each)) for each in different]
         topics, services = self._topics, self._services
         if not self._reported or any(now[:2] != before[:2] for now, before in changed):
-            topics = _same(self._node.get_topic_names_and_types(), topics)
+            topics = _same(self._observer.node.get_topic_names_and_types(), topics)
         if not self._reported or any(now[2:] != before[2:] for now, before in changed):
-            services = _same(self._node.get_service_names_and_types(), services)
+            services = _same(self._observer.node.get_service_names_and_types(), services)
         return topics, services
 
     def _inspect(self, owner: Owner, profiles: Profiles) -> tuple[Answer, NodeInfo]:
@@ -170,7 +175,7 @@ class GraphWatch:
         return known if known[0] == answer else (answer, _described(owner, answer, known[1], profiles))
 
     def _ask(self, name: str, space: str) -> Answer:
-        node = self._node
+        node = self._observer.node
         asked = (
             node.get_publisher_names_and_types_by_node,
             node.get_subscriber_names_and_types_by_node,

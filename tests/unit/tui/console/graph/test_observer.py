@@ -1,0 +1,81 @@
+"""The node that reads the graph is replaced when its middleware has lost the names of nodes that are there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from bot_console.tui.console.graph.observer import DISCOVERY_POLLS, TOPIC, UNNAMED, UNNAMED_POLLS, Observer
+
+
+class Seen:
+    """A node that knows some nodes, and a number of endpoints without any."""
+
+    def __init__(self, *names: str, unnamed: int = 0) -> None:
+        self.names = list(names)
+        self.unnamed = unnamed
+        self.ended = False
+
+    def get_node_names(self) -> list[str]:
+        return self.names
+
+    def get_publishers_info_by_topic(self, topic: str) -> list[Any]:
+        assert topic == TOPIC
+        return [SimpleNamespace(node_name=each) for each in (*self.names, *[UNNAMED] * self.unnamed)]
+
+    def end(self) -> None:
+        self.ended = True
+
+
+@pytest.fixture
+def made() -> list[Seen]:
+    return []
+
+
+@pytest.fixture
+def observer(made: list[Seen]) -> Observer:
+    def make(like: Any) -> tuple[Seen, Callable[[], None]]:
+        made.append(Seen())
+        return made[-1], made[-1].end
+
+    return Observer(Seen("console", "arm"), make)  # type: ignore[arg-type]
+
+
+def test_endpoints_that_are_unnamed_for_a_moment_change_nothing(observer: Observer, made: list[Seen]) -> None:
+    for unnamed in (1, 1, 0) * UNNAMED_POLLS:
+        observer.node.unnamed = unnamed
+        observer.poll()
+    assert made == []
+
+
+def test_another_node_is_used_once_it_knows_all_nodes(observer: Observer, made: list[Seen]) -> None:
+    first = observer.node
+    first.unnamed = 2
+    for _ in range(UNNAMED_POLLS):
+        observer.poll()
+    (other,) = made
+    observer.poll()
+    assert observer.node is first, "it has found nothing yet"
+    other.names = ["console", "arm", "base"]
+    observer.poll()
+    assert observer.node is other
+    other.unnamed = 1  # and so on, if a node is lost again
+    for _ in range(UNNAMED_POLLS):
+        observer.poll()
+    made[1].names = ["console", "arm", "base"]
+    observer.poll()
+    assert observer.node is made[1] and other.ended
+    observer.close()
+    assert made[1].ended
+
+
+def test_endpoints_that_nobody_can_name_lead_to_one_other_node_only(observer: Observer, made: list[Seen]) -> None:
+    observer.node.unnamed = 1
+    for _ in range(UNNAMED_POLLS):
+        observer.poll()
+    made[0].names, made[0].unnamed = ["console", "arm"], 1
+    for _ in range(DISCOVERY_POLLS + 5 * UNNAMED_POLLS):
+        observer.poll()
+    assert observer.node is made[0] and len(made) == 1

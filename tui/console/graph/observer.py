@@ -1,0 +1,97 @@
+"""The node through which the graph is read; it is replaced when its middleware no longer names nodes that are there.
+
+With Fast DDS, the nodes of a process are in a message that it sends once. A process that was lost for longer than its
+lease, because it was stopped or its link was down, is found again, but whoever has had that message before does not get
+it again: the endpoints of the process stay without a node. A new participant gets it at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import rclpy
+from rclpy.context import Context
+from rclpy.node import Node
+
+NAME = "_bot_console_graph"
+UNNAMED = "_NODE_NAME_UNKNOWN_"
+"""What rmw reports as the node of an endpoint whose node it does not know."""
+TOPIC = "/parameter_events"
+"""A topic to which every node publishes."""
+UNNAMED_POLLS = 4
+"""Polls in a row with unnamed endpoints after which another node is tried: endpoints are found before their names."""
+DISCOVERY_POLLS = 10
+"""Polls after which another node is used even if it has not found all nodes that the one before knows."""
+
+
+class Observer:
+    """Provides `node`; `poll` is called regularly, by the executor's thread."""
+
+    def __init__(self, node: Node, make: Callable[[Node], tuple[Any, Callable[[], None]]] | None = None) -> None:
+        """`make` returns another node like this one, and a function that ends it."""
+        self.node: Any = node
+        self._first = node
+        self._make = make or _another
+        self._end: Callable[[], None] = _nothing
+        self._next: tuple[Any, Callable[[], None]] | None = None
+        self._polls = 0
+        self._nameless = 0
+        """Unnamed endpoints that another node does not name either: no ROS nodes."""
+
+    def poll(self) -> None:
+        """Note unnamed endpoints; try and use another node if they stay."""
+        if self._next is not None:
+            self._poll_next(*self._next)
+            return
+        unnamed = _unnamed(self.node)
+        self._nameless = min(self._nameless, unnamed)
+        self._polls = self._polls + 1 if unnamed > self._nameless else 0
+        if self._polls >= UNNAMED_POLLS:
+            self._next, self._polls = self._make(self._first), 0
+
+    def _poll_next(self, node: Any, end: Callable[[], None]) -> None:
+        self._polls += 1
+        missing = set(self.node.get_node_names()) - set(node.get_node_names())
+        if (missing or _unnamed(node)) and self._polls < DISCOVERY_POLLS:
+            return
+        self._end()
+        self.node, self._end = node, end
+        self._next, self._polls, self._nameless = None, 0, _unnamed(node)
+
+    def get_publishers_info_by_topic(self, topic: str) -> list[Any]:
+        """The publishers of a topic."""
+        return self.node.get_publishers_info_by_topic(topic)
+
+    def get_subscriptions_info_by_topic(self, topic: str) -> list[Any]:
+        """The subscriptions of a topic."""
+        return self.node.get_subscriptions_info_by_topic(topic)
+
+    def close(self) -> None:
+        """End the nodes made here."""
+        self._end()
+        if self._next is not None:
+            self._next[1]()
+
+
+def _unnamed(node: Any) -> int:
+    return sum(each.node_name == UNNAMED for each in node.get_publishers_info_by_topic(TOPIC))
+
+
+def _another(like: Node) -> tuple[Any, Callable[[], None]]:
+    """A node in a participant of its own."""
+    context = Context()
+    rclpy.init(args=[], context=context, domain_id=like.context.get_domain_id())
+    node = rclpy.create_node(
+        NAME, context=context, use_global_arguments=False, enable_rosout=False, start_parameter_services=False
+    )
+
+    def end() -> None:
+        node.destroy_node()
+        context.try_shutdown()
+
+    return node, end
+
+
+def _nothing() -> None:
+    """Stand-in for ending a node that was not made here."""
