@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 from xml.etree import ElementTree
 
 from bot_console.tui.learn.course import Course
@@ -69,7 +69,7 @@ def _script(row: GradeRow, sandbox: Sandbox, names: dict[str, str]) -> str:
     starts = [f"$BOT_CONSOLE {_line(words, names)} &" for words in row.starts]
     done = sandbox.run(SHELL.format(starts="\n".join(starts), wait=NODES_WAIT_S), ROW_TIMEOUT_S)
     report = _report(sandbox)
-    if not isinstance(report, dict):
+    if report is None:
         problem = _text(sandbox.folder / "home" / "problem").strip()
         return done.why or _explained(problem or "the nodes did not start", done)
     failed = [each for each in report["steps"] if not each["ok"]]
@@ -80,7 +80,7 @@ def _drive(drive: Drive, sandbox: Sandbox, names: dict[str, str]) -> str:
     line = DRIVE.format(seed=SEED, seconds=drive.seconds, words=_line(drive.words, names))
     done = sandbox.run(line, ROW_TIMEOUT_S)
     report = _report(sandbox)
-    if done.why or not isinstance(report, dict) or "distance" not in report:
+    if done.why or report is None or "distance" not in report:
         return done.why or _explained("the run has no report", done)
     way = float(report["distance"])
     return "" if way > drive.metres else f"the robot drove {way:.2f} m in {drive.seconds} s, not {drive.metres:g} m"
@@ -90,12 +90,12 @@ def _line(words: Sequence[str], names: dict[str, str]) -> str:
     return " ".join(shlex.quote(with_names(each, names)) for each in words)
 
 
-def _report(sandbox: Sandbox) -> Any:
+def _report(sandbox: Sandbox) -> dict[str, Any] | None:
     try:
         found: Any = json.loads(_text(sandbox.folder / "home" / "report"))
     except ValueError:
         return None
-    return found
+    return cast("dict[str, Any]", found) if isinstance(found, dict) else None
 
 
 def _text(path: Path) -> str:

@@ -78,7 +78,7 @@ class LessonPane(Pane):
         if self._ticks % TICKS_PER_POLL:
             return
         snapshot = self.console.snapshot()
-        changes = self.console.changes(self._after)
+        changes = self.console.parameters.changes(self._after)
         self._after = max((each.seq + 1 for each in changes), default=self._after)
         for title in self._lesson.observe(snapshot, changes, self._on_screen(snapshot)):
             self.notify(f"Done: {title}", markup=False)
