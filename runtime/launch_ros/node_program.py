@@ -15,6 +15,7 @@ from bot_console.runtime.programs.plain_file import examine
 from bot_console.runtime.workspace.builtin_package import ROOT, is_own
 from bot_console.runtime.workspace.demos import IMPORT_NAME
 from bot_console.runtime.workspace.discover import workspace
+from bot_console.runtime.workspace.entry_script import script_of, script_of_file
 from bot_console.runtime.workspace.executables import Executable, executables
 from bot_console.runtime.workspace.launched import Program, entry_point, find_packages_in, python_file
 from bot_console.runtime.workspace.program import source_folders
@@ -76,19 +77,19 @@ def _is_container(package: str | None, path: str) -> bool:
 
 
 def os_command(package: str | None, command: list[str], at: int) -> list[str]:
-    """Return the command with a Python executable `command[at]` run by the embedded runtime; others are unchanged.
+    """Return the command with a Python executable `command[at]` as a script; others are unchanged.
 
     A file given to Python itself, as in `python3 -m pdb FILE`, is left: its process finds the runtime by its
     environment.
     """
     executable = _known(package, command[at])
     if executable is not None and executable.entry_point is not None:
-        runner = [sys.executable, "-m", "bot_console.runtime.programs.run", executable.package, executable.name]
+        script = str(script_of(executable))
     elif _is_python(command[at]) and not any(map(_is_interpreter, command[:at])):
-        runner = [sys.executable, "-m", "bot_console.runtime.programs.run", command[at]]
+        script = str(script_of_file(command[at]))
     else:
         return command
-    return [*command[:at], *runner, *command[at + 1 :]]
+    return [*command[:at], script, *command[at + 1 :]]
 
 
 def _known(package: str | None, path: str) -> Executable | None:

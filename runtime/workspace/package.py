@@ -38,6 +38,8 @@ class Package:
     problem: str = ""
     panes: Mapping[str, EntryPoint] = field(default_factory=lambda: MappingProxyType({}))
     """Panes that it provides for the console."""
+    setup: SetupFile | None = None
+    """What its setup files say."""
 
     @cached_property
     def has_interfaces(self) -> bool:
@@ -75,6 +77,7 @@ def read_package(folder: Path) -> Package:
         setup.data_files,
         problem,
         MappingProxyType({key: _entry_point(text) for key, text in setup.panes.items()}),
+        setup,
     )
 
 

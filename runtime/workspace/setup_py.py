@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from bot_console.runtime.workspace.setup_mistakes import first_mistake
 from bot_console.runtime.workspace.setup_values import Unreadable, Values, called
@@ -21,6 +22,15 @@ PANES = "bot_console.panes"
 WRITTEN_OUT = "Write them out: 'name = package.module:main'"
 TARGET = re.compile(r"[\w.]+\s*(:\s*[\w.]+)?\s*(\[.*\])?")
 """The part of an entry point after the `=`: a module, its function, extras."""
+
+
+class DataRow(NamedTuple):
+    """A row of `data_files`: its line, its target folder, its files, and the call of `glob` that finds them, if any."""
+
+    line: int
+    target: str
+    files: tuple[Path, ...]
+    written: str = ""
 
 
 @dataclass(frozen=True)
@@ -37,6 +47,12 @@ class SetupFile:
     """
     problem: str = ""
     """Why some of it is missing; empty if nothing is."""
+    name: str = ""
+    packages: tuple[str, ...] | None = None
+    """Python packages as they are listed; None if that cannot be evaluated."""
+    rows: tuple[DataRow, ...] = ()
+    lines: Mapping[str, int] = field(default_factory=dict[str, int])
+    """Where the arguments of `setup()` are, by their names."""
 
     def merged(self, other: SetupFile) -> SetupFile:
         """Return both combined; values of this one take precedence."""
@@ -47,6 +63,10 @@ class SetupFile:
             self.data_files + other.data_files,
             {**other.panes, **self.panes},
             self.problem or other.problem,
+            self.name or other.name,
+            self.packages if self.packages is not None else other.packages,
+            self.rows + other.rows,
+            {**other.lines, **self.lines},
         )
 
 
@@ -132,7 +152,20 @@ class _Reader:
         if wrong and not problem:
             problem = f"{self._path}: '{wrong}' is not of the form 'name = module:function'; a comma may be missing"
         programs = {name: target for name, target in programs.items() if TARGET.fullmatch(target)}
-        return SetupFile(programs, scripts, self._modules(), self._data_files(), panes, problem)
+        listed = self._keyword("packages", None)
+        rows = self._rows()
+        return SetupFile(
+            programs,
+            scripts,
+            self._modules(),
+            tuple((row.target, row.files) for row in rows),
+            panes,
+            problem,
+            str(self._keyword("name", "")),
+            tuple(map(str, listed)) if isinstance(listed, (list, tuple)) else None,
+            rows,
+            {name: value.lineno for name, value in self._keywords.items()},
+        )
 
     def _entry_points(self) -> tuple[Any, str]:
         """Return the entry points, and why they cannot be evaluated."""
@@ -154,15 +187,19 @@ class _Reader:
             found[name] = self._folder / places.get("", "") / f"{name}.py"
         return {name: path for name, path in found.items() if path.exists()}
 
-    def _data_files(self) -> tuple[tuple[str, tuple[Path, ...]], ...]:
+    def _rows(self) -> tuple[DataRow, ...]:
         rows = self._keywords.get("data_files")
         if rows is None:
             return ()
         # Row by row, so that one unreadable row does not lose the others.
         elements = rows.elts if isinstance(rows, (ast.List, ast.Tuple)) else []
-        values = [self._row(each) for each in elements] if elements else self._keyword("data_files", [])
+        found = [(each.lineno, self._row(each), _written_glob(each)) for each in elements]
+        if not elements:
+            found = [(rows.lineno, row, "") for row in self._keyword("data_files", [])]
         return tuple(
-            (str(row[0]), tuple(self._folder / str(each) for each in row[1])) for row in values if row and len(row) == 2
+            DataRow(line, str(row[0]), tuple(self._folder / str(each) for each in row[1]), written)
+            for line, row, written in found
+            if row and len(row) == 2
         )
 
     def _row(self, row: ast.expr) -> Any:
@@ -170,6 +207,12 @@ class _Reader:
             return self._values.of(row)
         except Unreadable:
             return None
+
+
+def _written_glob(row: ast.expr) -> str:
+    """The call of `glob` in a row, as it is written."""
+    calls = (each for each in ast.walk(row) if isinstance(each, ast.Call) and called(each) in ("glob", "iglob"))
+    return next((ast.unparse(each) for each in calls), "")
 
 
 def entry_lines(lines: Any) -> dict[str, str]:

@@ -62,7 +62,7 @@ def run(executable: Executable, words: list[str], prefix: str | None = None) -> 
 
     runs = None if prefix else program(executable)
     if runs is None:
-        code = _wait_for([*shlex.split(prefix or ""), *_command(executable), *words])
+        code = _wait_for([*shlex.split(prefix or ""), *_command(executable, bool(prefix)), *words])
     else:
         sys.argv = [executable.name, *words]
         code = exit_code_of(runs)
@@ -74,7 +74,9 @@ def run(executable: Executable, words: list[str], prefix: str | None = None) -> 
 
 
 def _wait_for(command: list[str]) -> int:
-    process = subprocess.Popen(command, env={**os.environ, "PYTHONUNBUFFERED": "1"})
+    from bot_console.runtime.children.child_environment import child_environment
+
+    process = subprocess.Popen(command, env={**child_environment(os.environ), "PYTHONUNBUFFERED": "1"})
     while True:
         try:
             return process.wait()
@@ -83,9 +85,13 @@ def _wait_for(command: list[str]) -> int:
             continue
 
 
-def _command(executable: Executable) -> list[str]:
+def _command(executable: Executable, prefixed: bool) -> list[str]:
+    """The command of a child; behind a prefix, which may be Python itself, Python programs are scripts as on ROS 2."""
+    from bot_console.runtime.workspace.entry_script import script_of
     from bot_console.runtime.workspace.program import is_python
 
+    if prefixed:
+        return [str(script_of(executable))]
     runner = [sys.executable, "-m", "bot_console.runtime.programs.run"]
     if executable.path is None:
         return [*runner, executable.package, executable.name]

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bot_console.runtime.workspace.discover import Workspace, use, workspace
 from launch.actions import EmitEvent, RegisterEventHandler, SetEnvironmentVariable, Shutdown
 from launch.event_handlers import OnProcessExit, OnProcessIO
 from launch.events import matches_action
@@ -63,6 +64,38 @@ def test_python_options_in_prefix_are_left_to_python(run: Launch, script: Any) -
     Path(path).chmod(0o644)
     outcome = run([Node(executable=path, prefix="python3 -m cProfile -s calls", output="screen")])
     assert lines_of(outcome.text)[0] == "rclpy ['--ros-args']" and "function calls" in outcome.text
+
+
+@pytest.mark.parametrize(
+    ("prefix", "output"),
+    [
+        ("python3 -X utf8", "1 rclpy"),
+        ("python3 -m pdb -c continue -c quit", "0 rclpy"),
+        ("env PYTHONUTF8=1", "1 rclpy"),
+        ("nice", "0 rclpy"),
+        ("python3 -X importtime", "import time:"),
+    ],
+)
+def test_an_entry_point_behind_a_prefix_is_a_script(
+    run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, prefix: str, output: str
+) -> None:
+    for name, text in {
+        "package.xml": "<package><name>p</name><export><build_type>ament_python</build_type></export></package>",
+        "setup.py": "from setuptools import setup\nsetup(name='p', packages=['p'],"
+        " entry_points={'console_scripts': ['talk = p.talk:main']})\n",
+        "p/__init__.py": "",
+        "p/talk.py": "import rclpy, sys\ndef main():\n    print(sys.flags.utf8_mode, rclpy.__name__)\n",
+    }.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text)
+    monkeypatch.delenv("PYTHONUTF8", raising=False)
+    before = workspace()
+    use(Workspace([tmp_path]))
+    try:
+        outcome = run([Node(package="p", executable="talk", prefix=prefix, output="screen")])
+    finally:
+        use(before)
+    assert output in outcome.text and "rclpy" in outcome.text, outcome.text
 
 
 def test_stdout_and_stderr_are_distinguished(run: Launch, script: Any) -> None:

@@ -145,6 +145,35 @@ def test_prefix_runs_a_separate_process(ros, src: Path) -> None:
     assert ros.ask("run", "--prefix", "echo prefixed", "p", "report").stdout.startswith("prefixed ")
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="a script of the system's shell")
+@pytest.mark.parametrize(
+    ("prefix", "output"),
+    [
+        ("python3 -X importtime", "import time:"),
+        ("python3 -m pdb -c continue", "The program exited via sys.exit()"),
+        ("python3 -X utf8 -W error", "node ['word']"),
+        ("python3 -m cProfile -s calls", "function calls"),
+        ("python3 -m trace --count --summary --missing -C .", "lines   cov%"),
+        ("env GREETING=hello", "hello node ['word']"),
+        ("nice -n 1", "node ['word']"),
+        (
+            f"{sys.executable} -c 'import runpy, sys; runpy.run_path(sys.argv[1], run_name=\"__main__\")'",
+            "node ['word']",
+        ),
+    ],
+)
+def test_prefixes_that_run_scripts_get_a_script(ros, src: Path, prefix: str, output: str) -> None:
+    package(
+        src, "p",
+        report="import os, sys, rclpy\nfrom p import other\n"
+        "def main():\n    print(os.getenv('GREETING', ''), 'node', [word for word in sys.argv if word == 'word'])\n",
+        other="",
+    )  # fmt: skip
+    answer = ros.ask("run", "--prefix", prefix, "p", "report", "word")
+    assert output in answer.stdout + answer.stderr, answer
+    assert " node " in f" {answer.stdout}", answer
+
+
 @pytest.mark.parametrize("program", ["rqt_plot", "rqt_reconfigure", "rqt_graph", "rqt_console"])
 def test_rqt_programs_name_the_pane(ros, program: str) -> None:
     answer = ros.ask("run", program, program)

@@ -34,14 +34,19 @@ def folder_of_package(path: Path) -> Path | None:
     return next((each for each in path.resolve().parents if (each / MANIFEST).is_file()), None)
 
 
-def _package_of(path: Path) -> str:
-    """The name of the package that contains a file; empty if none does."""
-    folder = folder_of_package(path)
+def package_name(folder: Path) -> str:
+    """The name in the `package.xml` of a folder; empty if it cannot be read."""
     try:
-        name = ElementTree.parse(folder / MANIFEST).getroot().findtext("name") if folder else ""
+        name = ElementTree.parse(folder / MANIFEST).getroot().findtext("name")
     except (ElementTree.ParseError, OSError):
         return ""
     return (name or "").strip()
+
+
+def _package_of(path: Path) -> str:
+    """The name of the package that contains a file; empty if none does."""
+    folder = folder_of_package(path)
+    return package_name(folder) if folder else ""
 
 
 def _names(given: Mapping[str | None, ast.expr]) -> Iterator[tuple[str, int]]:

@@ -5,17 +5,19 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from bot_console.tui.cli.lint.finding import LintFinding
 from bot_console.tui.cli.lint.launch_file import dead_parameters, folder_of_package
+from bot_console.tui.cli.lint.launch_packages import unknown_packages
 from bot_console.tui.cli.lint.parameter_file import dead_values, is_meant, refused
 from bot_console.tui.cli.lint.python_file import Declared
 from bot_console.tui.cli.lint.python_file import lint as lint_python
 
 INDEX = "course.md"
 """The file that makes a folder a course."""
+XML_LAUNCH = (".launch.xml", "_launch.xml")
 READ_TIMEOUT_S = 5.0
 """Seconds within which the parameters of running nodes are read."""
 
@@ -69,15 +71,29 @@ def _course(folder: Path) -> int:
 
 def _of_files(what: str) -> tuple[str, list[LintFinding]]:
     files = files_of(what)
-    if not files:
+    if not files and not Path(what, "package.xml").is_file():
         return f"there is no file, folder or package '{what}' with Python or YAML files in it", []
     if files != [Path(what)]:
-        return "", lint_files(files)
+        return "", sorted([*lint_files(files), *_of_packages(files, Path(what))])
     # What one file passes to nodes is compared with what its package declares.
     package = folder_of_package(files[0])
     beside = [each for each in files_of(str(package)) if each.resolve() != files[0].resolve()] if package else []
     found = lint_files([*(each for each in beside if each.suffix == ".py"), *files], files[0])
     return "", [each for each in found if each.place == str(files[0])]
+
+
+def _of_packages(files: Iterable[Path], where: Path) -> Iterator[LintFinding]:
+    """What keeps the packages that contain these files from working on ROS 2."""
+    from bot_console.runtime.importer import install
+    from bot_console.runtime.workspace.package import read_package
+    from bot_console.runtime.workspace.portability import obstacles
+
+    install()
+    folders = {folder for each in files if (folder := folder_of_package(each)) is not None}
+    folders |= {where.resolve()} if (where / "package.xml").is_file() else set()
+    for folder in folders:
+        for each in obstacles(read_package(folder)):
+            yield LintFinding(str(each.file), each.line, "not on ROS 2", each.problem, each.fix)
 
 
 def files_of(what: str) -> list[Path]:
@@ -96,7 +112,9 @@ def files_of(what: str) -> list[Path]:
             return []
         path = package.folder
     return sorted(
-        each for each in path.rglob("*") if each.suffix in (".py", ".yaml", ".yml") and "test" not in each.parts
+        each
+        for each in path.rglob("*")
+        if (each.suffix in (".py", ".yaml", ".yml") or each.name.endswith(XML_LAUNCH)) and "test" not in each.parts
     )
 
 
@@ -110,6 +128,9 @@ def lint_files(files: Iterable[Path], named: Path | None = None) -> list[LintFin
     parameters: list[Path] = []
     launches: list[Path] = []
     for path in files:
+        if path.name.endswith(XML_LAUNCH):
+            found += unknown_packages(path)
+            continue
         if path.suffix != ".py":
             parameters += [path] if is_meant(path) or path == named else []
             continue
@@ -120,7 +141,9 @@ def lint_files(files: Iterable[Path], named: Path | None = None) -> list[LintFin
             declared.whole = False
             continue
         found += own
-        launches += [path] if path.stem.endswith("launch") else []
+        if path.stem.endswith("launch"):
+            launches.append(path)
+            found += unknown_packages(path)
         declared.nodes |= names.nodes
         declared.parameters |= names.parameters
         declared.whole = declared.whole and names.whole

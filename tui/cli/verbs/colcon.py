@@ -9,8 +9,9 @@ from pathlib import Path
 from bot_console.runtime.importer import install
 from bot_console.runtime.workspace.choices import package_names
 from bot_console.runtime.workspace.discover import workspace
+from bot_console.runtime.workspace.portability import obstacles
 from bot_console.tui.cli.verbs.sourced import write_setup_files
-from bot_console.tui.format import counted
+from bot_console.tui.format import counted, sanitize
 
 NOTHING_TO_DO = "Nothing has to be built or sourced: packages of the workspace are read from their sources."
 GOOD_FOR = "makes the ros2 command and these packages available in any folder of a shell that sources it."
@@ -46,8 +47,17 @@ def answers(words: Sequence[str]) -> list[str]:
     warnings = [f"ignoring unknown package '{name}' in {option}" for option, name in _unknown(words)]
     broken = _broken(words)
     failed = [f"Failed   <<< {name}: {problem}" for name, problem in broken.items()]
+    failed += _obstacles(words) if words[:1] == ["build"] else []
     last = f"{counted(len(broken), 'package')} failed: {' '.join(broken)}" if broken else NOTHING_TO_DO
     return [*warnings, *failed, last]
+
+
+def _obstacles(words: Sequence[str]) -> Iterator[str]:
+    """What works here and not on ROS 2, in the packages of the workspace; only the selected ones, if any are."""
+    selected = {word for _, word in _selected(words)}
+    for name, package in sorted(workspace().packages.items()):
+        if name in selected or not selected:
+            yield from (f"Would not work on ROS 2 <<< {name}: {sanitize(str(each))}" for each in obstacles(package))
 
 
 def _broken(words: Sequence[str]) -> dict[str, str]:

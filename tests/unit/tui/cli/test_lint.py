@@ -91,7 +91,8 @@ def test_launch_file_parameters_are_compared_with_declarations_of_its_package(pa
 
     def dead() -> list[tuple[int, str]]:
         found = lint_files(files_of(str(package)))
-        return [(each.line, each.subject) for each in found if each.place.endswith("all.launch.py")]
+        mine = [each for each in found if each.place.endswith("all.launch.py") and each.fault == "dead parameter"]
+        return [(each.line, each.subject) for each in mine]
 
     assert dead() == [], "whose nodes they are is not known"
     (package / "package.xml").write_text("<package><name>mine</name></package>")
@@ -172,3 +173,60 @@ def test_our_own_robot_has_no_fault() -> None:
     own = [each for each in files_of("bot_console_robot") if each.name.endswith("_node.py")]
     assert len(own) > 5
     assert [each.text() for each in lint_files(own) if "/demos/" not in each.place] == []
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        ("Node(package='turtlesin', executable='turtlesim_node')", "turtlesim"),
+        ("launch_ros.actions.Node(package='bot_console_robt', executable='a')", "bot_console_robot"),
+        ("FindPackageShare('turtlesm')", "turtlesim"),
+        ("get_package_share_directory('bot_console_robots')", "bot_console_robot"),
+        ("ComposableNode(package='demo_node_cpp', plugin='A')", ""),
+        ("Node(package='no_such_thing_at_all', executable='x')", ""),
+    ],
+)
+def test_unknown_packages_of_launch_files_are_found(
+    tmp_path: Path, written: str, meant: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "all.launch.py").write_text(f"def generate_launch_description():\n    return [{written}]\n")
+    assert run([str(tmp_path)]) == 1
+    (line,) = capsys.readouterr().out.splitlines()
+    assert "all.launch.py:2: " in line and "no such package" in line and meant in line
+    assert not meant or f"did you mean '{meant}'?" in line
+
+
+def test_packages_that_exist_are_not_found(tmp_path: Path) -> None:
+    for name in ("one", "two"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "package.xml").write_text(f"<package><name>{name}</name></package>")
+    names = ("one", "two", "turtlesim", "bot_console_robot", "rclpy_components", "demo_nodes_py")
+    text = ", ".join(f"Node(package='{each}', executable='x')" for each in names if each != "rclpy_components")
+    (tmp_path / "one" / "all.launch.py").write_text(f"def generate_launch_description():\n    return [{text}]\n")
+    assert [each.text() for each in lint_files([tmp_path / "one" / "all.launch.py"])] == []
+
+
+def test_unknown_packages_of_xml_are_found(tmp_path: Path) -> None:
+    (tmp_path / "all.launch.xml").write_text(
+        '<launch>\n  <node pkg="turtlesim" exec="a"/>\n  <node pkg="turtelsim" exec="a"/>\n'
+        '  <node pkg="$(var which)" exec="a"/>\n</launch>'
+    )
+    (only,) = lint_files(files_of(str(tmp_path)))
+    assert (only.line, only.subject) == (3, "turtelsim") and "turtlesim" in only.hint
+
+
+def test_what_would_not_work_on_ros_is_found_in_packages(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "p").mkdir()
+    (tmp_path / "package.xml").write_text(
+        "<package><name>p</name><export><build_type>ament_python</build_type></export></package>"
+    )
+    (tmp_path / "p" / "__init__.py").write_text("")
+    (tmp_path / "p" / "talk.py").write_text("def main():\n    pass\n")
+    (tmp_path / "setup.py").write_text(
+        "from setuptools import setup\n"
+        "setup(name='q', packages=['p'], entry_points={'console_scripts': ['talk = p.talk:main']})\n"
+    )
+    assert run([str(tmp_path)]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert any("setup.cfg: is missing" in each and "not on ROS 2" in each for each in lines)
+    assert any("setup.py:2: setup() is called with the name 'q'" in each for each in lines) and len(lines) == 2

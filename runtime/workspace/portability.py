@@ -1,0 +1,183 @@
+"""What works here, where packages are read from their sources, and not on ROS 2, where `colcon build` installs them."""
+
+from __future__ import annotations
+
+import ast
+import configparser
+import os
+import sys
+from collections.abc import Collection, Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from bot_console.runtime.workspace.package import Package
+
+TESTS = frozenset({"test", "tests", "__pycache__"})
+SECTIONS = (("develop", "script_dir"), ("install", "install_scripts"))
+MAX_NAMED_FILES = 3
+
+
+class Obstacle(NamedTuple):
+    """Something that keeps a package from working on ROS 2; `line` 0 means the whole file."""
+
+    file: Path
+    line: int
+    problem: str
+    fix: str
+
+    def __str__(self) -> str:
+        where = f"{self.file}:{self.line}" if self.line else str(self.file)
+        return f"{where}: {self.problem}; {self.fix}"
+
+
+def obstacles(package: Package) -> list[Obstacle]:
+    """Find them all, in the order of files; none for a package that cannot be read at all."""
+    found: list[Obstacle] = []
+    if package.build_type == "ament_python" and not package.problem and (package.folder / "setup.py").is_file():
+        found += _setup_cfg(package)
+        found += _setup_name(package)
+        found += _packages(package)
+        found += _data_files(package)
+    found += _programs(package)
+    for folder in {*package.modules.values(), *(each.parent for each in package.scripts.values())}:
+        for path in sorted(folder.glob("*.py")) if folder.is_dir() else ():
+            found += shadowed(path)
+    return sorted(found)
+
+
+def shadowed(path: Path) -> Iterator[Obstacle]:
+    """The files beside a Python file that Python would import in place of a ROS package or of its own library."""
+    try:
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+    except (OSError, SyntaxError, ValueError):
+        return
+    names = known_names()
+    for node in ast.walk(tree):
+        imported: list[str] = []
+        if isinstance(node, ast.Import):
+            imported = [each.name for each in node.names]
+        elif isinstance(node, ast.ImportFrom) and not node.level:
+            imported = [node.module or ""]
+        for name in {each.partition(".")[0] for each in imported}:
+            beside = _beside(path, name) if name in names else None
+            if beside is not None:
+                problem = f"{beside.name} beside it is imported instead of {name} when the file is run by itself"
+                yield Obstacle(path, getattr(node, "lineno", 0), problem, f"rename {beside.name}")
+
+
+def _beside(path: Path, name: str) -> Path | None:
+    module, folder = path.with_name(f"{name}.py"), path.with_name(name)
+    if module.is_file() and module != path:
+        return module
+    return folder if (folder / "__init__.py").is_file() and path.parent.name != name else None
+
+
+def known_names() -> Collection[str]:
+    """The names of ROS packages and of Python's library."""
+    from bot_console.runtime.importer import PACKAGES, generated_packages
+    from bot_console.runtime.interfaces.further_interfaces import unverified_folders
+
+    return {*PACKAGES, *generated_packages(), *unverified_folders(), *sys.stdlib_module_names}
+
+
+def _setup_cfg(package: Package) -> Iterator[Obstacle]:
+    """Without these two lines, executables are installed where `ros2 run` does not look."""
+    if not package.executables and not package.scripts:
+        return
+    path, right = package.folder / "setup.cfg", f"$base/lib/{package.name}"
+    fix = f"write `[develop]`, `script_dir={right}`, `[install]`, `install_scripts={right}`, each on its own line"
+    effect = "`ros2 run` and launch files do not find its executables"
+    if not path.is_file():
+        yield Obstacle(path, 0, f"is missing, so that {effect}", fix)
+        return
+    parser = configparser.ConfigParser(interpolation=None)
+    try:
+        parser.read(path, encoding="utf-8")
+    except (configparser.Error, UnicodeDecodeError):
+        return  # reported as a mistake of the package
+    for section, option in SECTIONS:
+        keys = [each for each in (option, option.replace("_", "-")) if parser.has_option(section, each)]
+        value = parser.get(section, keys[0]).strip() if keys else ""
+        line = _line_of(path, keys[0] if keys else f"[{section}]")
+        if not keys:
+            yield Obstacle(path, line, f"[{section}] has no {option}, so that {effect}", f"write {option}={right}")
+        elif value.rstrip("/") != right:
+            yield Obstacle(path, line, f"{keys[0]} is {value}, so that {effect}", f"write {keys[0]}={right}")
+
+
+def _setup_name(package: Package) -> Iterator[Obstacle]:
+    setup = package.setup
+    if setup is not None and setup.name and setup.name != package.name:
+        path = package.folder / "setup.py"
+        problem = f"setup() is called with the name '{setup.name}', and package.xml says '{package.name}'"
+        yield Obstacle(path, setup.lines.get("name", 0), problem, f"write name='{package.name}'")
+
+
+def _packages(package: Package) -> Iterator[Obstacle]:
+    """Python packages that are not installed, since `packages=` does not list them."""
+    setup = package.setup
+    if setup is None or setup.packages is None:
+        return
+    path, line, listed = package.folder / "setup.py", setup.lines.get("packages", 0), set(setup.packages)
+    for name, folder in package.modules.items():
+        for inner in sorted(folder.rglob("*")) if folder.is_dir() else ():
+            dotted = ".".join((name, *inner.relative_to(folder).parts))
+            if not inner.is_dir() or dotted in listed or not next(inner.glob("*.py"), None):
+                continue
+            if TESTS & set(inner.relative_to(folder).parts):
+                continue
+            init = (
+                ""
+                if (inner / "__init__.py").is_file()
+                else f"give {inner.relative_to(package.folder)} an __init__.py and "
+            )
+            yield Obstacle(path, line, f"packages= does not list {dotted}, which is not installed then",
+                           f"{init}add '{dotted}' to packages=, or write packages=find_packages()")  # fmt: skip
+    for executable, entry in package.executables.items():
+        first = entry.module.partition(".")[0]
+        if first not in {each.partition(".")[0] for each in listed} and (package.folder / first).is_dir():
+            yield Obstacle(path, line, f"packages= does not list {first}, where {executable} is",
+                           f"add '{first}' to packages=")  # fmt: skip
+
+
+def _data_files(package: Package) -> Iterator[Obstacle]:
+    """Rows that install nothing, and files that are not there."""
+    path = package.folder / "setup.py"
+    for row in package.setup.rows if package.setup is not None else ():
+        missing = [each for each in row.files if not each.exists()]
+        if missing:
+            names = ", ".join(str(each.relative_to(package.folder)) for each in missing[:MAX_NAMED_FILES])
+            yield Obstacle(
+                path, row.line, f"data_files names {names}, which is not there", "correct the name, or remove it"
+            )
+        elif not row.files and row.written:
+            yield Obstacle(path, row.line, f"{row.written} matches no file, so that {row.target} stays empty",
+                           _what_is_there(package.folder, row.written))  # fmt: skip
+
+
+def _what_is_there(folder: Path, written: str) -> str:
+    """What a pattern was probably meant for: the files in a folder that it names."""
+    for name in ("launch", "config", "params", "rviz", "urdf", "worlds", "maps", "meshes"):
+        there = sorted(each.name for each in (folder / name).glob("*") if each.is_file()) if name in written else []
+        if there:
+            return f"correct the pattern: {name}/ contains {', '.join(there[:MAX_NAMED_FILES])}"
+    return "correct the pattern, or remove the row"
+
+
+def _programs(package: Package) -> Iterator[Obstacle]:
+    """Files that are installed as programs, and cannot be started."""
+    for path in package.scripts.values():
+        try:
+            begin = path.open("rb").read(4)
+        except OSError:
+            continue
+        if path.suffix == ".py" and not begin.startswith(b"#!"):
+            yield Obstacle(path, 1, "the program has no first line that names its interpreter",
+                           "write `#!/usr/bin/env python3` as its first line")  # fmt: skip
+        if os.name == "posix" and not os.access(path, os.X_OK):
+            yield Obstacle(path, 0, "the program may not be executed", f"chmod +x {path}")
+
+
+def _line_of(path: Path, begin: str) -> int:
+    lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    return next((at for at, line in enumerate(lines, 1) if line.strip().startswith(begin)), 0)
