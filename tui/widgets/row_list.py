@@ -40,18 +40,21 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
     """The row that keys act on."""
 
     class Moved(Message):
-        """The cursor has moved to another row."""
+        """The cursor has moved to another row: `by_person`, or because rows have come or gone."""
 
-        def __init__(self, rows: RowList, index: int) -> None:
+        def __init__(self, rows: RowList, index: int, *, by_person: bool) -> None:
             super().__init__()
             self.rows = rows
             self.index = index
+            self.by_person = by_person
 
         @property
         def control(self) -> RowList:
             """The list."""
             return self.rows
 
+    _by_person = False
+    """Whether a person is moving the cursor."""
     placeholder = NO_PLACEHOLDER
     """What is shown while there are no rows."""
 
@@ -135,7 +138,15 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         self.row_changed(before)
         self.row_changed(after)
         self.show_cursor()
-        self.post_message(self.Moved(self, after))
+        self.post_message(self.Moved(self, after, by_person=self._by_person))
+
+    def choose(self, index: int) -> None:
+        """Move the cursor for a person, by key, mouse or search."""
+        self._by_person = True
+        try:
+            self.cursor = index
+        finally:
+            self._by_person = False
 
     def show_cursor(self) -> None:
         """Scroll the cursor into view."""
@@ -147,7 +158,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
 
     def action_cursor(self, step: int) -> None:
         """Move the cursor by a number of rows."""
-        self.cursor = min(max(0, self.cursor + step), max(0, self.row_count() - 1))
+        self.choose(min(max(0, self.cursor + step), max(0, self.row_count() - 1)))
 
     def action_page(self, step: int) -> None:
         """Move the cursor by a number of pages."""
@@ -158,7 +169,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         before = self.cursor
         self.action_cursor(end * self.row_count())
         if self.cursor == before:
-            self.post_message(self.Moved(self, before))
+            self.post_message(self.Moved(self, before, by_person=True))
 
     def matches(self, index: int, query: Query) -> bool:
         """Whether a row matches a filter; by default judged by its drawn text."""
@@ -170,7 +181,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         places = ((self.cursor + step * away) % count for away in range(1, count + 1))
         place = next((each for each in places if self.matches(each, query)), None)
         if place is not None:
-            self.cursor = place
+            self.choose(place)
         return place is not None
 
     def on_click(self, event: Click) -> None:
@@ -181,7 +192,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         if y == self.cursor and event.chain == 2:
             self.app.simulate_key("enter")  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
         else:
-            self.cursor = y
+            self.choose(y)
 
     def on_focus(self) -> None:
         """Show the cursor."""

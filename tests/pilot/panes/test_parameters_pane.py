@@ -47,7 +47,7 @@ def test_number_is_edited_and_stepped() -> None:
 def test_unanswered_value_is_shown_as_pending(monkeypatch: pytest.MonkeyPatch) -> None:
     async def play(session: Session) -> None:
         pane = session.pane(ParametersPane)
-        pane.clock = Clock()
+        pane.edits.clock = Clock()
         answer: Future[tuple[SetOutcome, ...]] = Future()
         monkeypatch.setattr(session.console.parameters, "set", lambda *_: answer)
         await session.press("1")
@@ -56,7 +56,7 @@ def test_unanswered_value_is_shown_as_pending(monkeypatch: pytest.MonkeyPatch) -
         pane.tick()
         await session.settle()
         assert "answered" not in session.text(), "most answer at once"
-        pane.clock.now += 0.6
+        pane.edits.clock.now += 0.6
         pane.tick()
         await session.settle()
         assert "1.05: not answered yet" in session.text()
@@ -329,7 +329,7 @@ def test_values_of_a_restarted_node_are_its_new_start_values() -> None:
             console.journal.append(replace(first, seq=console.current.journal.end, by=by))
             console.set_journal()
             await session.settle()
-            assert (("/robot_navigator", "turn_rate") in rows(session).moved) is reported
+            assert (("/robot_navigator", "turn_rate") in session.pane(ParametersPane).edits.moved) is reported
 
     run(live(), play)
 
@@ -363,3 +363,26 @@ def test_saved_value_loses_its_mark_immediately() -> None:
         assert "not saved" not in session.text()
 
     run(live(), play)
+
+
+def test_only_a_person_moves_the_cursor_away_from_what_matters_most() -> None:
+    async def play(session: Session) -> None:
+        shown = rows(session)
+        every, best = session.console.current.parameters, shown.current
+        session.console.change(parameters={"/simulator": every["/simulator"]})
+        await session.settle()
+        session.console.change(parameters=every)
+        await session.settle()
+        assert best is not None and shown.current is not None and shown.current.name == best.name
+        shown.cursor = 0  # not by a key
+        await session.settle()
+        session.console.change(parameters=dict(every))
+        await session.settle()
+        assert shown.current is not None and shown.current.name == best.name
+        await session.press("1", "up")
+        chosen = shown.current
+        session.console.change(parameters=dict(every))
+        await session.settle()
+        assert chosen is not None and shown.current is not None and shown.current.name == chosen.name != best.name
+
+    run(live(), play, (120, 40))

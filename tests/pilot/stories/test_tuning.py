@@ -78,13 +78,13 @@ def test_refusal_by_one_node_keeps_all_marks_and_shows_the_reason() -> None:
 def test_marking_can_be_resumed_before_the_answer() -> None:
     async def play(session: Session) -> None:
         answer: Future[tuple[SetOutcome, ...]] = Future()
-        session.console.parameters.set_all = lambda *given: answer  # type: ignore[method-assign]
+        session.console.parameters.set_all = lambda *given, **named: answer  # type: ignore[method-assign]
         await mark_two(session)
         await session.press("a", "m")
         answer.set_result((SetOutcome(NAVIGATOR, "turn_rate", 0.98, True),))
         await session.settle()
-        assert session.pane(ParametersPane).staging.marking
-        assert session.pane(ParametersPane).staging.marked == {}
+        assert session.pane(ParametersPane).edits.staging.marking
+        assert session.pane(ParametersPane).edits.staging.marked == {}
 
     run(live(), play, (100, 30))
 
@@ -183,7 +183,7 @@ def test_mouse_selects_slides_edits_and_folds() -> None:
 def test_change_flashes_and_marks_show_its_source() -> None:
     async def play(session: Session) -> None:
         clock = Clock()
-        session.pane(ParametersPane).clock = clock
+        session.pane(ParametersPane).edits.clock = clock
         await session.press("1")
         session.console.take(NAVIGATOR, {"turn_rate": 2.0}, ChangeSource.OTHER)
         await session.settle()

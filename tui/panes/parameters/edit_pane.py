@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Future
 from functools import partial
 
-from bot_console.tui.console.model import ChangeSource, Kind, ParameterInfo, SetOutcome, Value, same
+from bot_console.tui.console.model import Kind, ParameterInfo, SetOutcome, Value
 from bot_console.tui.console.parameter_types import ARRAYS
+from bot_console.tui.console.parameters.edits import ParameterEdits
 from bot_console.tui.console.parameters.safety import takes_safety
+from bot_console.tui.console.parameters.staging import SETS, Key
 from bot_console.tui.format import field_text, value_text
 from bot_console.tui.keys.key import Mode
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.parameters import editing, tuning
-from bot_console.tui.panes.parameters.pending_sets import PendingSets
-from bot_console.tui.panes.parameters.staging import SETS, Key, Staging, by_node
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.screens.tuning.requests import NO_TUNER
 from bot_console.tui.text.refusals import of_many
@@ -37,21 +35,25 @@ class EditPane(ListPane):
 
     def __init__(self, *args: object, **kwargs: object) -> None:
         super().__init__(*args, **kwargs)  # type: ignore[arg-type] -- handed on as they are
-        self.staging = Staging()
-        self.unanswered = PendingSets()
-        self.clock: Callable[[], float] = time.monotonic
+        self.edits = ParameterEdits(
+            self.console.parameters,
+            lambda: self.console.snapshot().parameters,
+            self.call_later,
+            self.redraw_marks,
+            self._report_failure,
+        )
 
     @property
     def mode(self) -> Mode:
         """Marking values, a refused value at the cursor, or a filter."""
-        parameter, staging = self._at(), self.staging
+        parameter, staging = self._at(), self.edits.staging
         marked = parameter is not None and (parameter.node, parameter.name) in staging.marked
         if staging.marking or staging.marked:
             keys = {"parameters.apply": f"Apply {len(staging.marked)}", "parameters.compare": "Send as set B"}
             keys = keys if staging.marked else {}
             keys |= {"parameters.dismiss": "Drop"} if marked else {}
             return Mode({**keys, "parameters.stage": "Send at once" if staging.marking else "Mark more"}, MARKING)
-        if parameter is not None and (parameter.node, parameter.name) in self._list.refused:
+        if parameter is not None and (parameter.node, parameter.name) in self.edits.refused:
             return REFUSED
         return super().mode
 
@@ -71,13 +73,6 @@ class EditPane(ListPane):
         """Fold or unfold the row at the cursor."""
         raise NotImplementedError
 
-    def _now(self, parameter: ParameterInfo) -> Value:
-        """The value from which a step continues: the marked one, else one on its way, else the present one."""
-        key = (parameter.node, parameter.name)
-        if key in self.staging.marked:
-            return self.staging.marked[key]
-        return self.unanswered.value(key, parameter.value, self.clock())
-
     def action_edit(self) -> None:
         """Edit a value, toggle a boolean, list the elements of an array, or fold or unfold a node or group."""
         row = self._list.current
@@ -89,9 +84,9 @@ class EditPane(ListPane):
         elif parameter.kind not in ARRAYS:
             self.action_edit_text()
         elif self.may_change():
-            now = self._now(parameter)
+            now = self.edits.now(parameter)
             values = now if isinstance(now, tuple) else ()
-            then, gone = partial(self._set, parameter), partial(self._gone, parameter)
+            then, gone = partial(self.edits.set, parameter), partial(self._gone, parameter)
             self.ask(Elements(editing.label(parameter), then, gone, values=values, kind=parameter.kind))
 
     def action_edit_text(self) -> None:
@@ -99,9 +94,9 @@ class EditPane(ListPane):
         parameter = self._at()
         if parameter is None or not self.may_change():
             return
-        now = self._now(parameter)
+        now = self.edits.now(parameter)
         if parameter.kind is Kind.BOOL and isinstance(now, bool):
-            self._set(parameter, not now)
+            self.edits.set(parameter, not now)
             return
         self.ask(
             Line(
@@ -124,68 +119,23 @@ class EditPane(ListPane):
         return ""
 
     def _set_text(self, parameter: ParameterInfo, text: str) -> None:
-        if text != field_text(self._now(parameter)):
-            self._set(parameter, editing.typed_value(text, parameter))
+        if text != field_text(self.edits.now(parameter)):
+            self.edits.set(parameter, editing.typed_value(text, parameter))
 
-    def _set(self, parameter: ParameterInfo, value: Value) -> None:
-        """Send or mark a value."""
-        if self.staging.marking:
-            key = (parameter.node, parameter.name)
-            self.staging.mark(key, parameter.value, value)
-            self._list.refused.pop(key, None)  # a refusal of an earlier value would hide this mark
-            self.redraw_marks()
-            return
-        if not self.unanswered.keep((parameter.node, parameter.name), value):
-            self._send((parameter.node, parameter.name), value)
-
-    def _send(self, key: Key, value: Value) -> None:
-        """Send a value; when it is accepted, the newest one that was asked for meanwhile follows."""
-        node, name = key
-        answer = self.console.parameters.set(node, {name: value}, ChangeSource.EDIT)
-        self._wait_for(answer, {key: value})
-        answer.add_done_callback(lambda done: self.host.call_later(self._sent, key, value, done))
-
-    def _sent(self, key: Key, value: Value, done: Future[tuple[SetOutcome, ...]]) -> None:
-        accepted, newest = self._outcome(done), self.unanswered.take(key)
-        if accepted and newest is not None and not same(newest, value):
-            self._send(key, newest)
-
-    def _wait_for(self, answer: Future[tuple[SetOutcome, ...]], values: Mapping[Key, Value]) -> None:
-        """Track sent values until they are answered."""
-        number = self.unanswered.sent(values, self.clock())
-        answer.add_done_callback(lambda done: self.host.call_later(self._answered, number, done))
-
-    def _answered(self, number: int, done: Future[tuple[SetOutcome, ...]]) -> None:
-        outcomes = () if done.exception() else done.result()
-        accepted = {(each.node, each.name): each.value for each in outcomes if each.accepted}
-        self.unanswered.answered(number, accepted, self.clock())
-
-    def _outcome(self, done: Future[tuple[SetOutcome, ...]]) -> bool:
-        """Mark refused values; returns whether all were accepted."""
-        error = done.exception()
-        if error is not None:
-            self.notify(str(error), severity="error", markup=False)
-            return False
-        for each in done.result():
-            key = (each.node, each.name)
-            if each.accepted:
-                self._list.refused.pop(key, None)
-            else:
-                self._list.refused[key] = each
-        self.redraw_marks()
-        return all(each.accepted for each in done.result())
+    def _report_failure(self, error: str, outcomes: Sequence[SetOutcome]) -> None:
+        """Say why values were not sent, or which of those that were sent together was refused."""
+        text = error or of_many(outcomes)
+        if text:
+            self.notify(text, severity="error", markup=False)
 
     def action_dismiss(self) -> None:
         """Dismiss the refusal at the cursor, or unmark its value."""
-        if not self.dismiss_refusal() and self.staging.marked.pop(self._key_at(), None) is not None:
-            self.redraw_marks()
+        if not self.dismiss_refusal():
+            self.edits.unstage(self._key_at())
 
     def dismiss_refusal(self) -> bool:
         """Dismiss the refusal at the cursor; returns whether there was one."""
-        refused = self._list.refused.pop(self._key_at(), None) is not None
-        if refused:
-            self.redraw_marks()
-        return refused
+        return self.edits.dismiss(self._key_at())
 
     def _key_at(self) -> Key:
         row = self._list.current
@@ -194,9 +144,9 @@ class EditPane(ListPane):
     def action_nudge(self, steps: int) -> None:
         """Move a number by its step, or by a hundredth of its range."""
         parameter = self._at()
-        value = editing.stepped(parameter, self._now(parameter), steps) if parameter else None
+        value = editing.stepped(parameter, self.edits.now(parameter), steps) if parameter else None
         if parameter is not None and value is not None:
-            self._set(parameter, value)
+            self.edits.set(parameter, value)
 
     def action_limit(self, share: float) -> None:
         """Go to the minimum or maximum of the range."""
@@ -207,14 +157,14 @@ class EditPane(ListPane):
         if value is None:
             self.notify(f"{parameter.name} has no range, so no least and no greatest value.")
         else:
-            self._set(parameter, value)
+            self.edits.set(parameter, value)
 
     def on_parameter_rows_slid(self, event: ParameterRows.Slid) -> None:
         """The slider was clicked."""
         event.stop()
         value = editing.at_share(event.parameter, event.share)
         if value is not None:
-            self._set(event.parameter, value)
+            self.edits.set(event.parameter, value)
 
     def on_parameter_rows_pressed(self, event: ParameterRows.Pressed) -> None:
         """Edit the clicked row if it was already selected."""
@@ -224,70 +174,32 @@ class EditPane(ListPane):
     def action_reset(self) -> None:
         """Reset to the default."""
         parameter = self._at()
-        if parameter is not None and self._now(parameter) != parameter.default and parameter.default is not None:
-            self._set(parameter, parameter.default)
+        if parameter is not None and self.edits.now(parameter) != parameter.default and parameter.default is not None:
+            self.edits.set(parameter, parameter.default)
 
     def action_stage(self) -> None:
         """Switch between marking edits and sending them."""
-        self.staging.marking = not self.staging.marking
-        self.redraw_marks()
+        self.edits.stage()
 
     def action_apply(self) -> None:
         """Send all marked values together; all of them are accepted, or none."""
-        if not self.staging.marked:
+        if not self.edits.staging.marked:
             self.notify("Nothing is marked; m marks edits instead of sending them.")
             return
-        values = dict(self.staging.marked)
-        self._asked_first("Apply what is marked?", values, partial(self._apply, values))
-
-    def _apply(self, values: dict[Key, Value]) -> None:
-        # Not when the answer arrives: someone who presses m in the meantime wants to mark again.
-        self.staging.marking = bool(self.staging.marked.keys() - values.keys())
-        answer = self.console.parameters.set_all(by_node(values), ChangeSource.EDIT)
-        self._wait_for(answer, values)
-        answer.add_done_callback(lambda done: self.host.call_later(self._applied, values, done))
-
-    def _applied(self, values: Mapping[Key, Value], done: Future[tuple[SetOutcome, ...]]) -> None:
-        if self._outcome(done):
-            marked = self.staging.marked
-            self.staging.marked = {key: value for key, value in marked.items() if values.get(key) != value}
-            self.redraw_marks()
-        else:
-            self.staging.marking = bool(self.staging.marked)
-            self._report_refusal(done)
+        values = dict(self.edits.staging.marked)
+        self._asked_first("Apply what is marked?", values, partial(self.edits.apply, values))
 
     def action_compare(self) -> None:
         """Make the marked values set B and send it, or swap the two sets."""
-        if self.staging.marked:
-            values = dict(self.staging.marked)
-            self._asked_first(f"Send {SETS[1]}?", values, partial(self._begin_sets, values))
-        elif self.staging.other:
-            values = self.staging.other
-            self._asked_first(f"Send {SETS[1 - self.staging.live]}?", values, partial(self._swap, values))
+        staging = self.edits.staging
+        if staging.marked:
+            values = dict(self.edits.staging.marked)
+            self._asked_first(f"Send {SETS[1]}?", values, partial(self.edits.begin_sets, values))
+        elif staging.other:
+            values = staging.other
+            self._asked_first(f"Send {SETS[1 - staging.live]}?", values, self.edits.swap)
         else:
             self.notify("Mark values with m first: they become set B, and what is now is set A.")
-
-    def _begin_sets(self, values: dict[Key, Value]) -> None:
-        self.staging.begin(values, self.console.snapshot().parameters)
-        self.redraw_marks()
-        self._swap(self.staging.other)
-
-    def _swap(self, values: dict[Key, Value]) -> None:
-        answer = self.console.parameters.set_all(by_node(values), ChangeSource.EDIT, SETS[1 - self.staging.live])
-        self._wait_for(answer, values)
-        answer.add_done_callback(lambda done: self.host.call_later(self._swapped, done))
-
-    def _swapped(self, done: Future[tuple[SetOutcome, ...]]) -> None:
-        if self._outcome(done):
-            self.staging.live = 1 - self.staging.live
-            self.redraw_marks()
-        else:
-            self._report_refusal(done)
-
-    def _report_refusal(self, done: Future[tuple[SetOutcome, ...]]) -> None:
-        refused = "" if done.exception() else of_many(done.result())
-        if refused:
-            self.notify(refused, severity="error")
 
     def action_tune(self) -> None:
         """Ask for ranges, score and runs, then tune the marked parameters, or else this one."""
@@ -297,7 +209,7 @@ class EditPane(ListPane):
         parameter = self._at()
         trees = self.console.snapshot().parameters
         known = [tunable for tree in trees.values() for each in tree.parameters if (tunable := tuning.tunable_of(each))]
-        keys = self.staging.marked or ({(parameter.node, parameter.name): None} if parameter else {})
+        keys = self.edits.staging.marked or ({(parameter.node, parameter.name): None} if parameter else {})
         tunables = [each for each in known if (each.node, each.name) in keys]
         if not tunables:
             self.notify("Nothing to tune here: T is for a number or a boolean that can be set, or for marked ones.")
@@ -337,18 +249,14 @@ class EditPane(ListPane):
         values: dict[Key, Value] = {
             (tunable.node, tunable.name): value for tunable, value in zip(tunables, setting, strict=True)
         }
-        self._asked_first("Take what was tuned?", values, partial(self._apply, values))
+        self._asked_first("Take what was tuned?", values, partial(self.edits.apply, values))
 
-    def _asked_first(self, question: str, values: Mapping[Key, Value], then: partial[None]) -> None:
+    def _asked_first(self, question: str, values: Mapping[Key, Value], then: Callable[[], None]) -> None:
         """Call `then`; if the values make the robot less safe, ask first."""
-        trees = self.console.snapshot().parameters
-        reasons: list[str] = []
-        for (node, name), value in values.items():
-            tree = trees.get(node)
-            parameter = tree.get(name) if tree else None
-            why = takes_safety(parameter, parameter.value, value) if parameter else ""
-            if parameter and why:
-                reasons.append(f"⚠ {node} {name} {value_text(parameter.value)} → {value_text(value)} {why}.")
+        reasons = [
+            f"⚠ {each.node} {each.name} {value_text(each.value)} → {value_text(value)} {why}."
+            for each, value, why in self.edits.risks(values)
+        ]
         if reasons:
             self.ask(Confirmation(question, lambda _: then(), reasons="\n".join(reasons)))
         else:

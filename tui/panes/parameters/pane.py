@@ -10,13 +10,12 @@ from pathlib import Path
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import RESTARTED, ConsoleSnapshot, Value, same
+from bot_console.tui.console.model import ConsoleSnapshot, same
 from bot_console.tui.console.query import parse
 from bot_console.tui.format import command_of, counted, sanitize
 from bot_console.tui.panes.parameters.details import details
 from bot_console.tui.panes.parameters.edit_pane import EditPane
 from bot_console.tui.panes.parameters.rows import Row, TreeRows, View, namesake, opened, worth_changing
-from bot_console.tui.panes.parameters.staging import Key
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.parameters.view_state import At, Left, left_of
 from bot_console.tui.state_store import LAST_FILE
@@ -61,12 +60,8 @@ class ParametersPane(EditPane):
         super().__init__(*args, **kwargs)  # type: ignore[arg-type] -- handed on as they are
         self._snapshot = ConsoleSnapshot()
         self._view = View()
-        self._table = ParameterRows()
+        self._table = ParameterRows(self.edits)
         self._tree = TreeRows()
-        self._starts: dict[Key, Value] = {}
-        """What values had before their first change in this run."""
-        self._read = 0
-        """Changes below this number are known."""
         self._expected = ""
         self._at_cursor: At | None = None
         self._chosen = False
@@ -102,44 +97,22 @@ class ParametersPane(EditPane):
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Draw the parameters anew when they are another object."""
         before, self._snapshot = self._snapshot, snapshot
-        if snapshot.journal is not before.journal:
-            self._read_journal(snapshot)
+        if snapshot.journal is not before.journal and self.edits.observe(snapshot.journal):
+            self._list.refresh()
+            self._describe()
         if snapshot.parameters is not before.parameters or snapshot.problem != before.problem:
             self._arrange()
-
-    def _read_journal(self, snapshot: ConsoleSnapshot) -> None:
-        """Learn which values are not saved, and which are not those of the start."""
-        for each in self.console.parameters.changes(self._read):
-            self._read = max(self._read, each.seq + 1)
-            if each.accepted and each.by == RESTARTED:
-                self._starts[each.node, each.name] = each.new
-            elif each.accepted:
-                self._starts.setdefault((each.node, each.name), each.old)
-        shown = self._list
-        unsaved = frozenset(snapshot.journal.unsaved)
-        moved: set[Key] = set()
-        for key, start in self._starts.items():
-            tree = snapshot.parameters.get(key[0])
-            parameter = tree.get(key[1]) if tree else None
-            if parameter is not None and not same(parameter.value, start):
-                moved.add(key)
-        if (unsaved, moved) != (shown.unsaved, shown.moved):
-            shown.unsaved, shown.moved = unsaved, frozenset(moved)
-            shown.refresh()
-            self._describe()
 
     def tick(self) -> None:
         """Let values that have changed stop flashing, and say which are waited for."""
         shown = self._table
         if not shown.is_attached:  # at the end, when the screen is taken apart
             return
-        late = self.unanswered.late(self.clock())
-        if late != shown.late:
-            shown.late = late
+        if self.edits.poll():
             self.redraw_marks()
         if not shown.flashing:
             return
-        over = {key for key, until in shown.flashing.items() if self.clock() >= until}
+        over = {key for key, until in shown.flashing.items() if self.edits.clock() >= until}
         for key in over:
             del shown.flashing[key]
         for index, row in enumerate(shown.rows) if over else ():
@@ -148,7 +121,6 @@ class ParametersPane(EditPane):
 
     def redraw_marks(self) -> None:
         """Draw what is marked and refused, and tell of it."""
-        self._list.staged = self.staging.marked
         self._list.refresh()
         self._report_counts()
         self._describe()
@@ -195,7 +167,7 @@ class ParametersPane(EditPane):
 
     def _report_counts(self) -> None:
         found = sum(row.count for row in self._list.rows if row.depth == 0)  # each counts all that is below it
-        staged = self.staging.caption()
+        staged = self.edits.staging.caption()
         if self._view.filtering:
             every = self._tree.count(self._snapshot.parameters, self._view)
             self.report_filter(found, every, *(each for each in ("changed" * self._view.only_changed, staged) if each))
@@ -207,15 +179,14 @@ class ParametersPane(EditPane):
             return
         key = (after.node, after.parameter.name)
         if key == (before.node, before.parameter.name):
-            self._list.refused.pop(key, None)
-            self._list.flashing[key] = self.clock() + FLASH
+            self.edits.value_changed(key)
+            self._list.flashing[key] = self.edits.clock() + FLASH
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Tell of the parameter at the cursor."""
         event.stop()
-        moved = self._list.cursor != worth_changing(self._list.rows)  # the rows may have changed since the event
-        self._chosen = self._chosen or moved
-        self._left = None if moved else self._left
+        self._chosen = self._chosen or event.by_person
+        self._left = None if event.by_person else self._left
         self._at_cursor = self._list.key_at_cursor
         self._describe()
 
@@ -251,10 +222,11 @@ class ParametersPane(EditPane):
         if row.parameter is None:
             return Text(sanitize(row.problem or f"{row.node}  {counted(row.count, 'parameter')}"), "dim")
         key = (row.node, row.parameter.name)
-        marks = ["not saved"] if key in self._list.unsaved else []
-        marks += ["changed since the start"] if key in self._list.moved else []
-        late = self._list.late.get(key)
-        return details(row.parameter, self._list.refused.get(key), self.staging.marked.get(key), marks, late)
+        edits = self.edits
+        marks = ["not saved"] if key in edits.unsaved else []
+        marks += ["changed since the start"] if key in edits.moved else []
+        staged, late = edits.staging.marked.get(key), edits.late.get(key)
+        return details(row.parameter, edits.refused.get(key), staged, marks, late)
 
     def action_clear_filter(self) -> None:
         """Take the filter away, or else a refusal at the cursor; what is marked stays marked."""
@@ -274,7 +246,7 @@ class ParametersPane(EditPane):
         self._change_view(replace(self._view, query=parse(words), folded_matches=frozenset()))
         at = namesake(self._list.rows, words.rpartition(" ")[2], self._list.cursor)
         if at is not None:
-            self._list.cursor = at
+            self._list.choose(at)
 
     def action_toggle_changed(self) -> None:
         """Only what differs from its default, or all."""
@@ -304,7 +276,7 @@ class ParametersPane(EditPane):
             above = (index for index in range(shown.cursor, -1, -1) if shown.rows[index].depth < row.depth)
             at = next(above, shown.cursor)
             fold = shown.rows[at].fold
-            shown.cursor = at
+            shown.choose(at)
         self._close(set(self._view.closed) - {fold} | ({fold} if closed else set[str]()))
 
     def _close(self, folded: Collection[str]) -> None:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
-from bot_console.tui.console.model import ChangeSource, ParameterInfo, SetOutcome, Value
+from bot_console.tui.console.model import ChangeSource, ParameterInfo
+from bot_console.tui.console.parameters.edits import ParameterEdits
 from bot_console.tui.console.parameters.origin import SET_BY
 from bot_console.tui.console.query import Query
 from bot_console.tui.format import cut, sanitize, value_text
@@ -36,19 +37,9 @@ class ParameterRows(ItemList[Row]):
             super().__init__()
             self.row = row
 
-    def __init__(self) -> None:
+    def __init__(self, edits: ParameterEdits) -> None:
         super().__init__()
-        self.refused: dict[tuple[str, str], SetOutcome] = {}
-        """The refusals that are still marked, by node and parameter."""
-
-        self.staged: dict[tuple[str, str], Value] = {}
-        """Marked values, by node and parameter."""
-        self.unsaved: frozenset[tuple[str, str]] = frozenset()
-        """Values that are not in any file."""
-        self.moved: frozenset[tuple[str, str]] = frozenset()
-        """Values that have changed since the start."""
-        self.late: Mapping[tuple[str, str], Value] = {}
-        """Values that are still unanswered after some time."""
+        self._edits = edits
         self.flashing: dict[tuple[str, str], float] = {}
         """Values that have just changed, with the time (s) until which they are highlighted."""
 
@@ -105,18 +96,18 @@ class ParameterRows(ItemList[Row]):
         segments = [Segment(f"{mark}{name}{' ' * GAP}", self._style("strong" if parameter.changed else "plain"))]
         left = max(0, width - MARKS - taken - GAP)
         value, dim = shown_value(row), self._style("dim")
-        refused = self.refused.get(key)
-        if refused or key in self.late:
+        refused, late, staged = self._edits.refused.get(key), self._edits.late, self._edits.staging.marked
+        if refused or key in late:
             value = cut(value, min(own.value, left), pad=True)
             room = max(0, left - own.value - GAP)
-            late = f"… {sanitize(value_text(self.late[key]))}: not answered yet" if key in self.late else ""
-            output = Segment(cut(late, room), self._style("warn"))
-            if refused and not late:
+            waits = f"… {sanitize(value_text(late[key]))}: not answered yet" if key in late else ""
+            output = Segment(cut(waits, room), self._style("warn"))
+            if refused and not waits:
                 output = Segment(cut(beside_row(refused), room), self._style("error"))
             return [*segments, Segment(value + " " * GAP), output]
-        if key in self.staged:
+        if key in staged:
             unit = f" {parameter.unit}" if parameter.unit else ""
-            text = f"{sanitize(value_text(parameter.value))} → {sanitize(value_text(self.staged[key]))}{unit}"
+            text = f"{sanitize(value_text(parameter.value))} → {sanitize(value_text(staged[key]))}{unit}"
             return [*segments, Segment(cut(text, left), self._style("good"))]
         slider = bar(parameter, own.bar) if own.bar and not over else ""
         tail = slider or ("read only" if parameter.read_only else "")
@@ -134,8 +125,8 @@ class ParameterRows(ItemList[Row]):
         """The marks of a parameter, each with whether it has it."""
         key = (parameter.node, parameter.name)
         from_elsewhere = parameter.origin.startswith(SET_BY[ChangeSource.OTHER])
-        first = ("•", True) if parameter.changed else ("◦", key in self.moved)
-        return (first, ("*", True) if key in self.unsaved else ("~", from_elsewhere))
+        first = ("•", True) if parameter.changed else ("◦", key in self._edits.moved)
+        return (first, ("*", True) if key in self._edits.unsaved else ("~", from_elsewhere))
 
     def _value(self, value: str, column: int, left: int, parameter: ParameterInfo, more: bool) -> Segment:
         """A value in its column if something stands beside it and it fits, else in all the room there is."""
@@ -151,7 +142,7 @@ class ParameterRows(ItemList[Row]):
         if not 0 <= index < self.row_count():
             return
         chosen, row = index == self.cursor, self.rows[index]
-        self.cursor = index
+        self.choose(index)
         if row.parameter is None:
             if chosen or event.x < 2 * row.depth + 2:
                 self.post_message(self.Pressed(row))

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from itertools import count
 
 from bot_console.tui.console.model import Value, same
-from bot_console.tui.panes.parameters.staging import Key
+from bot_console.tui.console.parameters.staging import Key
 
 EVENT_TIMEOUT_S = 1.0
 """Seconds for which an accepted value is taken for the present one although the node has not announced it."""

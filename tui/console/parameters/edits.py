@@ -1,0 +1,204 @@
+"""What a person has edited, until it is done: staged, sent and refused values, and those that are in no file.
+
+A view model: the parameters pane draws it and passes keys on to it. It knows no widget.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
+from functools import partial
+
+from bot_console.tui.console.model import (
+    RESTARTED,
+    JournalState,
+    ParameterInfo,
+    ParameterTree,
+    SetOutcome,
+    Value,
+    same,
+)
+from bot_console.tui.console.parameters.pending_sets import PendingSets
+from bot_console.tui.console.parameters.port import Parameters
+from bot_console.tui.console.parameters.safety import takes_safety
+from bot_console.tui.console.parameters.staging import SETS, Key, Staging, by_node
+
+Outcomes = Sequence[SetOutcome]
+Later = Callable[..., object]
+"""Calls a function with arguments in the thread that draws; called from any thread."""
+
+
+class ParameterEdits:
+    """Sends or stages edits, and keeps what came of them; used by the thread that draws."""
+
+    def __init__(
+        self,
+        parameters: Parameters,
+        trees: Callable[[], Mapping[str, ParameterTree]],
+        later: Later,
+        changed: Callable[[], object] = lambda: None,
+        failed: Callable[[str, Outcomes], object] = lambda error, outcomes: None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """`trees` returns all parameters as they are now. `changed` is called when there is something to draw.
+
+        `failed` is called when values that were sent together were not accepted, with their outcomes, and for any
+        values that could not be sent, with the reason.
+        """
+        self._parameters = parameters
+        self._trees = trees
+        self._later = later
+        self._changed = changed
+        self._failed = failed
+        self.clock = clock
+        self.staging = Staging()
+        self.refused: dict[Key, SetOutcome] = {}
+        """The refusals that have not been dismissed, by node and parameter."""
+        self.unsaved: frozenset[Key] = frozenset()
+        """Values that are in no file."""
+        self.moved: frozenset[Key] = frozenset()
+        """Values that have changed since the start."""
+        self.late: Mapping[Key, Value] = {}
+        """Values that are still unanswered after some time."""
+        self._pending = PendingSets()
+        self._starts: dict[Key, Value] = {}
+        """What values had before their first change in this run."""
+        self._read = 0
+        """Changes below this number are known."""
+
+    def observe(self, journal: JournalState) -> bool:
+        """Learn from a new journal which values are saved, and which differ from the start; whether that changed."""
+        for each in self._parameters.changes(self._read):
+            self._read = max(self._read, each.seq + 1)
+            if each.accepted and each.by == RESTARTED:
+                self._starts[each.node, each.name] = each.new
+            elif each.accepted:
+                self._starts.setdefault((each.node, each.name), each.old)
+        before = self.unsaved, self.moved
+        self.unsaved = frozenset(journal.unsaved)
+        self.moved = frozenset(
+            key
+            for key, start in self._starts.items()
+            if (parameter := self._parameter(key)) is not None and not same(parameter.value, start)
+        )
+        return (self.unsaved, self.moved) != before
+
+    def value_changed(self, key: Key) -> None:
+        """A value has changed, so that an earlier refusal says nothing any more."""
+        self.refused.pop(key, None)
+
+    def poll(self) -> bool:
+        """Whether other values than before are waited for; called ten times a second."""
+        before, self.late = self.late, self._pending.late(self.clock())
+        return self.late != before
+
+    def _parameter(self, key: Key) -> ParameterInfo | None:
+        tree = self._trees().get(key[0])
+        return tree.get(key[1]) if tree else None
+
+    def now(self, parameter: ParameterInfo) -> Value:
+        """The value from which a step continues: the staged one, else one on its way, else the present one."""
+        key = (parameter.node, parameter.name)
+        if key in self.staging.marked:
+            return self.staging.marked[key]
+        return self._pending.value(key, parameter.value, self.clock())
+
+    def set(self, parameter: ParameterInfo, value: Value) -> None:
+        """Stage a value, or send it; while another one is on its way, only the newest follows."""
+        key = (parameter.node, parameter.name)
+        if self.staging.marking:
+            self.staging.mark(key, parameter.value, value)
+            self.refused.pop(key, None)  # a refusal of an earlier value would hide this one
+            self._changed()
+        elif not self._pending.keep(key, value):
+            self._send(key, value)
+
+    def _send(self, key: Key, value: Value) -> None:
+        answer = self._parameters.set(key[0], {key[1]: value})
+        number = self._pending.sent({key: value}, self.clock())
+        answer.add_done_callback(partial(self._later, self._answered, number, key, value))
+
+    def _answered(self, number: int, key: Key, value: Value, done: Future[tuple[SetOutcome, ...]]) -> None:
+        accepted, newest = self._take(number, done), self._pending.take(key)
+        if accepted and newest is not None and not same(newest, value):
+            self._send(key, newest)
+        self._changed()
+
+    def dismiss(self, key: Key) -> bool:
+        """Dismiss a refusal; returns whether there was one."""
+        found = self.refused.pop(key, None) is not None
+        if found:
+            self._changed()
+        return found
+
+    def unstage(self, key: Key) -> None:
+        """Drop a staged value."""
+        if self.staging.marked.pop(key, None) is not None:
+            self._changed()
+
+    def stage(self) -> None:
+        """Switch between staging edits and sending them."""
+        self.staging.marking = not self.staging.marking
+        self._changed()
+
+    def risks(self, values: Mapping[Key, Value]) -> list[tuple[ParameterInfo, Value, str]]:
+        """How values would make the robot less safe: parameter, value and what it takes."""
+        found = [(self._parameter(key), value) for key, value in values.items()]
+        known = [(parameter, value) for parameter, value in found if parameter is not None]
+        return [(each, value, why) for each, value in known if (why := takes_safety(each, each.value, value))]
+
+    def apply(self, values: Mapping[Key, Value]) -> None:
+        """Send values together; all of them are accepted, or none."""
+        # Not when the answer arrives: someone who stages in the meantime wants to go on with that.
+        self.staging.marking = bool(self.staging.marked.keys() - values.keys())
+        self._send_all(values, "", partial(self._applied, values))
+
+    def _applied(self, values: Mapping[Key, Value], accepted: bool) -> None:
+        marked = self.staging.marked
+        if accepted:
+            self.staging.marked = {key: value for key, value in marked.items() if values.get(key) != value}
+        else:
+            self.staging.marking = bool(marked)
+
+    def begin_sets(self, values: Mapping[Key, Value]) -> None:
+        """Make staged values set B and what is now set A, and send B."""
+        self.staging.begin(dict(values), self._trees())
+        self._changed()
+        self.swap()
+
+    def swap(self) -> None:
+        """Send the set that is not live."""
+        self._send_all(self.staging.other, SETS[1 - self.staging.live], self._swapped)
+
+    def _swapped(self, accepted: bool) -> None:
+        if accepted:
+            self.staging.live = 1 - self.staging.live
+
+    def _send_all(self, values: Mapping[Key, Value], by: str, then: Callable[[bool], None]) -> None:
+        answer = self._parameters.set_all(by_node(values), by=by)
+        number = self._pending.sent(values, self.clock())
+        answer.add_done_callback(partial(self._later, self._answered_all, number, then))
+
+    def _answered_all(self, number: int, then: Callable[[bool], None], done: Future[tuple[SetOutcome, ...]]) -> None:
+        accepted = self._take(number, done)
+        then(accepted)
+        if not (accepted or done.exception()):
+            self._failed("", done.result())
+        self._changed()
+
+    def _take(self, number: int, done: Future[tuple[SetOutcome, ...]]) -> bool:
+        """Keep refusals, and forget those of values that were accepted now; returns whether all were accepted."""
+        error = done.exception()
+        outcomes = () if error else done.result()
+        accepted = {(each.node, each.name): each.value for each in outcomes if each.accepted}
+        self._pending.answered(number, accepted, self.clock())
+        if error is not None:
+            self._failed(str(error), ())
+            return False
+        for each in outcomes:
+            if each.accepted:
+                self.refused.pop((each.node, each.name), None)
+            else:
+                self.refused[each.node, each.name] = each
+        return all(each.accepted for each in outcomes)
