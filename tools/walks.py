@@ -47,12 +47,12 @@ POLL_S = 0.05
 WALKS: dict[str, tuple[str, ...]] = {
     "edit": (
         "textual/widget.py:_forward_event",
-        "rclpy/executor_parts/task_queue.py:create_task < tui/console/",
+        "rclpy/executors.py:create_task < tui/console/",
         "rclpy/client.py:call_async < tui/console/",
     ),
     "answer": (
         "tui/console/calls.py:ask < tui/console/parameters/setter.py",
-        "textual/message_pump.py:call_later < /parameters/",
+        "textual/message_pump.py:call_later < concurrent/futures/",
         "textual/widget.py:refresh < tui/panes/parameters/",
         "tui/panes/parameters/table.py:_parameter",
     ),

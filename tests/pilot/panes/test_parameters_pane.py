@@ -9,8 +9,8 @@ from types import MappingProxyType
 
 import pytest
 from bot_console.tui.console.model import RESTARTED, Change, ChangeSource, JournalState, SetOutcome
+from bot_console.tui.console.parameters.pending_sets import EVENT_TIMEOUT_S
 from bot_console.tui.panes.parameters.pane import ParametersPane
-from bot_console.tui.panes.parameters.pending_sets import EVENT_TIMEOUT_S
 from bot_console.tui.panes.parameters.table import ParameterRows
 from piloting import Clock, Session, run
 from samples import empty, faulty, live
@@ -86,7 +86,7 @@ def test_burst_of_steps_continues_from_the_value_in_flight_and_sends_only_the_ne
             answers[-1].set_result((SetOutcome("/robot_navigator", "max_speed", sent[-1], True),))
 
         pane = session.pane(ParametersPane)
-        pane.clock = Clock()
+        pane.edits.clock = Clock()
         monkeypatch.setattr(session.console.parameters, "set", send)
         await session.press("1")
         await go_to(session, "max_speed")
@@ -104,7 +104,7 @@ def test_burst_of_steps_continues_from_the_value_in_flight_and_sends_only_the_ne
         await session.press("plus")  # The node has accepted 1.45, but its parameter event has not arrived.
         assert sent[-1] == 1.5
         answers[-1].set_result((SetOutcome("/robot_navigator", "max_speed", 1.5, False, "too fast", "callback"),))
-        pane.clock.now += EVENT_TIMEOUT_S
+        pane.edits.clock.now += EVENT_TIMEOUT_S
         await session.settle()
         await session.press("plus")
         assert sent[-1] == 1.05, "the node has not announced anything"

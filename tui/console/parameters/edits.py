@@ -12,6 +12,7 @@ from functools import partial
 
 from bot_console.tui.console.model import (
     RESTARTED,
+    ChangeSource,
     JournalState,
     ParameterInfo,
     ParameterTree,
@@ -115,7 +116,7 @@ class ParameterEdits:
             self._send(key, value)
 
     def _send(self, key: Key, value: Value) -> None:
-        answer = self._parameters.set(key[0], {key[1]: value})
+        answer = self._parameters.set(key[0], {key[1]: value}, ChangeSource.EDIT)
         number = self._pending.sent({key: value}, self.clock())
         answer.add_done_callback(partial(self._later, self._answered, number, key, value))
 

@@ -146,3 +146,23 @@ def test_risks_name_what_makes_the_robot_less_safe(bench: Bench) -> None:
         "max_speed": (2.0, "raises a safety limit"),
         "safety_distance": (0.4, "lowers a safety margin"),
     }
+
+
+def test_only_the_newest_of_values_set_before_an_answer_follows(bench: Bench) -> None:
+    answer = bench.hold_answers("set")
+    bench.set(SPEED, 0.5)
+    sent: list[object] = []
+    bench.console.parameters.set = lambda node, values, source: sent.append(dict(values)) or Future()
+    bench.set(SPEED, 0.6)
+    bench.set(SPEED, 0.7)
+    assert bench.edits.now(bench.parameter(SPEED)) == 0.7 and sent == []
+    answer.set_result((SetOutcome(*SPEED, 0.5, True),))
+    assert sent == [{"max_speed": 0.7}]
+
+
+def test_escape_dismisses_a_refusal_and_keeps_staged_values(bench: Bench) -> None:
+    bench.edits.stage()
+    bench.set(SPEED, 0.5)
+    assert not bench.edits.dismiss(SPEED) and bench.edits.staging.marked == {SPEED: 0.5}
+    bench.edits.unstage(SPEED)
+    assert bench.edits.staging.marked == {}
