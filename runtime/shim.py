@@ -7,21 +7,27 @@ import os
 import sys
 from collections.abc import Sequence
 from importlib.machinery import ModuleSpec, PathFinder
-from types import ModuleType
+from types import ModuleType, TracebackType
 
 from bot_console.runtime.children.child_discovery import let_children_meet
 from bot_console.runtime.importer import install
+from bot_console.runtime.process.crashes import explanation
+from bot_console.runtime.process.current import MAIN
+from bot_console.runtime.process.frames import trim
+from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import close_shared_buses, share_domains
 from bot_console.runtime.stop_file import STOP_FILE_VARIABLE, stop_file
 
 
-def take_over(folder: str) -> None:
-    """Make the ROS names refer to the embedded runtime; `folder` holds the shims.
+def take_over() -> None:
+    """Make the ROS names refer to the embedded runtime.
 
     The program joins its domain, unless its environment prevents that.
     """
     install()
+    if sys.excepthook is sys.__excepthook__:
+        sys.excepthook = _uncaught
     sys.meta_path.append(_WorkspaceModules())
     if is_in_range():
         share_domains()
@@ -29,6 +35,15 @@ def take_over(folder: str) -> None:
         atexit.register(close_shared_buses)
         let_children_meet(True)
         os.environ[STOP_FILE_VARIABLE] = str(stop_file())
+
+
+def _uncaught(kind: type[BaseException], exception: BaseException, trace: TracebackType | None) -> None:
+    """Print an uncaught exception as `bot-console run` does: without frames of the runtime's inside, with its cause."""
+    exception.__traceback__ = trace
+    trim(exception)
+    sys.__excepthook__(kind, exception, exception.__traceback__)
+    if isinstance(exception, Exception) and (text := explanation(exception)):
+        notify(MAIN, text)
 
 
 class _WorkspaceModules:

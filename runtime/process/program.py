@@ -39,7 +39,7 @@ def file_program(path: str, modules: FreshModules | None = None) -> Callable[[],
     Modules beside the file are the process's own. The callable raises what the file raises; for a file that cannot be
     read it exits with code 2 and the interpreter's message.
     """
-    return _FileProgram(os.fspath(path), modules)
+    return _FileProgram(os.path.abspath(path), modules)
 
 
 def module_program(name: str, modules: FreshModules) -> Callable[[], None]:
@@ -72,7 +72,7 @@ class _FileProgram:
 
     def __call__(self) -> None:
         source = self._read()
-        folder = os.path.dirname(os.path.abspath(self._path))
+        folder = os.path.dirname(self._path)
         main = _new_main(self._modules or FreshModules([folder]), folder)
         vars(main).update(__file__=self._path, __cached__=None)
         exec(compile(source, self._path, "exec", dont_inherit=True), vars(main))

@@ -12,13 +12,13 @@ try:
 except ImportError:
     allocate_lock = __import__("thread").allocate_lock  # Python 2
 
-FOLDER = os.path.dirname(os.path.abspath(__file__))
 RUNTIME_VARIABLE = "BOT_CONSOLE_RUNTIME"
 """`embedded`: the embedded runtime is used even if there is a real ROS 2. Set for children of `bot-console run`."""
 WORKSPACE_VARIABLE = "BOT_CONSOLE_WORKSPACE"
 REAL = "real"
 EMBEDDED = "embedded"
 NEEDED = "{name}: bot-console runs on Python {wanted}, and this is Python {here}: start the program with {interpreter}"
+ONLY_EMBEDDED = "{} needs the rclpy of bot-console, and this Python has a real one: set BOT_CONSOLE_RUNTIME=embedded"
 
 _lock = allocate_lock()
 _choices = []  # type: list[str]
@@ -32,6 +32,12 @@ def replace(name):
     """Replace a shim, which is just being imported, by the package of that name; raises what importing it raises."""
     _decide(name)
     _import_again(name)
+
+
+def choose_embedded(name):
+    """Put the embedded runtime in place for a module that needs it; raises `ImportError` if a real `rclpy` is used."""
+    if _decide(name) != EMBEDDED:
+        raise ImportError(ONLY_EMBEDDED.format(name))
 
 
 def real_rclpy():
@@ -68,7 +74,7 @@ def _chosen(name):
     sys.path.extend(each for each in installed.FOLDERS if each not in sys.path)
     from bot_console.runtime.shim import take_over
 
-    take_over(FOLDER)
+    take_over()
     return EMBEDDED
 
 

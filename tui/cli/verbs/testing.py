@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 
 PLUGINS = ("-p", "launch_testing.pytest.plugin", "-p", "launch_pytest.plugin")
@@ -20,9 +21,13 @@ def launch_test(words: list[str]) -> int:
 
 def test(words: list[str]) -> int:
     """Run pytest on the given arguments, with `rclpy`, `launch` and all messages importable."""
+    from bot_console.runtime.children.child_environment import child_environment
     from bot_console.runtime.importer import install
+    from bot_console.runtime.shim_folder import shim_folder
 
     install()
+    os.environ.update(child_environment(os.environ))
+    sys.path.append(str(shim_folder()))  # where `-p bot_console_pytest` is found
     try:
         import pytest
     except ModuleNotFoundError:

@@ -1,0 +1,199 @@
+"""Programs print the same under `python3`, in a shell that was set up, as under `bot-console run`."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import signal
+import subprocess
+import threading
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pytest
+from helpers.shells import PYTHON, environment, make_home, set_up
+
+if os.name != "posix":
+    pytest.skip("needs a shell", allow_module_level=True)
+
+PROGRAMS = Path(__file__).parent / "programs"
+COURSE = Path(os.environ.get("BOT_CONSOLE_COURSE", "/nowhere")) / "nodes"
+OUTPUT_TIMEOUT_S = 40.0
+
+
+SETS_SPEED = """
+import rclpy
+from rclpy.parameter import Parameter
+from rclpy.parameter_client import AsyncParameterClient
+
+rclpy.init()
+node = rclpy.create_node("sets_speed")
+client = AsyncParameterClient(node, "robot")
+client.wait_for_services()
+done = False
+while node.count_subscribers("/parameter_events") < 1:
+    rclpy.spin_once(node, timeout_sec=0.1)
+future = client.set_parameters([Parameter("speed", value=2.5)])
+rclpy.spin_until_future_complete(node, future)
+print(future.result().results[0].successful)
+"""
+QOS = "reliable transient_local"
+OTHERS_END = "others end"
+
+
+class Line(NamedTuple):
+    """A command line after `run` or `python3`, and when it is interrupted: a pattern in its output, or when all others
+    are done; with an empty one it ends by itself.
+    """
+
+    words: str
+    until: str = ""
+
+
+def demo(module: str, function: str) -> str:
+    """The command line of a program of the tutorials."""
+    return f"-c 'from bot_console_demos.demo_nodes.{module} import {function}; {function}()'"
+
+
+def some(values: Sequence[Any], count: int) -> list[Any]:
+    """The first few for the default run, the others for the long one."""
+    return [pytest.param(each, marks=[] if n < count else pytest.mark.soak) for n, each in enumerate(values)]
+
+
+CASTS = [
+    [Line("listener", "I heard"), Line("talker", "Publishing")],
+    [Line("add_server", "Incoming"), Line("add_client async 2 3")],
+    [Line("add_server", "Incoming"), Line("client_in_callback")],
+    [Line("fibonacci_server", "goal of order"), Line("fibonacci_client 5 10.0")],
+    [
+        Line("latched listener reliable transient_local", "map"),
+        Line("latched talker reliable transient_local", OTHERS_END),
+    ],
+    [Line("lifecycle_listener", "finalized"), Line("lifecycle_talker", "on_shutdown"), Line("lifecycle_client")],
+    [Line("waits_for_message"), Line("talker", "Publishing")],
+    [Line("sim_clock 10.0", OTHERS_END), Line("talker --ros-args -p use_sim_time:=true", "Publishing")],
+    [Line("tunable", OTHERS_END), Line("parameter_watcher", "remote parameter"), Line(f"-c {SETS_SPEED!r}")],
+    [Line("callback_groups one", "b ends")],
+    [Line("composed", "I heard")],
+    [Line("guarded")],
+    [Line("rates")],
+    [Line("spins_in_threads")],
+]
+COURSE_NODES = ["simple_robot_step1", "simple_robot_step2", "simple_robot_step3", "configurable_robot"]
+DEMOS = [
+    [Line(demo("talker", "main_py"), "Publishing"), Line(demo("listener", "main"), "heard")],
+    [Line(demo("talker", "main_minimal"), "Publishing"), Line(demo("listener", "main_minimal"), "heard")],
+    [Line(demo("add_two_ints", "serve"), "Incoming"), Line(demo("add_two_ints", "ask"))],
+]
+
+
+class Running:
+    """A program, and what it has printed so far."""
+
+    def __init__(self, line: Sequence[str], env: Mapping[str, str], cwd: Path, until: str) -> None:
+        self._until = re.compile(until)
+        self.output = {"stdout": "", "stderr": ""}
+        self._reached = threading.Event()
+        pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+        self._process = subprocess.Popen(line, env=dict(env), cwd=cwd, text=True, **pipes)
+        self._readers = [threading.Thread(target=self._read, args=(name,)) for name in self.output]
+        for each in self._readers:
+            each.start()
+
+    def _read(self, name: str) -> None:
+        for line in getattr(self._process, name):
+            self.output[name] += line
+            if self._until.search(line):
+                self._reached.set()
+
+    def await_text(self) -> None:
+        assert self._reached.wait(OUTPUT_TIMEOUT_S), self.output
+
+    def end(self, *, interrupted: bool) -> None:
+        if interrupted:
+            self._process.send_signal(signal.SIGINT)
+        try:
+            self.exit_code = self._process.wait(OUTPUT_TIMEOUT_S)
+        finally:
+            self._process.kill()
+        for each in self._readers:
+            each.join()
+
+    def shown(self) -> dict[str, object]:
+        """What a person sees, without numbers and the frames of tracebacks, and each line once: how often it comes, and
+        where the program is interrupted, is a matter of time.
+        """
+        lines = {name: re.sub(r"\d+", "#", text).splitlines() for name, text in self.output.items()}
+        shown = {name: [*dict.fromkeys(each for each in lines[name] if each[:2] != "  ")] for name in lines}
+        return {**shown, "exit": self.exit_code if self.exit_code >= 0 else 128 - self.exit_code}
+
+
+def play(cast: Sequence[Line], start: Sequence[str], env: Mapping[str, str], cwd: Path) -> list[dict[str, object]]:
+    """Run the programs of a cast together."""
+    running: list[Running] = []
+    try:
+        for each in cast:
+            words = shlex.split(each.words)
+            file = [str(PROGRAMS / f"{words[0]}.py")] if (PROGRAMS / f"{words[0]}.py").exists() else [words[0]]
+            running.append(Running([*start, *file, *words[1:]], env, cwd, each.until or OTHERS_END))
+        for program, each in zip(running, cast, strict=True):
+            if each.until not in ("", OTHERS_END):
+                program.await_text()
+        for interrupted in (False, True):
+            for program, each in zip(running, cast, strict=True):
+                if bool(each.until) is interrupted:
+                    program.end(interrupted=interrupted)
+    finally:
+        for each in running:
+            each._process.kill()
+    return [each.shown() for each in running]
+
+
+@pytest.fixture(scope="module")
+def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return make_home(tmp_path_factory.mktemp("home"))
+
+
+def test_uncaught_exception_is_shown_alike(home: Path, tmp_path: Path) -> None:
+    text = "import rclpy\nrclpy.init()\nnode = rclpy.create_node('n')\nnode.create_timer(0.1, lambda: 1 / 0)\n"
+    (tmp_path / "raises.py").write_text(f"{text}rclpy.spin(node)\n")
+    (tmp_path / "lacks.py").write_text("import rclpy\nimport rospy\nrclpy.init()\n")
+    for file in ("raises.py", "lacks.py"):
+        run = subprocess.run(
+            ["env", "bot-console", "run", file], cwd=tmp_path, env=environment(home), capture_output=True, check=False
+        )
+        plain = subprocess.run([str(PYTHON), file], cwd=tmp_path, env=set_up(home), capture_output=True, check=False)
+        assert (plain.stderr, plain.returncode) == (run.stderr, run.returncode)
+
+
+def compare(cast: Sequence[Line], home: Path, tmp_path: Path) -> None:
+    (tmp_path / "a").mkdir(mode=0o700)
+    (tmp_path / "b").mkdir(mode=0o700)
+    ours = {**environment(home), "BOT_CONSOLE_SOCKET_DIR": str(tmp_path / "a"), "ROS_DOMAIN_ID": "0"}
+    plain = {**set_up(home), "BOT_CONSOLE_SOCKET_DIR": str(tmp_path / "b"), "ROS_DOMAIN_ID": "0"}
+    shown = play(cast, ["env", "bot-console", "run"], ours, tmp_path)
+    assert play(cast, [str(PYTHON)], plain, tmp_path) == shown
+    assert any(each["stdout"] or each["stderr"] for each in shown)
+
+
+@pytest.mark.parametrize(
+    "cast",
+    [pytest.param(each, marks=[] if n < 4 else pytest.mark.soak) for n, each in enumerate(CASTS)],
+    ids=lambda cast: cast[0].words.split()[0],
+)
+def test_programs_print_the_same_under_plain_python(cast: list[Line], home: Path, tmp_path: Path) -> None:
+    compare(cast, home, tmp_path)
+
+
+@pytest.mark.skipif(not COURSE.is_dir(), reason="BOT_CONSOLE_COURSE names no course")
+@pytest.mark.parametrize("name", some(COURSE_NODES, 1))
+def test_listings_of_the_course_print_the_same_under_plain_python(name: str, home: Path, tmp_path: Path) -> None:
+    compare([Line(str(COURSE / f"{name}.py"), r"\[INFO\]")], home, tmp_path)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("cast", DEMOS, ids=["demo_nodes", "minimal", "services"])
+def test_demo_nodes_print_the_same_under_plain_python(cast: list[Line], home: Path, tmp_path: Path) -> None:
+    compare(cast, home, tmp_path)

@@ -1,0 +1,155 @@
+"""Tests of a user, under plain pytest: alone in their domain, in real or stepped time."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from helpers.shells import in_shell, make_home, set_up
+
+if os.name != "posix":
+    pytest.skip("needs a shell", allow_module_level=True)
+
+PLUGIN = ("-p", "bot_console_pytest")
+DOCUMENT = Path(__file__).resolve().parents[2] / "docs" / "testing.md"
+MEETS = """
+import os, time
+from pathlib import Path
+import rclpy
+
+def test_it_meets_nobody():
+    rclpy.init()
+    node = rclpy.create_node(f"of_{os.getpid()}")
+    place = Path(os.environ["PLACE"])
+    (place / str(os.getpid())).touch()
+    while len(list(place.iterdir())) < 2:  # both have joined
+        rclpy.spin_once(node, timeout_sec=0.05)
+    assert [each for each in node.get_node_names() if each.startswith("of_")] == [node.get_name()]
+    node.destroy_node()
+    rclpy.shutdown()
+"""
+TIMES = """
+import subprocess, sys, threading, time
+import pytest, rclpy
+from std_msgs.msg import String
+
+CHILD = '''
+import rclpy
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from std_msgs.msg import String
+rclpy.init()
+node = rclpy.create_node("child")
+latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+node.create_publisher(String, "t", latched).publish(String(data="x"))
+rclpy.spin(node)
+'''
+
+@pytest.fixture
+def node():
+    rclpy.init()
+    node = rclpy.create_node("tested")
+    yield node
+    node.destroy_node()
+    rclpy.try_shutdown()
+
+@pytest.mark.ros_time("stepped")
+def test_an_hour_passes_at_once(node):
+    later = rclpy.task.Future()
+    node.create_timer(3600.0, lambda: later.set_result(True))
+    rclpy.spin_until_future_complete(node, later, timeout_sec=4000.0)
+    assert later.done()
+
+def test_clock_lets_time_pass(stepped_time, node):
+    ticks = []
+    node.create_timer(1.0, lambda: ticks.append(time.monotonic()))
+    thread = threading.Thread(target=rclpy.spin, args=(node,), daemon=True)
+    thread.start()
+    stepped_time.run_for(1000.5)
+    assert len(ticks) == 1000
+    rclpy.shutdown()
+    thread.join()
+
+def test_child_is_heard(ros_domain, node):
+    heard = []
+    node.create_subscription(String, "t", heard.append, rclpy.qos.QoSProfile(depth=1, durability=1))
+    child = subprocess.Popen([sys.executable, "-c", CHILD])
+    while not heard:
+        rclpy.spin_once(node, timeout_sec=0.1)
+    child.kill()
+    child.wait()
+"""
+
+
+@pytest.fixture(scope="module")
+def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return make_home(tmp_path_factory.mktemp("home"))
+
+
+def start(words: tuple[str, ...], folder: Path, env: Mapping[str, str]) -> subprocess.Popen[str]:
+    line = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *words]
+    return subprocess.Popen(line, cwd=folder, env=dict(env), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+@pytest.mark.parametrize(("plugin", "code"), [(PLUGIN, 0), ((), 1)], ids=["with", "without"])
+def test_two_test_processes_meet_only_without_plugin(
+    plugin: tuple[str, ...], code: int, home: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "test_meets.py").write_text(MEETS)
+    (tmp_path / "place").mkdir()
+    env = {**set_up(home), "PLACE": str(tmp_path / "place"), "BOT_CONSOLE_SOCKET_DIR": str(home / "sockets")}
+    (home / "sockets").mkdir(mode=0o700, exist_ok=True)
+    both = [start(plugin, tmp_path, env) for _ in range(2)]
+    outputs = [each.communicate(timeout=100)[0] for each in both]
+    assert max(each.returncode for each in both) == code, outputs
+
+
+def test_tests_run_in_real_and_stepped_time(home: Path, tmp_path: Path) -> None:
+    (tmp_path / "test_times.py").write_text(TIMES)
+    process = start(PLUGIN, tmp_path, set_up(home))
+    assert "3 passed" in process.communicate(timeout=100)[0]
+    process = start((*PLUGIN, "--ros-time", "stepped", "-k", "not child"), tmp_path, set_up(home))
+    assert "2 passed" in process.communicate(timeout=100)[0]
+
+
+def test_plugin_is_refused_beside_a_real_rclpy(home: Path, tmp_path: Path) -> None:
+    (tmp_path / "ros" / "rclpy").mkdir(parents=True)
+    (tmp_path / "ros" / "rclpy" / "__init__.py").touch()
+    env = set_up(home)
+    path = os.pathsep.join([str(tmp_path / "ros"), env["PYTHONPATH"]])
+    process = start(PLUGIN, tmp_path, {**env, "PYTHONPATH": path})
+    assert "set BOT_CONSOLE_RUNTIME=embedded" in process.communicate(timeout=100)[1]
+
+
+def workflow(name: str) -> Any:
+    """A workflow file of the documentation."""
+    text = DOCUMENT.read_text("utf-8").split(f"<!-- workflow: {name} -->\n```yaml\n")[1].split("```")[0]
+    return yaml.safe_load(text)
+
+
+def scripts() -> dict[str, list[str]]:
+    """The commands of each workflow, a list for each shell that it starts."""
+    steps = workflow("github")["jobs"]["test"]["steps"]
+    return {
+        "github": [each["run"] for each in steps if "run" in each],
+        "gitlab": ["\n".join(workflow("gitlab")["test"]["script"])],
+    }
+
+
+@pytest.mark.parametrize("name", ["github", "gitlab"])
+def test_documented_workflow_runs_the_tests(name: str, home: Path, tmp_path: Path) -> None:
+    (tmp_path / "test_node.py").write_text("def test_node():\n    import rclpy\n    assert rclpy.ok() is False\n")
+    (home / "bin" / "pytest").unlink(missing_ok=True)
+    (home / "bin" / "pytest").write_text(f'#!/bin/sh\nexec {sys.executable} -m pytest "$@"\n')
+    (home / "bin" / "pytest").chmod(0o755)
+    for script in scripts()[name]:
+        text, installs = re.subn(r'^pip install "bot-console\[test\]"$', "true", script, flags=re.MULTILINE)
+        done = in_shell("bash", home, f"set -e\n{text}", cwd=tmp_path)
+        assert done.returncode == 0 and (installs or "1 passed" in done.stdout), done.stdout + done.stderr
+    assert (tmp_path / "report.xml").exists()
