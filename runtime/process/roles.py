@@ -89,18 +89,6 @@ class RunningProcess(Warned, Protocol):
         """Its state."""
         ...
 
-    def cpu_seconds(self) -> float | None:
-        """Return the processor time (s) its threads have used; None if the system does not tell."""
-        ...
-
-    def send_signal(self, signum: int) -> None:
-        """Deliver a signal by number; does nothing if the process has ended."""
-        ...
-
-
-class Watched(Warned, Protocol):
-    """A process watched while it runs."""
-
     @property
     def is_alive(self) -> bool:
         """Whether it was started and has not ended."""
@@ -108,6 +96,14 @@ class Watched(Warned, Protocol):
 
     def thread_states(self) -> list[NodeThread]:
         """Return its main thread and the threads it started, except those that have ended."""
+        ...
+
+    def cpu_seconds(self) -> float | None:
+        """Return the processor time (s) its threads have used; None if the system does not tell."""
+        ...
+
+    def send_signal(self, signum: int) -> None:
+        """Deliver a signal by number; does nothing if the process has ended."""
         ...
 
 
@@ -160,7 +156,7 @@ class OwnModules(Protocol):
         ...
 
 
-class CurrentProcess(Watched, RunningProcess, Protocol):
+class CurrentProcess(RunningProcess, Protocol):
     """The process that a thread works for, as seen by wrappers and ROS code: it answers its code's process queries."""
 
     main_state: NodeThread | None

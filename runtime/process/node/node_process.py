@@ -81,7 +81,6 @@ class NodeProcess:
         each line of output (default: the real streams). `cwd` is where child processes start.
         """
         from ..virtual.install import install_virtual_process
-        from ..watch.busy_watch import busy_watch
         from .main_thread import start_main_thread
 
         if self.state is not ProcessState.NEW:
@@ -96,8 +95,6 @@ class NodeProcess:
         self.state = ProcessState.RUNNING
         running[self.pid] = self
         start_main_thread(self, target)
-        if not self.clock.stepped:
-            busy_watch.watch(self)
 
     @property
     def is_alive(self) -> bool:

@@ -9,8 +9,8 @@ from bot_console.runtime.children.own_processes import CAN_FORK, begin_children_
 from bot_console.runtime.children.warm_up import import_shared
 from bot_console.runtime.process.current import MAIN
 from bot_console.runtime.process.fork_server import has_one_thread
+from bot_console.runtime.process.node.running import process_of_thread
 from bot_console.runtime.process.notices import notify
-from bot_console.runtime.process.watch.busy_watch import busy_watch
 from bot_console.runtime.process.watch.gil_watch import GilWatch
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
@@ -54,6 +54,6 @@ def watch_threads() -> None:
     """Report when C code of a node that is a thread of this process blocks all other threads."""
 
     def report(ident: int, text: str) -> None:
-        notify(busy_watch.process_of(ident) or MAIN, text)
+        notify(process_of_thread(ident) or MAIN, text)
 
     GilWatch(report).begin()

@@ -22,7 +22,6 @@ from bot_console.runtime.process import (
     running_as,
 )
 from bot_console.runtime.process.node import node_process as node_process_module
-from bot_console.runtime.process.watch.busy_watch import busy_watch
 
 LONG = 20.0
 
@@ -335,8 +334,7 @@ def test_many_processes_leave_no_thread(run):
     assert threading.active_count() == before
 
 
-def test_ended_process_leaves_no_objects_behind(run, monkeypatch):
-    monkeypatch.setattr(busy_watch, "watch", lambda process: None)  # its next poll comes some seconds later
+def test_ended_process_leaves_no_objects_behind(run):
     started = run(lambda: (start_sleeper(), ThreadPoolExecutor(1).submit(print).result()))
     reference = weakref.ref(started.process)
     thread = weakref.ref(started.process.main_state.thread)

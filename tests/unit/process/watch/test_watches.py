@@ -1,4 +1,4 @@
-"""Lines that block or hog the interpreter are reported, and processor time is measured."""
+"""Lines of threads are named, and processor time is measured."""
 
 from __future__ import annotations
 
@@ -7,42 +7,11 @@ import threading
 import time
 
 import pytest
-from bot_console.runtime.process import frames, on_notice
-from bot_console.runtime.process.watch import busy_watch as busy_watch_module
-from bot_console.runtime.process.watch.busy_watch import BusyWatch
+from bot_console.runtime.process import frames
+from bot_console.runtime.process.node.running import process_of_thread
 
 LONG = 20.0
 linux_only = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems do not tell")
-
-
-@linux_only
-def test_busy_loop_is_reported_once(start, monkeypatch):
-    monkeypatch.setattr(busy_watch_module, "PERIOD_S", 0.02)
-    monkeypatch.setattr(busy_watch_module, "BUSY_SHARE", 0.0)
-    monkeypatch.setattr(busy_watch_module, "REPORT_S", 0.02)
-    monkeypatch.setattr(busy_watch_module, "busy_watch", BusyWatch())
-    reported = threading.Event()
-    notices = []
-    stop = []
-
-    def hook(process, text):
-        if process.name == "hog":  # other processes of this worker may be busy as well
-            notices.append((process.name, text))
-            reported.set()
-
-    def target():
-        while not stop:
-            pass
-
-    remove = on_notice(hook)
-    started = start(target, name="hog")
-    assert reported.wait(LONG)
-    stop.append(True)
-    started.end()
-    remove()
-    assert notices[0][0] == "hog"
-    line = target.__code__.co_firstlineno
-    assert f"{__file__}:{line + 1}, in target" in notices[0][1] or f"{__file__}:{line + 2}" in notices[0][1]
 
 
 @linux_only
@@ -78,6 +47,7 @@ def test_line_of_a_thread_is_in_the_users_code(start):
     started = start(target)
     started.until_printed("ready")
     assert started.process.line() == f"{__file__}:{target.__code__.co_firstlineno + 2}, in target"
+    assert process_of_thread(started.process.main_state.ident) is started.process
     release.set()
     started.end()
     started.process.main_state.thread.join(LONG)
