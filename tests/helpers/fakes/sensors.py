@@ -15,7 +15,7 @@ class FakeSensors:
         self.watching: tuple[str, int, int] = ("", 0, 0)
         self.tree = Frames()
         self.watched = False
-        self.watched_nodes = False
+        self.watched_nodes: set[str] = set()
 
     def diagnostics(self) -> Diagnostics:
         return self.info
@@ -29,8 +29,8 @@ class FakeSensors:
     def watch_frames(self, on: bool) -> None:
         self.watched = on
 
-    def watch_nodes(self, on: bool) -> None:
-        self.watched_nodes = on
+    def watch_nodes(self, on: bool, requester: str) -> None:
+        self.watched_nodes = self.watched_nodes - {requester} | ({requester} if on else set())
 
     def frames(self) -> Frames:
         return self.tree if self.watched else Frames()

@@ -10,6 +10,7 @@ from types import MappingProxyType
 import pytest
 from bot_console.tui.console.model import RESTARTED, Change, ChangeSource, JournalState, SetOutcome
 from bot_console.tui.console.parameters.pending_sets import EVENT_TIMEOUT_S
+from bot_console.tui.panes.parameters.absences import LEFT_SHOWN_S
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from piloting import Clock, Session, run
@@ -386,3 +387,31 @@ def test_only_a_person_moves_the_cursor_away_from_what_matters_most() -> None:
         assert chosen is not None and shown.current is not None and shown.current.name == chosen.name != best.name
 
     run(live(), play, (120, 40))
+
+
+def test_nodes_that_leave_or_do_not_answer_are_named() -> None:
+    async def play(session: Session) -> None:
+        pane = session.pane(ParametersPane)
+        pane.edits.clock = clock = Clock()
+        await session.press("1")
+        pane.tick()
+        assert "parameters" in session.console.sensors.watched_nodes
+        now = session.console.current
+        session.console.change(graph=replace(now.graph, silent=("/robot_navigator",)))
+        await session.settle()
+        pane.tick()
+        await session.settle()
+        assert "/robot_navigator does not answer" in session.text()
+        left = {name: tree for name, tree in now.parameters.items() if name != "/robot_navigator"}
+        session.console.change(graph=now.graph, parameters=MappingProxyType(left))
+        await session.settle()
+        assert "/robot_navigator has left" in session.text() and "does not answer" not in session.text()
+        clock.now += LEFT_SHOWN_S
+        pane.tick()
+        await session.settle()
+        assert "has left" not in session.text()
+        await session.press("4")
+        pane.tick()
+        assert "parameters" not in session.console.sensors.watched_nodes, "nobody is asked for a pane that nobody sees"
+
+    run(live(), play)

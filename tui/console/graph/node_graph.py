@@ -20,6 +20,7 @@ class NodeGraph:
 
     def __init__(self, gate: Gate) -> None:
         self._gate = gate
+        self._requesters: frozenset[str] = frozenset()
 
     def attach(self, watch: GraphWatch) -> None:
         """The system has been reached."""
@@ -30,11 +31,12 @@ class NodeGraph:
         """The graph; the same object until it changes."""
         return self._watch.info if self._watch else NO_GRAPH
 
-    def watch_nodes(self, on: bool) -> None:
-        """Start or stop checking which nodes respond, as soon as the system is reached."""
+    def watch_nodes(self, on: bool, requester: str) -> None:
+        """Check which nodes respond while a requester wants it, as soon as the system is reached."""
+        self._requesters = self._requesters - {requester} | ({requester} if on else set[str]())
 
         async def watch() -> None:
             if self._watch is not None:
-                self._watch.watch_nodes(on)
+                self._watch.watch_nodes(bool(self._requesters))
 
         self._gate.when_open(lambda: self._gate.run(watch, lambda why: None, changes=False))

@@ -7,12 +7,15 @@ it again: the endpoints of the process stay without a node. A new participant ge
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 import rclpy
 from rclpy.context import Context
 from rclpy.node import Node
+
+if TYPE_CHECKING:
+    from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 NAME = "_bot_console_graph"
 UNNAMED = "_NODE_NAME_UNKNOWN_"
@@ -28,13 +31,13 @@ DISCOVERY_POLLS = 10
 class Observer:
     """Provides `node`; `poll` is called regularly, by the executor's thread."""
 
-    def __init__(self, node: Node, make: Callable[[Node], tuple[Any, Callable[[], None]]] | None = None) -> None:
+    def __init__(self, node: Node, make: Callable[[Node], tuple[Node, Callable[[], None]]] | None = None) -> None:
         """`make` returns another node like this one, and a function that ends it."""
-        self.node: Any = node
+        self.node = node
         self._first = node
         self._make = make or _another
         self._end: Callable[[], None] = _nothing
-        self._next: tuple[Any, Callable[[], None]] | None = None
+        self._next: tuple[Node, Callable[[], None]] | None = None
         self._polls = 0
         self._nameless = 0
         """Unnamed endpoints that another node does not name either: no ROS nodes."""
@@ -50,7 +53,7 @@ class Observer:
         if self._polls >= UNNAMED_POLLS:
             self._next, self._polls = self._make(self._first), 0
 
-    def _poll_next(self, node: Any, end: Callable[[], None]) -> None:
+    def _poll_next(self, node: Node, end: Callable[[], None]) -> None:
         self._polls += 1
         missing = set(self.node.get_node_names()) - set(node.get_node_names())
         if (missing or _unnamed(node)) and self._polls < DISCOVERY_POLLS:
@@ -59,11 +62,11 @@ class Observer:
         self.node, self._end = node, end
         self._next, self._polls, self._nameless = None, 0, _unnamed(node)
 
-    def get_publishers_info_by_topic(self, topic: str) -> list[Any]:
+    def get_publishers_info_by_topic(self, topic: str) -> Sequence[TopicEndpointInfo]:
         """The publishers of a topic."""
         return self.node.get_publishers_info_by_topic(topic)
 
-    def get_subscriptions_info_by_topic(self, topic: str) -> list[Any]:
+    def get_subscriptions_info_by_topic(self, topic: str) -> Sequence[TopicEndpointInfo]:
         """The subscriptions of a topic."""
         return self.node.get_subscriptions_info_by_topic(topic)
 
@@ -74,11 +77,11 @@ class Observer:
             self._next[1]()
 
 
-def _unnamed(node: Any) -> int:
+def _unnamed(node: Node) -> int:
     return sum(each.node_name == UNNAMED for each in node.get_publishers_info_by_topic(TOPIC))
 
 
-def _another(like: Node) -> tuple[Any, Callable[[], None]]:
+def _another(like: Node) -> tuple[Node, Callable[[], None]]:
     """A node in a participant of its own."""
     context = Context()
     rclpy.init(args=[], context=context, domain_id=like.context.get_domain_id())

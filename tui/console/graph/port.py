@@ -8,8 +8,8 @@ from typing import Protocol
 class Graph(Protocol):
     """Watches what costs the nodes something only while somebody looks at it."""
 
-    def watch_nodes(self, on: bool) -> None:
-        """Start or stop checking which nodes do not respond (`GraphInfo.silent`), unless that is known from another
-        source.
+    def watch_nodes(self, on: bool, requester: str) -> None:
+        """Check which nodes do not respond (`GraphInfo.silent`) while a requester wants it, unless that is known from
+        another source.
         """
         ...

@@ -180,12 +180,12 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         wanted = self.console.sensors if self.display else None
         if wanted is not self._asking_by:  # a different one, too, after a reconnection
             self._asking_by = wanted
-            self.console.graph.watch_nodes(wanted is not None)
+            self.console.graph.watch_nodes(wanted is not None, "graph")
 
     def detach(self) -> None:
         """Stop measuring and probing."""
         self.console.topics.measure([], "graph")
-        self.console.graph.watch_nodes(False)
+        self.console.graph.watch_nodes(False, "graph")
         self.console.sensors.watch_frames(False)
 
     def on_diagram_view_resized(self) -> None:

@@ -13,6 +13,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ConsoleSnapshot, same
 from bot_console.tui.console.query import parse
 from bot_console.tui.format import command_of, counted, sanitize
+from bot_console.tui.panes.parameters.absences import Absences
 from bot_console.tui.panes.parameters.details import details
 from bot_console.tui.panes.parameters.edit_pane import EditPane
 from bot_console.tui.panes.parameters.rows import Row, TreeRows, View, namesake, opened, worth_changing
@@ -67,6 +68,8 @@ class ParametersPane(EditPane):
         self._chosen = False
         """Whether the cursor was moved; until then it is on the parameter that matters most, whatever nodes come."""
 
+        self._absences = Absences()
+        self._asking_by: object = None
         self._left: At | None = None
         """The row at the cursor at the end of the last run, until it is there again or a person moves."""
 
@@ -97,17 +100,32 @@ class ParametersPane(EditPane):
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Draw the parameters anew when they are another object."""
         before, self._snapshot = self._snapshot, snapshot
+        self._absences.note(before, snapshot, self.edits.clock())
         if snapshot.journal is not before.journal and self.edits.observe(snapshot.journal):
             self._list.refresh()
             self._describe()
         if snapshot.parameters is not before.parameters or snapshot.problem != before.problem:
             self._arrange()
 
+    def _watch_nodes(self, on: bool) -> None:
+        """Have nodes probed for liveness while the pane is visible."""
+        wanted = self.console.graph if on else None
+        if wanted is not self._asking_by:  # a different one, too, after a reconnection
+            self._asking_by = wanted
+            self.console.graph.watch_nodes(on, "parameters")
+
+    def detach(self) -> None:
+        """Probe no longer."""
+        self._watch_nodes(False)
+
     def tick(self) -> None:
         """Let values that have changed stop flashing, and say which are waited for."""
         shown = self._table
         if not shown.is_attached:  # at the end, when the screen is taken apart
             return
+        self._watch_nodes(self.display)
+        if self._absences.text(self._snapshot, self.edits.clock()) != self._absences.reported:
+            self._report_counts()
         if self.edits.poll():
             self.redraw_marks()
         if not shown.flashing:
@@ -167,7 +185,8 @@ class ParametersPane(EditPane):
 
     def _report_counts(self) -> None:
         found = sum(row.count for row in self._list.rows if row.depth == 0)  # each counts all that is below it
-        staged = self.edits.staging.caption()
+        self._absences.reported = self._absences.text(self._snapshot, self.edits.clock())
+        staged = "  ".join(filter(None, (self.edits.staging.caption(), sanitize(self._absences.reported))))
         if self._view.filtering:
             every = self._tree.count(self._snapshot.parameters, self._view)
             self.report_filter(found, every, *(each for each in ("changed" * self._view.only_changed, staged) if each))
