@@ -41,8 +41,10 @@ class WaitForTopics:
         self._executor.add_node(self._node)
         for name, kind in self.topic_tuples:
             self._node.create_subscription(kind, name, partial(self._take, name), 10)
+        self._callback: Callable[[], object] | None = None
         if callback is not None:
-            callback(*((self._node,) if callback_arguments is None else (self._node, callback_arguments)))
+            arguments = () if callback_arguments is None else (callback_arguments,)
+            self._callback = partial(callback, self._node, *arguments)
         self._thread = threading.Thread(target=self._spin, daemon=True)
         self._thread.start()
 
@@ -58,7 +60,10 @@ class WaitForTopics:
             self._all_there.set()
 
     def wait(self) -> bool:
-        """Return whether messages arrived on all topics in time."""
+        """Return whether messages arrived on all topics in time; the callback is called first, the first time."""
+        callback, self._callback = self._callback, None
+        if callback is not None:
+            callback()
         return self._all_there.wait(self.timeout)
 
     def shutdown(self) -> None:

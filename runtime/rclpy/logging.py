@@ -63,7 +63,7 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
     """The severity with that name, in upper or lower case; raises `RuntimeError` if there is none."""
     try:
         return LoggingSeverity[log_severity.upper()]
-    except KeyError:
+    except (KeyError, AttributeError):  # AttributeError: it is no string
         raise RuntimeError("Failed to get severity name") from None
 
 

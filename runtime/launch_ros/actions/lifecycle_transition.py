@@ -21,16 +21,16 @@ GOALS = {1: "inactive", 2: "unconfigured", 3: "active", 4: "inactive", 5: "final
 
 
 class LifecycleTransition(Action):
-    """Drives each of several lifecycle nodes through a sequence of transitions."""
+    """Drives each of several lifecycle nodes through a sequence of transitions; raises `ValueError` without any."""
 
     def __init__(self, *, lifecycle_node_names: Iterable[Any], transition_ids: Iterable[Any], **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.__names = [normalize_to_list_of_substitutions(each) for each in lifecycle_node_names]
         self.__transitions = list(transition_ids)
         if not self.__names:
-            raise RuntimeError("lifecycle_node_names must provide at least one lifecycle node name")
+            raise ValueError("lifecycle_node_names must provide at least one lifecycle node name")
         if not self.__transitions:
-            raise RuntimeError("transition_ids must provide at least one lifecycle node transition id")
+            raise ValueError("transition_ids must provide at least one lifecycle node transition id")
 
     def execute(self, context: LaunchContext) -> list[Any]:
         """Request the first transition of each node, and each further one when the previous has finished."""

@@ -48,3 +48,15 @@ def test_received_messages_are_kept(talker: Any) -> None:
 def test_timeout_error_names_missing_topics(talker: Any) -> None:
     with pytest.raises(RuntimeError, match="never"), WaitForTopics([("never", Int32), ("said", String)], timeout=0.2):
         pass
+
+
+@pytest.mark.parametrize("arguments", [None, 5])
+def test_callback_is_called_once_in_the_wait(talker: Any, arguments: int | None) -> None:
+    calls: list[tuple[Any, ...]] = []
+    waited = WaitForTopics(
+        [("said", String)], timeout=20.0, callback=lambda *given: calls.append(given), callback_arguments=arguments
+    )
+    assert calls == []
+    assert waited.wait() and waited.wait()
+    waited.shutdown()
+    assert [len(each) for each in calls] == [1 if arguments is None else 2]

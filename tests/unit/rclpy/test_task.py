@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import gc
 import threading
 from typing import Any
@@ -246,3 +247,76 @@ def test_coroutine_cannot_cancel_itself(ros: Any) -> None:
     task = executor.create_task(work)
     with pytest.raises(ValueError, match="already executing"):
         executor.spin_once(timeout_sec=0)
+
+
+def test_exception_of_an_awaited_future_leaves_spin(ros: Any) -> None:
+    executor, go = ros.node().executor, Future()
+
+    async def work() -> None:
+        await go
+
+    task = executor.create_task(work)
+    executor.spin_once(timeout_sec=1.0)
+    go.set_exception(KeyError("lost"))
+    with pytest.raises(KeyError, match="lost"):
+        executor.spin_once(timeout_sec=1.0)
+    assert task.done() and isinstance(task.exception(), KeyError)
+
+
+def test_exception_behind_several_waits_is_not_hidden(ros: Any) -> None:
+    executor = ros.node().executor
+    gates: list[Future[int]] = [Future() for _ in range(3)]
+
+    async def inner(gate: Future[int]) -> int:
+        value = await gate
+        if value == 2:
+            raise LookupError("third")
+        return value or 0
+
+    async def outer() -> list[int]:
+        return [await inner(each) for each in gates]
+
+    task = executor.create_task(outer)
+    for number, gate in enumerate(gates):
+        executor.spin_once(timeout_sec=1.0)
+        gate.set_result(number)
+    with pytest.raises(LookupError, match="third"):
+        executor.spin_once(timeout_sec=1.0)
+    assert task.done()
+
+
+def test_task_awaits_another_task(ros: Any) -> None:
+    executor = ros.node().executor
+
+    async def inner() -> int:
+        return 3
+
+    async def outer() -> int:
+        return 1 + ((await executor.create_task(inner)) or 0)
+
+    task = executor.create_task(outer)
+    executor.spin_until_future_complete(task, timeout_sec=5.0)
+    assert task.result() == 4
+
+
+def test_done_future_is_awaited_without_a_pause(ros: Any) -> None:
+    executor, done = ros.node().executor, Future()
+    done.set_result(5)
+
+    async def work() -> Any:
+        return await done
+
+    task = executor.create_task(work)
+    executor.spin_once(timeout_sec=1.0)
+    assert task.result() == 5
+
+
+def test_asyncio_awaits_a_future_of_rclpy() -> None:
+    """What fails with rclpy 7.1.9 (rclpy#1588)."""
+    future: Future[int] = Future()
+
+    async def main() -> Any:
+        asyncio.get_running_loop().call_later(0.01, future.set_result, 8)
+        return await future
+
+    assert asyncio.run(main()) == 8
