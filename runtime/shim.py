@@ -5,7 +5,7 @@ from __future__ import annotations
 import atexit
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib.machinery import ModuleSpec, PathFinder
 from types import ModuleType, TracebackType
 
@@ -28,7 +28,9 @@ def take_over() -> None:
     install()
     if sys.excepthook is sys.__excepthook__:
         sys.excepthook = _uncaught
-    sys.meta_path.append(_WorkspaceModules())
+    # First for a folder of the working directory that would be taken for a namespace package.
+    sys.meta_path.insert(0, _WorkspaceModules(lambda name: os.path.isfile(os.path.join(name, "package.xml"))))
+    sys.meta_path.append(_WorkspaceModules(lambda name: True))
     if is_in_range():
         share_domains()
         # An interpreter that is finalized while Zenoh's threads call into it would crash.
@@ -47,13 +49,16 @@ def _uncaught(kind: type[BaseException], exception: BaseException, trace: Traceb
 
 
 class _WorkspaceModules:
-    """A finder that comes last: Python packages of the workspace, which is searched only for names that nobody has."""
+    """A finder of Python packages of the workspace, which is searched only for names that `may_be` in it."""
+
+    def __init__(self, may_be: Callable[[str], bool]) -> None:
+        self._may_be = may_be
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
         """Return the spec of a top-level module of the workspace; None for every other name."""
-        if path is not None or fullname in sys.stdlib_module_names:
+        if path is not None or fullname in sys.stdlib_module_names or not self._may_be(fullname):
             return None
         from bot_console.runtime.workspace.program import source_folders
 

@@ -112,18 +112,29 @@ def _import_again(name):
 def watch():
     """Make packages of the workspace importable, even if they are the first of a ROS program that is imported."""
     if not any(isinstance(each, _WorkspaceFinder) for each in sys.meta_path):
-        sys.meta_path.append(_WorkspaceFinder())
+        sys.meta_path.insert(0, _WorkspaceFinder(_is_package_folder))
+        sys.meta_path.append(_WorkspaceFinder(_may_be_in_workspace))
 
 
 class _WorkspaceFinder:
-    """Comes last, for names that nothing else provides: lets the runtime find a package that a workspace contains."""
+    """Lets the runtime find a package of a workspace: comes first for what would be taken for a namespace package, and
+    last for names that nothing else provides.
+    """
+
+    def __init__(self, may_be):
+        self._may_be = may_be
 
     def find_spec(self, name, path=None, target=None):
         """Return the spec of a workspace's package; None for every other name, after a look at a few files."""
-        if path is not None or _choices or not _may_be_in_workspace(name) or _decide(name) != EMBEDDED:
+        if path is not None or _choices or not self._may_be(name) or _decide(name) != EMBEDDED:
             return None
-        specs = (each.find_spec(name, None) for each in sys.meta_path if each is not self)
+        specs = (each.find_spec(name, None) for each in sys.meta_path if not isinstance(each, _WorkspaceFinder))
         return next((each for each in specs if each is not None), None)
+
+
+def _is_package_folder(name):
+    """Whether the working directory has a folder with the sources of a package of this name."""
+    return os.path.isfile(os.path.join(name, "package.xml"))
 
 
 def _may_be_in_workspace(name):

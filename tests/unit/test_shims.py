@@ -179,6 +179,13 @@ def test_packages_of_workspace_may_be_imported_first(env: dict[str, str], worksp
     assert "No module named 'own_interfaces'" in python(shows, env, cwd=tmp_path).stderr
 
 
+@pytest.mark.parametrize("first", ["", "import rclpy; "], ids=["alone", "after rclpy"])
+def test_package_in_working_directory_is_no_namespace_package(first: str, env: dict[str, str], workspace: Path) -> None:
+    for folder, name in ((workspace / "src" / "all", "own_nodes.node"), (workspace / "src", "own_interfaces.msg")):
+        done = python(["-c", f"{first}import {name}"], {**env, "BOT_CONSOLE_WORKSPACE": str(workspace)}, cwd=folder)
+        assert (done.stderr, done.returncode) == ("", 0)
+
+
 def test_nothing_is_found_or_printed_once_the_installation_is_gone(env: dict[str, str], tmp_path: Path) -> None:
     shims = tmp_path / "shims"
     shims.mkdir()

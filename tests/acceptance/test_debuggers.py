@@ -1,0 +1,85 @@
+"""Breakpoints of pdb stop a timer, a callback and a thread of an executor, however the node was started."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+from helpers.shells import PYTHON, environment, make_home, set_up
+
+if os.name != "posix":
+    pytest.skip("needs a shell", allow_module_level=True)
+
+NODE = """
+import threading
+import rclpy
+from rclpy.executors import MultiThreadedExecutor
+from std_msgs.msg import String
+
+def tick():
+    here = "in the timer", threading.current_thread() is threading.main_thread()
+    breakpoint()
+
+def heard(message):
+    here = "in the callback", threading.current_thread() is threading.main_thread()
+    breakpoint()
+    print("went on", flush=True)
+    rclpy.shutdown()
+
+def main():
+    rclpy.init()
+    node = rclpy.create_node("debugged")
+    node.create_subscription(String, "t", heard, 1)
+    publisher = node.create_publisher(String, "t", 1)
+    timer = node.create_timer(0.1, lambda: (timer.cancel(), tick(), publisher.publish(String())))
+    executor = MultiThreadedExecutor(2)
+    executor.add_node(node)
+    executor.spin()
+"""
+TYPED = "p here\nc\np here\nc\n"
+LAUNCH = """
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    prefix = "sh -c 'exec python3 -m pdb \\"$@\\" <typed.txt' sh"
+    return LaunchDescription([Node(package="debugged", executable="node", output="screen", prefix=prefix)])
+"""
+
+
+@pytest.fixture
+def workspace(tmp_path: Path) -> Path:
+    home = make_home(tmp_path)
+    (home / "debugged" / "debugged").mkdir(parents=True)
+    (home / "debugged" / "debugged" / "__init__.py").touch()
+    (home / "debugged" / "debugged" / "node.py").write_text(NODE)
+    (home / "debugged" / "package.xml").write_text("<package format='3'><name>debugged</name></package>")
+    entry = "entry_points={'console_scripts': ['node = debugged.node:main']}"
+    (home / "debugged" / "setup.py").write_text(
+        f"from setuptools import setup\nsetup(name='debugged', packages=['debugged'], {entry})\n"
+    )
+    (home / "typed.txt").write_text(f"c\n{TYPED}q\n")
+    (home / "pdb.launch.py").write_text(LAUNCH)
+    return home
+
+
+@pytest.mark.parametrize(
+    ("line", "typed"),
+    [
+        ([str(PYTHON), "-c", "from debugged.node import main; main()"], TYPED),
+        (["bot-console", "run", "debugged", "node"], TYPED),
+        (["bot-console", "ros2", "run", "--prefix", "python3 -m pdb", "debugged", "node"], f"c\n{TYPED}q\n"),
+        (["bot-console", "launch", "pdb.launch.py"], ""),
+    ],
+    ids=["python3", "run", "ros2 run --prefix", "launch prefix"],
+)
+def test_breakpoints_stop_timer_and_callback_in_a_thread(line: list[str], typed: str, workspace: Path) -> None:
+    env = set_up(workspace) if line[0] == str(PYTHON) else environment(workspace)
+    env = {**env, "BOT_CONSOLE_SOCKET_DIR": str(workspace)}
+    done = subprocess.run(
+        ["env", *line], input=typed, cwd=workspace, env=env, capture_output=True, text=True, timeout=100, check=False
+    )
+    assert "('in the timer', False)" in done.stdout, done.stdout + done.stderr
+    assert "('in the callback', False)" in done.stdout and "went on" in done.stdout
