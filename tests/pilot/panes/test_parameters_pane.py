@@ -148,7 +148,7 @@ def test_boolean_toggles_and_invalid_value_is_explained() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         await go_to(session, "enable_safety")
-        await session.press("enter")
+        await session.press("enter", "y")
         assert asked(session) == [("/robot_navigator", {"enable_safety": False})]
         await session.press("up", "enter")
         await session.type("many")

@@ -102,7 +102,7 @@ def test_step_1_a_text_field_and_a_checkbox(page: Terminals, robot: Program) -> 
         await screen.enter("Scout")
         await screen.until(lambda: "✓ Name updated to Scout" in robot.stderr, "new name")
         await go_to(screen, "enable_safety")
-        await screen.press("enter")
+        await screen.press("enter", "y")
         await screen.until(lambda: "⚠ Safety DISABLED" in robot.stderr, "switched safety")
 
     page.show(play)

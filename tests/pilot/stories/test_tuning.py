@@ -171,6 +171,7 @@ def test_mouse_selects_slides_edits_and_folds() -> None:
         await click(session, "enable_safety")
         assert value(session, "enable_safety") is True, "the first click chooses"
         await click(session, "enable_safety")
+        await session.press("y")
         assert value(session, "enable_safety") is False
         await click(session, "▾ lidar.")
         assert "beams" not in session.text()

@@ -53,7 +53,7 @@ def summary_of(info: GraphInfo, found: Shown, item: str) -> str:
 
 def nothing_drawn(info: GraphInfo) -> Placeholder:
     """What is said while nothing is drawn."""
-    return FILTERED_OUT if info.nodes else EMPTY
+    return FILTERED_OUT if any(not each.hidden for each in info.nodes) else EMPTY
 
 
 def item_notes(

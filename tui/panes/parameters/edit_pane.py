@@ -96,7 +96,7 @@ class EditPane(ListPane):
             return
         now = self.edits.now(parameter)
         if parameter.kind is Kind.BOOL and isinstance(now, bool):
-            self.edits.set(parameter, not now)
+            self._switch(parameter, now, not now)
             return
         self.ask(
             Line(
@@ -106,6 +106,21 @@ class EditPane(ListPane):
                 text=field_text(now),
                 check=partial(editing.wrong, parameter),
                 preview=partial(_preview, parameter),
+            )
+        )
+
+    def _switch(self, parameter: ParameterInfo, now: bool, then: bool) -> None:
+        """Set a boolean; one that makes the robot less safe only after a question, as one key would switch it."""
+        unsafe = takes_safety(parameter, now, then)
+        if not unsafe or self.edits.staging.marking:
+            self.edits.set(parameter, then)
+            return
+        self.ask(
+            Confirmation(
+                f"Set {parameter.name} to {value_text(then)}?",
+                lambda _: self.edits.set(parameter, then),
+                gone=partial(self._gone, parameter),
+                reasons=f"⚠ {parameter.node} {parameter.name} {value_text(now)} → {value_text(then)} {unsafe}.",
             )
         )
 
