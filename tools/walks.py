@@ -39,7 +39,7 @@ LOOPS = (
     "rclpy/impl/",
     "rclpy/task.py",
     "textual/message_pump.py",
-    "/tui/terminal/styling/",
+    "/tui/terminal/styling",
 )
 """The files of event loops and executors: a walk does not continue into them."""
 TIMEOUT_S = 30.0

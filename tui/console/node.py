@@ -63,7 +63,7 @@ class ConsoleNode:
         ports.logs.attach(LoggerLevels(calls, self.loggers))
         ports.plots.attach(PlotWatch(self.node))
         ports.drive.attach(self._world)
-        ports.parameters.attach(self.node, calls, history, active_profile)
+        ports.parameters.attach(self.node, calls, ports.logs.add, history, active_profile)
         ports.topics.attach(self.node, calls)
         ports.sensors.attach(self.node)
         ports.graph.attach(self._graph)

@@ -62,7 +62,7 @@ class NodePorts:
             report=lambda text: self.printed(Severity.WARN, LABEL, text),
         )
         self.plots = NodePlots(self.gate, lambda: self.graph.info, lambda: self.parameters.trees)
-        self.parameters = NodeParameters(self.gate, provenance, self.plots.parameter_is, self.logs.add)
+        self.parameters = NodeParameters(self.gate, provenance, self.plots.parameter_is)
         self.profiles = NodeProfiles(
             self.gate, self.parameters, lambda: self.topics.request("/reset", "std_srvs/srv/Trigger", {})
         )

@@ -13,11 +13,16 @@ from bot_console.tui.console.logs.port import LogFindings, LogSource, LogView
 from bot_console.tui.console.model import LogFilter, LoggerLevel, LogRecord, LogState, Severity
 
 if TYPE_CHECKING:
+    from bot_console.tui.console.launch.process_output import Add
     from bot_console.tui.console.logs.levels import LoggerLevels
     from bot_console.tui.console.logs.store import LogStore
     from bot_console.tui.console.logs.view import LogViews
 
 NO_RECORDS = LogState()
+
+
+def _lose(stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
+    """Discard a record that arrives before there is a log."""
 
 
 class _NoNumbers(tuple[int, ...]):
@@ -52,6 +57,8 @@ class NodeLogs:
     def __init__(self, gate: Gate) -> None:
         self._gate = gate
         self._store: LogStore | None = None
+        self.add: Add = _lose
+        """Adds a record, in any thread; those before `begin` are lost."""
         self._views: LogViews | None = None
 
     def begin(self, store: LogStore | None = None) -> None:
@@ -61,6 +68,7 @@ class NodeLogs:
 
         self._store = LogStore() if store is None else store
         self._views = LogViews(self._store)
+        self.add = self._store.add
 
     def attach(self, levels: LoggerLevels) -> None:
         """The system has been reached."""
@@ -70,11 +78,6 @@ class NodeLogs:
     def exists(self) -> bool:
         """Whether records are kept yet."""
         return self._views is not None
-
-    def add(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
-        """Add a record, in any thread; those before `begin` are lost."""
-        if self._store is not None:
-            self._store.add(stamp, severity, name, text, site)
 
     @property
     def state(self) -> LogState:

@@ -46,23 +46,24 @@ class NodeParameters:
     _setter: ParameterSetter
     """There from `attach` on, and used only by what has passed the gate."""
 
-    def __init__(
-        self, gate: Gate, provenance: Provenance, on_value: OnValue | None = None, log: Add | None = None
-    ) -> None:
-        """`log` receives warnings about values that make the robot less safe."""
+    def __init__(self, gate: Gate, provenance: Provenance, on_value: OnValue | None = None) -> None:
         self._gate = gate
         self._provenance = provenance
         self._on_value = on_value
-        self._log = log
+        self._log: Add | None = None
         self._journal: Journal | None = None
         self._mirror: ParameterMirror | None = None
 
-    def attach(self, node: Node, calls: Calls, history: History | None, active_profile: str) -> None:
-        """Read the parameters of all nodes from now on; `history` keeps changes for later runs."""
+    def attach(self, node: Node, calls: Calls, log: Add, history: History | None, active_profile: str) -> None:
+        """Read the parameters of all nodes from now on.
+
+        `log` receives warnings about values that make the robot less safe; `history` keeps changes for later runs.
+        """
         from bot_console.tui.console.parameters.journal import Journal
         from bot_console.tui.console.parameters.mirror import ParameterMirror
         from bot_console.tui.console.parameters.setter import ParameterSetter
 
+        self._log = log
         self._journal = Journal(history=history)
         self._mirror = ParameterMirror(node, calls, self._changed, self._provenance, self._restarted)
         self._setter = ParameterSetter(calls, self._mirror, self._journal)
