@@ -11,6 +11,7 @@ from pathlib import Path
 from bot_console.runtime.ros2cli.command_line import add_command, load, top_parser
 from bot_console.tui.cli import arguments
 from bot_console.tui.cli import main as program
+from bot_console.tui.cli.serve import run as serve
 from bot_console.tui.cli.tune import run as tune
 from bot_console.tui.cli.verbs import bag, ros2
 from bot_console.tui.cli.verbs import run as console_run
@@ -104,6 +105,11 @@ def _console(words: list[str]) -> str:
         return ""
     if name == "ros2":
         return _console(words[1:])
+    if name == "serve":
+        _, console = serve.command_parser().parse_known_args(words[1:])
+        if console[:1] != ["attach"]:
+            arguments.parse(console)
+        return ""
     if name == "tune":
         tune.command_parser().parse_args(words[1:])
         return ""

@@ -22,6 +22,7 @@ IMPORT_NAMES = {
     "eclipse-zenoh": "zenoh",
     "google-re2": "re2",
     "pillow": "PIL",
+    "textual-serve": "textual_serve",
 }
 BUILD_ONLY = {"rosbags"}
 """Imported only at build time (`runtime/rosidl/standard.py`)."""

@@ -94,7 +94,6 @@ def attach_parser() -> argparse.ArgumentParser:
     parser.add_argument("--pane", default="overview", help="pane to open first")
     parser.add_argument("--workspace", action="append", type=Path, metavar="DIR", help="folder with packages")
     add_profile_folders(parser)
-    parser.add_argument("--read-only", action="store_true", help="only watch: set, drive, start and end nothing")
     _add_appearance(parser)
     return parser
 
@@ -118,6 +117,7 @@ def parse_attach(words: Sequence[str], parser: argparse.ArgumentParser) -> tuple
 
 def _add_appearance(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
+    add("--read-only", action="store_true", help="only watch and stop: set, drive, start and end nothing")
     add("--layout", default="", metavar="NAME", help="layout to start with; overview is what a new user sees")
     add("--perspective-file", default="", metavar="FILE", help="a layout file, or a perspective of rqt")
     add(
@@ -175,6 +175,7 @@ def parse(words: Sequence[str]) -> Options:
         world=given.world or "",
         profile_folders=given.profiles or [],
         simulator=given.simulator,
+        read_only=given.read_only,
         **_appearance(given),
     )
 

@@ -173,6 +173,7 @@ _OURS: dict[str, Sequence[str]] = {
     "reset": ("--dry-run",),
     "ros2": (),
     "router": (),
+    "serve": ("--control", "--host", "--port", "--sessions", "attach"),
     "setup": ("bash", "editor", "fish", "venv", "zsh"),
     "status": (),
     "stop": (),

@@ -35,6 +35,7 @@ _COMMANDS = {
     "ros2": "main:ros2_command",
     "router": "verbs.router:run",
     "run": "verbs.run:run",
+    "serve": "serve.run:run",
     "setup": "verbs.setup:run",
     "status": "verbs.background:status",
     "stop": "verbs.stop:stop",
@@ -129,6 +130,11 @@ def _of_distro(words: Words) -> Words:
     from bot_console.tui.cli.distro_option import without_distro
 
     return without_distro(words, lambda word: word in ros2.VERBS or word in _COMMANDS)
+
+
+def is_command(word: str) -> bool:
+    """Whether a word is a command of `bot-console`, or one of `ros2`."""
+    return word in _COMMANDS or word in ros2.VERBS
 
 
 def _in_workspace(words: Words) -> Words:

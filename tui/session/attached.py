@@ -47,7 +47,7 @@ class AttachedSession:
             appearance=appearance,
             plugins=find_plugins,
         )
-        self._foreground = Foreground(self.app, console.printed, self._end)
+        self._foreground = Foreground(self.app, console.printed, self._end, lambda: console.drive.steers)
 
     def run(self) -> int:
         """Show the console until it quits. Stops the robot if this console steers it; everything else keeps running."""

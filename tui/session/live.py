@@ -38,7 +38,7 @@ class Session:
             appearance=appearance,
             plugins=self._plugins,
         )
-        self._foreground = Foreground(self.app, self._printed, self._end)
+        self._foreground = Foreground(self.app, self._printed, self._end, self._steers)
 
     @cached_property
     def connected(self) -> Connected:
@@ -70,6 +70,9 @@ class Session:
 
     def _is_connected(self) -> bool:
         return "connected" in self.__dict__
+
+    def _steers(self) -> bool:
+        return self._is_connected() and self.console.drive.steers
 
     def _printed(self, severity: int, label: str, text: str) -> None:
         if self._is_connected():  # Before that, nobody reads the log.

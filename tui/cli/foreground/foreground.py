@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.cli.foreground.browser_watch import browser_watch
 from bot_console.tui.cli.foreground.descriptors import Printed, captured_descriptors
 from bot_console.tui.cli.foreground.ending_signals import ended_by_signals, hangup_as_signal
 from bot_console.tui.cli.foreground.hang_watch import HangWatch, hang_watch
@@ -15,8 +16,14 @@ from bot_console.tui.files.folders import state_folder
 class Foreground:
     """Shows an app, and gives the terminal back afterwards."""
 
-    def __init__(self, app: BotConsoleApp, printed: Printed, end: Callable[[int], None]) -> None:
-        """`printed` receives lines for the log, `end` the number of a signal that ends the app."""
+    def __init__(
+        self, app: BotConsoleApp, printed: Printed, end: Callable[[int], None], steers: Callable[[], bool]
+    ) -> None:
+        """`printed` receives lines for the log, `end` the number of a signal that ends the app.
+
+        `steers` returns, in any thread, whether a person steers a robot from here.
+        """
+        self._steers = steers
         self._app = app
         self._printed = printed
         self._end = end
@@ -33,6 +40,7 @@ class Foreground:
             captured_descriptors(self._printed),
             ended_by_signals(self._end),
             hangup_as_signal(),
+            browser_watch(self._steers),
             eager_switching(),
             hang_watch(state_folder(), self._app.how_it_draws, self._hung) as self._hang_watch,
         ):

@@ -244,6 +244,11 @@ class DriveLink:
         if self._early.settle(press, keep=keep):
             self._send_zeros(repeated=False)
 
+    @property
+    def steers(self) -> bool:
+        """Whether control of the robot is claimed here."""
+        return self._stop.steering
+
     def steer(self, hold: bool) -> None:
         """Claim control of the robot or hand it back; a claim is to be repeated ten times a second."""
         if hold:

@@ -196,6 +196,11 @@ class RobotDrive:
             if self._node is not None:
                 self._node.link.drive(0.0, 0.0)
 
+    @property
+    def steers(self) -> bool:
+        """Whether this console has control of the robot, in any thread."""
+        return self._node is not None and self._node.link.steers
+
     def steer(self, hold: bool) -> None:
         """Take control of the robot, or hand it back."""
         if self._node is not None and not (hold and self._gate.refusal):

@@ -1,0 +1,1 @@
+"""`bot-console serve`: the console in a browser tab."""

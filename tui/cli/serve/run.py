@@ -1,0 +1,98 @@
+"""The `serve` command: its options, and the addresses that it prints."""
+
+from __future__ import annotations
+
+import argparse
+import ipaddress
+import sys
+from collections.abc import Sequence
+
+from bot_console.tui.child_command import child_command
+
+EXPECTED = ("attach",)
+"""Commands whose console can be served; without one it is the console with a robot of its own."""
+EPILOG = """\
+The address that is printed opens one console at a time, in one browser: its token is exchanged for a cookie. The
+console ends when its tab is closed. ! works in every console; --control allows the rest.
+
+examples:
+  bot-console serve attach                          watch and stop what runs here
+  bot-console serve --control                       a robot of its own for each browser that opens the address
+  bot-console serve --sessions 20                   twenty addresses, for a class
+  ssh -L 8000:localhost:8000 robot bot-console serve attach --ros
+"""
+MISSING = (
+    "bot-console serve needs an extra that is not installed ({}): "
+    "pip install 'bot-console[serve]' (in a clone: pip install '.[serve]')"
+)
+IN_THE_OPEN = (
+    "WARNING: {} is reachable from other machines, without encryption: whoever reads along in the network gets in. "
+    "A tunnel is safer: ssh -L {}:localhost:{} HOST"
+)
+
+
+def run(words: Sequence[str]) -> int:
+    """Serve until Ctrl-C; 1 if an extra is missing or the port is taken."""
+    parser = command_parser()
+    given, rest = parser.parse_known_args(words)
+    host = _address(parser, given.host)
+    if not 1 <= given.sessions <= 100:
+        parser.error("--sessions: 1 to 100")
+    console = _console(parser, rest, control=given.control)
+    try:
+        from bot_console.tui.cli.serve.server import Server, serve
+    except ImportError as error:
+        print(MISSING.format(error.name), file=sys.stderr)
+        return 1
+    server = Server(console, host, sessions=given.sessions)
+    if not ipaddress.ip_address(host).is_loopback:
+        print(IN_THE_OPEN.format(host, given.port, given.port), file=sys.stderr)
+    try:
+        return serve(server, given.port)
+    except OSError as error:
+        print(f"cannot listen on {host}, port {given.port}: {error.strerror}", file=sys.stderr)
+        return 1
+
+
+def command_parser() -> argparse.ArgumentParser:
+    """The options of `serve`; other words are those of the console."""
+    parser = argparse.ArgumentParser(
+        "bot-console serve",
+        usage="bot-console serve [--port N] [--host ADDRESS] [--sessions N] [--control] [attach] [OPTION ...]",
+        description="Show the console in a browser tab, read-only unless --control is given.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    add = parser.add_argument
+    add("--port", type=int, default=8000, metavar="N", help="port; 0 takes a free one (8000)")
+    add("--host", default="127.0.0.1", metavar="ADDRESS", help="address of this machine to listen on (127.0.0.1)")
+    add("--sessions", type=int, default=1, metavar="N", help="addresses to print, each for one browser (1)")
+    add("--control", action="store_true", help="let the browser set, drive, start and end, too")
+    return parser
+
+
+def _address(parser: argparse.ArgumentParser, text: str) -> str:
+    try:
+        address = ipaddress.ip_address("127.0.0.1" if text == "localhost" else text)
+    except ValueError:
+        parser.error(f"--host: '{text}' is no address such as 127.0.0.1")
+    if address.is_unspecified:
+        parser.error(f"--host: {text} means every network; name the address that browsers reach")
+    return str(address)
+
+
+def _console(parser: argparse.ArgumentParser, words: Sequence[str], *, control: bool) -> list[str]:
+    """The command of a console; exits with 2 for words that open none."""
+    from bot_console.tui.cli.arguments import parse
+    from bot_console.tui.cli.attach_options import parse as parse_attach
+    from bot_console.tui.cli.main import is_command
+
+    if words and is_command(words[0]) and words[0] not in EXPECTED:
+        parser.error(f"'{words[0]}' opens no console; a command to serve: {', '.join(EXPECTED)}")
+    opened = [*words] if control else [*words, "--read-only"]
+    if words[:1] == ["attach"]:
+        parse_attach(opened[1:])
+    elif parse(opened).headless:
+        parser.error("--headless has no screen to serve")
+    return [*child_command("bot_console.tui"), *opened]
