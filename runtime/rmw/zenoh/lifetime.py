@@ -83,8 +83,12 @@ class Lifetime:
                 return  # closed, or being reopened, which then ends with closing
             self._is_open = False
         closing = threading.Thread(target=self._shut, name="zenoh-close", daemon=True)
-        closing.start()
-        closing.join(CLOSING)
+        try:
+            closing.start()
+        except RuntimeError:  # the interpreter is ending, and Python 3.12 starts no thread then
+            self._shut()
+        else:
+            closing.join(CLOSING)
 
     def is_closed(self) -> bool:
         """Whether it was closed."""
