@@ -15,6 +15,7 @@ import socket
 import sys
 import threading
 import time
+import traceback
 from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
     from ..clock_source import Wakeup
 
 COORDINATOR_GONE = 1
-"""Exit code of a process whose coordinator has ended."""
+"""Exit code of a process that can get no more turns, as its coordinator has ended."""
 
 
 class Member:
@@ -90,8 +91,14 @@ class Member:
             self._main.task.hold_clock()  # an import takes no virtual time
         self._wrap_calls()
         begun()
-        while True:
-            self._run_turn(self._published)
+        try:
+            while True:
+                self._run_turn(self._published)
+        except OSError:  # the coordinator has ended
+            os._exit(COORDINATOR_GONE)
+        except BaseException:  # without this thread all others would wait for a turn for ever
+            traceback.print_exc(file=sys.__stderr__)
+            os._exit(COORDINATOR_GONE)
 
     def _run_turn(self, published: Wakeup) -> None:
         """Wait for a grant, run all threads until they wait, and answer."""
