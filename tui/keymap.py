@@ -66,6 +66,15 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("app.sleep", "ctrl+z", "sleep", "To the shell: the robot is held; fg brings the console back"),
         Key("app.redraw", "ctrl+l", "redraw", "Draw the screen anew"),
     ),
+    "player": (
+        Key("player.toggle", "semicolon", "player('toggle')", "Play the bag, or pause", shown=";"),
+        Key("player.step", "number_sign", "player('step')", "Publish the next message, and pause", shown="#"),
+        Key("player.back", "left_parenthesis", "player('back')", "Five seconds back", shown="("),
+        Key("player.forward", "right_parenthesis", "player('forward')", "Five seconds forward", shown=")"),
+        Key("player.slower", "left_curly_bracket", "player('slower')", "A tenth slower", shown="{"),
+        Key("player.faster", "right_curly_bracket", "player('faster')", "A tenth faster", shown="}"),
+        Key("player.loop", "at", "player('loop')", "Start again at the end, or not", shown="@"),
+    ),
     "parameters": (
         Key(
             "parameters.edit",

@@ -134,9 +134,9 @@ class CommandHandler:
         """The names of the layouts."""
         return sorted(self._stage.arranging.arrangement.layouts())
 
-    def show_bag(self, folder: str) -> None:
-        """Show a bag in a console of its own, which has the terminal until it quits."""
-        if self._run_outside([*child_command("bot_console.tui"), "bag", "open", folder]):
+    def show_bag(self, folder: str, *, play: bool) -> None:
+        """Show a bag, or play it, in a console of its own, which has the terminal until it quits."""
+        if self._run_outside([*child_command("bot_console.tui"), "bag", "open", folder, *["--play"] * play]):
             self.notify(f"{folder} cannot be shown; bot-console bag info {folder} says why", severity="error")
 
     def hold_robot(self, hold: bool) -> None:

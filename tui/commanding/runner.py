@@ -59,8 +59,8 @@ class Host(Protocol):
         """The names of the layouts."""
         ...
 
-    def show_bag(self, folder: str) -> None:
-        """Show a bag in place of everything else until that is quit."""
+    def show_bag(self, folder: str, *, play: bool) -> None:
+        """Show a bag, or play it, in place of everything else until that is quit."""
         ...
 
     def hold_robot(self, hold: bool) -> None:
@@ -184,7 +184,7 @@ class LineRunner:
         self._host.load_layout(words[0])
 
     def _bag(self, words: Sequence[str]) -> None:
-        self._host.show_bag(words[1])
+        self._host.show_bag(words[1], play=words[0] == "play")
 
     def _plot(self, words: Sequence[str]) -> None:
         self._host.open(Opening("plot", tuple(curves_of(words))))

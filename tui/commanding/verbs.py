@@ -23,7 +23,7 @@ class Verb:
 
 
 VERBS: Mapping[str, Verb] = {
-    "bag": Verb("bag open FOLDER", "look at a bag in a console of its own, until q", 2, 2),
+    "bag": Verb("bag open|play FOLDER", "look at a bag, or play it, in a console of its own, until q", 2, 2),
     "help": Verb("help [VERB]", "all commands, or one", maximum=1),
     "layout": Verb("layout NAME", "show a layout", 1, 1),
     "plot": Verb("plot PATH ...", "curves of the plot: /topic/field or /node:parameter", 1),
@@ -71,9 +71,10 @@ def wrong_use(words: Sequence[str]) -> str:
 
 
 def wrong_bag(words: Sequence[str]) -> str:
-    """What is wrong with `bag open FOLDER`; empty when nothing is."""
-    if words[1] != "open":
-        return "write it as: bag open FOLDER; record begins and ends one, the rest is for a shell: bot-console bag -h"
+    """What is wrong with `bag open FOLDER` or `bag play FOLDER`; empty when nothing is."""
+    if words[1] not in ("open", "play"):
+        begun = "write it as: bag open FOLDER, or bag play FOLDER"
+        return f"{begun}; record begins and ends one, the rest is for a shell: bot-console bag -h"
     return "" if os.path.exists(words[2]) else f"there is no bag {words[2]}"
 
 
@@ -123,7 +124,7 @@ def places(
     if verb == "help" and not given:
         return sorted(VERBS)
     if verb == "bag" and not given:
-        return ("open",)
+        return ("open", "play")
     if verb == "record":
         return ("stop",) if not given else ()
     return ()

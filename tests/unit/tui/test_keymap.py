@@ -10,6 +10,7 @@ from string import ascii_letters
 import pytest
 from bot_console import tui
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.bag_app import BagApp
 from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.key import Key
 from bot_console.tui.pane_table import PANES, PaneEntry
@@ -52,6 +53,7 @@ SCREENS = {
 }
 OWNERS = {
     "app": BotConsoleApp,
+    "player": BagApp,
     "list": RowList,
     "diagram": DiagramView,
     "find": Findable,

@@ -59,12 +59,20 @@ def new_folder(near: Path | None = None) -> Path:
 
 def make_node(name: str) -> Any:
     """A node in the domain, or behind the robot's router; None, after printing why, if neither can be reached."""
+    made = join_domain(name)
+    if isinstance(made, str):
+        print(made, file=sys.stderr)
+        return None
+    return made
+
+
+def join_domain(name: str = "rosbag2_player") -> Any:
+    """A node in the domain, or behind the robot's router; a text that says why if neither can be reached."""
     import rclpy
 
     unreachable = reach_system()
     if unreachable:
-        print(unreachable, file=sys.stderr)
-        return None
+        return unreachable
     rclpy.init(args=[])
     return rclpy.create_node(name, start_parameter_services=False)
 

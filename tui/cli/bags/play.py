@@ -93,11 +93,8 @@ def press(player: Player, key: str, stopped: threading.Event) -> None:
 
 
 def progress_line(player: Player) -> str:
-    """Where a player is: `▶ 12.3 / 60.0 s ×1 loop, 230 messages`."""
-    at, whole = (player.position - player.begin) / 1e9, (player.end - player.begin) / 1e9
-    words = ["⏸ paused " if player.paused else "▶ playing", f"{at:.1f} / {whole:.1f} s", f"×{player.rate:.3g}"]
-    words += ["loop"] if player.loop else []
-    return "  ".join([*words, f"{player.published} messages"])
+    """Where a player is, on one line."""
+    return player.state.text()
 
 
 def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
@@ -130,10 +127,18 @@ def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
     bag = BagsTogether(bags)
     named, chosen = chosen_topics(given)
     how = Playing(
-        given.rate, given.start_offset, end_of(given, bag.span[0]), given.loop, given.start_paused, named, chosen,
-        dict(each.split(":=", 1) for each in given.remap), qos, given.clock,
-        None if given.clock_topics_all else given.clock_topics,
-    )  # fmt: skip
+        rate=given.rate,
+        offset=given.start_offset,
+        end=end_of(given, bag.span[0]),
+        loop=given.loop,
+        paused=given.start_paused,
+        topics=named,
+        chosen=chosen,
+        remaps=dict(each.split(":=", 1) for each in given.remap),
+        qos=qos,
+        clock=given.clock,
+        clock_topics=None if given.clock_topics_all else given.clock_topics,
+    )
     player = Player(node, bag, how, class_of)
     for name, why in player.unknown.items():
         node.get_logger().warning(f"Topic '{name}' is not played: {why}")

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 
 from bot_console.runtime.importer import install
 from bot_console.tui.cli.bags import convert, info, play, record
-from bot_console.tui.cli.bags.common import named_folder
+from bot_console.tui.cli.bags.common import join_domain, named_folder
 from bot_console.tui.cli.bags.play_arguments import add_burst_arguments, add_play_arguments
 from bot_console.tui.cli.bags.record_arguments import add_record_arguments
 from bot_console.tui.files.save_file import NotSaved
@@ -54,6 +54,7 @@ def parser() -> argparse.ArgumentParser:
     shown.add_argument("-v", "--verbose", action="store_true", help="requests and responses of services")
     opened = add("open", _open, "open a bag in the console, and move through its time")
     opened.add_argument("bag", type=named_folder)
+    opened.add_argument("--play", action="store_true", help="play it at once, into the ROS domain")
     add("snapshot", record.snapshot, "make a recorder in snapshot mode write its messages")
     convert.add_convert_arguments(add("convert", convert.convert, "write bags anew with other settings"))
     reads_one(add("reindex", convert.reindex, "write the metadata of a bag anew"))
@@ -64,11 +65,12 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _open(given: argparse.Namespace) -> int:
-    from bot_console.tui.app import BotConsoleApp
+    from bot_console.tui.bag_app import BagApp
     from bot_console.tui.cli.appearance import appearance_of
     from bot_console.tui.cli.arguments import parse
     from bot_console.tui.console.bags.contents import Contents
     from bot_console.tui.console.bags.opened_bag import OpenedBag
+    from bot_console.tui.console.bags.playing.bag_playback import BagPlayback
     from bot_console.tui.console.bags.reader import Bag
 
     bag = Bag(given.bag)
@@ -79,12 +81,15 @@ def _open(given: argparse.Namespace) -> int:
     options = parse([])
     notes = [f"{each} is not shown: the bag is too large" for each in contents.left_out]
     notes += [contents.damage] if contents.damage else []
+    playback = BagPlayback(bag, join_domain)
     try:
-        app = BotConsoleApp(
-            console, opening=options.opening._replace(notes=tuple(notes)), appearance=appearance_of(options)
-        )
+        app = BagApp(
+            console, opening=options.opening._replace(notes=tuple(notes)), appearance=appearance_of(options),
+            playback=playback, plays=given.play,
+        )  # fmt: skip
         app.time_cursor.follow(console.topics)
         app.run()
     finally:
+        playback.close()
         console.close()
     return 0

@@ -35,8 +35,8 @@ class Screen:
     def stream_problem(self, words: Sequence[str]) -> str:
         return "no room" if [*words] == ["topic", "hz", "/full"] else ""
 
-    def show_bag(self, folder: str) -> None:
-        self.reported.append(f"shown: {folder}")
+    def show_bag(self, folder: str, *, play: bool) -> None:
+        self.reported.append(f"{'played' if play else 'shown'}: {folder}")
 
 
 def failed(why: str) -> Future[str]:
@@ -59,7 +59,7 @@ def runner() -> tuple[LineRunner, Any, FakeCommandLine]:
         ("set /robot max_speed 1", "there is no node /robot with parameters"),
         ("set /robot_navigator speed 1", "/robot_navigator has no parameter speed"),
         ("set /robot_navigator max_speed fast", "'fast' is not a number"),
-        ("bag open", "write it as: bag open FOLDER"),
+        ("bag open", "write it as: bag open|play FOLDER"),
         ("ros2 topic hz /full", "no room"),
         ("topic hz /full", "no room"),
         ("bag info x", "write it as: bag open FOLDER"),
@@ -120,5 +120,6 @@ def test_started_command_is_notified_and_takes_no_focus(line: str, printed: Futu
 def test_bag_is_opened_by_its_path(tmp_path: Path) -> None:
     lines, screen, _ = runner()
     lines.run(f"bag open '{tmp_path}'")
+    lines.run(f"bag play '{tmp_path}'")
     lines.run("bag open /no/such/bag")
-    assert screen.reported == [f"shown: {tmp_path}", "there is no bag /no/such/bag"]
+    assert screen.reported == [f"shown: {tmp_path}", f"played: {tmp_path}", "there is no bag /no/such/bag"]

@@ -10,6 +10,7 @@ from typing import Any, Protocol
 
 from bot_console.tui.console.bags.metadata import Topic
 from bot_console.tui.console.bags.playing.control_topics import controls
+from bot_console.tui.console.bags.playing.playback import PlaybackState
 from bot_console.tui.console.bags.qos import offered
 from bot_console.tui.console.bags.reader import Entry
 from rclpy.duration import Duration
@@ -52,6 +53,8 @@ class Playing:
     """The time (ns since the epoch) at which to stop; None: at the end of the bag."""
     loop: bool = False
     paused: bool = False
+    stays: bool = False
+    """Whether it pauses at the end instead of ending."""
     topics: Collection[str] | None = None
     """Topics to play; None: all except those that control a robot, see `control_topics`."""
     chosen: Callable[[str], bool] = field(default=lambda _: True)
@@ -99,6 +102,11 @@ class Player:
         """The time of the bag that is being played (ns since the epoch)."""
         with self._changed:
             return min(self._now(), self.end)
+
+    @property
+    def state(self) -> PlaybackState:
+        """Where it is."""
+        return PlaybackState(self.position, self.begin, self.end, self._rate, self._paused, self._loop, self.published)
 
     @property
     def rate(self) -> float:
@@ -203,6 +211,8 @@ class Player:
             if not self._wait(entry, stopped):
                 return self._jumped()
             self._publish(entry)
+        if self._how.stays and not self._loop and not stopped.is_set():
+            self.paused = True
         while self._paused and not stopped.is_set():  # one who steps or seeks may come back from the end
             with self._changed:
                 if self._jump is not None:

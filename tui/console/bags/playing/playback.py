@@ -1,0 +1,64 @@
+"""Playing the bag that a console shows, as its app sees it. Standard library only."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+
+@dataclass(frozen=True, slots=True)
+class PlaybackState:
+    """Where a player is; times are in ns since the epoch."""
+
+    position: int
+    begin: int
+    end: int
+    rate: float = 1.0
+    """Seconds of the bag that pass in one second."""
+    paused: bool = True
+    loop: bool = False
+    published: int = 0
+    """Messages so far."""
+    problem: str = ""
+    """Why it cannot play; empty if it can."""
+
+    def text(self) -> str:
+        """The state on one line: `⏸ paused 12.3 / 60.0 s ×1 loop 230 messages`."""
+        if self.problem:
+            return self.problem
+        at, whole = (self.position - self.begin) / 1e9, (self.end - self.begin) / 1e9
+        words = ["⏸ paused " if self.paused else "▶ playing", f"{at:.1f} / {whole:.1f} s", f"×{self.rate:.3g}"]
+        return "  ".join([*words, *(["loop"] if self.loop else []), f"{self.published} messages"])
+
+
+class Playback(Protocol):
+    """A player of one bag, which begins to publish when it is asked to play or to step."""
+
+    @property
+    def state(self) -> PlaybackState:
+        """Where it is."""
+        ...
+
+    def toggle(self) -> str:
+        """Play, or pause; at the end, play from the start. Returns a warning that is to be shown once, or nothing."""
+        ...
+
+    def step(self) -> str:
+        """Publish the next message, and pause. Returns a warning as `toggle` does."""
+        ...
+
+    def seek(self, stamp: int) -> None:
+        """Continue at a time of the bag."""
+        ...
+
+    def change_rate(self, factor: float) -> None:
+        """Play faster or slower."""
+        ...
+
+    def toggle_loop(self) -> None:
+        """Start again at the end, or not."""
+        ...
+
+    def close(self) -> None:
+        """Stop."""
+        ...
