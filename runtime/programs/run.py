@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from bot_console.runtime.children.child_environment import child_environment
+from bot_console.runtime.children.ros_wheels import clear_wheel_environment
 from bot_console.runtime.importer import install
 from bot_console.runtime.rmw.parameter_file import find_with
 from bot_console.runtime.shim_folder import shim_folder
@@ -118,4 +119,5 @@ def _refuse(text: str) -> int:
 
 
 if __name__ == "__main__":
+    clear_wheel_environment()
     sys.exit(main())

@@ -10,7 +10,7 @@ from typing import NoReturn
 from bot_console.tui import __version__
 from bot_console.tui.cli.undecodable import undecodable
 from bot_console.tui.cli.verbs import ros2
-from bot_console.tui.session.embedded.domain import end_program, others_take_part
+from bot_console.tui.session.embedded.domain import begin_program, end_program, others_take_part
 from bot_console.tui.session.embedded.reaching import report_unused_router
 
 Words = list[str]
@@ -156,6 +156,7 @@ def program() -> NoReturn:
 
 
 def _program() -> int:
+    begin_program()
     words = sys.argv[2:] if sys.argv[1:2] == ["ros2"] else sys.argv[1:]
     if words[:1] == ["launch"]:
         from bot_console.tui.session.embedded.own_processes import prefork

@@ -14,7 +14,7 @@ from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.model import Severity
 from bot_console.tui.session import robot_starter
 from bot_console.tui.session.composition import become_host, launcher_here, node_process, serve
-from bot_console.tui.session.embedded.domain import end_program, nodes_there
+from bot_console.tui.session.embedded.domain import begin_program, end_program, nodes_there
 from bot_console.tui.session.embedded.named_launch import with_launch_file
 from bot_console.tui.session.embedded.process_reports import log_process_reports
 from bot_console.tui.session.embedded.workspaces import SIMULATOR_LAUNCH, SYSTEM_LAUNCH
@@ -75,4 +75,5 @@ def _run(options: Options, file: Path) -> int:
 
 
 if __name__ == "__main__":
+    begin_program()
     end_program(main())

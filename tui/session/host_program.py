@@ -40,6 +40,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 if __name__ == "__main__":
-    from bot_console.tui.session.embedded.domain import end_program
+    from bot_console.tui.session.embedded.domain import begin_program, end_program
 
+    begin_program()
     end_program(main())

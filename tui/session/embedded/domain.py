@@ -198,6 +198,13 @@ def domain() -> int:
         return 0
 
 
+def begin_program() -> None:
+    """Prepare the environment of the process, before it starts others."""
+    from bot_console.runtime.children.ros_wheels import clear_wheel_environment
+
+    clear_wheel_environment()
+
+
 def end_program(code: int) -> NoReturn:
     """End the process; at once if it has joined a domain or a router.
 
