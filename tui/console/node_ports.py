@@ -89,7 +89,8 @@ class NodePorts:
     def snapshot(self) -> ConsoleSnapshot:
         """What is known now; the same object when nothing changed, and unchanged parts are the same objects."""
         old = self._snapshot
-        world = self.drive.world
+        world, launch = self.drive.world, self._launch_info()
+        self.logs.discount_errors_of_ending(launch)
         new = ConsoleSnapshot(
             seq=old.seq,
             graph=self.graph.info,
@@ -98,7 +99,7 @@ class NodePorts:
             journal=self.parameters.journal,
             world=world,
             drive=self.drive.info(world),
-            launch=self._launch_info(),
+            launch=launch,
             link=self._link(),
             recording=self.bags.info,
             profiles=self.profiles.all,

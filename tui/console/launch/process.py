@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import time
 from concurrent.futures import Future
 from dataclasses import replace
 from enum import Enum
@@ -97,7 +98,8 @@ class LaunchedProcess:
         """Note that a person, or the end of its launch, has requested its end."""
         if self.info.state not in ENDED:
             self._reported = True
-            self.info = replace(self.info, state=ProcessState.STOPPING)
+            requested = self.info.end_requested if self.info.state is ProcessState.STOPPING else time.time_ns()
+            self.info = replace(self.info, state=ProcessState.STOPPING, end_requested=requested)
 
     def started(self, label: str, pid: int, nodes: tuple[str, ...] = ()) -> Order:
         """Note that it runs, unrequested or on request; launch may change its label each time."""
@@ -105,7 +107,16 @@ class LaunchedProcess:
         self._ran, self._stands = True, ""
         state = ProcessState.STOPPING if self._reported else ProcessState.RUNNING
         nodes = nodes or self.info.nodes
-        self.info = replace(self.info, label=label, state=state, pid=pid, nodes=nodes, restarts=restarts, problem="")
+        self.info = replace(
+            self.info,
+            label=label,
+            state=state,
+            pid=pid,
+            nodes=nodes,
+            restarts=restarts,
+            problem="",
+            started=time.time_ns(),
+        )
         if self._reported:
             return Order.SHUT_DOWN
         self._settle(STARTS, Answer(True, f"{self.info.label} runs, pid {pid}"))
@@ -119,7 +130,7 @@ class LaunchedProcess:
         """Note that it has ended; `respawns`: launch will start it again, `fault`: the exception it printed."""
         self._fault = fault
         self._alive = False
-        self.info = replace(self.info, exit_code=code, pid=None, cpu=None, memory=None)
+        self.info = replace(self.info, exit_code=code, pid=None, cpu=None, memory=None, ended=time.time_ns())
         if not respawns:
             return self._end()
         if any(verb == "stop" for verb, _ in self._waiting):

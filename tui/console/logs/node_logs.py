@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.gate import Gate, refuse
+from bot_console.tui.console.logs.ending import ends_on_purpose
 from bot_console.tui.console.logs.port import LogFindings, LogSource, LogView
-from bot_console.tui.console.model import LogFilter, LoggerLevel, LogRecord, LogState, Severity
+from bot_console.tui.console.model import LaunchInfo, LogFilter, LoggerLevel, LogRecord, LogState, Severity
 
 if TYPE_CHECKING:
     from bot_console.tui.console.launch.process_output import Add
@@ -83,6 +84,11 @@ class NodeLogs:
     def state(self) -> LogState:
         """Which records are kept."""
         return self._store.state if self._store else NO_RECORDS
+
+    def discount_errors_of_ending(self, launch: LaunchInfo) -> None:
+        """Do not count errors that processes logged or printed while they were being ended on purpose."""
+        if self._store is not None and any(each.end_requested for each in launch.processes):
+            self._store.discount_errors(partial(ends_on_purpose, launch.processes))
 
     def record(self, seq: int) -> LogRecord | None:
         """The record with that number."""

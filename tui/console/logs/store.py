@@ -8,6 +8,9 @@ each full collection stops every thread for 0.2 s). Readers take no lock: a segm
 from __future__ import annotations
 
 import threading
+import time
+from collections import deque
+from collections.abc import Callable
 from types import MappingProxyType
 from typing import Generic, TypeAlias, TypeVar
 
@@ -20,6 +23,8 @@ Site: TypeAlias = "tuple[str, str, int]"
 SEGMENT = 16_384
 CAPACITY = 63 * SEGMENT
 """Records that are kept: a million, in addition to the segment being filled."""
+MAX_RECENT_ERRORS = 1000
+"""Errors whose cause can still be learned."""
 
 
 class LogSegment:
@@ -91,6 +96,8 @@ class LogStore:
         self.sites: Table[Site] = Table()
         self._lock = threading.Lock()
         self._counts = dict.fromkeys(Severity, 0)
+        self._recent_errors: deque[tuple[int, Severity, str]] = deque(maxlen=MAX_RECENT_ERRORS)
+        """Counted errors: when they arrived (ns since the epoch), and of which logger they are."""
         self._dropped = 0
         self._state = LogState()
 
@@ -113,7 +120,22 @@ class LogStore:
             if segment.count == segment.size:
                 segment = self._roll()
             self._counts[level] += 1
+            if level >= Severity.ERROR:
+                self._recent_errors.append((time.time_ns(), level, node))
             segment.append(stamp, level, self.names.id(node), self.sites.id(site), raw)
+
+    def discount_errors(self, expected: Callable[[int, str], bool]) -> None:
+        """Count recent errors no longer that were to be expected, given when they arrived (ns) and of which logger."""
+        with self._lock:
+            kept = [each for each in self._recent_errors if not expected(each[0], each[2])]
+            if len(kept) == len(self._recent_errors):
+                return
+            for _, level, _ in self._recent_errors:
+                self._counts[level] -= 1
+            for _, level, _ in kept:
+                self._counts[level] += 1
+            self._recent_errors = deque(kept, MAX_RECENT_ERRORS)
+            self._state = LogState(-1)  # made anew when it is next asked for
 
     def _roll(self) -> LogSegment:
         kept = self.segments
@@ -145,6 +167,7 @@ class LogStore:
             last = self.segments[-1]
             self.segments = (LogSegment(last.first + last.count, self._size),)
             self._counts = dict.fromkeys(Severity, 0)
+            self._recent_errors.clear()
             self._dropped = 0
 
 

@@ -38,6 +38,12 @@ class ProcessInfo:
     """Its CPU usage; 1.0 is one whole CPU."""
     memory: int | None = None
     """Its resident memory in MB (10^6 bytes); None if it has none of its own, like a thread."""
+    started: int = 0
+    """When it last started, in ns since the epoch; 0 if it never has. Likewise the next two."""
+    end_requested: int = 0
+    """When a person, or the end of its launch, last requested its end."""
+    ended: int = 0
+    """When it last ended."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -53,7 +53,10 @@ class LogFilter:
 
 @dataclass(frozen=True, slots=True)
 class LogState:
-    """The log as a whole: records `first` to `end` - 1 are kept, `dropped` are gone, `counts` are per severity."""
+    """The log as a whole: records `first` to `end` - 1 are kept, `dropped` are gone, `counts` are per severity.
+
+    Errors of processes that were being ended on purpose are not counted.
+    """
 
     first: int = 0
     end: int = 0
