@@ -99,3 +99,12 @@ def test_all_allowed_textual_versions_are_known_to_the_terminal_code():
     gate = re.search(r'startswith\("(\d+)\.(\d+)\."\)', (ROOT / "tui" / "terminal" / "output.py").read_text())
     major, minor = map(int, gate.groups())
     assert re.fullmatch(rf"textual>={major}\.{minor}(\.\d+)?,<{major}\.{minor + 1}", bounds)
+
+
+@pytest.mark.parametrize("distro", ["jazzy", "kilted"])
+def test_wheels_of_ros_have_the_versions_that_are_tested(distro):
+    tested = (ROOT / ".ci" / "ros" / f"{distro}.txt").read_text(encoding="utf-8").splitlines()
+    for line in project()["optional-dependencies"][f"ros-{distro}"]:
+        requirement, _, marker = line.partition("; ")
+        assert re.sub(r"\[\w+\]", "", requirement) in tested
+        assert marker == "sys_platform == 'linux' and platform_machine == 'x86_64'"

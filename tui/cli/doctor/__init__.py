@@ -90,7 +90,7 @@ def _ros(report: Callable[[Sequence[DoctorFinding]], None]) -> None:
     ros = find_machine_ros()
     if ros is None or not ros.usable:
         hint = NO_ROS if ros is None else how_to_install(ros)
-        report([DoctorFinding(Level.FAIL, "ros", "this Python cannot import an rclpy", hint)])
+        report([DoctorFinding(Level.FAIL, "ros", "this Python cannot use an rclpy", hint)])
         return
     try:
         from bot_console.tui.cli.doctor.nodes import node_findings

@@ -46,6 +46,8 @@ def ros_finding(ros: MachineRos | None, environment: Mapping[str, str]) -> Docto
             hint = "source its setup file again, and check whether `python3 -c 'import rclpy'` works"
             return DoctorFinding(Level.WARN, "ros", "variables of a ROS 2 are set, but its rclpy is not found", hint)
         return DoctorFinding(Level.OK, "ros", text)
+    if ros.is_mixed:
+        return DoctorFinding(Level.WARN, "ros", f"{ros} cannot be used", how_to_install(ros))
     if not ros.usable:
         return DoctorFinding(Level.WARN, "ros", f"{ros} is for Python {ros.other_python}", how_to_install(ros))
     return DoctorFinding(Level.OK, "ros", f"{ros}{f', {rmw}' if rmw else ''}: `bot-console attach --ros`")

@@ -10,7 +10,8 @@ from bot_console.tui.session.machine.machine_ros import MachineRos, find_machine
 
 NO_ROS = (
     "this Python finds no rclpy of a ROS 2: source it first (`source /opt/ros/jazzy/setup.bash`), and "
-    "install bot-console for the same Python (docs/your-robot.md)"
+    "install bot-console for the same Python, or `pip install 'bot-console[ros-jazzy]'` on Linux on x86_64 "
+    "(docs/your-robot.md)"
 )
 
 

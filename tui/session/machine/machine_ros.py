@@ -14,23 +14,32 @@ RUNTIME = Path(__file__).resolve().parents[3] / "runtime"
 OLDEST = (3, 10)
 """The oldest Python that bot-console runs on."""
 _EXTENSION = re.compile(r"_rclpy_pybind11\.(?:cpython-)?(\d)(\d+)")
+_WHEEL = re.compile(r"ros_([a-z]+)_rclpy-")
 _FOLDER = re.compile(r"python(\d)\.(\d+)$")
 
 
 @dataclass(frozen=True)
 class MachineRos:
-    """An `rclpy` of the machine: its folder, and the Python it was built for if that is not the running one."""
+    """An `rclpy` of the machine: its folder, the Python it was built for if that is not the running one, and the
+    distributions whose wheels of PyPI are installed beside it.
+    """
 
     folder: Path
     other_python: str = ""
+    wheels: tuple[str, ...] = ()
 
     @property
     def usable(self) -> bool:
         """Whether this program can import it."""
-        return not self.other_python
+        return not self.other_python and not self.is_mixed
+
+    @property
+    def is_mixed(self) -> bool:
+        """Whether wheels of several distributions have overwritten each other's files."""
+        return len(self.wheels) > 1
 
     def __str__(self) -> str:
-        distro = os.environ.get("ROS_DISTRO", "")
+        distro = os.environ.get("ROS_DISTRO", "") or " and ".join(self.wheels)
         return f"ROS 2 {distro}".rstrip() + f" ({self.folder})"
 
 
@@ -47,7 +56,13 @@ def find_machine_ros(path: Iterable[str] | None = None) -> MachineRos | None:
 
 
 def how_to_install(ros: MachineRos) -> str:
-    """One line of advice when the machine's ROS 2 is for another Python."""
+    """One line of advice when the machine's ROS 2 is for another Python, or a mixture."""
+    if ros.is_mixed:
+        one = ros.wheels[-1]
+        return (
+            f"the wheels of ROS 2 {' and '.join(ros.wheels)} are in one environment, where they overwrite each other: "
+            f"make one for each (`python3 -m venv ~/{one} && ~/{one}/bin/pip install 'bot-console[ros-{one}]'`)"
+        )
     whose = f"{ros} is sourced; it is for Python {ros.other_python}, while this bot-console runs on {_running()}"
     if _is_too_old(ros.other_python):
         return (
@@ -75,7 +90,7 @@ def _importable(path: Iterable[str] | None) -> MachineRos | None:
     origin = Path(spec.origin)
     if origin.name != "__init__.py" or RUNTIME in origin.resolve().parents:
         return None  # Ours.
-    return MachineRos(origin.parent, _other_python(origin.parent))
+    return MachineRos(origin.parent, _other_python(origin.parent), _wheels(origin.parent))
 
 
 def _has_shims(folder: str) -> bool:
@@ -92,6 +107,12 @@ def _other_python(folder: Path) -> str:
         return ""
     match = _EXTENSION.match(names[0])
     return f"{match[1]}.{match[2]}" if match else "another version"
+
+
+def _wheels(folder: Path) -> tuple[str, ...]:
+    """The distributions of which PyPI's package of `rclpy` is installed: `ros-jazzy-rclpy`, `ros-kilted-rclpy`."""
+    names = (_WHEEL.match(each.name) for each in folder.parent.glob("ros_*_rclpy-*.dist-info"))
+    return tuple(sorted({name[1] for name in names if name}))
 
 
 def _of_prefixes() -> Iterator[Path]:

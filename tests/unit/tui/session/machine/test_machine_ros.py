@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+from bot_console.tui.cli.doctor.finding import Level
+from bot_console.tui.cli.doctor.machine import ros_finding
 from bot_console.tui.session.machine.choice import NO_ROS, choose
 from bot_console.tui.session.machine.machine_ros import RUNTIME, MachineRos, find_machine_ros, how_to_install
 
@@ -54,6 +56,23 @@ def test_rclpy_for_another_python_is_reported_with_a_hint(
     text = how_to_install(found)
     assert "\n" not in text
     assert all(part in text for part in (f"runs on {HERE}", *parts))
+
+
+def test_wheels_of_two_distributions_in_one_environment_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("ROS_DISTRO")
+    make_rclpy(tmp_path)
+    (tmp_path / "ros_jazzy_rclpy-7.1.6.dist-info").mkdir()
+    one = find_machine_ros([str(tmp_path)])
+    assert one and one.usable and str(one).startswith("ROS 2 jazzy (")
+    assert choose(ros=True, embedded=False, system_there=False, find=lambda: one).ros is one
+    (tmp_path / "ros_kilted_rclpy-9.1.2.dist-info").mkdir()
+    both = find_machine_ros([str(tmp_path)])
+    refused = choose(ros=True, embedded=False, system_there=False, find=lambda: both)
+    assert refused.code == 1 and refused.ros is None
+    assert "\n" not in refused.text and "the wheels of ROS 2 jazzy and kilted are in one environment" in refused.text
+    assert ros_finding(both, {}).level is Level.WARN
 
 
 def test_sourced_ros_counts_though_this_python_does_not_see_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
