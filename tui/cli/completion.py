@@ -163,7 +163,7 @@ _OURS: dict[str, Sequence[str]] = {
     "check": ("--course", "--json", "--junit"),
     "config": (),
     "daemon": ("start", "status", "stop"),
-    "doctor": ("--capture", "--connect", "--json", "--ros", "--seconds"),
+    "doctor": ("--capture", "--connect", "--json", "--range", "--ros", "--seconds"),
     "down": (),
     "export": (),
     "graph": ("--check", "--findings", "--rates"),

@@ -83,6 +83,7 @@ def robot(
     """A robot of that ROS 2, in its own process."""
     for name in ("PYTHONPATH", "ROS_DISTRO", "RMW_IMPLEMENTATION"):
         monkeypatch.setenv(name, sourced[name])
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     process = subprocess.Popen([sys.executable, "-c", program])
     yield process
     process.kill()
@@ -100,6 +101,7 @@ def test_attached_console_shows_robot_launches_beside_it_and_leaves_it_alone(
     terminal.type("2")  # A smaller terminal shows one pane at a time.
     terminal.read_until(lambda: b"rover is up" in terminal.output, "its line in the log")
     assert b"ROS 2 standin" in terminal.output
+    assert b"range LOCALHOST, this machine only" in terminal.output
     terminal.type("8o")
     terminal.read_until(lambda: b"Open a launch file" in terminal.output, "the question for a file")
     terminal.type(f"{file}\r")

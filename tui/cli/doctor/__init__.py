@@ -18,11 +18,13 @@ from bot_console.tui.cli.doctor.machine import machine_findings
 from bot_console.tui.cli.doctor.terminal import terminal_findings
 from bot_console.tui.session.machine.choice import NO_ROS
 from bot_console.tui.session.machine.machine_ros import find_machine_ros, how_to_install
+from bot_console.tui.session.machine.network_use import RANGES, discovery_range, network_use, set_discovery_range
 
 EPILOG = """\
 examples:
   bot-console doctor                               this terminal, this machine, and what runs on it
   bot-console doctor --ros                         the ROS 2 that is sourced
+  bot-console doctor --ros --range SUBNET          the same, searching the network whatever the environment says
   bot-console doctor --connect tcp/robot:7447      a robot: link, clocks, types, QoS, its time-out for commands
   bot-console doctor --connect tcp/robot:7447 --capture robot.json
   bot-console doctor --json                        for scripts
@@ -39,6 +41,8 @@ def run(words: Sequence[str]) -> int:
     way = network_way(parser, given)
     if given.ros and way is not None:
         parser.error("--ros and --connect exclude each other")
+    if given.range and not given.ros:
+        parser.error("--range goes with --ros: it is the discovery range of ROS 2")
     if given.capture and given.ros:
         parser.error("--capture goes with --connect or a system of this program: it records what Zenoh carries")
     findings: list[DoctorFinding] = []
@@ -49,6 +53,8 @@ def run(words: Sequence[str]) -> int:
             for each in found:
                 print(each.line(), flush=True)
 
+    if given.range:
+        report([_change_range(given.range)])
     report(terminal_findings(os.environ))
     report(machine_findings(os.environ))
     if given.ros:
@@ -75,6 +81,7 @@ def _parser() -> argparse.ArgumentParser:
     add_network_options(parser)
     add = parser.add_argument
     add("--ros", action="store_true", help="check the ROS 2 of this machine, through its own rclpy")
+    add("--range", choices=RANGES, help="with --ros: search in this discovery range instead of the environment's")
     add("--json", action="store_true", help="print the findings as JSON, for scripts")
     add("--seconds", type=float, default=2.0, metavar="S", help="seconds to listen to messages")
     add(
@@ -86,16 +93,30 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _change_range(wanted: str) -> DoctorFinding:
+    """Search in another range than that of the environment; the finding says so before the search begins."""
+    before = discovery_range(os.environ)
+    set_discovery_range(wanted)
+    instead = f" instead of {before}" if before != wanted else ""
+    return DoctorFinding(Level.NOTE, "range", f"searching with {wanted}{instead}: {network_use(os.environ)}")
+
+
 def _ros(report: Callable[[Sequence[DoctorFinding]], None]) -> None:
     ros = find_machine_ros()
     if ros is None or not ros.usable:
         hint = NO_ROS if ros is None else how_to_install(ros)
         report([DoctorFinding(Level.FAIL, "ros", "this Python cannot use an rclpy", hint)])
         return
+    report([DoctorFinding(Level.OK, "network", network_use(os.environ))])
     try:
         from bot_console.tui.cli.doctor.nodes import node_findings
 
-        report(node_findings())
+        hint = (
+            ""
+            if discovery_range(os.environ) == "SUBNET"
+            else "search the network: bot-console doctor --ros --range SUBNET"
+        )
+        report(node_findings(alone_hint=hint))
     # A library, or the middleware that RMW_IMPLEMENTATION names, is missing.
     except (ImportError, RuntimeError) as error:
         hint = "check whether `ros2 node list` works in this shell, and source its setup file again"

@@ -26,15 +26,21 @@ HOW = (
 )
 
 
-def node_findings(can_learn: Callable[[str], bool] = lambda type_name: False) -> list[DoctorFinding]:
-    """Run the checks from a node on this process's middleware."""
+def node_findings(
+    can_learn: Callable[[str], bool] = lambda type_name: False, alone_hint: str | None = None
+) -> list[DoctorFinding]:
+    """Run the checks from a node on this process's middleware.
+
+    With `alone_hint`, which may be empty, the nodes are counted, and the hint is given if there are no others.
+    """
     import rclpy
 
     rclpy.init(args=[])
     node = rclpy.create_node("_bot_console_doctor", enable_rosout=False, start_parameter_services=False)
     try:
         _spin(node, SETTLE)
-        return [*pair_findings(node), *type_findings(node, can_learn), base_finding(node)]
+        counted = [] if alone_hint is None else [others_finding(node, alone_hint)]
+        return [*counted, *pair_findings(node), *type_findings(node, can_learn), base_finding(node)]
     finally:
         node.destroy_node()
         rclpy.try_shutdown()
@@ -46,6 +52,14 @@ def _spin(node: Node, seconds: float, until: Callable[[], bool] = lambda: False)
     end = time.monotonic() + seconds
     while time.monotonic() < end and not until():
         rclpy.spin_once(node, timeout_sec=0.05)
+
+
+def others_finding(node: Node, alone_hint: str) -> DoctorFinding:
+    """How many other nodes were discovered."""
+    count = sum(name != node.get_name() for name in node.get_node_names())
+    if not count:
+        return DoctorFinding(Level.WARN if alone_hint else Level.NOTE, "graph", "no other node was found", alone_hint)
+    return DoctorFinding(Level.OK, "graph", f"{count} other node{'' if count == 1 else 's'}")
 
 
 def pair_findings(node: Node) -> list[DoctorFinding]:

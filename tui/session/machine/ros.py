@@ -11,6 +11,7 @@ from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.session.attached import AttachedSession
 from bot_console.tui.session.machine.launchers import launcher_of_machine
+from bot_console.tui.session.machine.network_use import network_use
 from bot_console.tui.session.machine.ros2_command_line import MachineCommandLine
 from bot_console.tui.settings.settings import read_settings
 
@@ -36,7 +37,10 @@ def run_ros(options: AttachOptions, described: str) -> int:
         stop_means=read_settings().stop_means,
     )
     launchers = launcher_of_machine(console.record, console.printed)
-    message = [(Severity.INFO, OUTPUT.format(described, os.environ.get("RMW_IMPLEMENTATION", "as installed")))]
+    rmw = os.environ.get("RMW_IMPLEMENTATION", "as installed")
+    # Where it searches has a line of its own, which fits a small terminal: an empty console is explained by it.
+    lines = (f"Searching {network_use(os.environ)}", OUTPUT.format(described, rmw))
+    message = [(Severity.INFO, line) for line in lines]
     session = AttachedSession(
         console, MachineCommandLine(), options.appearance, launcher=launchers, message=message, on_close=launchers.close
     )

@@ -15,6 +15,7 @@ from bot_console.tui.cli.doctor.system import link_finding
 from bot_console.tui.cli.doctor.terminal import characters_finding, colours_finding, size_finding
 from bot_console.tui.cli.doctor.terminal import terminal_link_finding as terminal_link
 from bot_console.tui.cli.shell_python import ShellPython
+from fakes.ros_installation import make_standin
 from geometry_msgs.msg import Twist
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -158,6 +159,24 @@ def test_ros_that_does_not_start_is_reported(tmp_path, monkeypatch) -> None:
     done = run("--ros")
     assert done.returncode == 1 and not done.stderr
     assert "does not start: librcl.so" in done.stdout and "ros2 node list" in done.stdout
+
+
+def test_doctor_says_first_that_it_searches_another_range_and_without_others_which_one_to_try(
+    tmp_path_factory, monkeypatch
+) -> None:
+    for name, value in make_standin(tmp_path_factory.mktemp("opt")).items():
+        monkeypatch.setenv(name, value)
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")
+    done = run("--ros")
+    assert "· network" not in done.stdout and "range OFF, which finds no other node" in done.stdout
+    assert "no other node was found\n    → search the network: bot-console doctor --ros --range SUBNET" in done.stdout
+    first, *rest = run("--ros", "--range", "LOCALHOST").stdout.splitlines()
+    assert (
+        first
+        == "· range      searching with LOCALHOST instead of OFF: domain 0, range LOCALHOST, this machine only (lo)"
+    )
+    assert any(each.endswith("domain 0, range LOCALHOST, this machine only (lo)") for each in rest)
+    assert run("--range", "SUBNET").returncode == 2
 
 
 def test_findings_are_printed_as_json() -> None:

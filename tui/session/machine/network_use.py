@@ -1,0 +1,76 @@
+"""Where the machine's ROS 2 looks for other nodes: domain, discovery range and network interfaces, in one line."""
+
+from __future__ import annotations
+
+import os
+import socket
+import struct
+import sys
+from collections.abc import Callable, Mapping, Sequence
+
+RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
+LOCALHOST_VARIABLE = "ROS_LOCALHOST_ONLY"
+RANGES = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
+"""Those of rcl; the first one is its default."""
+CONFIGURATION_VARIABLES = (
+    "FASTDDS_DEFAULT_PROFILES_FILE",
+    "FASTRTPS_DEFAULT_PROFILES_FILE",
+    "CYCLONEDDS_URI",
+    "ZENOH_SESSION_CONFIG_URI",
+)
+"""They name files with which a middleware may choose interfaces of its own."""
+_ADDRESS_REQUEST = 0x8915
+"""`SIOCGIFADDR` of Linux: the IPv4 address of an interface."""
+
+
+def network_use(environ: Mapping[str, str], addresses: Callable[[], Sequence[str]] | None = None) -> str:
+    """Return such as `domain 0, range SUBNET, interface eth0 (192.168.1.5)`."""
+    domain, reach = environ.get("ROS_DOMAIN_ID", "") or "0", discovery_range(environ)
+    return f"domain {domain}, range {reach}, {_interfaces(reach, environ, addresses or network_addresses)}"
+
+
+def discovery_range(environ: Mapping[str, str]) -> str:
+    """The range that rcl takes from the environment: an unknown one counts as LOCALHOST, as its warning says."""
+    if environ.get(LOCALHOST_VARIABLE) == "1":  # Deprecated; it still has precedence.
+        return "LOCALHOST"
+    named = environ.get(RANGE_VARIABLE, "") or RANGES[0]
+    return named if named in RANGES else "LOCALHOST"
+
+
+def set_discovery_range(named: str) -> None:
+    """Let contexts that are initialised from now on search in a range, whatever the environment has said."""
+    os.environ[RANGE_VARIABLE] = named
+    os.environ.pop(LOCALHOST_VARIABLE, None)
+
+
+def _interfaces(reach: str, environ: Mapping[str, str], addresses: Callable[[], Sequence[str]]) -> str:
+    if reach == "OFF":
+        return "which finds no other node"
+    if reach == "LOCALHOST":
+        return "this machine only (lo)"
+    for variable in CONFIGURATION_VARIABLES:
+        if environ.get(variable):
+            return f"interfaces as in the file of {variable}"
+    found = addresses()
+    if not found:
+        return "interface lo alone: no other one is up"
+    return f"interface{'s' if len(found) > 1 else ''} {', '.join(found)}"
+
+
+def network_addresses() -> list[str]:
+    """Each interface that has an IPv4 address, with that address; without the loopback ones."""
+    if sys.platform != "linux":
+        return ["of all networks"]
+    import fcntl
+
+    found: list[str] = []
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asked:
+        for _, name in socket.if_nameindex():
+            try:
+                answer = fcntl.ioctl(asked, _ADDRESS_REQUEST, struct.pack("256s", name.encode()[:15]))
+            except OSError:  # It has none.
+                continue
+            address = socket.inet_ntoa(answer[20:24])
+            if not address.startswith("127."):
+                found.append(f"{name} ({address})")
+    return found
