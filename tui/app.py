@@ -127,7 +127,7 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
             await self._deal(event)
         elif isinstance(event, events.Paste) and len(event.text) > MAX_PASTE_CHARACTERS:
             self.notify(
-                f"{len(event.text):,} letters were pasted, and none of them taken: {MAX_PASTE_CHARACTERS:,} at most",
+                f"{len(event.text):,} characters were pasted and ignored: {MAX_PASTE_CHARACTERS:,} at most",
                 severity="error",
             )
         elif isinstance(event, events.Key) and keymap.quits_at_once(event.key):

@@ -64,7 +64,7 @@ class CvBridge:
         cv2 = open_cv("Compressed images")
         image = cv2.imdecode(np.frombuffer(bytes(cmprs_img_msg.data), dtype=np.uint8), cv2.IMREAD_UNCHANGED)
         if image is None:
-            raise CvBridgeError(f"The data is no image that OpenCV can read (format '{cmprs_img_msg.format}')")
+            raise CvBridgeError(f"The data is not an image that OpenCV can read (format '{cmprs_img_msg.format}')")
         if desired_encoding in (None, "passthrough"):
             return image
         return _converted(image, "bgr8" if image.ndim == 3 else "mono8", desired_encoding)

@@ -84,7 +84,7 @@ def _parse_outside(word: str, parsed: Arguments) -> None:
 def meant(word: str) -> str:
     """Suggest the ROS argument that a mistyped one may mean, as a sentence; empty if none is similar."""
     near = did_you_mean(word, [*_VALUED, *_SWITCHES])
-    return f"{word} is no argument of ROS{near}" if near else ""
+    return f"{word} is not a ROS argument{near}" if near else ""
 
 
 def _parse_flag(word: str, rest: Iterable[str], parsed: Arguments) -> None:

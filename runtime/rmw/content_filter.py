@@ -271,7 +271,7 @@ def _compared(name: str, read: Read, is_text: bool, sign: str, value: Any) -> Ac
 
 def _matching(name: str, read: Read, is_text: bool, word: str, value: Any) -> Accepts:
     if not is_text or not isinstance(value, str):
-        raise ContentFilterError(f"{word} compares texts; '{name}' {'needs one' if is_text else 'is none'}")
+        raise ContentFilterError(f"{word} compares texts; '{name}' {'needs one' if is_text else 'is not a text'}")
     if word == "LIKE":
         value = re.sub(r"\\?[%*]", ".*", re.sub(r"\\?[_?]", ".", re.escape(value)))
     try:

@@ -88,7 +88,7 @@ def _row(line: str, package: str) -> Field | Constant:
             raise ValueError("a constant has a primitive type and a NAME in capitals")
         return Constant(name, _literal(rest[1:].strip(), kind), match["type"])
     if not FIELD.match(name):
-        raise ValueError(f"'{name}' is no field name (lower case letters, digits, single underscores)")
+        raise ValueError(f"'{name}' is not a field name (lower case letters, digits, single underscores)")
     return Field(name, kind, _default(rest, kind) if rest else None)
 
 

@@ -114,7 +114,7 @@ def _structures(name: str, text: str) -> Iterator[tuple[str, Sequence[Row]]]:
     """
     package, kind, short = name.split("/")
     if kind not in PARTS:
-        raise DefinitionError(f"{name} is no interface")
+        raise DefinitionError(f"{name} is not an interface")
     interface = parse(text, package, kind, short)
     for part in (*interface.parts, *companions(interface)):
         yield f"{package}/{kind}/{part.name}", _rows(part, kind)

@@ -20,7 +20,7 @@ def axes_of(axes: str) -> tuple[tuple[int, int, int], bool]:
         axes = _NAMES[tuple(axes)]
     order = tuple("xyz".find(each) for each in axes[1:])
     if axes[:1] not in ("s", "r") or len(order) != 3 or -1 in order or order[0] == order[1] or order[1] == order[2]:
-        raise ValueError(f"'{axes}' is no order of axes: s or r, and three of x, y, z, such as 'sxyz'")
+        raise ValueError(f"'{axes}' is not an order of axes: s or r, and three of x, y, z, such as 'sxyz'")
     return (order[0], order[1], order[2]), axes[0] == "r"
 
 

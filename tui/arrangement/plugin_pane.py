@@ -34,7 +34,7 @@ class PluginEntry(PaneEntry):
         """The class of the pane, or one that frames the widget; raises `TypeError` where it is neither."""
         found = self.find()
         if not (isinstance(found, type) and issubclass(found, Widget)):
-            raise TypeError(f"{self.source}: {found!r} is no class of a Textual widget")
+            raise TypeError(f"{self.source}: {found!r} is not a Textual widget class")
         if issubclass(found, Pane):
             return found
         facts = {

@@ -96,7 +96,7 @@ def _replaceable(path: Path, target: Path) -> os.stat_result | None:
     if stat.S_ISDIR(old.st_mode):
         raise NotSaved(f"{path} is a folder; add a file name")
     if not stat.S_ISREG(old.st_mode):
-        raise NotSaved(f"{path} is no regular file; give another name")
+        raise NotSaved(f"{path} is not a regular file; give another name")
     if not os.access(target, os.W_OK) or not old.st_mode & 0o222:
         raise NotSaved(f"{path} is write-protected; give another name, or make it writable")
     return old

@@ -17,7 +17,7 @@ def read_store(path: Path, maximum: int, *, end: bool = False) -> bytes:
     with os.fdopen(handle, "rb") as file:
         status = os.fstat(handle)
         if not (stat.S_ISREG(status.st_mode) or stat.S_ISCHR(status.st_mode)):  # some lead it to /dev/null
-            raise OSError(errno.EINVAL, "it is no regular file", str(path))
+            raise OSError(errno.EINVAL, "it is not a regular file", str(path))
         if end and status.st_size > maximum:
             file.seek(-maximum, os.SEEK_END)
         content = file.read(maximum + 1)

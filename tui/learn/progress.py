@@ -50,6 +50,6 @@ def read_progress(workspace: Path, course: str) -> Progress:
     except FileNotFoundError:
         pass
     except (OSError, ValueError, TypeError, KeyError, AttributeError) as error:
-        progress.problem = f"{path} cannot be read ({error}): the course begins anew beside it"
+        progress.problem = f"{path} cannot be read ({error}): the course starts again beside it"
         progress.path = path.with_name(f"{course}-2.json")
     return progress

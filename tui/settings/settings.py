@@ -157,7 +157,7 @@ def _number(value: object, maximum: float, default: float, name: str, wrong: lis
 
 
 def _one_of(name: str, known: Sequence[str]) -> str:
-    return "" if name in known else f"'{name[:40]}' is none of {', '.join(known)}"
+    return "" if name in known else f"'{name[:40]}' is not one of {', '.join(known)}"
 
 
 def _keys(data: object, path: str, wrong: list[str]) -> Mapping[str, str]:

@@ -65,7 +65,7 @@ class ForEach(Action):
             if values is None:
                 continue
             if not isinstance(values, dict):
-                raise SyntaxError(f"Unable to parse iteration values: {text!r} is no YAML map")
+                raise SyntaxError(f"Unable to parse iteration values: {text!r} is not a YAML map")
             found += self._function(**values) or ()
         return found
 

@@ -30,7 +30,7 @@ class Format(NamedTuple):
         if text in names:
             raise ValueError("Cannot set a custom format style for a format alias")
         if style not in ("{", "%", "$"):
-            raise ValueError(f"'{style}' is no style of a format, i.e. one of {{ % $")
+            raise ValueError(f"'{style}' is not a format style, i.e. one of {{ % $")
         return cls(text, style)
 
     @classmethod

@@ -66,7 +66,7 @@ def test_background_robot_is_reached_through_router_with_certificate_only(
 @pytest.mark.parametrize(
     ("words", "code", "reported"),
     [
-        (["--listen", "robot"], 2, "is no endpoint"),
+        (["--listen", "robot"], 2, "is not an endpoint"),
         (["--listen", "tls/127.0.0.1:7447"], 2, "needs --tls-certificate and --tls-key"),
         (["--listen", "tcp/192.0.2.1:7447"], 1, "whoever reaches tcp/192.0.2.1:7447 can drive this robot"),
     ],

@@ -179,7 +179,7 @@ async def until(socket: Any, wanted: bytes) -> bytes:
         (["--headless"], 2, "--headless has no screen"),
         (["nowhere"], 2, "there is no profile and no command 'nowhere'"),
         (["--host", "0.0.0.0"], 2, "means every network"),
-        (["--host", "robot"], 2, "'robot' is no address"),
+        (["--host", "robot"], 2, "'robot' is not an address"),
         (["--sessions", "0"], 2, "--sessions: 1 to 100"),
     ],
 )

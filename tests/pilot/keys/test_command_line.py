@@ -61,7 +61,7 @@ def test_paste_is_inserted_or_refused_as_a_whole() -> None:
             session.app.post_message(Paste("x" * characters))
         await session.press("space", "y")
         assert field(session) == "x" * MAX_PASTE_CHARACTERS + " y"
-        assert "20,001 letters were pasted, and none of them taken: 20,000 at most" in reported(session)
+        assert "20,001 characters were pasted and ignored: 20,000 at most" in reported(session)
         await session.press("escape", "exclamation_mark")
         assert session.console.asked[-1] == ("all_stop", True)
 

@@ -52,7 +52,7 @@ def test_invalid_profile_name_is_rejected() -> None:
         await session.press("7", "S")
         await session.type("../hall")
         await session.press("enter")
-        assert "is no name for a profile" in session.text() and "what ../hall is for" not in session.text()
+        assert "is not a valid profile name" in session.text() and "what ../hall is for" not in session.text()
         await session.press("escape", "S")
         await session.type(" ")
         await session.press("enter")

@@ -75,7 +75,7 @@ def test_invalid_definition_is_reported_with_its_line(folder: Path) -> None:
     module = importlib.import_module("finder_msgs.msg")
     with pytest.raises(ImportError) as caught:
         _ = module.Bad
-    assert str(caught.value).startswith(f"{folder}/finder_msgs/msg/Bad.msg:2: 'badName' is no field name")
+    assert str(caught.value).startswith(f"{folder}/finder_msgs/msg/Bad.msg:2: 'badName' is not a field name")
 
 
 def test_workspace_package_takes_precedence_over_the_tutorials(folder: Path) -> None:

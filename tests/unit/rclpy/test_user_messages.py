@@ -29,7 +29,7 @@ def read(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> boo
         (("-p", "speed=2.0"), "write -p speed:=2.0, with a colon"),
         (("-p", "speed:=", "2.0"), "the value follows without a blank: -p speed:=VALUE"),
         (("--params-file", "no/such.yaml"), f"{Path.cwd() / 'no' / 'such.yaml'}: No such file or directory"),
-        (("--param-file", "x.yaml"), "--param-file is no argument of ROS; did you mean --params-file?"),
+        (("--param-file", "x.yaml"), "--param-file is not a ROS argument; did you mean --params-file?"),
         (("-p", "speed"), ""),
         (("--zzzz",), ""),
     ],

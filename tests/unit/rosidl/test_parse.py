@@ -55,9 +55,9 @@ def test_services_and_actions_have_parts() -> None:
     ("text", "words"),
     [
         ("int32", "X.msg:1: expected 'type name'"),
-        ("\n\nint32 badName", "X.msg:3: 'badName' is no field name"),
-        ("int32 a__b", "'a__b' is no field name"),
-        ("int32 a_", "'a_' is no field name"),
+        ("\n\nint32 badName", "X.msg:3: 'badName' is not a field name"),
+        ("int32 a__b", "'a__b' is not a field name"),
+        ("int32 a_", "'a_' is not a field name"),
         ("int32 lower=1", "a constant has a primitive type and a NAME in capitals"),
         ("int32 a\nint32 a", "'a' is defined twice in X"),
         ("bool a maybe", "'maybe' is neither true nor false"),

@@ -82,5 +82,5 @@ def test_matrices_are_decomposed_into_their_parameters() -> None:
 
 
 def test_invalid_axis_order_is_rejected() -> None:
-    with pytest.raises(ValueError, match="'xyz' is no order of axes"):
+    with pytest.raises(ValueError, match="'xyz' is not an order of axes"):
         tf.quaternion_from_euler(0, 0, 0, "xyz")

@@ -167,7 +167,7 @@ def test_devices_pipes_and_protected_files_are_not_replaced(tmp_path: Path) -> N
         save_file(tmp_path / "file", "new")
     os.mkfifo(tmp_path / "pipe")
     for each in (tmp_path / "pipe", Path(os.devnull)):
-        with pytest.raises(NotSaved, match="is no regular file; give another name"):
+        with pytest.raises(NotSaved, match="is not a regular file; give another name"):
             save_file(each, "new")
     assert stat.S_ISFIFO((tmp_path / "pipe").stat().st_mode)
 

@@ -57,7 +57,7 @@ def _outputs(path: Path) -> list[dict[str, Any]]:
     try:
         data: Any = yaml.safe_load(path.read_text(encoding="utf-8"))
     except UNREADABLE as error:
-        raise ValueError(f"{path} is no YAML: {' '.join(str(error).split())}") from None
+        raise ValueError(f"{path} is not YAML: {' '.join(str(error).split())}") from None
     listed: Any = cast("dict[str, Any]", data).get("output_bags") if isinstance(data, dict) else None
     found = cast("list[Any]", listed) if isinstance(listed, list) else []
     if not found or not all(isinstance(each, dict) and "uri" in each for each in found):

@@ -76,7 +76,7 @@ def _address(parser: argparse.ArgumentParser, text: str) -> str:
     try:
         address = ipaddress.ip_address("127.0.0.1" if text == "localhost" else text)
     except ValueError:
-        parser.error(f"--host: '{text}' is no address such as 127.0.0.1")
+        parser.error(f"--host: '{text}' is not an address such as 127.0.0.1")
     if address.is_unspecified:
         parser.error(f"--host: {text} means every network; name the address that browsers reach")
     return str(address)

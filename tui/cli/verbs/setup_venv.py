@@ -71,7 +71,7 @@ def _remove(folder: Path) -> str:
 def _site_packages(place: Path) -> tuple[Path, Path]:
     """Return the interpreter of an environment, and the folder of its packages; raises `_RefusedError`."""
     if not (place / "pyvenv.cfg").is_file():
-        raise _RefusedError(f"{place} is no virtual environment: name one, or activate it")
+        raise _RefusedError(f"{place} is not a virtual environment: name one, or activate it")
     python = place / "bin" / "python3"
     probe = "import json, sysconfig; print(json.dumps({'folder': sysconfig.get_path('purelib')}))"
     return python, Path(_answer(python, "-c", probe)["folder"])

@@ -61,7 +61,7 @@ def read_overrides(text: str) -> dict[str, QoSProfile]:
     try:
         data: Any = yaml.safe_load(text)
     except UNREADABLE as error:
-        raise ValueError(f"it is no YAML: {' '.join(str(error).split())}") from None
+        raise ValueError(f"it is not YAML: {' '.join(str(error).split())}") from None
     if not isinstance(data, dict):
         raise ValueError("it has to map topics to QoS profiles")
     found = cast("dict[Any, Any]", data)

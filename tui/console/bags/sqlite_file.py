@@ -51,7 +51,7 @@ class SqliteFile:
             for stamp, name, data in base.execute(asked, (begin,)):
                 if topics is None or name in topics:
                     if not isinstance(data, bytes):
-                        raise ValueError(f"a message of {name} is no data")
+                        raise ValueError(f"a message of {name} is not binary data")
                     yield stamp, name, data
 
     def _open(self) -> sqlite3.Connection:

@@ -9,4 +9,4 @@ _NAME = re.compile(r"[\w][\w .+-]*")
 
 def profile_name_problem(name: str) -> str:
     """Why a text cannot be the name of a profile; empty when it can."""
-    return "" if _NAME.fullmatch(name) else f"'{name}' is no name for a profile: letters, digits, blanks, . + - _"
+    return "" if _NAME.fullmatch(name) else f"'{name}' is not a valid profile name: letters, digits, blanks, . + - _"

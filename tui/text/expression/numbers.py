@@ -64,7 +64,7 @@ def _value(tree: Tree, known: Mapping[str, Number]) -> Number:
         return _small(tree.value)
     if isinstance(tree, (Name, Path)):
         if tree.text not in known:
-            raise ValueError(f"'{tree.text}' is none of {', '.join(sorted(known))}")
+            raise ValueError(f"'{tree.text}' is not one of {', '.join(sorted(known))}")
         return known[tree.text]
     if isinstance(tree, Minus):
         return -_value(tree.of, known)
@@ -73,7 +73,7 @@ def _value(tree: Tree, known: Mapping[str, Number]) -> Number:
     if isinstance(tree, Call):
         function = FUNCTIONS.get(tree.function)
         if function is None:
-            raise ValueError(f"'{tree.function}' is none of {', '.join(FUNCTIONS)}")
+            raise ValueError(f"'{tree.function}' is not one of {', '.join(FUNCTIONS)}")
         return _small(function(*(_value(each, known) for each in tree.arguments)))
     raise ValueError("only numbers, names, + - * / // % **, brackets and functions are understood")
 

@@ -74,7 +74,7 @@ def place_of(endpoint: str) -> tuple[str, str, int]:
     protocol, _, rest = endpoint.partition("#")[0].partition("?")[0].partition("/")
     host, _, port = rest.rpartition(":")
     if not (protocol.isalnum() and host and port.isdecimal() and 0 < int(port) < 65536):
-        raise ValueError(f"'{endpoint}' is no endpoint: write it as tcp/robot:{PORT} or tls/192.168.1.5:{PORT}")
+        raise ValueError(f"'{endpoint}' is not an endpoint: write it as tcp/robot:{PORT} or tls/192.168.1.5:{PORT}")
     return protocol, host.strip("[]"), int(port)
 
 

@@ -102,7 +102,7 @@ def test_wrong_combinations_are_explained_on_one_line(
 @pytest.mark.parametrize(
     ("line", "message"),
     [
-        ("record -e ( -o x", "'(' is no regular expression"),
+        ("record -e ( -o x", "'(' is not a regular expression"),
         ("record -a -s rosbag", "invalid choice"),
         ("record -a --qos-profile-overrides-path none.yaml", "there is no file none.yaml"),
         ("play bag -d -1", "must not be negative"),

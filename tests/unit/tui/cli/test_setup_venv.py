@@ -64,7 +64,7 @@ def test_real_rclpy_is_never_shadowed(venv: Path, capsys: pytest.CaptureFixture[
 
 def test_folder_that_is_no_environment_and_another_python_are_refused(venv: Path, capsys: pytest.CaptureFixture[str]):
     assert main(["setup", "venv", str(venv.parent)]) == 1
-    assert "is no virtual environment" in capsys.readouterr().err
+    assert "is not a virtual environment" in capsys.readouterr().err
     program = venv / "bin" / "python3"
     program.unlink()
     program.write_text(f'#!/bin/sh\necho \'{{"folder": "{packages(venv)}", "version": [3, 99], "real": ""}}\'\n')

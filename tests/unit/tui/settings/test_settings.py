@@ -48,7 +48,7 @@ def test_what_the_graph_hides_can_be_chosen(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message_of"),
     [
-        ("theme: pink", "theme: 'pink' is none of dark"),
+        ("theme: pink", "theme: 'pink' is not one of dark"),
         ("theme: 3", "theme: is a word"),
         ("colour: red", "'colour' is no setting"),
         ("- 1", "settings are lines such as"),

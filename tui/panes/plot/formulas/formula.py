@@ -121,7 +121,7 @@ def _check_call(call: Call) -> None:
     if name not in PLAIN:
         if name in OVER_TIME:
             raise ValueError(f"write {name}(a path, 1 s), or {name} of an array such as {name}(/scan/ranges)")
-        raise ValueError(f"'{name}' is none of derivative, {', '.join((*PLAIN, *OVER_TIME))}")
+        raise ValueError(f"'{name}' is not one of derivative, {', '.join((*PLAIN, *OVER_TIME))}")
     least, maximum, _ = PLAIN[name]
     if not least <= len(given) <= maximum:
         raise ValueError(f"{name} takes {least if least == maximum else f'{least} or more'}, not {len(given)}")

@@ -68,7 +68,7 @@ def test_best_setting_is_saved_as_profile_with_original_comments(
     assert tune._reported(QUESTION, progress, Namespace(json=False, save=name)) == code
     message = capsys.readouterr().err
     if code:
-        assert "is no name for a profile" in message
+        assert "is not a valid profile name" in message
         return
     text = (tmp_path / "config" / "profiles" / "swift one.yaml").read_text()
     assert text.startswith("# indoor, tuned for swift: score 1.200\n# Indoor: low speed")

@@ -100,7 +100,7 @@ def test_bags_are_converted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
 
 @pytest.mark.parametrize(
     ("text", "message"),
-    [("a: [", "is no YAML"), ("5", "has to list"), ("output_bags: [{}]", "each with a"), ("", "has to list")],
+    [("a: [", "is not YAML"), ("5", "has to list"), ("output_bags: [{}]", "each with a"), ("", "has to list")],
 )
 def test_wrong_output_options_are_explained(
     tmp_path: Path, text: str, message: str, capsys: pytest.CaptureFixture[str]

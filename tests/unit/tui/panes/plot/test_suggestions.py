@@ -42,4 +42,4 @@ def test_a_path_that_is_not_there_yet_can_be_chosen_behind_what_has_its_characte
 
 def test_invalid_expression_is_reported() -> None:
     (option,) = suggested(KNOWN, "sine(/q)")
-    assert option.about.startswith("✗ 'sine' is none of")
+    assert option.about.startswith("✗ 'sine' is not one of")
