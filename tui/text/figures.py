@@ -13,13 +13,14 @@ def steady(shown: float | None, now: float | None) -> float | None:
     return shown if abs(now - shown) <= STEADY * abs(shown) else now
 
 
-def rate_text(rate: float | None) -> str:
-    """A rate in Hz of three digits at most."""
+def rate_text(rate: float | None, *, provisional: bool = False) -> str:
+    """A rate in Hz of three digits at most; a provisional one begins with `~`."""
     if rate is None:
         return ""
     if rate == 0:
         return "0"
-    return f"{rate:.2f}" if rate < 1 else f"{rate:.1f}" if rate < 20 else f"{rate:.0f}"
+    text = f"{rate:.2f}" if rate < 1 else f"{rate:.1f}" if rate < 20 else f"{rate:.0f}"
+    return f"~{text}" if provisional else text
 
 
 def coarse_rate(rate: float | None) -> str:

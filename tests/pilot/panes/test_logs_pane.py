@@ -31,10 +31,13 @@ def test_newest_line_is_followed_until_the_user_scrolls_up() -> None:
         await session.press("up", "up")
         assert "paused, f follows" in session.text()
         session.console.show_text(Severity.INFO, "talker", "line 60")
+        session.console.show_text(Severity.INFO, "talker", "line 61")
         await session.settle()
-        assert "line 60" not in session.text()
+        assert "line 60" not in session.text() and "paused, 2 new below, f follows" in session.text()
         await session.press("f")
-        assert "line 60" in session.text()
+        assert "line 61" in session.text() and "new below" not in session.text()
+        await session.press("up")
+        assert "paused, f follows" in session.text(), "what was followed is not new"
 
     run(live(), play)
 

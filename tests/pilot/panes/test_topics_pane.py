@@ -62,6 +62,34 @@ def test_topics_show_rates_and_faults() -> None:
     run(live(), play, SIZE)
 
 
+def test_rates_are_provisional_until_three_seconds_are_measured() -> None:
+    async def play(session: Session) -> None:
+        await opened(session)
+        figures = session.console.topics.figures
+        figures["/odom"] = replace(figures["/odom"], provisional=True)
+        tick(session)
+        await session.settle()
+        assert " ~50 " in next(each for each in session.lines() if "/odom" in each)
+        figures["/odom"] = replace(figures["/odom"], provisional=False)
+        tick(session)
+        await session.settle()
+        assert "~" not in session.text()
+
+    run(live(), play, SIZE)
+
+
+def test_topics_are_listed_in_natural_order() -> None:
+    topics = tuple(Endpoint(f"/robot{number}/scan", ("std_msgs/msg/Float64",)) for number in (1, 10, 2, 20, 3))
+
+    async def play(session: Session) -> None:
+        session.console.change(graph=GraphInfo((NodeInfo("/n", topics),), topics))
+        await opened(session)
+        names = [each.name for each in session.pane(TopicRows).rows]
+        assert names == [f"/robot{number}/scan" for number in (1, 2, 3, 10, 20)]
+
+    run(live(), play, SIZE)
+
+
 def test_only_visible_rows_are_measured() -> None:
     topics = tuple(Endpoint(f"/t{number:03}", ("std_msgs/msg/Float64",)) for number in range(300))
 

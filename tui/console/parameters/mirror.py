@@ -24,6 +24,7 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.parameters.origin import START, origin_text
 from bot_console.tui.console.parameters.provenance import Provenance
 from bot_console.tui.console.values import from_message, info
+from bot_console.tui.text.natural import natural_key
 from rcl_interfaces.msg import Parameter, ParameterEvent, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
 from rclpy.node import Node
@@ -102,7 +103,7 @@ class ParameterMirror:
             self._load(name)
 
     def _publish(self, trees: dict[str, ParameterTree]) -> None:
-        self.trees = MappingProxyType(dict(sorted(trees.items())))
+        self.trees = MappingProxyType(dict(sorted(trees.items(), key=lambda each: natural_key(each[0]))))
 
     def _load(self, node: str) -> None:
         self._queue(self._read, node)

@@ -16,6 +16,8 @@ from rclpy.node import Node
 
 WINDOW = 5.0
 """Seconds over which a rate is measured."""
+MIN_MEASURED_S = 3.0
+"""Seconds over which messages must have arrived for a rate to be reliable: the first ones often arrive together."""
 TURN = 3.0
 """Seconds for which the choice of measured topics stays the same."""
 BUDGET = 1000.0
@@ -32,7 +34,9 @@ STAMP_AT = 4
 class Meter:
     """Counts the messages of one topic; `take` is called by the executor, `poll` by the drawing thread."""
 
-    def __init__(self, stamped: bool, clock: Callable[[], int]) -> None:
+    def __init__(self, stamped: bool, clock: Callable[[], int], *, known: bool = False) -> None:
+        """`known`: the topic was measured before, and has only waited for its turn."""
+        self._known = known
         self._stamped = stamped
         self._clock = clock
         self._count = self._size = self._stamps = 0
@@ -77,7 +81,8 @@ class Meter:
         if latency is not None and abs(latency) > OTHER_CLOCK:
             latency = None
         bandwidth = rate * (self._size - size) / new if rate is not None else None
-        return Measure(rate, bandwidth, self._age(now), latency, self._count)
+        provisional = not self._known and now - self._first < MIN_MEASURED_S
+        return Measure(rate, bandwidth, self._age(now), latency, self._count, provisional=provisional)
 
     def _age(self, now: float) -> float | None:
         return now - self._last if self._count else None
@@ -133,7 +138,7 @@ class Meters:
             self._problems[topic] = str(error)
             return
         offer = offered_qos(graph, topic)
-        meter = Meter(_stamped(kind), time.time_ns)
+        meter = Meter(_stamped(kind), time.time_ns, known=topic in self._resting)
         subscription = self._node.create_subscription(kind, topic, meter.take, offer.profile(), raw=True)
         self._meters[topic] = subscription, meter, offer.key
         self._problems.pop(topic, None)

@@ -34,6 +34,8 @@ class Measure:
     count: int = 0
     problem: str = ""
     """Why it cannot be measured; empty when it can."""
+    provisional: bool = False
+    """Whether too little was measured for the rate and the bandwidth to be reliable."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC, is_link, namespace_of
+from bot_console.tui.text.natural import natural_key
 from bot_console.tui.text.sanitize import counted, cut_name, sanitize
 from bot_console.tui.widgets.diagram.chart.model import Chart, ChartBox, ChartLink
 
@@ -120,21 +121,7 @@ def _alike(boxes: list[str], words: Mapping[Pair, tuple[str, ...]]) -> list[tupl
     for each in boxes:
         alike = (each.startswith(SPACE), frozenset(ends[each])) if each in ends else each
         groups.setdefault(alike, []).append(each)
-    return [tuple(sorted(group, key=_natural)) for group in groups.values()]
-
-
-def _natural(name: str) -> tuple[tuple[int, str], ...]:
-    """Sorts robot2 before robot10."""
-    digits, parts = "", list[tuple[int, str]]()
-    for character in name:
-        if character.isdecimal():
-            digits += character
-            continue
-        if digits:
-            parts.append((int(digits), ""))
-            digits = ""
-        parts.append((0, character))
-    return (*parts, *(((int(digits), ""),) if digits else ()))
+    return [tuple(sorted(group, key=natural_key)) for group in groups.values()]
 
 
 class _Names:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from bot_console.tui.console.topics.port import Topics
+from bot_console.tui.console.topics.port import Measure, Topics
 from bot_console.tui.text.figures import coarse_rate
 
 RATE_POLL_S = 2.0
@@ -31,7 +31,7 @@ class Rates:
         self._polled = now
         traffic.measure(topics, READER)
         known = traffic.measured()
-        texts = {topic: coarse_rate(known[topic].rate) for topic in topics if topic in known}
+        texts = {topic: _text(known[topic]) for topic in topics if topic in known}
         before, self.texts = self.texts, texts
         return texts != before
 
@@ -40,3 +40,8 @@ class Rates:
         if self._polled:
             self._polled = 0.0
             traffic.measure([], READER)
+
+
+def _text(measure: Measure) -> str:
+    text = coarse_rate(measure.rate)
+    return f"~{text}" if text and measure.provisional else text

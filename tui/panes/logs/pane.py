@@ -65,6 +65,8 @@ class LogsPane(LinePane):
         """The record that was gone to by what was looked for: to stand on it is to read, not to follow."""
         self._moment: int | None = None
         """The moment to go to as soon as its lines are there."""
+        self._followed_to = 0
+        """The number of the first record that arrived after the newest line was last followed."""
 
     def _view_of(self, which: LogFilter, before: LogView | None) -> LogView:
         return self._source.view(which, before)
@@ -167,6 +169,8 @@ class LogsPane(LinePane):
     def _report(self) -> None:
         """Say what is shown of how much, by severity."""
         problem = self._found.problem if self._found else ""
+        if self._following and self._found:
+            self._followed_to = self._found.end
         text = problem or self.status_text()
         self._list.show_placeholder(FILTERED_OUT if self._filtering.texts() else EMPTY)
         self.caption(text if self.has_class("compact") else "")
@@ -189,7 +193,8 @@ class LogsPane(LinePane):
         if self._found is None or not self._found.complete or self._match_search.under_way:
             parts.append("searching")
         if not self._following:
-            parts.append("paused, f follows")
+            new = self._new_below()
+            parts.append(f"paused, {new} new below, f follows" if new else "paused, f follows")
         if self._searched_for is not None and self._sought_for:
             parts.append(f"{self._match_search.text()} {self._sought_for}")
         parts += self._filtering.texts()
@@ -197,6 +202,12 @@ class LogsPane(LinePane):
             parts.append(f"{state.dropped} dropped")
         parts += [f"{SEVERITY_CHARACTERS[each]} {counts[each]}" for each in reversed(Severity) if counts.get(each)]
         return " · ".join(parts)
+
+    def _new_below(self) -> int:
+        """The number of lines shown that have arrived since the newest one was last followed."""
+        if self._found is None:
+            return 0
+        return len(self._found.numbers) - self._found.numbers.place(self._followed_to)
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Follow while the cursor is on the newest line."""
@@ -351,7 +362,7 @@ class LogsPane(LinePane):
         self.border_title = f"Logs of {sanitize(Path(source.name).name)} · O goes back" if source.name else self.TITLE
         self._state, self._view, self._found = LogState(), None, None
         self._match_search.forget()
-        self._following, self._searched_for, self._moment = True, None, None
+        self._following, self._searched_for, self._moment, self._followed_to = True, None, None, 0
         self._list.show_nothing()
         self._state = source.state
         self._search()

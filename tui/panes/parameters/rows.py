@@ -10,6 +10,7 @@ from functools import lru_cache
 from bot_console.tui.console.model import ParameterInfo, ParameterTree
 from bot_console.tui.console.parameters.safety import DISTANCE, importance
 from bot_console.tui.console.query import Query
+from bot_console.tui.text.natural import NaturalKey, natural_key
 
 BUILT_IN = ("use_sim_time", "start_type_description_service")
 BUILT_IN_PREFIX = "qos_overrides."
@@ -265,10 +266,10 @@ def _parts(name: str) -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=20_000)
-def _order(name: str) -> tuple[tuple[bool, str], ...]:
+def _order(name: str) -> tuple[tuple[bool, NaturalKey], ...]:
     """Sort key: names by their levels, with a level's own entries before those below it."""
     *groups, last = _parts(name)
-    return (*((True, each) for each in groups), (False, last))
+    return (*((True, natural_key(each)) for each in groups), (False, natural_key(last)))
 
 
 def _below(

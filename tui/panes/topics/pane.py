@@ -190,8 +190,9 @@ class TopicsPane(ListPane):
             return f"{self._topic}  no message yet"
         if self._frozen:
             return f"{self._topic}  frozen, +{heard.count - self._shown.count} new; space goes on"
-        rate = self._list.measure_of(self._topic).rate
-        parts = [counted(heard.count, "message"), age_text(heard.age), f"{rate_text(rate)} Hz" if rate else ""]
+        measure = self._list.measure_of(self._topic)
+        rate = rate_text(measure.rate, provisional=measure.provisional) if measure.rate else ""
+        parts = [counted(heard.count, "message"), age_text(heard.age), f"{rate} Hz" if rate else ""]
         return f"{self._topic}  {', '.join(filter(None, parts))}"
 
     def _report(self) -> None:

@@ -9,6 +9,7 @@ from enum import Enum
 from bot_console.tui.console.model import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
 from bot_console.tui.console.query import Query
 from bot_console.tui.console.topics.port import Payload
+from bot_console.tui.text.natural import natural_key
 
 OWN = "/_bot_console"
 """How the names of the console's nodes begin, which listen so that something can be shown: none of the system."""
@@ -77,7 +78,7 @@ def rows(info: GraphInfo, kind: Kind, *, hidden: bool) -> list[Row]:
         one.types.update(dict.fromkeys(each.types))
     made = (
         _row(name, each, kind, info.incompatible.get(name, ()) if kind is Kind.TOPICS else ())
-        for name, each in sorted(found.items())
+        for name, each in sorted(found.items(), key=lambda each: natural_key(each[0]))
         if each.gives or each.takes or not each.own
     )
     return [row for row in made if hidden or not is_built_in(row.name, kind)]

@@ -129,7 +129,7 @@ class TopicRows(ItemList[Row]):
 
     def _figures(self, name: str, *, amounts: bool, latency: bool) -> str:
         known = self._measured.get(name, Measure())
-        text = f"{rate_text(known.rate):>{RATE}}"
+        text = f"{rate_text(known.rate, provisional=known.provisional):>{RATE}}"
         if amounts:
             text += f"{amount_text(known.bandwidth):>{AMOUNT}}{age_text(known.age):>{AGE}}"
         return text + (f"{span_text(known.latency):>{LATENCY}}" if latency else "")
@@ -148,7 +148,10 @@ class TopicRows(ItemList[Row]):
             Segment(f"{ends:>{ENDS}}", style or (self._style("dim") if not row.takes else None)),
         ]
         if shown.figures:
-            segments.append(Segment(self._figures(row.name, amounts=shown.amounts, latency=shown.latency)))
+            figures = self._figures(row.name, amounts=shown.amounts, latency=shown.latency)
+            rates = RATE + AMOUNT * shown.amounts
+            dim = self._style("dim") if self.measure_of(row.name).provisional else None
+            segments += [Segment(figures[:rates], dim), Segment(figures[rates:])]
         if shown.type:
             segments.append(Segment(cut("  " + _short(row.type), shown.type, pad=True), self._style("dim")))
         if shown.qos:

@@ -94,6 +94,18 @@ def test_all_nodes_are_read_a_few_at_a_time(names):
     asyncio.run(scenario())
 
 
+def test_nodes_are_listed_in_natural_order():
+    async def scenario():
+        asked = Asked()
+        asked.open.set()
+        mirror = ParameterMirror(StubNode(), asked, lambda *change: None)
+        mirror.follow(graph_of(["/robot10", "/robot2", "/robot1"]))
+        await finished(asked)
+        assert list(mirror.trees) == ["/robot1", "/robot2", "/robot10"]
+
+    asyncio.run(scenario())
+
+
 def test_a_silent_node_does_not_affect_values_of_others(names):
     async def scenario():
         asked = Asked()

@@ -134,3 +134,21 @@ def test_the_fastest_topics_take_turns() -> None:
 
 def test_a_single_topic_beyond_the_budget_is_still_measured() -> None:
     assert in_turn({"/camera": 9000.0}, [], 1500) == {"/camera"}
+
+
+def test_a_rate_is_provisional_until_messages_have_arrived_for_three_seconds(time: Time) -> None:
+    meter = Meter(True, time.time_ns)
+    time.now += 60.0
+    meter.take(message(time.now), received(time))
+    time.now += 0.1
+    meter.take(message(time.now), received(time))
+    early = meter.poll()
+    assert early.rate == pytest.approx(10) and early.provisional, "a 1 Hz topic whose first messages arrive together"
+    play(meter, time, 1, 4)
+    assert not meter.poll().provisional
+
+
+def test_a_topic_that_has_waited_for_its_turn_is_not_provisional_again(time: Time) -> None:
+    meter = Meter(True, time.time_ns, known=True)
+    play(meter, time, 10, 1)
+    assert not meter.poll().provisional

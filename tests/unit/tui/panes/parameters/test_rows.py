@@ -44,6 +44,11 @@ def test_names_with_common_levels_are_grouped() -> None:
     ]
 
 
+def test_parameters_are_listed_in_natural_order() -> None:
+    numbered = trees(tree("/n", "joint10", "joint2", "axis10.gain", "axis2.gain"))
+    assert drawn(numbered) == ["/n", "  joint2", "  joint10", "  axis2.gain", "  axis10.gain"]
+
+
 def test_each_group_folds_by_itself() -> None:
     assert drawn(GROUPED, View(folded=frozenset({"/n:pid.x."})))[6:] == ["  pid.", "    x.", "    y.kp"]
     found = rows(GROUPED, View(folded=frozenset({"/n:pid."})))
