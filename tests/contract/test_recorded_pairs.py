@@ -57,7 +57,11 @@ def differences(recorded: Any, seen: Any, place: str = "") -> list[str]:
 
 
 def as_worded_here(text: str) -> str:
-    """Recorded refusals with types as this rclpy prints them: by name on Jazzy, by number on Kilted."""
+    """Recorded refusals with types as this rclpy prints them: by name on Jazzy, by number on Kilted.
+
+    Process ids are left out, since nodes of the embedded runtime have none.
+    """
+    text = text.replace(", pid N", "")
     return re.sub(r"\bType\.([A-Z_]+)", lambda found: f"{Parameter.Type[found[1]]}", text)
 
 

@@ -222,8 +222,8 @@ def play_launch(launcher: Launcher, info: Callable[[], LaunchInfo], settle: Call
             seen += [verb, answer.ok, _without_ids(answer.text)]
             settle()
         process = info().processes[-1]
-        label, pid = _without_ids(process.label), process.pid is not None
-        seen.append([label, process.state.value, process.restarts, process.exit_code, pid, list(process.group)])
+        label, runs = _without_ids(process.label), process.started > process.ended
+        seen.append([label, process.state.value, process.restarts, process.exit_code, runs, list(process.group)])
     nobody = launcher.stop("nobody").result(TIMEOUT_S)
     reported = [_without_ids(each.text) for each in info().timeline]
     return {
@@ -238,7 +238,7 @@ def _without_ids(text: str) -> str:
 
     The end of a file whose processes have all ended is reported at varying places, so it is left out.
     """
-    text = re.sub(r"\bpid \d+", "pid N", text)
+    text = re.sub(r", pid \d+", "", text)
     return re.sub(r"(\.py)-\d+\b", r"\1", re.sub(r"\S+/(?=\w+\.launch\.py)", "", text))
 
 

@@ -39,6 +39,25 @@ def test_processes_are_shown_as_a_tree_with_states() -> None:
     run(live(), play, (120, 40))
 
 
+def test_an_ended_process_says_when_and_how() -> None:
+    async def play(session: Session) -> None:
+        pane, at = session.pane(LaunchPane), [10**18]
+        pane.wall_clock = lambda: at[0]
+        launch = session.console.current.launch
+        processes = [replace(each, ended=10**18 - 3 * 10**9 if each.exit_code else 0) for each in launch.processes]
+        session.console.change(launch=replace(launch, processes=tuple(processes)))
+        await session.press("8")
+        pane.go_to("/telemetry_publisher")
+        await session.settle()
+        assert "/telemetry_publisher ended 3 s ago: exit code 1" in session.text()
+        at[0] += 60 * 10**9
+        pane.tick()
+        await session.settle()
+        assert "/telemetry_publisher ended 1 min ago: exit code 1" in session.text()
+
+    run(live(), play, (120, 40))
+
+
 def test_process_is_started_stopped_restarted_and_killed_after_a_question() -> None:
     async def play(session: Session) -> None:
         await session.press("8", "down", "x", "r", "s")

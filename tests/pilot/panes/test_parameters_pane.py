@@ -8,7 +8,7 @@ from dataclasses import replace
 from types import MappingProxyType
 
 import pytest
-from bot_console.tui.console.model import RESTARTED, Change, ChangeSource, JournalState, SetOutcome
+from bot_console.tui.console.model import RESTARTED, Change, ChangeSource, JournalState, ProcessState, SetOutcome
 from bot_console.tui.console.parameters.pending_sets import EVENT_TIMEOUT_S
 from bot_console.tui.panes.parameters.absences import LEFT_SHOWN_S
 from bot_console.tui.panes.parameters.pane import ParametersPane
@@ -387,6 +387,32 @@ def test_only_a_person_moves_the_cursor_away_from_what_matters_most() -> None:
         assert chosen is not None and shown.current is not None and shown.current.name == chosen.name != best.name
 
     run(live(), play, (120, 40))
+
+
+def test_a_node_that_ended_stays_as_a_row_that_says_how() -> None:
+    async def play(session: Session) -> None:
+        pane = session.pane(ParametersPane)
+        now, at = session.console.current, [10**18]
+        pane.wall_clock = lambda: at[0]
+        navigator = next(each for each in now.launch.processes if "/robot_navigator" in each.nodes)
+        ended = replace(navigator, state=ProcessState.CRASHED, pid=None, exit_code=1, ended=10**18 - 3 * 10**9)
+        others = tuple(each for each in now.launch.processes if each is not navigator)
+        left = {name: tree for name, tree in now.parameters.items() if name != "/robot_navigator"}
+        await session.press("1")
+        session.console.change(
+            parameters=MappingProxyType(left), launch=replace(now.launch, processes=(*others, ended))
+        )
+        await session.settle()
+        assert "/robot_navigator  ended 3 s ago: exit code 1" in session.text() and "has left" not in session.text()
+        at[0] += 2 * 10**9
+        pane.tick()
+        await session.settle()
+        assert "/robot_navigator  ended 5 s ago: exit code 1" in session.text()
+        session.console.change(parameters=now.parameters, launch=now.launch)
+        await session.settle()
+        assert " ago: " not in session.text()
+
+    run(live(), play, (100, 40))
 
 
 def test_nodes_that_leave_or_do_not_answer_are_named() -> None:

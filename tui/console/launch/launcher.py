@@ -256,8 +256,9 @@ class RosLauncher(ProcessVerbs):
             held.vitals, held.usage = vitals, Usage(vitals, time.monotonic()) if vitals else None
             held.output = ProcessOutput(event.process_name, self._record, self._printed, self._heard, self._every)
             order = held.process.started(event.process_name, event.pid, nodes)
-            times = held.process.info.restarts
-            self._report(f"{held.process.info.label} started{f' again ({times})' if times else ''}, pid {event.pid}")
+            info = held.process.info
+            again, pid = f" again ({info.restarts})" if info.restarts else "", f", pid {info.pid}" if info.pid else ""
+            self._report(f"{info.label} started{again}{pid}")
             self._order(held, order)
             outcome = self._unanswered.pop(run, None)
         if outcome is not None:

@@ -14,6 +14,8 @@ from bot_console.tui.console.model import ProcessInfo, ProcessState
 INTERRUPTED = (0, -2, -15, 130)
 """Exit codes of a process that ended on request."""
 KILLED = -9
+MAX_PID = 1 << 22
+"""The highest process id that Linux assigns; a node that shares its process with others has a placeholder above it."""
 
 STARTS = ("start", "restart")
 ENDED = (ProcessState.EXITED, ProcessState.CRASHED, ProcessState.ABANDONED, ProcessState.MISSING)
@@ -102,7 +104,11 @@ class LaunchedProcess:
             self.info = replace(self.info, state=ProcessState.STOPPING, end_requested=requested)
 
     def started(self, label: str, pid: int, nodes: tuple[str, ...] = ()) -> Order:
-        """Note that it runs, unrequested or on request; launch may change its label each time."""
+        """Note that it runs, unrequested or on request; launch may change its label each time.
+
+        The placeholder that a node without a process of its own has for a process id is not kept.
+        """
+        own = pid if pid <= MAX_PID else None
         restarts, self._starts, self._alive = self._starts, self._starts + 1, True
         self._ran, self._stands = True, ""
         state = ProcessState.STOPPING if self._reported else ProcessState.RUNNING
@@ -111,7 +117,7 @@ class LaunchedProcess:
             self.info,
             label=label,
             state=state,
-            pid=pid,
+            pid=own,
             nodes=nodes,
             restarts=restarts,
             problem="",
@@ -119,7 +125,7 @@ class LaunchedProcess:
         )
         if self._reported:
             return Order.SHUT_DOWN
-        self._settle(STARTS, Answer(True, f"{self.info.label} runs, pid {pid}"))
+        self._settle(STARTS, Answer(True, f"{self.info.label} runs" + (f", pid {own}" if own else "")))
         return Order.NOTHING
 
     def missing(self, why: str) -> None:

@@ -81,6 +81,8 @@ class ParameterTree:
     node: str
     parameters: tuple[ParameterInfo, ...] = ()
     problem: str = ""
+    ended: str = ""
+    """When and how the node ended; empty while it is there. It has no parameters any more."""
 
     def get(self, name: str) -> ParameterInfo | None:
         """The parameter with that name; None if the node has none."""

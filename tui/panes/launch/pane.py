@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping, Sequence
+import time
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 from functools import partial
@@ -20,6 +21,7 @@ from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.safety.stop_messages import stops_of_ending
 from bot_console.tui.screens.facts import FactsScreen
+from bot_console.tui.text.endings import ending_text
 from bot_console.tui.widgets.picture import Line, Picture
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
@@ -50,6 +52,9 @@ class LaunchPane(ListPane):
         "arguments; several can run at once."
     )
     BINDINGS = keymap.bindings("launch")
+
+    wall_clock: Callable[[], int] = staticmethod(time.time_ns)
+    """Time in ns since the epoch; tests give one that they step."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -142,10 +147,24 @@ class LaunchPane(ListPane):
         elif row.process is None:
             text = f"{' / '.join(row.group)}  {counted(row.count, 'process').replace('processs', 'processes')}"
         else:
-            text = row.process.problem or f"{row.process.label}  {' '.join(row.process.nodes)}"
+            text = self._about(row.process)
         status = self.query_one("#launch-status", StaticText)
         status.show_text(text)
         status.set_class(text == info.problem, "wrong")
+
+    def _about(self, process: ProcessInfo) -> str:
+        """How a process ended, or what is wrong with it, or its nodes."""
+        ending = ending_text(process, self.wall_clock())
+        name = process.nodes[0] if len(process.nodes) == 1 else process.label
+        if ending:
+            return f"{name} {ending}" + (f"  {process.problem}" if process.problem else "")
+        return process.problem or f"{process.label}  {' '.join(process.nodes)}"
+
+    def tick(self) -> None:
+        """Say how long ago the process at the cursor has ended."""
+        row = self._list.current if self.display and self.is_mounted else None
+        if row is not None and row.process is not None and row.process.ended:
+            self._report()
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Tell of the process at the cursor, and no more of a launch that failed before."""
@@ -318,8 +337,9 @@ def event_text(event: LaunchEvent) -> str:
 
 def facts(process: ProcessInfo, info: LaunchInfo) -> list[tuple[str, list[str]]]:
     """Everything known of a process."""
+    no_pid = "in the launch host" if process.state in ALIVE else "none"
     state = process.state.value + ("" if process.exit_code is None else f", last exit code {process.exit_code}")
-    known = [f"state     {state}", f"pid       {process.pid or 'none'}", f"restarts  {process.restarts}"]
+    known = [f"state     {state}", f"pid       {process.pid or no_pid}", f"restarts  {process.restarts}"]
     known += [f"CPU       {process.cpu:.1%}"] if process.cpu is not None else []
     known += [f"memory    {process.memory} MB"] if process.memory is not None else []
     events = [event_text(each) for each in info.timeline if process.label in each.text]

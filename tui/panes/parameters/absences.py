@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.model import ConsoleSnapshot
+from collections.abc import Mapping
+
+from bot_console.tui.console.model import ConsoleSnapshot, ParameterTree
+from bot_console.tui.text.endings import endings_of_nodes
+from bot_console.tui.text.natural import natural_key
 
 LEFT_SHOWN_S = 30.0
 """Seconds for which the pane says that a node has left."""
@@ -14,8 +18,26 @@ class Absences:
     def __init__(self) -> None:
         self._left: dict[str, float] = {}
         """Nodes that have left, and when."""
+        self._of: Mapping[str, ParameterTree] = {}
+        self._trees: Mapping[str, ParameterTree] = {}
+        self._endings: Mapping[str, str] = {}
+        """How nodes without parameters have ended."""
         self.reported = ""
         """The text that is on the screen."""
+
+    def trees(self, snapshot: ConsoleSnapshot, now: int) -> Mapping[str, ParameterTree]:
+        """The parameters of all nodes, and nodes whose process is known to have ended; `now` is in ns since the epoch.
+
+        The same objects while nothing changes.
+        """
+        found = endings_of_nodes(snapshot.launch.processes, now) if snapshot.launch.processes else {}
+        endings = {name: text for name, text in found.items() if name not in snapshot.parameters}
+        if snapshot.parameters is not self._of or endings != self._endings:
+            self._of, self._endings = snapshot.parameters, endings
+            gone = {name: ParameterTree(name, ended=text) for name, text in endings.items()}
+            together = {**snapshot.parameters, **gone}
+            self._trees = dict(sorted(together.items(), key=lambda each: natural_key(each[0]))) if gone else self._of
+        return self._trees
 
     def note(self, before: ConsoleSnapshot, snapshot: ConsoleSnapshot, now: float) -> None:
         """Note the nodes whose parameters are gone."""
@@ -28,7 +50,8 @@ class Absences:
         trees, graph = snapshot.parameters, snapshot.graph
         self._left = {name: at for name, at in self._left.items() if now - at < LEFT_SHOWN_S and name not in trees}
         silent = trees.keys() & {*graph.silent, *(name for name, _ in graph.frozen)}
-        parts = ((self._left.keys(), "has left", "have left"), (silent, "does not answer", "do not answer"))
+        left = self._left.keys() - self._endings.keys()  # the others have a row that says how they ended
+        parts = ((left, "has left", "have left"), (silent, "does not answer", "do not answer"))
         return "  ".join(
             f"⚠ {min(names)} {one}" if len(names) == 1 else f"⚠ {len(names)} nodes {many}"
             for names, one, many in parts

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Collection
+import time
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import ConsoleSnapshot, same
+from bot_console.tui.console.model import ConsoleSnapshot, ParameterTree, same
 from bot_console.tui.console.query import parse
 from bot_console.tui.format import command_of, counted, sanitize
 from bot_console.tui.panes.parameters.absences import Absences
@@ -57,6 +58,9 @@ class ParametersPane(EditPane):
     )
     BINDINGS = keymap.bindings("parameters")
 
+    wall_clock: Callable[[], int] = staticmethod(time.time_ns)
+    """Time in ns since the epoch; tests give one that they step."""
+
     def __init__(self, *args: object, **kwargs: object) -> None:
         super().__init__(*args, **kwargs)  # type: ignore[arg-type] -- handed on as they are
         self._snapshot = ConsoleSnapshot()
@@ -69,6 +73,8 @@ class ParametersPane(EditPane):
         """Whether the cursor was moved; until then it is on the parameter that matters most, whatever nodes come."""
 
         self._absences = Absences()
+        self._shown: Mapping[str, ParameterTree] = {}
+        """The trees that the rows were made of."""
         self._asking_by: object = None
         self._left: At | None = None
         """The row at the cursor at the end of the last run, until it is there again or a person moves."""
@@ -104,8 +110,12 @@ class ParametersPane(EditPane):
         if snapshot.journal is not before.journal and self.edits.observe(snapshot.journal):
             self._list.refresh()
             self._describe()
-        if snapshot.parameters is not before.parameters or snapshot.problem != before.problem:
+        if self._trees_now() is not self._shown or snapshot.problem != before.problem:
             self._arrange()
+
+    def _trees_now(self) -> Mapping[str, ParameterTree]:
+        """The parameters of all nodes, those that have ended included."""
+        return self._absences.trees(self._snapshot, self.wall_clock())
 
     def _watch_nodes(self, on: bool) -> None:
         """Have nodes probed for liveness while the pane is visible."""
@@ -124,6 +134,8 @@ class ParametersPane(EditPane):
         if not shown.is_attached:  # at the end, when the screen is taken apart
             return
         self._watch_nodes(self.display)
+        if self.display and self._trees_now() is not self._shown:
+            self._arrange()
         if self._absences.text(self._snapshot, self.edits.clock()) != self._absences.reported:
             self._report_counts()
         if self.edits.poll():
@@ -162,7 +174,8 @@ class ParametersPane(EditPane):
         """Make the rows, keep the cursor on its parameter, draw what differs."""
         shown, old = self._list, self._list.rows
         view = replace(self._view, essential=True) if self.has_class("compact") else self._view
-        new = self._tree.rows(self._snapshot.parameters, view)
+        self._shown = self._trees_now()
+        new = self._tree.rows(self._shown, view)
         if len(old) == len(new):
             for before, after in zip(old, new, strict=True):
                 if before is not after:
@@ -188,7 +201,7 @@ class ParametersPane(EditPane):
         self._absences.reported = self._absences.text(self._snapshot, self.edits.clock())
         staged = "  ".join(filter(None, (self.edits.staging.caption(), sanitize(self._absences.reported))))
         if self._view.filtering:
-            every = self._tree.count(self._snapshot.parameters, self._view)
+            every = self._tree.count(self._shown, self._view)
             self.report_filter(found, every, *(each for each in ("changed" * self._view.only_changed, staged) if each))
         else:
             self.caption(staged)
@@ -239,7 +252,8 @@ class ParametersPane(EditPane):
         if row is None:
             return Text(sanitize(self._snapshot.problem), "dim")
         if row.parameter is None:
-            return Text(sanitize(row.problem or f"{row.node}  {counted(row.count, 'parameter')}"), "dim")
+            ended = f"{row.node} {row.problem}" if row.ended else ""
+            return Text(sanitize(ended or row.problem or f"{row.node}  {counted(row.count, 'parameter')}"), "dim")
         key = (row.node, row.parameter.name)
         edits = self.edits
         marks = ["not saved"] if key in edits.unsaved else []

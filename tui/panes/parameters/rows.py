@@ -34,6 +34,8 @@ class Row:
     """The name by which the row is folded; empty for a parameter."""
     title: str = ""
     """The label of a namespace or node below its namespace."""
+    ended: bool = False
+    """Whether it is a node that has ended; the problem says how."""
 
 
 @dataclass(frozen=True)
@@ -128,7 +130,8 @@ class TreeRows:
         parameters = ordered.passing(view)
         folded = name in view.closed
         title = name.removeprefix(f"{space}/") if space else ""
-        made = [Row(name, "", depth, None, tree.problem, len(parameters), folded, name, title)]
+        problem, ended = tree.problem or tree.ended, bool(tree.ended)
+        made = [Row(name, "", depth, None, problem, len(parameters), folded, name, title, ended)]
         if not folded:
             made += self._rows_below(name, parameters, depth + 1, view.closed)
         self._made[name] = (tree, depth, made)

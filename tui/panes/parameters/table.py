@@ -81,6 +81,9 @@ class ParameterRows(ItemList[Row]):
         if row.name:
             count = f"  {row.count}" if row.folded else ""
             return [Segment(f"{indent}{arrow} {sanitize(row.name)}{count}", self._style("dim"))]
+        if row.ended:
+            text = f"{indent}  {sanitize(row.title or row.node)}  {sanitize(row.problem)}"
+            return [Segment(text, self._style("dim"))]
         head = Segment(f"{indent}{arrow} {sanitize(row.title or row.node)}", self._style("head"))
         if row.problem:
             return [head, Segment(f"  {sanitize(row.problem)}", self._style("warn"))]

@@ -155,3 +155,11 @@ def test_a_stop_just_after_a_crash_is_done_when_launch_gives_up_the_respawn():
     assert not stop.done() and process.info.state is ProcessState.STOPPING
     process.over()
     assert stop.result(0).ok and process.info.state is ProcessState.CRASHED
+
+
+def test_the_placeholder_of_a_node_without_a_process_of_its_own_is_no_process_id():
+    process = LaunchedProcess("key", "node-1")
+    process.started("node-1", (1 << 22) + 1)
+    assert process.info.pid is None and process.info.state is ProcessState.RUNNING
+    process.started("node-1", 1 << 22)
+    assert process.info.pid == 1 << 22
