@@ -188,7 +188,7 @@ def _byte(text: str) -> bytes:
     try:
         return bytes([int(text, 0)])
     except ValueError:
-        raise ValueError(f"'{_short(text)}' is no byte: 0x00 .. 0xff, or 0 .. 255") from None
+        raise ValueError(f"'{_short(text)}' is not a byte: 0x00 .. 0xff, or 0 .. 255") from None
 
 
 def command_of(parameter: ParameterInfo, value: Value) -> str:

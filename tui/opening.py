@@ -80,7 +80,7 @@ def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
     """
     program, rest = _program(words)
     if program not in RQT_PANES:
-        raise ValueError(f"{' '.join(words)} is no program of rqt")
+        raise ValueError(f"{' '.join(words)} is not an rqt program")
     curves: list[str] = []
     notes: list[str] = []
     left: list[str] = []

@@ -27,7 +27,7 @@ class Screen(Protocol):
         ...
 
     def entries(self) -> Sequence[PaneEntry]:
-        """All panes that there are."""
+        """All available panes."""
         ...
 
     def selected(self) -> str:
@@ -59,7 +59,7 @@ class Arranging:
         self.arrangement = arrangement
 
     def begin(self) -> bool:
-        """Whether there is room to arrange anything; says so where there is none."""
+        """Return whether there is room to arrange panes; reports it if there is none."""
         if self.tree is not None:
             return True
         self._screen.report(f"Layout '{self.arrangement.name}' {self._needs()}; :layout NAME shows another.")
@@ -72,7 +72,7 @@ class Arranging:
 
     @property
     def tree(self) -> Tree | None:
-        """What the layout shows in a terminal of this size; None where it does not fit."""
+        """What the layout shows in a terminal of this size; None if it does not fit."""
         return self.arrangement.tree(*self._screen.cells())
 
     def select(self, dx: int, dy: int) -> None:
@@ -109,11 +109,11 @@ class Arranging:
         self._change(lambda tree: resize(tree, here, way, STEP * (columns or lines)))
 
     def even(self) -> None:
-        """Share the room equally."""
+        """Share the space equally."""
         self._change(even)
 
     def turn(self) -> None:
-        """Let the split that the selected pane stands in run the other way."""
+        """Turn the split of the selected pane, from beside to below or the reverse."""
         here = self._screen.selected()
         self._change(lambda tree: turn(tree, here))
 
@@ -142,11 +142,11 @@ class Arranging:
         self._screen.lay_out()
 
     def name_question(self) -> Line:
-        """Ask for a name and keep what is shown under it."""
+        """The question for the name under which to save the current layout."""
         return Line("save as", self.save, text=self.arrangement.name, check=layout_name_problem)
 
     def save(self, name: str) -> None:
-        """Keep what is shown under a name."""
+        """Save the current layout under a name."""
         tree = self.tree
         if tree is None:
             return
@@ -199,7 +199,7 @@ class Arranging:
 
 
 def layout_name_problem(text: str) -> str:
-    """Why a text cannot be the name of a layout; empty when it can."""
+    """Why a text cannot be the name of a layout; empty if it can."""
     return "" if NAME.fullmatch(text.strip()) else "letters, digits, blanks, - and _, at most 40"
 
 

@@ -30,18 +30,18 @@ if TYPE_CHECKING:
 P = TypeVar("P", bound="Pane")
 
 COMING_STATUS = "coming-status"
-"""The id of what stands in the place of the status bar."""
+"""The id of the placeholder for the status bar."""
 KEY_POLL_S = 0.005
-"""Seconds after which is looked again whether a key has been dealt with."""
+"""Seconds between two checks whether a key has been handled."""
 HIDDEN_PANE_PAUSE_S = 0.02
 MAX_HIDDEN_PANE_PAUSE_S = 3.0
-"""Seconds for which panes that nobody sees wait at a time, and at most in all, while keys are pressed."""
+"""Seconds for which hidden panes wait at a time, and at most in all, while keys are pressed."""
 ORDERED = sorted(PANES, key=lambda entry: entry.place)
-"""The panes as they stand on the screen, from the upper left."""
+"""The panes in the order of the screen, from the upper left."""
 
 
 class System(NamedTuple):
-    """What is shown, and who is asked about processes and command lines."""
+    """What is shown, and what answers questions about processes and command lines."""
 
     console: Console
     launcher: Launcher | None = None
@@ -60,7 +60,7 @@ class ArrivingApp(App[None]):
     gate: AnswerGate
     _keyboard: Keyboard
     _only_unseen = False
-    """Whether all that is seen stands, and only what is not seen is still to come."""
+    """Whether everything visible exists, and only hidden parts are still to come."""
     _rests = 0
 
     def attach(self, system: System) -> None:
@@ -148,7 +148,7 @@ class ArrivingApp(App[None]):
         ]
 
     async def _import_pane(self, entry: PaneEntry) -> None:
-        """Import the modules of a pane; what is wrong with them is reported where the pane is made."""
+        """Import the modules of a pane; an error is reported where the pane is made."""
         try:
             entry.load()
         except Exception:  # the border to whatever a pane imports

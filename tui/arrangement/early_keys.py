@@ -21,9 +21,9 @@ AT_ONCE = {
     "app.glyphs",
     "app.redraw",
 } | {each.id for scope in ("list", "overlay", "box", "help") for each in TABLE[scope]}
-"""What acts on one pane that has the keyboard, on what lies over the panes, or on the app as a whole; by their ids.
+"""Actions on the focused pane, on an overlay, or on the app as a whole, by their ids.
 
-All else may name a pane that is not there yet: a curve goes to the plot, a line to whatever it says.
+Any other action may need a pane that does not exist yet, as a curve needs the plot.
 """
 NEXT = ("app.next", "app.previous")
 PANE = "pane('"

@@ -1,9 +1,9 @@
-"""Panes that other packages bring: any Textual widget that takes a `Console`, in the frame of a pane.
+"""Panes from other packages: any Textual widget that takes a `Console`, in the frame of a pane.
 
 A package names them as entry points of the group `bot_console.panes`, `name = module:Class`. The class is called with
-the `Console` (`tui/console/protocol.py`). What it may have besides: `TITLE`, a word for the tabs; `HELP`, what it is
-for; `show(snapshot)`, called with each new `ConsoleSnapshot` while it is seen; `tick()`, called ten times a second,
-also while it is hidden; `detach()`, called when it ends by a fault. A subclass of `Pane` is taken as it is.
+the `Console` (`tui/console/protocol.py`). Optional members: `TITLE`, a word for the tabs; `HELP`, the purpose;
+`show(snapshot)`, called with each new `ConsoleSnapshot` while the pane is visible; `tick()`, called ten times a second,
+also while it is hidden; `detach()`, called when it ends by a fault. A subclass of `Pane` is used as it is.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ from textual.widget import Widget
 
 @dataclass(frozen=True, kw_only=True)
 class PluginEntry(PaneEntry):
-    """A pane of another package; `find` imports its class and may raise anything."""
+    """A pane from another package; `find` imports its class and may raise anything."""
 
     find: Callable[[], Any]
     source: str
-    """Which package it is of, for a person to read."""
+    """The package that it comes from, for display."""
 
     def load(self) -> type[Pane]:
-        """The class of the pane, or one that frames the widget; raises `TypeError` where it is neither."""
+        """The class of the pane, or one that frames the widget; raises `TypeError` if it is neither."""
         found = self.find()
         if not (isinstance(found, type) and issubclass(found, Widget)):
             raise TypeError(f"{self.source}: {found!r} is not a Textual widget class")
@@ -71,7 +71,7 @@ class PluginPane(Pane):
         self._hand_on("tick")
 
     def detach(self) -> None:
-        """Tell the widget that it ends."""
+        """Detach the widget, which is about to be removed."""
         self._hand_on("detach" if hasattr(self._widget, "detach") else "let_go")
 
     def focus_target(self) -> None:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from bot_console.tui.widgets.prompt.question import Question
 
 MIN_SIZE = (60, 20)
-"""Columns and lines below which nothing is shown but a word about it."""
+"""Columns and lines below which only a notice is shown."""
 FIRST = "parameters"
 
 
@@ -45,7 +45,7 @@ class Stage:
         self._panes: list[Pane] = []
         self._unused = UnusedPanes()
         self.plugins: list[PaneEntry] = []
-        """Panes that others bring."""
+        """Panes from other packages."""
         self.arrangement = arrangement
 
     @cached_property
@@ -71,13 +71,15 @@ class Stage:
         return sorted(seen, key=lambda each: order.index(each.id or ""))
 
     def observe(self, snapshot: ConsoleSnapshot) -> None:
-        """Let all panes take in what even hidden ones must not miss."""
+        """Pass a snapshot to all panes, for what even hidden ones must not miss."""
         for pane in self.panes():
             if not pane.is_ending:
                 pane.observe(snapshot)
 
     def drop_unused(self) -> None:
-        """Give the place of a pane that would stay empty to another, and give it back; called ten times a second."""
+        """Give the place of a pane that would stay empty to another one, and give it back later; called ten times a
+        second.
+        """
         empty = self._unused.panes(self._newest())
         if empty != self.arrangement.empty:
             self.arrangement.empty = empty
@@ -124,12 +126,12 @@ class Stage:
         return [(each.id, each.title, each.id == self._focused) for each in PANES if each.id in shown]
 
     def seen_at(self, size: Size) -> Sequence[str]:
-        """The ids of the panes that a terminal of a size shows; the screen has that size now."""
+        """The ids of the panes that a terminal of a size shows; also notes that the screen has that size now."""
         self._extent = size
         return panes(self._shown())
 
     def resized(self, size: Size) -> None:
-        """The terminal has another size."""
+        """Handle a new size of the terminal."""
         self._extent = size
         self.lay_out()
 
@@ -145,7 +147,7 @@ class Stage:
     def changed(self) -> None:
         """Take note that a pane was replaced or added."""
         self.poll_again()
-        if self._app.is_running:  # else the screen is being taken apart
+        if self._app.is_running:  # else the screen is being removed
             self.lay_out()
 
     def go(self, name: str) -> None:
@@ -178,7 +180,7 @@ class Stage:
         self.go(OVERVIEW if self._wanted != OVERVIEW or pane is None else pane.id or OVERVIEW)
 
     def lay_out(self) -> None:
-        """Show what was chosen, as far as there is room."""
+        """Show what was chosen, as far as there is room for it."""
         screen = self._app.screen_stack[0]
         width, height = self._extent
         small = width < MIN_SIZE[0] or height < MIN_SIZE[1]
@@ -215,7 +217,7 @@ class Stage:
             screen.query_one(KeyBar).show(scopes, typing, self._primary(), self._extent.width, words, mode)
 
     def recolour(self) -> None:
-        """Write tabs and keys in the colour of another theme: their texts have it in them."""
+        """Redraw tabs and keys after a change of theme: their texts contain its colours."""
         if self._app.screen_stack:
             self._tabs(self._shown())
             self.show_keys()
@@ -244,7 +246,7 @@ class Stage:
 
 
 def too_small(width: int, height: int) -> str:
-    """The notice for a terminal in which nothing fits but, if need be, four short lines."""
+    """The notice for a terminal that is too small: at most four short lines."""
     need = f"{MIN_SIZE[0]}x{MIN_SIZE[1]}"
     if width < 40 or height < 6:
         return f"{width}x{height} is too small\n{need} is needed\n! stops the robot\nq quits"

@@ -59,13 +59,14 @@ class CommandHandler:
 
     def poll(self) -> None:
         """Show new output of the command line and of the lines below the panes; called now and then."""
-        # Both lie on the screen itself: to search all below it at every beat takes a tenth of the thread that draws.
+        # Both are direct children of the screen: a search through everything below it, ten times a second, takes a
+        # tenth of the drawing thread's time.
         for each in self._app.screen_stack[0].children:
             if isinstance(each, (StreamPanels, CommandField)):
                 each.poll()
 
     def palette(self) -> None:
-        """Open the palette: an action by its words, or a command line."""
+        """Open the palette, which finds actions and runs command lines."""
         known = {**all_commands(self._app, self._stage.current(), self._go), **self._plugins()}
         self._app.push_screen(
             screen_for(
@@ -80,7 +81,7 @@ class CommandHandler:
         )
 
     def _go(self, name: str) -> Pane | None:
-        """Show a pane; the pane, if it can be shown."""
+        """Show a pane and return it, if it can be shown."""
         self._stage.go(name)
         return next((each for each in self._stage.panes() if each.id == name), None)
 
@@ -111,11 +112,11 @@ class CommandHandler:
         self._streams().begin(line, stream)
 
     def stream_problem(self, words: Sequence[str]) -> str:
-        """Why a `ros2` line (without that word) has no room below the panes; empty when it has."""
+        """Why a `ros2` line (given without that word) has no room below the panes; empty if it has."""
         return self._streams().problem(words)
 
     def end_stream(self) -> None:
-        """Stop the command line below the panes; if there are several, the one that is chosen."""
+        """Stop the command line below the panes; if there are several, ask which."""
         streams = self._streams()
         if len(streams.panels) > 1:
             self._app.push_screen(screen_for(which_stream(streams)))

@@ -27,7 +27,7 @@ def fitting(offered: Sequence[str], begun: str) -> list[str]:
 def extended(found: Sequence[str], begun: str) -> str:
     """The word, extended as far as all candidates agree."""
     first, last = min(found, default=""), max(found, default="")
-    # Of sorted words the first and the last differ soonest.
+    # In sorted order, the first and the last word differ the earliest.
     same = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(first, last, strict=False)))
     return first[:same] if first[:same].startswith(begun) else begun
 
@@ -72,5 +72,5 @@ class Completion:
 
     @property
     def waits(self) -> bool:
-        """Whether the answer has not come yet."""
+        """Whether the answer is still pending."""
         return self._answer is not None and not self._answer.done()

@@ -10,9 +10,9 @@ from bot_console.tui.files.save_file import NotSaved, save_file
 from bot_console.tui.files.store_file import read_store
 
 MAX_LINES = 1000
-"""Lines that are kept."""
+"""The number of lines kept."""
 MAX_FILE_BYTES = 1 << 20
-"""Bytes of a file of lines; of a larger one the end is read."""
+"""Bytes of the file that are read; of a larger one, only the end."""
 
 
 class LineHistory:

@@ -1,4 +1,4 @@
-"""The command palette: every key's action, found by its words, and `ros2 ...` lines."""
+"""The command palette: the actions of all keys, found by words, and `ros2 ...` lines."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from textual.app import App
 from textual.fuzzy import Matcher
 
 HIDDEN = ("app.palette",)
-"""What makes no sense to choose from the palette."""
+"""Actions that make no sense in the palette."""
 INSIDE = ("list", "diagram")
-"""Scopes of what stands in a pane: moving about needs no palette."""
+"""Scopes of the parts of a pane; moving about in them needs no palette."""
 
 
 WORDS = {
@@ -49,7 +49,7 @@ OWN_WORDS = {
     "steering.arm": "arm disarm",
     "steering.hand_back": "hand back",
 }
-"""Actions that nobody may choose by accident, and the only words by which they are found."""
+"""Actions that must not be chosen by accident, with the only words by which they are found."""
 ANYWHERE = (
     "profiles.open",
     "profiles.save",
@@ -65,10 +65,11 @@ ANYWHERE = (
     "history.export",
     "alarms.add",
 )
-"""Actions that are found from other panes too, whose pane is shown first: they ask before they do anything, and do not
-depend on the selected row. Of several that match equally, the first here is listed first."""
+"""Actions that are found from other panes, too; their pane is shown first. They ask before they act, and do not
+depend on the selected row. Of several that match equally, the first here is listed first.
+"""
 SHORTEST_OWN_WORD = 3
-"""Letters of one of `OWN_WORDS` that must be typed at least."""
+"""Characters of one of `OWN_WORDS` that must be typed at least."""
 
 
 @dataclass(frozen=True)
@@ -113,7 +114,7 @@ def _command(key: Key, text: str, run: Callable[[], object]) -> Command:
 
 
 def options_for(commands: Mapping[str, Command], risk: Callable[[str], str], typed: str) -> Sequence[Option]:
-    """The commands whose words match, the best first; a `ros2` line as it stands; all while it is empty.
+    """The commands that match, best first; a `ros2` line as typed; all commands if nothing is typed.
 
     `risk` says how a line would make the robot less safe, which is shown before it is run.
     """
@@ -123,7 +124,7 @@ def options_for(commands: Mapping[str, Command], risk: Callable[[str], str], typ
     matcher = Matcher(words)
     ranks = {id: _rank(each, words.lower(), matcher) for id, each in commands.items()}
     best = sorted((id for id, rank in ranks.items() if rank is not None), key=lambda id: ranks[id] or NO_RANK)
-    if best and (ranks[best[0]] or NO_RANK) < SCATTERED:  # scattered letters are for words that were mistyped
+    if best and (ranks[best[0]] or NO_RANK) < SCATTERED:  # scattered characters only help with mistyped words
         best = [id for id in best if (ranks[id] or NO_RANK) < SCATTERED]
     why = risk(words)
     about = f"⚠ {why}; run this command line" if why else "run this command line"
@@ -133,13 +134,13 @@ def options_for(commands: Mapping[str, Command], risk: Callable[[str], str], typ
 
 NO_RANK = (0, 0.0)
 SCATTERED = (6, float("-inf"))
-"""The rank of what has only the letters, in this order."""
+"""The rank of a match of scattered characters, in the order typed."""
 
 
 def _rank(command: Command, typed: str, matcher: Matcher) -> tuple[int, float] | None:
-    """The place of a command among those found, the smallest first; None if it does not match.
+    """The rank of a command among those found, the smallest first; None if it does not match.
 
-    A title, what begins with the typed text, whole words, beginnings of words, and at last letters in this order.
+    The order is: the title, its beginning, whole words, beginnings of words, scattered characters.
     """
     wanted = _split(typed)
     if command.own_words:

@@ -1,4 +1,4 @@
-"""Runs the lines that a person types, by their first word, or says what to type instead."""
+"""Runs the lines that a person types, by their first word, or reports what to type instead."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from bot_console.tui.screens.output import OutputScreen
 from bot_console.tui.text.refusals import of_one
 
 STAMP = "%Y_%m_%d-%H_%M_%S"
-"""Of the folder of a bag, as `ros2 bag record` names it."""
+"""Time stamp in the name of a bag's folder, as in `ros2 bag record`."""
 
 
 class Host(Protocol):
@@ -48,7 +48,7 @@ class Host(Protocol):
         ...
 
     def stream_problem(self, words: Sequence[str]) -> str:
-        """Why a `ros2` line (without that word) has no room below the panes; empty when it has."""
+        """Why a `ros2` line (given without that word) has no room below the panes; empty if it has."""
         ...
 
     def load_layout(self, name: str) -> None:
@@ -60,7 +60,7 @@ class Host(Protocol):
         ...
 
     def show_bag(self, folder: str, *, play: bool) -> None:
-        """Show a bag, or play it, in place of everything else until that is quit."""
+        """Show or play a bag in a console that takes the whole terminal until it quits."""
         ...
 
     def hold_robot(self, hold: bool) -> None:
@@ -69,7 +69,7 @@ class Host(Protocol):
 
 
 class LineRunner:
-    """Runs lines, and says beforehand what is wrong with them."""
+    """Runs lines, and finds their mistakes beforehand."""
 
     def __init__(self, host: Host, console: Console, lines: CommandLine) -> None:
         self._host = host
@@ -77,7 +77,7 @@ class LineRunner:
         self._lines = lines
 
     def wrong(self, line: str) -> str:
-        """What is wrong with a line, and how to fix it; empty when no mistake can be seen before it runs."""
+        """What is wrong with a line, and how to fix it; empty if no mistake is found."""
         try:
             words = shlex.split(line)
         except ValueError:
@@ -91,7 +91,7 @@ class LineRunner:
         if verb in known or is_rqt(words):
             return self._host.stream_problem(words[words[0] == "ros2" :])
         like = get_close_matches(verb, known, 1, 0.6)
-        hint = f"did you mean {like[0]}?" if like else "help lists the commands, ^p finds an action by its words"
+        hint = f"did you mean {like[0]}?" if like else "help lists the commands, ^p finds an action by name"
         return f"there is no command {verb}; {hint}"
 
     def _wrong_verb(self, words: Sequence[str]) -> str:
@@ -131,7 +131,7 @@ class LineRunner:
         return self._lines.complete(words, self._console.snapshot())
 
     def run(self, line: str) -> None:
-        """Run a line, or say what is wrong with it."""
+        """Run a line, or report what is wrong with it."""
         wrong = self.wrong(line)
         if wrong:
             self._host.notify(wrong, severity="error")
@@ -165,7 +165,8 @@ class LineRunner:
         printed = str(error) if error else done.result()
         words = line.split()
         starts = words[words[:1] == ["ros2"] :][:1] in (["run"], ["launch"])
-        if starts and len(printed.strip().splitlines()) <= 1:  # what was started is seen elsewhere: no key closes this
+        # the console shows what was started elsewhere: no key closes this
+        if starts and len(printed.strip().splitlines()) <= 1:
             reported_text = printed.strip() or f"{line}: over, it said nothing"
             self._host.notify(sanitize(reported_text), severity="error" if error else "information")
         else:

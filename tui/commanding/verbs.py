@@ -19,7 +19,7 @@ class Verb:
     about: str
     least: int = 0
     maximum: int = 99
-    """Words that must, and may, follow it."""
+    """The maximum number of words that may follow it."""
 
 
 VERBS: Mapping[str, Verb] = {
@@ -65,13 +65,13 @@ CONTINUATIONS = tuple("+-*^%,)<>=")
 
 
 def wrong_use(words: Sequence[str]) -> str:
-    """What is wrong with the number of arguments of one of our verbs; empty when nothing is."""
+    """What is wrong with the number of arguments of one of our verbs; empty if nothing is."""
     verb = VERBS[words[0]]
     return "" if verb.least <= len(words) - 1 <= verb.maximum else f"write it as: {verb.usage}"
 
 
 def wrong_bag(words: Sequence[str]) -> str:
-    """What is wrong with `bag open FOLDER` or `bag play FOLDER`; empty when nothing is."""
+    """What is wrong with `bag open FOLDER` or `bag play FOLDER`; empty if nothing is."""
     if words[1] not in ("open", "play"):
         begun = "write it as: bag open FOLDER, or bag play FOLDER"
         return f"{begun}; record begins and ends one, the rest is for a shell: bot-console bag -h"
@@ -79,7 +79,7 @@ def wrong_bag(words: Sequence[str]) -> str:
 
 
 def curves_of(words: Sequence[str]) -> list[str]:
-    """The expressions in the arguments of `plot`: blanks separate curves, but may also stand within one."""
+    """The expressions in the arguments of `plot`: blanks separate curves, but may also be part of one."""
     curves: list[str] = []
     for word in words:
         if curves and (word in ("/", "//") or word[:1] in CONTINUATIONS or _is_incomplete(curves[-1])):

@@ -1,4 +1,4 @@
-"""One program at a time in a folder: for steps that two of them would undo for each other."""
+"""A lock on a folder, for steps in which two programs would disturb each other."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ POLL_S = 0.02
 
 @contextmanager
 def folder_lock(folder: Path, timeout_s: float) -> Generator[bool]:
-    """Lock a folder for the length of a `with` block; gives whether that succeeded within so many seconds.
+    """Lock a folder for the length of a `with` block; yields whether that succeeded within `timeout_s` seconds.
 
-    The lock leaves no file behind and ends with the program. Where folders cannot be locked, everybody has the lock.
+    The lock leaves no file behind and ends with the program. If folders cannot be locked, every program gets the lock.
     Raises `OSError` for a folder that cannot be opened.
     """
     if os.name != "posix":

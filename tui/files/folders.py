@@ -6,17 +6,19 @@ import os
 from pathlib import Path
 
 OVERRIDE = "BOT_CONSOLE_USER_DIR"
-"""Environment variable: one folder for all of it, for instance on a borrowed account."""
+"""Environment variable that names one folder for everything, for instance on a borrowed account."""
 
 
 def config_folder() -> Path:
-    """For what a person writes: settings, layouts, profiles (`~/.config/bot-console` on Linux)."""
+    """The folder for what a person writes: settings, layouts, profiles (`~/.config/bot-console` on Linux)."""
     given = os.environ.get(OVERRIDE)
     return Path(given) / "config" if given else _platform("user_config_path")
 
 
 def state_folder() -> Path:
-    """For what the program keeps between runs: history, last screen, crash files (`~/.local/state/bot-console`)."""
+    """The folder for what the program keeps between runs: history, last screen, crash files
+    (`~/.local/state/bot-console`).
+    """
     given = os.environ.get(OVERRIDE)
     return Path(given) / "state" if given else _platform("user_state_path")
 

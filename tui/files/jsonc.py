@@ -1,4 +1,4 @@
-"""JSON with comments and trailing commas, as editors have it: read, and changed without losing any of it."""
+"""Reads JSON with comments and trailing commas, as editors use it, and changes it without losing comments."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _TOKEN = re.compile(
 
 
 class JsoncError(ValueError):
-    """The text cannot be read, or does not have the expected shape; the message says where, and why."""
+    """The text cannot be read, or does not have the expected shape; the message says where and why."""
 
 
 class _Token(NamedTuple):
@@ -60,11 +60,11 @@ def with_member(text: str, key: str, value: Any) -> str:
 
 
 def with_strings(text: str, key: str, wanted: Sequence[str], is_old: Callable[[str], bool]) -> str:
-    """The text of an object in whose array `key` stand the wanted strings, and no other that is old."""
+    """The text of an object whose array `key` has all the wanted strings, and none for which `is_old` is true."""
     text = with_member(text, key, [])
     found = load(text)[key]
     if not isinstance(found, list):
-        raise JsoncError(f"{json.dumps(key)} is no list")
+        raise JsoncError(f"{json.dumps(key)} is not a list")
     member = [each for each in _elements(text, _tokens(text), 0) if each.key == key][-1]
     inside = [each for each in _tokens(text) if each.start >= member.start]
     items = _elements(text, inside, 0)
@@ -78,7 +78,7 @@ def with_strings(text: str, key: str, wanted: Sequence[str], is_old: Callable[[s
 
 
 def _appended(text: str, array: Sequence[_Token], items: Sequence[_Element], added: Sequence[str]) -> str:
-    """The text with elements after those of an array, and after what stands in the line of the last one."""
+    """The text with elements added to an array, after a comment on the line of its last one."""
     shown = "".join(f"\n        {each}," for each in added).removesuffix(",")
     if not items:
         place = array[0].end

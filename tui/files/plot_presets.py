@@ -14,17 +14,17 @@ from bot_console.tui.files.save_file import save_file
 from bot_console.tui.files.store_file import read_store
 
 MAX_FILE_BYTES = 1_000_000
-"""Bytes of a file that is looked at."""
+"""Maximum size of a file that is read."""
 MAX_CURVES = 200
 
 
 class NoPreset(ValueError):
-    """There is no preset of that name; the text says why."""
+    """There is no preset of that name; the message says why."""
 
 
 @dataclass(frozen=True)
 class KeptCurve:
-    """A curve as a person requested it."""
+    """A curve as the user requested it."""
 
     curve: str
     right: bool = False
@@ -47,7 +47,7 @@ def preset_names() -> Sequence[str]:
 
 
 def preset_name_problem(text: str) -> str:
-    """Why a text cannot be the name of a preset; empty when it can."""
+    """Why a text cannot be the name of a preset; empty if it can."""
     fits = re.fullmatch(r"[\w][\w .-]{0,59}", text.strip())
     return "" if fits else "letters, digits, blanks, dots and dashes make a name"
 

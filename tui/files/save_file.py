@@ -10,9 +10,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 PREFIX, SUFFIX = ".bot-console-", ".saving"
-"""Around the name of a file that is being written; nothing of the own name, which may be as long as is allowed."""
+"""Prefix and suffix of a file that is being written; its own name is left out, since that may have the maximum
+length.
+"""
 LEFT_OVER = 600.0
-"""Seconds after which a file of that name is what a killed program left."""
+"""Seconds after which a file with such a name was left behind by a killed program."""
 
 
 class NotSaved(OSError):
@@ -62,7 +64,7 @@ def _reason(path: Path, error: OSError) -> str:
 
 
 def _save(path: Path, content: bytes, check: Callable[[bytes], None] | None) -> None:
-    # The rename is to replace what a link leads to, not the link.
+    # The rename must replace the target of a link, not the link.
     target = Path(os.path.realpath(path))
     old = _replaceable(path, target)
     try:
@@ -103,7 +105,7 @@ def _replaceable(path: Path, target: Path) -> os.stat_result | None:
 
 
 def _write(path: Path, content: bytes, mode: int) -> None:
-    # The kernel takes the umask off the mode: a program cannot read its umask without setting it.
+    # The kernel applies the umask to the mode: a program cannot read its umask without setting it.
     flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
     with os.fdopen(os.open(path, flags, mode), "wb") as file:
         file.write(content)
@@ -119,7 +121,7 @@ def _take_after(new: Path, old: os.stat_result, path: Path) -> None:
             os.chown(new, old.st_uid, old.st_gid)
         except PermissionError:
             raise NotSaved(f"{path} belongs to somebody else, which saving would change; give another name") from None
-    # After the owner, whose change takes some bits of the mode away.
+    # After the owner, since changing the owner clears some bits of the mode.
     new.chmod(stat.S_IMODE(old.st_mode))
 
 

@@ -1,4 +1,6 @@
-"""How the console reads a file that it keeps: without blocking or filling memory, whatever has taken its place."""
+"""Reads the files that the console keeps, without blocking or filling memory if something else has taken their
+place.
+"""
 
 from __future__ import annotations
 
@@ -9,14 +11,15 @@ from pathlib import Path
 
 
 def read_store(path: Path, maximum: int, *, end: bool = False) -> bytes:
-    """The content of a file of at most so many bytes; with `end`, the last ones of a larger file.
+    """The content of a file of at most `maximum` bytes; with `end`, the last ones of a larger file.
 
-    Raises `OSError`; `FileNotFoundError` if there is none. A pipe in its place would never end, and is refused.
+    Raises `OSError`, in particular `FileNotFoundError` if there is no file. A pipe in its place is refused, since it
+    would never end.
     """
     handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
     with os.fdopen(handle, "rb") as file:
         status = os.fstat(handle)
-        if not (stat.S_ISREG(status.st_mode) or stat.S_ISCHR(status.st_mode)):  # some lead it to /dev/null
+        if not (stat.S_ISREG(status.st_mode) or stat.S_ISCHR(status.st_mode)):  # some users link it to /dev/null
             raise OSError(errno.EINVAL, "it is not a regular file", str(path))
         if end and status.st_size > maximum:
             file.seek(-maximum, os.SEEK_END)

@@ -37,7 +37,7 @@ def wrong_keys(keys: Mapping[str, str]) -> str:
         if id not in known:
             return f"there is no action '{id[:40]}'; `bot-console config --keys` lists them"
         if not all(re.fullmatch(r"(?:(?:ctrl|shift|alt)\+)*[a-zA-Z0-9_]+", each) for each in given.split(",")):
-            return f"{id}: '{given[:40]}' is no list of keys such as u,ctrl+u,f2,question_mark"
+            return f"{id}: '{given[:40]}' is not a list of keys such as u,ctrl+u,f2,question_mark"
     together = [(TABLE[each], each) for each in SHARED]
     for scope, table in TABLE.items():
         taken: dict[str, str] = {}

@@ -10,11 +10,11 @@ from bot_console.tui.layout.placing import Box, boxes, fits
 from bot_console.tui.layout.tree import Tree, close, exchange, panes
 
 CHROME = 3
-"""Lines that are not the panes': tabs, status, keys."""
+"""Lines that do not belong to panes: tabs, status, keys."""
 MAX_TERMINAL_CELLS = 1000
-"""Columns and lines of which no terminal has more."""
+"""More columns or lines than any terminal has."""
 REMEMBERED = 50
-"""Changes that can be taken back."""
+"""Changes that can be undone."""
 
 
 IN_PLACE_OF_EMPTY = "graph"
@@ -22,7 +22,7 @@ IN_PLACE_OF_EMPTY = "graph"
 
 
 def without(tree: Tree, pane: str) -> Tree:
-    """A tree in which another pane has the place of one, or its neighbours have it."""
+    """A tree without a pane: another one takes its place, or else its neighbours do."""
     shown = panes(tree)
     if pane not in shown:
         return tree
@@ -61,7 +61,7 @@ class Forgetful:
         return name
 
     def remember(self, name: str, tree: Tree | None) -> None:
-        """Nothing outlasts the program."""
+        """Do nothing: this store does not outlast the program."""
 
 
 class Arrangement:
@@ -73,7 +73,7 @@ class Arrangement:
         self._known: Mapping[str, Layout] = {}
         self._changed = tree
         self.empty: frozenset[str] = frozenset()
-        """Panes that would stay empty in this system, and give their places to others."""
+        """Panes that would stay empty in this system, and whose places go to others."""
         self._before: list[tuple[str, Tree | None]] = []
         if tree is None and name not in self.layouts():
             raise LookupError(f"there is no layout '{name}'; layouts: {', '.join(sorted(self.layouts()))}")
@@ -90,7 +90,7 @@ class Arrangement:
         return f"{self.name}{'*' if self._changed is not None else ''}"
 
     def tree(self, width: int, height: int) -> Tree | None:
-        """What to show in a terminal of so many cells; None if not all of it fits."""
+        """The tree for a terminal of a size in cells; None if not all of it fits."""
         tree = self._changed if self._changed is not None else self._layout().form(width, height)
         for pane in self.empty:
             tree = without(tree, pane)
@@ -107,12 +107,12 @@ class Arrangement:
         )
 
     def _layout(self) -> Layout:
-        """The layout as last read from its file: this is asked for with each snapshot."""
+        """The layout as last read from its file, cached, since it is needed for each snapshot."""
         known = self._known or self.layouts()
         return known.get(self.name, BUILT_IN[OVERVIEW])
 
     def change(self, tree: Tree) -> None:
-        """Show another tree, as a step of its own for undo."""
+        """Show another tree, as a separate step for undo."""
         self._note()
         self._changed = tree
 
@@ -135,7 +135,7 @@ class Arrangement:
         return True
 
     def save(self, name: str, tree: Tree) -> str:
-        """Save what is shown under a name, which becomes its name; raises `NotSaved`."""
+        """Save the current tree as a layout, which becomes the current one; raises `NotSaved`."""
         kept = self._store.save(name, tree)
         self.layouts()
         self._note()
@@ -143,7 +143,7 @@ class Arrangement:
         return kept
 
     def remember(self) -> None:
-        """Make the next start begin with what is on the screen."""
+        """Save what is on the screen for the next start."""
         self._store.remember(self.name, self._changed)
 
     def _note(self) -> None:

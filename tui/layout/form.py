@@ -11,7 +11,7 @@ MAX_DEPTH = 8
 
 
 class NoLayout(ValueError):
-    """The data describe no layout; the text says what is wrong and what is expected."""
+    """The data do not describe a layout; the message says what is wrong and what is expected."""
 
 
 def data_of(tree: Tree) -> object:

@@ -16,14 +16,14 @@ Size = tuple[int, int]
 
 @dataclass(frozen=True)
 class Layout:
-    """A tree and what it is for; `forms` are shown instead in terminals of a size from which each is, largest first."""
+    """A tree and its purpose; `forms` replace it in terminals of at least a given size, largest first."""
 
     tree: Tree
     about: str = ""
     forms: Sequence[tuple[Size, Tree]] = ()
 
     def form(self, width: int, height: int) -> Tree:
-        """The tree for a terminal of so many cells."""
+        """The tree for a terminal of a size in cells."""
         return next((tree for size, tree in self.forms if width >= size[0] and height >= size[1]), self.tree)
 
 

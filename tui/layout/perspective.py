@@ -1,4 +1,4 @@
-"""Reads rqt perspectives: which plug-ins a window had, to show the matching panes. Their positions are not taken over.
+"""Reads rqt perspectives: finds the plug-ins of a window and shows the matching panes. Their positions are not used.
 
 rqt writes JSON (`.perspective`) or an INI file; both name each open plug-in as `plugin__<package>__<class>__<number>`,
 or in a list `'<package>/<class>': [1, 2]` of those that are running.
@@ -19,7 +19,7 @@ OPEN = re.compile(r"plugin__(rqt_[a-z0-9_]{1,60}?)__[A-Z]\w{0,60}?__\d")
 def perspective_tree(text: str, panes: Mapping[str, str]) -> tuple[Tree, list[str]]:
     """The panes that match a perspective's plug-ins, and the plug-ins that have no match.
 
-    `panes` maps a package of rqt to a pane. Raises `NoLayout` if the text is no perspective, or no pane is left.
+    `panes` maps a package of rqt to a pane. Raises `NoLayout` if the text is not a perspective, or no pane is left.
     """
     packages = list(dict.fromkeys(RUNNING.findall(text) or OPEN.findall(text)))
     if not packages:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from bot_console.tui.layout.tree import Split, Tree, Way
 
 MIN_PANE_SIZE = (20, 4)
-"""Columns and lines below which a pane shows nothing that can be used."""
+"""Columns and lines below which a pane shows nothing useful."""
 
 
 class Box(NamedTuple):
@@ -59,7 +59,9 @@ def borders(tree: Tree, box: Box, path: tuple[int, ...] = ()) -> Iterator[Border
 
 
 def _parts(tree: Split, box: Box) -> list[Box]:
-    """The boxes of the parts; cells that do not divide evenly go, one by one, where they are noticed least."""
+    """The boxes of the parts; cells left over by the division are given out one by one, where they are noticed
+    least.
+    """
     whole = box.width if tree.way == "beside" else box.height
     total = sum(tree.shares)
     found: list[Box] = []
@@ -94,7 +96,7 @@ def _lies(here: Box, there: Box, dx: int, dy: int) -> bool:
 
 
 def _distance(here: Box, there: Box, dx: int, dy: int) -> tuple[int, int]:
-    """How far a box is in the direction, and how far beside it: the nearest one that is most in line wins."""
+    """The distance of a box in the direction, and its offset to the side: the nearest one that is most in line wins."""
     if dx:
         ahead = there.x - here.x - here.width if dx > 0 else here.x - there.x - there.width
         return ahead, _apart((here.y, here.height), (there.y, there.height))

@@ -13,7 +13,7 @@ from typing import Literal, TypeAlias
 Way: TypeAlias = Literal["beside", "below"]
 
 MIN_SHARE = 0.05
-"""What a part keeps of its split however much it is made smaller."""
+"""The minimum share of a part, however much it is shrunk."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,9 @@ def panes(tree: Tree) -> tuple[str, ...]:
 
 
 def split(tree: Tree, pane: str, new: str, way: Way) -> Tree:
-    """Put a pane beside or below another one, which gives it half of its room; one that is there already moves."""
+    """Put a pane beside or below another one, which gives it half of its room; a pane that is in the tree already
+    moves.
+    """
     rest = close(tree, new) if new in panes(tree) and new != pane else tree
     return tree if rest is None or new == pane else _split(rest, pane, new, way)
 
@@ -78,7 +80,7 @@ def close(tree: Tree, pane: str) -> Tree | None:
 
 
 def exchange(tree: Tree, one: str, other: str) -> Tree:
-    """Swap two panes; one that is not shown replaces the other."""
+    """Swap two panes; a pane that is not in the tree replaces the other."""
     names = {one: other, other: one}
     return _named(tree, lambda pane: names.get(pane, pane))
 
@@ -128,7 +130,7 @@ def even(tree: Tree) -> Tree:
 
 
 def turn(tree: Tree, pane: str) -> Tree:
-    """Turn the innermost split that contains a pane: beside becomes below, and the other way round."""
+    """Turn the innermost split that contains a pane: beside becomes below, or the reverse."""
     if isinstance(tree, str):
         return tree
     if pane in tree.parts:

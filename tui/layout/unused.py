@@ -10,7 +10,7 @@ from bot_console.tui.console.model import ConsoleSnapshot
 WORLD = "world"
 WORLD_TYPES = ("nav_msgs/msg/OccupancyGrid", "nav_msgs/msg/Odometry", "turtlesim/msg/Pose")
 GIVE_UP_AFTER_S = 3.0
-"""How long (s) nodes are there before a pane without anything to show is given up: a robot starts one by one."""
+"""Seconds after the first node until a pane without anything to show is given up, since a robot starts node by node."""
 
 
 class UnusedPanes:

@@ -1,4 +1,4 @@
-"""A stop is noticed where keys are read: the robot does not wait for whatever was typed or moved before the key."""
+"""Notices a stop where keys are read: the robot does not wait for input that came before the key."""
 
 from __future__ import annotations
 
@@ -55,7 +55,9 @@ class EarlyStop:
         held: Callable[[], bool],
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """`idle`: all earlier input is done. `typing`: a text field has the focus. `held`: the screen says so."""
+        """`idle`: whether all earlier input is handled. `typing`: whether a text field has the focus. `held`:
+        whether the screen shows the robot as held.
+        """
         self._idle = idle
         self._typing = typing
         self._held = held
@@ -67,7 +69,7 @@ class EarlyStop:
         self._lock = threading.Lock()
 
     def attach(self, holder: Holder, stop: Callable[[], None]) -> None:
-        """Act on a robot from now on, also for keys pressed before; `stop` is what such a key does in its turn."""
+        """Act on a robot from now on, also for keys pressed before; `stop` is the action of the stop key."""
         with self._lock:
             self._holder, self._stop = holder, stop
             for each in self._presses:
@@ -76,11 +78,11 @@ class EarlyStop:
 
     @property
     def due(self) -> float | None:
-        """When `poll` is to be called, by the clock; None if not at all."""
+        """The time, by the clock, at which to call `poll`; None if that is not needed."""
         return min((each.due for each in [*self._presses] if not each.is_held), default=None)
 
     def is_stop(self, event: events.Key) -> bool:
-        """Whether a key may stop the robot; with Alt it may be two keys, Esc and that one."""
+        """Whether a key may stop the robot; with Alt it may be two keys, Esc and the stop key."""
         character = event.character if event.key.startswith(ALT) else None
         return stops(event.key) or (character is not None and stops(character))
 
@@ -109,11 +111,11 @@ class EarlyStop:
         if self._holder is not None:
             try:
                 self._holder.hold_early(press.id)
-            except Exception:  # of the link to the robot: keys must still be read
+            except Exception:  # an error of the link to the robot: keys must still be read
                 press.is_held, press.due = False, math.inf
 
     def has_acted(self, event: events.Key) -> bool:
-        """Whether a key whose turn has come has done what it does; if not, it is a key like any other.
+        """Whether the stop key already took effect before its turn; if not, it is handled like any other key.
 
         It releases only a stop that was on the screen when it was pressed.
         """

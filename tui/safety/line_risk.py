@@ -10,7 +10,7 @@ from bot_console.tui.format import parse_value
 
 
 def risk_of(line: str, snapshot: ConsoleSnapshot) -> str:
-    """What it takes, as the end of a sentence; empty when nothing, and for every other line."""
+    """What makes the robot less safe, as the end of a sentence; empty if nothing does, and for every other line."""
     try:
         words = shlex.split(line)
     except ValueError:  # a quotation mark that is still open

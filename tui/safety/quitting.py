@@ -23,7 +23,7 @@ class Quitting:
         self.asking = False
         """Whether the question is open."""
         self._holding = False
-        """Whether the robot is held for the question alone, and may move again when the answer is no."""
+        """Whether the robot is held only during the question, and may move again if the answer is no."""
 
     def wanted(self) -> None:
         """End, or ask first; a second request while the question is open ends at once."""
@@ -55,7 +55,7 @@ class Quitting:
     def _go_on(self) -> None:
         self.asking = False
         if self.keep_held():
-            self._console.drive.stop(False)  # which takes back no stop but this console's
+            self._console.drive.stop(False)  # which withdraws only this console's stop
 
 
 def lost_names(snapshot: ConsoleSnapshot) -> list[tuple[str, str]]:

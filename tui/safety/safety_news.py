@@ -10,10 +10,12 @@ from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.format import value_text
 
 BACK = {ChangeSource.EDIT: "u", ChangeSource.REDO: "u", ChangeSource.UNDO: "U"}
-"""The sources of the changes that are told of, with the key that takes each back; others are asked about before."""
+"""The sources of changes that are announced, with the key that takes each back; for others, a question is asked
+before.
+"""
 MAX_WAITING_CALLS = 10
-"""Calls, ten of them a second, for which a change may wait until its key takes it back: other nodes of the same set may
-still refuse, which takes it back by itself.
+"""Calls, ten per second, for which a change may wait until a key can take it back: other nodes of the same set may
+still refuse it, which takes it back automatically.
 """
 
 
@@ -25,10 +27,10 @@ class SafetyNews:
         self._end: int | None = None
         self._reported: set[tuple[str, str]] = set()
         self._waiting: dict[tuple[str, str], tuple[Change, str, int]] = {}
-        """Changes that are not announced yet, each with how it makes the robot less safe, and the calls since then."""
+        """Changes not announced yet, each with how it makes the robot less safe, and the number of calls since then."""
 
     def since(self, snapshot: ConsoleSnapshot) -> Sequence[str]:
-        """What to announce of the edits since the last call."""
+        """The announcements about edits since the last call."""
         before, self._end = self._end, snapshot.journal.end
         if before is not None and before != self._end:
             for each in self._parameters.changes(before):
@@ -36,7 +38,7 @@ class SafetyNews:
         return [text for key in [*self._waiting] if (text := self._news(key, snapshot))]
 
     def _notice(self, change: Change, snapshot: ConsoleSnapshot) -> None:
-        """Let a change wait that is to be announced."""
+        """Queue a change that is to be announced."""
         tree = snapshot.parameters.get(change.node)
         parameter = tree.get(change.name) if tree else None
         if parameter is None or not change.accepted:
@@ -49,7 +51,7 @@ class SafetyNews:
             self._waiting[key] = change, why, 0
 
     def _news(self, key: tuple[str, str], snapshot: ConsoleSnapshot) -> str:
-        """The text about a change that waits, once it is certain what takes it back; empty until then."""
+        """The text about a queued change, once it is certain what takes it back; empty until then."""
         change, why, calls = self._waiting[key]
         journal = snapshot.journal
         goes_back = key in (journal.redoes if change.source is ChangeSource.UNDO else journal.undoes)

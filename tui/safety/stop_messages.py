@@ -15,7 +15,7 @@ MAX_NAMED_STOPS = 5
 
 
 def stop_text(drive: DriveInfo) -> str:
-    """The state of a stop; it says held only when the robot has acknowledged it."""
+    """The state of a stop; it reads "held" only once the robot has acknowledged it."""
     if drive.unsent:
         return f"STOP NOT SENT: {drive.unsent}"
     if drive.nothing_to_stop:
@@ -28,16 +28,16 @@ def stop_text(drive: DriveInfo) -> str:
         return "STOP SENT, NOT CONFIRMED: THE ROBOT MAY MOVE (! sends it again)"
     key = "! releases" if drive.stopped_here else "! holds it too, once more releases"
     if holder_is_gone(drive) and not drive.stopped_here:
-        key = "! twice releases"  # shorter: that nobody else will is to be seen in 80 columns
+        key = "! twice releases"  # shorter, so that the rest is visible in 80 columns
     if drive.refused:
         key = "released elsewhere: read-only console"
-    # The key first: in a narrow terminal the end of the line is not seen.
+    # The key comes first: a narrow terminal cuts off the end of the line.
     loose = f"  {may_move(drive)}" if drive.stopped_here and drive.unlocked and not drive.held_by_means else ""
     return f"ALL STOP held ({key}){loose}{held_by(drive)}"
 
 
 def may_move(drive: DriveInfo) -> str:
-    """That robots without an emergency stop may move, and what is being tried."""
+    """The warning that robots without an emergency stop may move, and what is being tried."""
     who = sanitize(", ".join(drive.unlocked)) if drive.lockable else "THE ROBOT"
     return f"{who} MAY MOVE, {sanitize(drive.means_news) or 'zeros only'}"
 
@@ -57,7 +57,7 @@ def holder_is_gone(drive: DriveInfo) -> bool:
 
 
 def stops_of_ending(snapshot: ConsoleSnapshot, processes: Sequence[ProcessInfo]) -> list[str]:
-    """Lines that name who holds the robot, if the end of these processes would end a lock; else none."""
+    """Lines that name who holds the robot, if the end of these processes would end a lock; empty otherwise."""
     stops = snapshot.drive.stops
     locks = {node.name for node in snapshot.graph.nodes if any(map(_is_lock, node.publishers))}
     if not stops or not any(locks.intersection(each.nodes) for each in processes):
@@ -77,6 +77,6 @@ def _lines(stops: Sequence[RobotStop]) -> list[str]:
 def release_question(
     others: Sequence[RobotStop], then: Callable[[None], object], gone: Callable[[], str]
 ) -> Confirmation:
-    """Asks whether to release the stops of others too; `gone` tells when there are none any more."""
+    """Asks whether to release the stops of others too; `gone` is called to check whether there are none any more."""
     reasons = ["These stops are not this console's:", *_lines(others), "", "With no the robot stays held, by you too."]
     return Confirmation("Release the robot all the same?", then, gone, reasons="\n".join(reasons))

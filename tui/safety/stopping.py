@@ -13,13 +13,13 @@ from textual.screen import Screen
 
 
 class Stopping:
-    """Holds the robot for this console, and withdraws that; others' stops are released only after a question."""
+    """Holds the robot for this console, and withdraws that stop; others' stops are released only after a question."""
 
     def __init__(self, app: App[None], console: Console) -> None:
         self._app = app
         self._console = console
         self._question: Screen[None] | None = None
-        """Whether to release what others hold; on the screen, or answered."""
+        """The question whether to release what others hold; on the screen, or answered."""
 
     def wanted(self) -> None:
         """Hold the robot, or release it; a stop that nobody has acknowledged is sent again.

@@ -35,7 +35,7 @@ DROPPED = (
     "arrange.beside",
     "arrange.left",
 )
-"""Keys that the line leaves out when there is little room, the first one first; the others are always there."""
+"""Keys that the line leaves out if there is little room, the first one first; the others are always shown."""
 
 
 class Arranger(Protocol):
@@ -62,11 +62,11 @@ class Arranger(Protocol):
         ...
 
     def grow(self, columns: int, lines: int) -> None:
-        """Make it wider or higher by a number of steps; negative ones shrink it."""
+        """Make the pane wider or taller by a number of steps; negative numbers shrink it."""
         ...
 
     def even(self) -> None:
-        """Share the room equally."""
+        """Share the space equally."""
         ...
 
     def turn(self) -> None:
@@ -147,7 +147,7 @@ class ArrangeScreen(DimmedScreen):
         self._arranger.grow(columns, lines)
 
     def action_even(self) -> None:
-        """Share the room equally."""
+        """Share the space equally."""
         self._arranger.even()
 
     def action_turn(self) -> None:

@@ -110,7 +110,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
         self.query_one(Prompt).ask(line)
 
     def filter_is(self, words: str) -> None:
-        """Hide nothing: elements are identified by their indices."""
+        """Do nothing: a filter hides no elements, since they are identified by their indices."""
 
     def find(self, words: str, step: int) -> bool:
         """Go to the next matching element; returns whether there is one."""
@@ -165,7 +165,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
             self._report()
 
     def action_undo(self) -> None:
-        """Undo the last change of the list."""
+        """Undo the last change to the list."""
         if self._before:
             self._list.elements = self._before.pop()
             self._list.rows_changed()
@@ -179,7 +179,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
             self.give_up()
 
     def action_give_up(self) -> None:
-        """Give up; changes are discarded only at a second request."""
+        """Close; changes are discarded only at a second request."""
         if not self._changed or self._leaving:
             self.give_up()
             return

@@ -28,7 +28,7 @@ WORDS = {
     Payload.GOAL: ("Goal for", "s sends · x cancels"),
 }
 USUAL_RATE = "10"
-"""Hz that are offered first."""
+"""The rate in Hz that is offered first."""
 
 
 class SlotRows(RowList):
@@ -105,7 +105,7 @@ class FillScreen(QuestionScreen[None]):
         self._asked = question
         self._values: dict[str, str] = {}
         self._back = 0
-        """How many of the earlier ones were gone back; 0: what is being typed."""
+        """How many sent forms back the shown one is; 0: the unsent draft."""
         self._draft: dict[str, str] = {}
         self._goal: Goal | None = None
         self._sent = 0

@@ -17,7 +17,7 @@ from textual.events import Click
 from textual.widget import Widget
 
 LINE_END = re.compile(r"(?<=\S)\n(?=\S)")
-"""The end of a line within a paragraph, which ends where the screen does; a list's lines are indented."""
+"""The end of a line within a paragraph: paragraphs are wrapped to the screen, the indented lines of a list are not."""
 
 
 class HelpScreen(Overlay):
@@ -26,7 +26,7 @@ class HelpScreen(Overlay):
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("help")]
 
     def __init__(self, scopes: Sequence[str], title: str, text: str, *, alone: bool = False) -> None:
-        """`alone`: of a mode in which the keys that work everywhere do not."""
+        """`alone`: the help of a mode in which the global keys do not work."""
         super().__init__(title or "Help")
         self._alone = alone
         self._scopes = scopes

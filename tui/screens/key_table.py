@@ -17,7 +17,7 @@ from textual.geometry import Size
 from textual.strip import Strip
 
 KEY = "pressed_key"
-"""Under which name a line carries its key."""
+"""The key of a line's metadata that holds the key to press."""
 GAP = 2
 NARROWEST = 12
 """Cells between a key and what it does, and those that keys take at least."""

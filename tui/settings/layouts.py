@@ -23,7 +23,7 @@ HEAD = """\
 # Panes: {panes}.
 """
 MAX_FILE_BYTES = 1_000_000
-"""Bytes of a layout file, or of a perspective of rqt."""
+"""Maximum size of a layout file or an rqt perspective."""
 
 
 class FileLayouts:
@@ -48,14 +48,14 @@ class FileLayouts:
         return found
 
     def save(self, name: str, tree: Tree) -> str:
-        """Keep a tree under a name and give the file; raises `NotSaved`."""
+        """Save a tree under a name and return the file; raises `NotSaved`."""
         path = _folder() / f"{name}.yaml"
         text = written({"layout": data_of(tree)}, flow=None)
         save_file(path, HEAD.format(panes=", ".join(sorted(self._panes))) + text)
         return str(path)
 
     def remember(self, name: str, tree: Tree | None) -> None:
-        """Note what is on the screen; what cannot be written is not worth a word at the end of a program."""
+        """Save what is on the screen; a failure is ignored, since the program is about to end."""
         data: dict[str, object] = {"name": name}
         if tree is not None:
             data["layout"] = data_of(tree)
@@ -63,7 +63,7 @@ class FileLayouts:
             save_file(_last(), json.dumps(data))
 
     def last(self) -> tuple[str, Tree | None]:
-        """The layout that was on the screen at the end of the last run, and its tree where it was changed."""
+        """The layout on the screen at the end of the last run, and its tree if it was changed."""
         with contextlib.suppress(NoLayout, OSError):
             data = _data(_last())
             name = data.get("name")
@@ -73,7 +73,7 @@ class FileLayouts:
         return OVERVIEW, None
 
     def from_file(self, path: Path) -> tuple[Tree, list[str]]:
-        """The tree of a layout file or of a perspective of rqt, and what of it has no counterpart here.
+        """The tree of a layout file or of an rqt perspective, and the parts that have no counterpart here.
 
         Raises `NoLayout` and `OSError`.
         """

@@ -10,7 +10,7 @@ import json
 
 
 class NotPlainData(ValueError):
-    """A file cannot be read; the text says why, on one line."""
+    """A file cannot be read; the message says why, on one line."""
 
 
 def read(content: bytes) -> object:
@@ -30,7 +30,7 @@ def read(content: bytes) -> object:
 
 
 def written(data: object, *, flow: bool | None = False, allow_unicode: bool = False) -> str:
-    """Data as YAML; `flow` None: the innermost in flow style."""
+    """Data as YAML; with `flow` None, only the innermost collections are in flow style."""
     import yaml
 
     return yaml.safe_dump(data, sort_keys=False, default_flow_style=flow, allow_unicode=allow_unicode)

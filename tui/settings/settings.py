@@ -17,7 +17,7 @@ from bot_console.tui.settings.names import GLYPHS, THEME_NAMES
 from bot_console.tui.settings.plain_file import NotPlainData, read
 
 MAX_FILE_BYTES = 100_000
-"""Bytes of a settings file; what is larger is none."""
+"""Maximum size of a settings file; a larger one is not read."""
 
 KEEP_MINUTES = 2.0
 KEEP_MEGABYTES = 64.0
@@ -64,7 +64,7 @@ keys: {{}}
 
 @dataclass(frozen=True)
 class Settings:
-    """What the settings file says; `problems` is what of it cannot be used, line by line."""
+    """The contents of the settings file; `problems` lists what cannot be used, line by line."""
 
     theme: str = "dark"
     glyphs: str = "auto"
@@ -85,12 +85,14 @@ class Settings:
 
 
 def settings_file() -> Path:
-    """The file; it need not be there."""
+    """The path of the file, which may not exist."""
     return config_folder() / "settings.yaml"
 
 
 def read_settings(path: Path | None = None) -> Settings:
-    """Read the settings file. What cannot be used is left at its default and named in `problems`; never raises."""
+    """Read the settings file. Values that cannot be used stay at their defaults and are listed in `problems`; never
+    raises.
+    """
     path = path or settings_file()
     try:
         content = read_store(path, MAX_FILE_BYTES)
@@ -104,7 +106,7 @@ def read_settings(path: Path | None = None) -> Settings:
         return Settings(problems=(f"{path}: {error}",))
     try:
         return _settings(data, str(path))
-    except ValueError:  # Python writes no whole number of more than 4,300 digits, and no setting is one
+    except ValueError:  # Python parses no integer of more than 4,300 digits, and no setting is that long
         return Settings(problems=(f"{path}: a whole number has thousands of digits",))
 
 
@@ -134,7 +136,7 @@ def _settings(data: object, path: str) -> Settings:
     wrong += [f"{path}: stop_means: {each}" for each in wrong_means]
     keys = _keys(given.pop("keys", None), path, wrong)
     hides = _names(given.pop("graph_hides", list(TOOL_NAMES)), f"{path}: graph_hides", wrong)
-    wrong += [f"{path}: '{str(name)[:40]}' is no setting" for name in given]
+    wrong += [f"{path}: '{str(name)[:40]}' is not a setting" for name in given]
     return Settings(theme, glyphs, layout, keys, tuple(wrong), keep[0], keep[1], means, hides)
 
 

@@ -11,9 +11,9 @@ from bot_console.tui.files.store_file import read_store
 from bot_console.tui.settings.plain_file import NotPlainData, read, written
 
 MAX_FILE_BYTES = 1_000_000
-"""Bytes of a file that is read; what is larger was not written here."""
+"""Maximum size of a file that is read; the console writes no larger one."""
 HEADS = {"alarms": "# Alarms of bot-console: conditions over topics and parameters, each with a name.\n"}
-"""What a person may write too, with its first lines; it stands in the folder of the settings."""
+"""The first lines of files that users may edit, too; these are in the settings folder."""
 
 
 class StateFiles:

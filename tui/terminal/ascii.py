@@ -52,12 +52,12 @@ SIMILAR_CHARACTERS = {
     "\xa0": " ",
 }
 DOTS = " .::::*###"
-"""For a braille letter with so many dots."""
+"""The replacements for braille characters, by the number of dots."""
 
 
 @lru_cache(maxsize=65536)
 def plain_character(character: str) -> str:
-    """A similar letter in ASCII, or several if it takes several cells; `?` if there is none."""
+    """A similar ASCII character, or several if it takes several cells; `?` if there is none."""
     if character.isascii():
         return character
     code = ord(character)

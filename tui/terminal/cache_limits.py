@@ -17,7 +17,7 @@ from textual.dom import DOMNode
 CUTS = 512
 """A few screens full."""
 ANSWERS = 32
-"""More than a pane or a screen looks for between two changes."""
+"""More queries than a pane or a screen makes between two changes."""
 
 
 def limit_cut_cache() -> None:

@@ -16,7 +16,7 @@ from rich.style import Style
 from textual.strip import Strip
 
 NARROW = re.compile(r"[\x20-\x7e\xa0-\xac\xae-\u02ff\u2190-\u2199\u2500-\u25fc\u2800-\u28ff]*")
-"""Texts whose letters take one cell each in every terminal."""
+"""Texts whose characters take one cell each in every terminal."""
 
 ACTING = frozenset(("Cc", "Cf", "Cs"))
 """Categories of characters that terminals obey or that cannot be encoded: controls, formatting, surrogates."""
@@ -24,7 +24,7 @@ UNSHOWN = "?"
 
 
 class Cells(NamedTuple):
-    """Letters and SGR codes, one of each per cell; `uneven` if not all letters are one cell wide."""
+    """Characters and SGR codes, one of each per cell; `uneven` if not all characters are one cell wide."""
 
     characters: list[str]
     styles: list[str]
@@ -32,10 +32,10 @@ class Cells(NamedTuple):
 
 
 def cells_of(segments: Iterable[Segment], colours: ColorSystem, plain: bool = False) -> Cells:
-    """The cells of a segment of a line. A wide letter occupies its first cell; the second one is empty.
+    """The cells of a segment of a line. A wide character occupies its first cell; the second one is empty.
 
     Characters that act on a terminal are left out. `plain` is for terminals that show only ASCII: drawing characters
-    are replaced by similar letters.
+    are replaced by similar ones.
     """
     characters: list[str] = []
     styles: list[str] = []
@@ -58,14 +58,15 @@ def _spread(text: str, characters: list[str]) -> None:
     for character in text:
         width = get_character_cell_size(character)
         if unicodedata.category(character) in ACTING:
-            # What acts on a terminal never reaches it, whoever has drawn it; where it has a width it leaves a mark.
+            # A character that acts on a terminal never reaches it, whoever drew it; if it has a width, it leaves a
+            # mark.
             characters += [UNSHOWN] * max(0, width)
             continue
         if width:
             characters.append(character)
             characters += [""] * (width - 1)
         elif characters:
-            # A zero-width letter joins the one before it, which is two cells back if that is wide.
+            # A zero-width character joins the one before it, which is two cells back if that is wide.
             characters[-1 if characters[-1] or len(characters) == 1 else -2] += character
 
 

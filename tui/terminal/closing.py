@@ -15,14 +15,14 @@ LAST_WORDS = (
     "\x18\x1b[m\x1b[?2026l\x1b[?1000l\x1b[?1002l\x1b[?1003l\x1b[?1006l\x1b[?1015l\x1b[?1004l\x1b[?2004l\x1b[?7h\x1b[<u"
     "\x1b[?1049l\x1b[?25h"
 )
-"""Ends a sequence that was cut off, then every mode that Textual has set, for when the terminal wakes up."""
+"""Ends a sequence that was cut off, then every mode that Textual has set, in case the terminal responds again."""
 FLUSH_TIMEOUT_S = 1.0
-"""Seconds that a terminal has to take what is still to be written."""
+"""Seconds for which a terminal may take to accept the remaining output."""
 
 
 @contextlib.contextmanager
 def closing_terminal(driver: Any) -> Generator[None]:
-    """Wrap the closing of a driver; if its writer is still blocked after `GRACE` (s), its output is discarded.
+    """Wrap the closing of a driver; if its writer is still blocked after `FLUSH_TIMEOUT_S`, its output is discarded.
 
     Textual waits for the writer without limit, so quitting would hang on a stalled terminal.
     """

@@ -11,17 +11,17 @@ from rich.segment import Segment
 from textual.strip import Strip
 
 UNKNOWN = "\0"
-"""Stands for a cell of which nobody knows what it shows."""
+"""Marks a cell whose content on the terminal is unknown."""
 
 JUMP = 4
-"""Bytes of a move of the cursor within a line: up to so many equal cells are written again instead."""
+"""Bytes of a cursor move within a line: up to this many equal cells are rewritten instead."""
 
 
 class ShownScreen:
     """The cells of the terminal as they were written last."""
 
     def __init__(self, plain: bool = False) -> None:
-        """`plain`: as `cells_of` has it."""
+        """`plain` as in `cells_of`."""
         self._plain = plain
         self._characters: list[list[str]] = []
         self._styles: list[list[str]] = []
@@ -51,7 +51,7 @@ class ShownScreen:
         """The strips of a line that are neither identical nor equal to those of the last time."""
         known = self._strips[y]
         if known.keys() != pieces.keys():
-            # Strips that begin elsewhere overwrite parts of the old ones, which are no longer comparable.
+            # Strips that begin in other columns overwrite parts of the old ones, which are no longer comparable.
             known = self._strips[y] = {x: [] for x in pieces}
         for x, strip in pieces.items():
             if strip is None:
@@ -72,9 +72,9 @@ class ShownScreen:
         uneven = new.uneven or "" in characters[x:end]
         characters[x:end], styles[x:end] = new.characters[: end - x], new.styles[: end - x]
         if uneven:
-            # Terminals disagree on the width of such letters, so everything after the first change is rewritten.
+            # Terminals disagree on the width of such characters, so everything after the first change is rewritten.
             begin = differing[0]
-            # The second half of a wide letter cannot be written without the first.
+            # The second half of a wide character cannot be written without the first.
             while begin > x and not characters[begin]:
                 begin -= 1
             differing = list(range(begin, end))

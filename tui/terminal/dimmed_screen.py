@@ -1,8 +1,8 @@
-"""A screen over the panes, which are seen dimmed around what it shows.
+"""A screen over the panes, which remain visible, dimmed, around it.
 
-Textual renders all that lies below through Rich, splits it into lines again and tints it piece by piece: most of what
-it costs to open the help, or any question. Here only lines that are wanted are asked for, and a style is tinted once.
-It hangs on private parts of Textual, as `output` does.
+Textual renders everything below through Rich, splits it into lines again and tints it piece by piece, which is most of
+the cost of opening the help or a question. Here only the needed lines are requested, and each style is tinted once.
+This relies on private parts of Textual, as `output` does.
 """
 
 from __future__ import annotations

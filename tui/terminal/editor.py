@@ -18,7 +18,7 @@ JUMPS = {
     "kak": ("+{line}", "{file}"),
     "zed": ("--wait", "{file}:{line}"),
 }
-"""How editors are told a line that do not take `+LINE FILE`, as vi, nano, emacs and most others do."""
+"""How to pass a line to editors that do not take `+LINE FILE`, as vi, nano, emacs and most others do."""
 
 
 def editing(file: str, line: int, environment: Mapping[str, str]) -> list[str]:

@@ -1,6 +1,6 @@
 """Contains exceptions: a message pump of Textual ends with the first one that leaves a handler.
 
-This relies on private parts of Textual, as `output` does; where they are named otherwise, an exception ends the app, as
+This relies on private parts of Textual, as `output` does; if their names differ, an exception ends the app, as it does
 without this module.
 """
 

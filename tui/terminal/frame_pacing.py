@@ -10,22 +10,25 @@ PACE = 0.1
 """Seconds from one frame to the next, while no key is pressed."""
 
 UNPACED_AFTER_KEY_S = 0.3
-"""Seconds after a key in which frames are not paced, since they show what the key has done."""
+"""Seconds after a key during which frames are not paced, since they show its effect."""
 
 IN_FLIGHT = 2
-"""Frames that the terminal has not answered yet."""
+"""The maximum number of frames that the terminal has not answered yet."""
 
 SLOW = 0.25
-"""Seconds; where an answer takes longer, one frame in flight keeps the line busy enough."""
+"""Seconds; if an answer takes longer, one frame in flight keeps the line busy enough."""
 
 FRAME_TIMEOUT_S = 2.0
 SLOWEST = 2000.0
-"""An answer is waited for so many seconds, and for the time that a line of so many bytes per second takes; after each
-answer that does not come twice as long, up to a minute, so that nothing piles up in front of a stalled terminal."""
+"""The lowest speed of a line in bytes per second, from which the wait for an answer is computed.
+
+The wait doubles after each answer that does not come, up to a minute, so that nothing piles up in front of a stalled
+terminal.
+"""
 MAX_FRAME_TIMEOUT_S = 60.0
 
 MERGED_NEWS_S = 5.0
-"""Seconds for which merged frames count as news."""
+"""Seconds for which merged frames are reported."""
 MIN_MERGED_FRAMES = 10
 
 

@@ -60,22 +60,22 @@ MAX_CLIPBOARD_BYTES = 32_768
 
 
 def osc52(text: str) -> str:
-    """The OSC 52 sequence that copies a text to the clipboard; base64 keeps the text from acting on the terminal."""
+    """The OSC 52 sequence that copies a text to the clipboard; base64 prevents the text from acting on the terminal."""
     return f"\x1b]52;c;{base64.b64encode(text.encode('utf-8', 'replace')).decode()}\x07"
 
 
 def within(text: str) -> str:
-    """Truncate a text to what is sent to a clipboard, without splitting the last letter."""
+    """Truncate a text to what is sent to a clipboard, without splitting the last character."""
     return text.encode("utf-8", "replace")[:MAX_CLIPBOARD_BYTES].decode("utf-8", "ignore")
 
 
 QUESTION = "\x1b[6n"
 SYNC_BEGIN, SYNC_END = "\x1b[?2026h", "\x1b[?2026l"
 BUSY = 0.03
-"""Seconds after which is looked again whether earlier output has left."""
+"""Seconds between two checks whether earlier output has been written."""
 
 SUPPORTED = installed_version("textual").startswith("8.2.")
-"""Follows the bounds in `pyproject.toml`; who overrules those gets Textual's own drawing, not a broken screen."""
+"""Follows the bounds in `pyproject.toml`; with any other version, Textual draws by itself."""
 
 
 class SparingApp(App[None]):
@@ -86,12 +86,12 @@ class SparingApp(App[None]):
         limit_cut_cache()
         self.gate = AnswerGate()
         self.plain = False
-        """Whether letters take the place of lines and braille; `redraw` shows it."""
+        """Whether ASCII characters replace lines and braille; takes effect with `redraw`."""
         self._shown = ShownScreen(self.plain)
         self._writer: object = None
         self._held = False
         self._copied = ""
-        """What is on its way to the clipboard."""
+        """The text on its way to the clipboard."""
         self.key_watch: Watch = Unwatched()
         self._input: InputQueue | None = None
 
@@ -157,7 +157,7 @@ class SparingApp(App[None]):
 
     @property
     def holds_frames(self) -> bool:
-        """Whether a batch of changes is open, until whose end nothing is drawn."""
+        """Whether a batch of changes is open, during which nothing is drawn."""
         return bool(self._batch_count)
 
     @property
@@ -268,7 +268,7 @@ class HoldingScreen(Screen[None]):
         self._compositor = PartwiseCompositor()
 
     def _compositor_refresh(self) -> None:
-        # Textual clears its dirty widgets here, although those added since its last look are not drawn.
+        # Textual clears its dirty widgets here, although those added since it last checked are not drawn.
         self._compositor.update_widgets(self._dirty_widgets)
         app = self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
         if isinstance(app, SparingApp) and self is app.screen and not app.may_draw():
@@ -279,7 +279,7 @@ class HoldingScreen(Screen[None]):
         super()._compositor_refresh()
 
     def _pass_on(self) -> None:
-        # Textual tells the foremost screen what has changed below it; those between keep what they have drawn of it.
+        # Textual notifies only the foremost screen of changes below it; those in between keep what they have drawn.
         compositor: Any = self._compositor
         dirty = compositor._dirty_regions
         between = self.app.screen_stack  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- as above
@@ -303,7 +303,7 @@ def _lines(update: ChopsUpdate | LayoutUpdate) -> dict[int, Mapping[int, Strip |
 
 
 def _pieces(update: ChopsUpdate) -> dict[int, Mapping[int, Strip | None]]:
-    # Besides what was to be drawn, a line holds what lies beneath: widgets that were not dirty are missing there.
+    # A line also has the parts beneath what was to be drawn: widgets that were not dirty are missing there.
     lines: dict[int, dict[int, Strip | None]] = {}
     for y, begin, end in update.spans:
         drawn = update.chops[y]
@@ -315,7 +315,7 @@ def _pieces(update: ChopsUpdate) -> dict[int, Mapping[int, Strip | None]]:
 
 
 def _regions(update: ChopsUpdate | LayoutUpdate) -> set[Region]:
-    """The regions that an update leaves to be drawn if it is not shown."""
+    """The regions that still have to be drawn if an update is not shown."""
     if isinstance(update, LayoutUpdate):
         return {update.region}
     return {Region(x1, y, x2 - x1, 1) for y, x1, x2 in update.spans}

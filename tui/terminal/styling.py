@@ -1,7 +1,7 @@
 """A style sheet that matches the rules for a part of a widget (a component class) when the part is first drawn.
 
-Textual matches them for each part of each widget whenever the widget is styled, and most of that is for lists that
-nobody has looked at yet. Where it names what it does otherwise, all parts are styled as Textual does it.
+Textual matches them for each part of each widget whenever the widget is styled, mostly for lists that are not visible
+yet. If the private parts of Textual have other names, all parts are styled as Textual does it.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ class StyledByPart(Widget):
     def part_style(self, name: str) -> Style:
         """The style of a part by the rules alone, without the widget's own; cached until they are matched again.
 
-        Textual drops it with every redraw, even of a single letter. Raises `KeyError` as above.
+        Textual drops it with every redraw, even of a single character. Raises `KeyError` as above.
         """
         style = self._drawn_parts.get(name)
         if style is None:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from bot_console.tui.console.protocol import Console
 
 STOP_TIMEOUT_S = 1.0
-"""Seconds that the robot's stop has to be acknowledged before the terminal is left anyway."""
+"""Seconds within which the robot should acknowledge the stop; then the terminal is left anyway."""
 STOP_POLL_S = 0.05
 EMPTY = "\x1b[m\x1b[H\x1b[J"
 ASLEEP = "bot-console was put to sleep (Ctrl-Z)"
@@ -28,7 +28,9 @@ class Leaving:
     """Leaves the terminal and comes back to it."""
 
     def __init__(self, app: App[None], console: Console, redraw: Callable[[], None], *, holds: bool = True) -> None:
-        """`holds` says whether to hold the robot while the console sleeps: only who may release it may hold it."""
+        """`holds`: whether to hold the robot while the console is suspended; only a console that may release it may
+        hold it.
+        """
         self._app = app
         self._holds = holds
         self._console = console

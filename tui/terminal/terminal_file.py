@@ -8,15 +8,15 @@ import select
 from typing import TextIO
 
 RETRY_S = 1.0
-"""Seconds after which a terminal that takes nothing is tried again, though nothing was heard of it."""
+"""Seconds after which a write to an unresponsive terminal is tried again without any event."""
 
 
 class TerminalFile:
     """The file of a terminal that accepts text even after the terminal has gone or was made non-blocking.
 
-    Textual's writer ends with the first error. Nobody empties its queue then, and whoever writes waits forever, the
-    end of the app included. The non-blocking flag is shared by all who have the terminal open: any program
-    started in the same terminal may set it, and then a full terminal is an error, although it exists.
+    Textual's writer ends with the first error. Nothing empties its queue then, and every write waits forever, at the
+    end of the app, too. The non-blocking flag is shared by all programs that have the terminal open: any of them may
+    set it, and then a full terminal raises an error, although it still exists.
     """
 
     def __init__(self, file: TextIO) -> None:
@@ -34,7 +34,7 @@ class TerminalFile:
             except BlockingIOError:
                 self._wait()
             except (OSError, ValueError):
-                # The app learns of it in other ways: by the hang-up signal, or by the end of its input.
+                # The app learns this in other ways: by the hang-up signal, or by the end of its input.
                 self.gone = True
         return len(text)
 

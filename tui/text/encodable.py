@@ -1,4 +1,4 @@
-"""Text that can be sent: what came from bytes that are not UTF-8 cannot be encoded as it is. Pure."""
+"""Makes text encodable as UTF-8, for text that came from other bytes. Pure."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ _NO_BYTE = re.compile("[\ud800-\udc7f\udd00-\udfff]")
 
 
 def encodable(text: str) -> str:
-    """A text that UTF-8 can encode, with U+FFFD in the place of what it cannot.
+    """The text with U+FFFD in place of what UTF-8 cannot encode.
 
     Arguments, environment variables and file names may contain surrogates that stand for bytes (PEP 383). Bytes that
     are UTF-8 after all, as under a locale that is not, become their characters.

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 STEADY = 0.03
-"""Share by which a figure has to differ from the one shown before it is written anew."""
+"""Relative difference from the figure shown from which on it is updated."""
 
 
 def steady(shown: float | None, now: float | None) -> float | None:
-    """What to show: the figure of before while the new one is about the same, so that nothing flickers."""
+    """The figure to show: the previous one while the new one is about the same, so that nothing flickers."""
     if shown is None or now is None or shown == 0 or now == 0:
         return now
     return shown if abs(now - shown) <= STEADY * abs(shown) else now
 
 
 def rate_text(rate: float | None, *, provisional: bool = False) -> str:
-    """A rate in Hz of three digits at most; a provisional one begins with `~`."""
+    """A rate in Hz with at most three digits; a provisional one begins with `~`."""
     if rate is None:
         return ""
     if rate == 0:
@@ -24,7 +24,7 @@ def rate_text(rate: float | None, *, provisional: bool = False) -> str:
 
 
 def coarse_rate(rate: float | None) -> str:
-    """A rate with its unit, so coarse that what shows it is not redrawn for small changes."""
+    """A rate with its unit, rounded so coarsely that small changes cause no redraw."""
     if rate is None:
         return ""
     return f"{rate:.1f} Hz" if rate < 9.5 else f"{rate:.2g} Hz" if rate < 95 else f"{rate:.0f} Hz"
@@ -42,7 +42,7 @@ def amount_text(amount: float | None) -> str:
 
 
 def age_text(age: float | None) -> str:
-    """How long ago, in seconds, minutes or hours; what is younger than a second is `now`."""
+    """An age in seconds, minutes or hours; less than a second is `now`."""
     if age is None:
         return ""
     if age < 1:
@@ -53,7 +53,7 @@ def age_text(age: float | None) -> str:
 
 
 def span_text(seconds: float | None) -> str:
-    """A short time: microseconds, milliseconds or seconds, of two or three digits."""
+    """A short time in microseconds, milliseconds or seconds, with two or three digits."""
     if seconds is None:
         return ""
     size = abs(seconds)

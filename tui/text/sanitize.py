@@ -7,13 +7,13 @@ import unicodedata
 from rich.cells import cell_len, set_cell_size
 
 WIDE_MARK = "\ufe0f"
-"""Asks for a symbol in colour; terminals disagree whether that makes it one cell wide or two."""
+"""Requests the coloured form of a symbol; terminals disagree whether that is one cell wide or two."""
 MAX_LINES, MAX_CHARACTERS = 6, 400
-"""What a notification says at most; the log and the panes have the rest."""
+"""The maximum of what a notification shows; the log and the panes have the rest."""
 
 
 def counted(number: int, word: str) -> str:
-    """A number and a word, in the plural where it belongs."""
+    """A number and a noun, in the plural if needed."""
     return f"{number} {word}{'' if number == 1 else 's'}"
 
 
@@ -37,14 +37,16 @@ def _visible(character: str) -> str:
 
 
 def cut(text: str, width: int, *, pad: bool = False) -> str:
-    """A text of at most so many cells; a longer one ends in an ellipsis. `pad` fills it up with blanks."""
+    """A text of at most `width` cells; a longer one ends in an ellipsis. `pad` fills it up with blanks."""
     if cell_len(text) > width:
         text = set_cell_size(text, width - 1).rstrip() + "…" if width > 0 else ""
     return text + " " * (width - cell_len(text)) if pad else text
 
 
 def cut_name(name: str, width: int, *, pad: bool = False) -> str:
-    """A ROS name of at most so many cells; a longer one loses its middle, since both ends tell it from others."""
+    """A ROS name of at most `width` cells; a longer one loses its middle, since both ends distinguish it from
+    others.
+    """
     if cell_len(name) > width >= 3:
         before = (width - 1) // 3
         end = len(name)
@@ -55,7 +57,7 @@ def cut_name(name: str, width: int, *, pad: bool = False) -> str:
 
 
 def brief(text: str) -> str:
-    """A text for a notification: its first lines, harmless, and how many more there are."""
+    """A text for a notification: its first lines, sanitized, and the number of further ones."""
     lines = [sanitize(line) for line in cut(text, MAX_CHARACTERS).splitlines()]
     more = len(text.splitlines()) - MAX_LINES
     return "\n".join(lines if more <= 0 else [*lines[: MAX_LINES - 1], f"... and {counted(more + 1, 'line')} more"])

@@ -22,7 +22,7 @@ FAMILIES: tuple[Mapping[str, float], ...] = (
     {"mm/s²": 1e-3, "cm/s²": 1e-2, "m/s²": 1.0, "g0": 9.80665},
 )
 _IN_NUMBERS = "eExXbBoO_"
-"""Letters that go on with a number which they follow without a blank; no unit begins with one of them."""
+"""Letters that continue a number if they follow it without a blank; no unit begins with one of them."""
 _UNIT = re.compile(r"\s*([A-Za-zµ°][A-Za-zµ°0-9/²]*|1/min|%)\s*$")
 
 
@@ -59,5 +59,5 @@ def factor(typed: str, wanted: str) -> float:
         raise ValueError(f"this parameter names no unit, so {typed} cannot be turned into it")
     if family is None or typed not in family:
         known = ", ".join(family) if family else wanted
-        raise ValueError(f"{typed} is no unit for {wanted}; understood: {known}")
+        raise ValueError(f"{typed} is not a unit for {wanted}; understood: {known}")
     return family[typed] / family[wanted]

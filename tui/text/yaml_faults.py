@@ -12,6 +12,6 @@ def fault_of(error: Exception) -> str:
     mark = getattr(error, "problem_mark", None)
     where = f"line {mark.line + 1}: " if mark else ""
     if isinstance(error, yaml.YAMLError):
-        # The reader of characters has a reason, the parser a problem.
+        # YAML's character reader has a reason, its parser a problem.
         return where + str(getattr(error, "problem", None) or getattr(error, "reason", None) or "cannot be read")
     return "nested too deeply" if isinstance(error, RecursionError) else "has a value that its tag does not allow"

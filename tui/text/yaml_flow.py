@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 _PLAIN = re.compile(r"[A-Za-z_/](?:[\w/. -]*[\w/.-])?", re.ASCII)
 _WORDS = frozenset(("y", "n", "yes", "no", "on", "off", "true", "false", "null", "nan", "inf", "infinity"))
-"""Words that YAML or ROS take for something else than text."""
+"""Words that YAML or ROS does not read as text."""
 
 _ESCAPES = dict(zip('0abtnvfre "/\\N_LP', '\0\a\b\t\n\v\f\r\x1b "/\\\x85\xa0\u2028\u2029', strict=True))
 _BY_CODE = {"x": 2, "u": 4, "U": 8}
@@ -43,7 +43,7 @@ def _meant(escape: str) -> str:
     try:
         return chr(int(escape[1:], 16)) if _BY_CODE.get(escape[0]) == len(escape) - 1 else _ESCAPES[escape]
     except (KeyError, ValueError, OverflowError):
-        raise ValueError(f"\\{escape} is no escape; a backslash is written \\\\") from None
+        raise ValueError(f"\\{escape} is not an escape; a backslash is written \\\\") from None
 
 
 def in_quotes(text: str) -> bool:

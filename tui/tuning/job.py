@@ -30,35 +30,35 @@ class SettingResult:
 
     setting: Setting
     score: float
-    """The mean over its runs; minus infinity where one failed."""
+    """The mean over its runs; minus infinity if one failed."""
     scores: tuple[float, ...] = ()
     collisions: int = 0
     problem: str = ""
-    """Why a run failed; empty when none did."""
+    """Why a run failed; empty if none did."""
 
 
 @dataclass(frozen=True)
 class Progress:
-    """The progress of a study. The same object until something has changed."""
+    """The progress of a tuning job; the same object until something has changed."""
 
     rows: tuple[SettingResult, ...] = ()
-    """Settings in the order in which they were tried; the first is how it was before."""
+    """Settings in the order in which they were tried; the first is the one before the tuning."""
     done: int = 0
     runs: int = 0
-    """Runs there will be at most, those on held-out seeds included."""
+    """The maximum number of runs, including those on held-out seeds."""
     elapsed: float = 0.0
-    """Seconds so far."""
+    """Seconds since the start."""
     fresh: int = 0
-    """Runs made now, not taken from the journal."""
+    """Runs made by this job, not taken from the journal."""
     held_out: tuple[SettingResult, SettingResult] | None = None
-    """The setting of before and the best one, on held-out seeds."""
+    """The setting before the tuning and the best one, on held-out seeds."""
     ended: bool = False
     problem: str = ""
-    """Why it ended early; empty when it did not."""
+    """Why it ended early; empty if it did not."""
 
     @property
     def best(self) -> SettingResult | None:
-        """The setting with the highest score; None while none has one."""
+        """The setting with the highest score; None while no setting has one."""
         scored = [each for each in self.rows if math.isfinite(each.score)]
         return max(scored, key=lambda each: each.score) if scored else None
 
@@ -70,7 +70,7 @@ class Progress:
 
 @dataclass
 class TuningJob:
-    """Runs a question to its end in the calling thread; `progress` and `stop` are for any other."""
+    """Runs a tuning specification in the calling thread; `progress` and `stop` may be called from any other."""
 
     specification: TuningSpecification
     runner: Runner
@@ -85,7 +85,7 @@ class TuningJob:
         self._stopped = True
 
     def run(self) -> Progress:
-        """Search, then judge the best on held-out seeds."""
+        """Search, then evaluate the best setting on held-out seeds."""
         specification, self._began = self.specification, self.clock()
         self._rows: list[SettingResult] = []
         self._going_on: Mapping[Setting, Sequence[Trial]] = {}
@@ -102,7 +102,7 @@ class TuningJob:
             if best is not None and specification.held_out and not self._stopped:
                 both = (self._rows[0].setting, best.setting)
                 chosen = [*self._judge({each: specification.held_out_trials(each) for each in both})]
-                held_out = (chosen[0], chosen[-1])  # one, where nothing was better than before
+                held_out = (chosen[0], chosen[-1])  # one, if nothing was better than before
             problem = "stopped" if self._stopped else self._all_failed()
         except _Stopped:
             problem = "stopped"
@@ -186,4 +186,4 @@ class TuningJob:
 
 
 class _Stopped(Exception):
-    """The study was asked to stop."""
+    """The job was asked to stop."""

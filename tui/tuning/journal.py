@@ -12,13 +12,13 @@ from bot_console.tui.tuning.specification import Trial, TuningSpecification
 
 
 class TuningJournal:
-    """The reports of runs by trial. A line that a crash has cut short is left out; that run is made again.
+    """The reports of runs by trial. A line that a crash has cut short is left out; that run is repeated.
 
-    Methods raise `OSError` where the file cannot be read or written.
+    Methods raise `OSError` if the file cannot be read or written.
     """
 
     def __init__(self, folder: Path, specification: TuningSpecification, *, resume: bool) -> None:
-        """Begin anew, or with what the last tuning of the very same question has left."""
+        """Start empty or, with `resume`, with what the last tuning with an equal specification has left."""
         self.path = folder / f"{specification.digest}.jsonl"
         self._reports: dict[str, Mapping[str, Any]] = {}
         folder.mkdir(parents=True, exist_ok=True)
@@ -27,10 +27,10 @@ class TuningJournal:
         self._file.truncate(whole)
         self._file.seek(whole)
         self.resumed = len(self._reports)
-        """How many runs were there already."""
+        """The number of runs found at the start."""
 
     def _read(self) -> int:
-        """Take in what is there; how many bytes of it are whole."""
+        """Read the existing reports; returns how many bytes of the file are whole lines."""
         if not self.path.exists():
             return 0
         whole = 0
@@ -46,16 +46,16 @@ class TuningJournal:
         return whole
 
     def report(self, trial: Trial) -> Mapping[str, Any] | None:
-        """What is known about a run."""
+        """The report of a run; None if it has not been made."""
         return self._reports.get(trial.key)
 
     def add(self, trial: Trial, report: Mapping[str, Any]) -> None:
-        """Keep a report; it is on the disk when this returns."""
+        """Save a report; it is on disk when this returns."""
         self._reports[trial.key] = report
         self._file.write(json.dumps({"trial": trial.key, "report": report}).encode() + b"\n")
         self._file.flush()
         os.fsync(self._file.fileno())
 
     def close(self) -> None:
-        """Let the file go; it stays."""
+        """Close the file, which is kept."""
         self._file.close()

@@ -19,7 +19,7 @@ FIGURES: Mapping[str, str] = {
     "longest_standstill": "longest time without driving (s)",
     "duration": "simulated time (s)",
 }
-"""What a formula may name, and what that is."""
+"""The names that a formula may use, with their descriptions."""
 READY: Mapping[str, tuple[str, str]] = {
     "swift": (
         "mean_speed - 2*collisions - 5*max(0, 0.15 - min_clearance)",
@@ -34,9 +34,9 @@ READY: Mapping[str, tuple[str, str]] = {
         "room around the hull first, speed second",
     ),
 }
-"""Scores that stand ready: formula, and what it is for."""
+"""Built-in scores: formula and purpose."""
 STATISTICS = ("mean", "least", "greatest", "last", "rms")
-"""What is made of a topic's samples, such as `mean(/odom/twist.twist.linear.x)`."""
+"""Functions of a topic's samples, such as `mean(/odom/twist.twist.linear.x)`."""
 FAILED = -math.inf
 
 _TOPIC = re.compile(rf"\b({'|'.join(STATISTICS)})\(\s*(/[^\s()]+)\s*\)")
@@ -47,11 +47,11 @@ class Score:
     """A valid formula."""
 
     text: str
-    """As it was typed, or the name of a ready one."""
+    """As typed, or the name of a built-in score."""
     formula: str
-    """With `topic0`, `topic1` ... in place of what is asked of topics."""
+    """The formula, with `topic0`, `topic1` ... in place of functions of topics."""
     topics: tuple[tuple[str, str], ...] = ()
-    """Statistic and path of each of them."""
+    """The statistic and path of each of these."""
 
     @property
     def paths(self) -> tuple[str, ...]:
@@ -59,7 +59,7 @@ class Score:
         return tuple(dict.fromkeys(path for _, path in self.topics))
 
     def of(self, report: Mapping[str, Any]) -> float:
-        """The score of a run's report; raises `ValueError` where the formula has no value for it."""
+        """The score of a run's report; raises `ValueError` if the formula has no value for it."""
         names = figures(report)
         samples: Mapping[str, Mapping[str, float]] = report.get("topics") or {}
         for index, (statistic, path) in enumerate(self.topics):
@@ -80,7 +80,7 @@ def figures(report: Mapping[str, Any]) -> dict[str, Number]:
 
 
 def parse_score(text: str) -> Score:
-    """A ready score by its name, or a formula; raises `ValueError` with what is wrong with it."""
+    """A built-in score by its name, or a formula; raises `ValueError` that says what is wrong with it."""
     topics: list[tuple[str, str]] = []
 
     def take(match: re.Match[str]) -> str:
@@ -89,20 +89,23 @@ def parse_score(text: str) -> Score:
 
     formula = _TOPIC.sub(take, READY[text][0] if text in READY else text)
     if text.isidentifier() and text not in READY and text not in FIGURES:
-        raise ValueError(f"'{text}' is no score; there are {', '.join(READY)}, and formulas over {', '.join(FIGURES)}")
+        raise ValueError(
+            f"'{text}' is not a score; there are {', '.join(READY)}, and formulas over {', '.join(FIGURES)}"
+        )
     score = Score(text, formula, tuple(topics))
     trial = {**dict.fromkeys(FIGURES, 1.0), **{f"topic{index}": 1.0 for index in range(len(topics))}}
     try:
         evaluate(formula, trial)
     except ValueError as error:
-        # With ones in it a formula may well divide by zero; only what is never right is refused here.
+        # The formula is tried with ones, for which it may well divide by zero; only what can never be right is refused
+        # here.
         if "division" not in str(error) and "negative" not in str(error):
             raise
     return score
 
 
 def statistics(samples: list[float]) -> dict[str, float]:
-    """What a formula may use of a topic's samples; nothing if there were none."""
+    """The statistics of a topic's samples; empty if there are none."""
     if not samples:
         return {}
     return {

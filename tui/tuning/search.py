@@ -1,7 +1,7 @@
 """Which settings to try next: on a grid, at random, or closer and closer to the best. Pure and repeatable.
 
-A search produces one generation at a time, from the seed and from what was tried: nothing depends on how many runs go
-on in parallel, nor on which of them ends first.
+A search produces one generation at a time, from the seed and the settings tried so far: nothing depends on how many
+runs there are in parallel, nor on which of them ends first.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ GENERATION = 4
 WIDTH = 0.2
 """Standard deviation of the first steps of an adaptive search, as a share of the range."""
 NARROWING = 0.8
-"""Of the width, what is left of it for the next generation."""
+"""Factor by which the width shrinks with each generation."""
 MAX_ATTEMPTS = 20
-"""Attempts at a setting that was not tried before."""
+"""Attempts at finding a setting that was not tried before."""
 
 
 @dataclass(frozen=True)
@@ -34,9 +34,9 @@ class TriedSetting:
 def next_settings(
     search: str, tunables: Sequence[Tunable], budget: int, seed: int, tried: Sequence[TriedSetting]
 ) -> Sequence[Setting]:
-    """The next settings of a search of `budget` settings in all; none when there is nothing more to try.
+    """The next settings of a search with a total of `budget` settings; empty if there is nothing more to try.
 
-    The first one is always how the parameters are now.
+    The first one always consists of the present values.
     """
     left = budget - len(tried)
     if left <= 0:
@@ -49,7 +49,7 @@ def next_settings(
 
 
 def _grid(tunables: Sequence[Tunable], budget: int, seed: int, tried: Sequence[TriedSetting]) -> Sequence[Setting]:
-    """Evenly spaced values; as many for each dial as the budget allows."""
+    """Evenly spaced values; as many for each tunable as the budget allows."""
     levels = grid_levels(tunables, budget - 1)
     settings: list[Setting] = [()]
     for tunable, count in zip(tunables, levels, strict=True):
@@ -59,7 +59,7 @@ def _grid(tunables: Sequence[Tunable], budget: int, seed: int, tried: Sequence[T
 
 
 def grid_levels(tunables: Sequence[Tunable], budget: int) -> list[int]:
-    """How many values each dial gets, so that there are at most `budget` settings."""
+    """How many values each tunable gets, so that there are at most `budget` settings."""
     levels = [1] * len(tunables)
     while True:
         growing = [
@@ -77,7 +77,9 @@ def _random(tunables: Sequence[Tunable], budget: int, seed: int, tried: Sequence
 
 
 def _spread(tunables: Sequence[Tunable], count: int, chance: random.Random) -> list[Setting]:
-    """Random settings of which each dial's values lie in as many equal parts of its range (a latin hypercube)."""
+    """Random settings in which each tunable has one value in each of `count` equal parts of its range (a Latin
+    hypercube).
+    """
     columns = [
         [tunable.at((part + chance.random()) / count) for part in chance.sample(range(count), count)]
         for tunable in tunables
@@ -112,7 +114,7 @@ def _adaptive(tunables: Sequence[Tunable], budget: int, seed: int, tried: Sequen
 
 
 def _near(tunables: Sequence[Tunable], origin: Sequence[float], width: float, chance: random.Random) -> Setting:
-    """A setting near another one; a boolean changes sides with a chance of one in four."""
+    """A setting near another one; a boolean is flipped with a chance of one in four."""
     setting: list[bool | int | float] = []
     for tunable, share in zip(tunables, origin, strict=True):
         if tunable.kind == "bool":
@@ -123,7 +125,7 @@ def _near(tunables: Sequence[Tunable], origin: Sequence[float], width: float, ch
 
 
 def _reflected(share: float) -> float:
-    """A share that has left 0 to 1, thrown back at the border rather than kept on it."""
+    """A share beyond 0 or 1 reflected at that border, instead of clamped to it."""
     share = math.fmod(abs(share), 2.0)
     return 2.0 - share if share > 1.0 else share
 
@@ -133,4 +135,4 @@ SEARCHES: Mapping[str, Callable[[Sequence[Tunable], int, int, Sequence[TriedSett
     "grid": _grid,
     "random": _random,
 }
-"""By the word that a person gives."""
+"""The searches by the names that users give."""

@@ -1,4 +1,4 @@
-"""What a tuning is asked: dials, score, worlds, seeds, budget. Equal questions have the same answer."""
+"""The specification of a tuning: tunables, score, worlds, seeds, budget. Equal specifications have equal results."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bot_console.tui.tuning.score import Score
 from bot_console.tui.tuning.tunable import Setting, Tunable
 
 HELD_OUT = 1_000
-"""Added to the seed for the runs that only judge: no setting was chosen by them."""
+"""Added to the seed for held-out runs, which only evaluate: no setting is chosen by them."""
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class Trial:
 
     setting: Setting
     world: str
-    """Empty: the profile's."""
+    """The name of the world; empty: the profile's."""
     seed: int
 
     @property
@@ -32,7 +32,7 @@ class Trial:
 
 @dataclass(frozen=True)
 class TuningSpecification:
-    """The object of a search."""
+    """What to search for, and with which runs."""
 
     tunables: tuple[Tunable, ...]
     score: Score
@@ -40,20 +40,20 @@ class TuningSpecification:
     """A name, or the path of a parameter file."""
     worlds: tuple[str, ...] = ("",)
     runs: int = 60
-    """Runs of the simulator in all, those on held-out seeds not counted."""
+    """The total number of simulator runs, without those on held-out seeds."""
     seeds: int = 3
-    """Seeds that each setting is run with, in each world."""
+    """The number of seeds for each setting, in each world."""
     held_out: int = 5
-    """Further seeds on which the best setting and the one of now are compared in the end."""
+    """Further seeds, on which the best setting is compared with the present one at the end."""
     seed: int = 1
-    """The first seed of the simulator, and the search's."""
+    """The first seed of the simulator, and the seed of the search."""
     duration: float = 60.0
-    """Simulated s of a run."""
+    """Simulated seconds of each run."""
     search: str = "adaptive"
     arguments: Mapping[str, str] = field(default_factory=dict[str, str])
     """Launch arguments."""
     base: Mapping[str, Mapping[str, Any]] = field(default_factory=dict[str, Mapping[str, Any]])
-    """Values beside those of the profile, by node and name: what a running system has."""
+    """Values on top of the profile's, by node and name: those of a running system."""
 
     @property
     def settings(self) -> int:
@@ -85,7 +85,7 @@ class TuningSpecification:
         return hashlib.blake2b(text.encode(), digest_size=8).hexdigest()
 
     def problem(self) -> str:
-        """What is wrong with the numbers; empty when nothing is."""
+        """What is wrong with the numbers; empty if nothing is."""
         if self.seeds < 1 or self.held_out < 0 or not self.duration > 0:
             return "seeds and duration must be positive"
         per = self.seeds * len(self.worlds)

@@ -1,4 +1,4 @@
-"""A dial: one parameter of one node, and the range that a search may use."""
+"""A tunable: one parameter of one node, and the range that a search may use."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from bot_console.tui.console.model import Range
 
 TunableValue: TypeAlias = "bool | int | float"
 Setting: TypeAlias = "tuple[TunableValue, ...]"
-"""A value for each dial, in their order."""
+"""A value for each tunable, in their order."""
 
 RESOLUTION = 500
-"""Different values that a continuous dial has at least: more digits would say nothing."""
+"""The minimum number of different values of a continuous tunable; more digits would make no difference."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Tunable:
     low: float
     high: float
     now: TunableValue
-    """The value that it has without tuning."""
+    """The value without tuning."""
     unit: str = ""
     allowed: Range | None = None
     """The descriptor's range, whose step the values keep to."""
@@ -38,7 +38,7 @@ class Tunable:
 
     @property
     def levels(self) -> int:
-        """How many different values there are."""
+        """The number of different values."""
         if self.kind == "double":
             return min(RESOLUTION, self._points or RESOLUTION) if self.high > self.low else 1
         return self._points or int(math.floor(self.high) - math.ceil(self.low)) + 1
@@ -52,7 +52,7 @@ class Tunable:
         return bool(whole) if self.kind == "bool" else self._on_step(whole)
 
     def _on_step(self, value: TunableValue) -> TunableValue:
-        """The nearest value in the range that the node accepts; the same one where there is none."""
+        """The nearest value in the range that the node accepts; the same value if there is none."""
         allowed, whole = self.allowed, self.kind == "integer"
         if allowed is None or not allowed.step or not allowed.finite:
             return value
@@ -63,7 +63,7 @@ class Tunable:
 
     @property
     def _points(self) -> int:
-        """How many points of the descriptor's grid lie in the range; 0 where it has no step."""
+        """The number of points of the descriptor's grid in the range; 0 if it has no step."""
         allowed = self.allowed
         if allowed is None or not (allowed.step and math.isfinite(allowed.step) and allowed.finite):
             return 0
@@ -76,9 +76,9 @@ class Tunable:
         return min(1.0, max(0.0, (float(value) - self.low) / span)) if span else 0.5
 
     def between(self, low: float, high: float) -> Tunable:
-        """The dial with a narrower range; raises `ValueError` for one that is empty or exceeds the descriptor's."""
+        """The tunable with a narrower range; raises `ValueError` for one that is empty or exceeds the descriptor's."""
         if not (math.isfinite(low) and math.isfinite(high) and low <= high):
-            raise ValueError(f"{self.name}: {low:g}..{high:g} is no range; the lower end comes first")
+            raise ValueError(f"{self.name}: {low:g}..{high:g} is not a range; the lower end comes first")
         if low < self.low or high > self.high:
             raise ValueError(f"{self.name}: {low:g}..{high:g} leaves its range, {self.low:g}..{self.high:g}")
         narrowed = replace(self, low=low, high=high)
@@ -99,11 +99,11 @@ def parse_range(text: str) -> tuple[float, float]:
             return float(low), float(high)
     except ValueError:
         pass
-    raise ValueError(f"'{text}' is no range; write for instance 0.2..1.5")
+    raise ValueError(f"'{text}' is not a range; write for instance 0.2..1.5")
 
 
 def find_tunables(words: list[str], known: list[Tunable]) -> tuple[Tunable, ...]:
-    """The dials that words stand for: `name`, `/node:name`, either with `=LOW..HIGH`.
+    """The tunables that words stand for: `name`, `/node:name`, either with `=LOW..HIGH`.
 
     Raises `ValueError` for a word that matches none or several, or a parameter without a range.
     """

@@ -1,4 +1,4 @@
-"""The protocol by which panes start a tuning; who makes the runs is not their concern."""
+"""The protocol by which panes start a tuning, whoever makes the runs."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.tui.tuning.tunable import Setting
 
 
 class Tuning(Protocol):
-    """A question being worked on, in the background. Nothing here blocks."""
+    """A tuning in the background. No method blocks."""
 
     @property
     def progress(self) -> Progress:
@@ -19,7 +19,7 @@ class Tuning(Protocol):
         ...
 
     def stop(self) -> None:
-        """Stop early; results so far are kept, and the same question resumes from them."""
+        """Stop early; results so far are kept, and a tuning with an equal specification resumes from them."""
         ...
 
     def save(self, name: str, setting: Setting) -> Answer:
@@ -31,9 +31,9 @@ class Tuner(Protocol):
     """Makes runs of the simulated robot."""
 
     def problem(self, specification: TuningSpecification) -> str:
-        """Why a question cannot be answered; empty when it can."""
+        """Why the specification cannot be run; empty if it can."""
         ...
 
     def begin(self, specification: TuningSpecification) -> Tuning:
-        """Start, or resume from what is known about the very same question."""
+        """Start, or resume from the results of an equal specification."""
         ...

@@ -32,7 +32,7 @@ def test_settings_are_shown_created_edited_and_checked(home: Path, monkeypatch: 
     assert none.returncode == 1 and "EDITOR" in none.stderr and (home / "settings.yaml").exists()
     monkeypatch.setenv("EDITOR", f"{sys.executable} -c \"import sys; open(sys.argv[1], 'a').write('colour: red')\"")
     edited = typed("--edit")
-    assert edited.returncode == 1 and "'colour' is no setting" in edited.stderr
+    assert edited.returncode == 1 and "'colour' is not a setting" in edited.stderr
     assert typed("--check").returncode == 1
     (home / "settings.yaml").write_text("keys: {app.zoom: f9}")
     assert typed("--check").returncode == 0

@@ -38,7 +38,7 @@ def test_error_message_is_shown_in_full_at_80_columns() -> None:
     async def play(session: Session) -> None:
         await line(session, "lint running")
         reported_text = " ".join(" ".join(each[16:] for each in session.lines()[-5:]).split())
-        assert "there is no command lint; help lists the commands, ^p finds an action by its words" in reported_text
+        assert "there is no command lint; help lists the commands, ^p finds an action by name" in reported_text
         assert field(session) == "lint running" and ":lint running" in session.text()
 
     run(live(), play, (80, 24))

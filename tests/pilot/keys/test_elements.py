@@ -79,7 +79,7 @@ def test_byte_array_and_empty_array_are_edited() -> None:
         assert "new [0] (byte)" in session.text()
         await session.type("x")
         await session.press("enter")
-        assert "no byte: 0x00 .. 0xff" in session.text()
+        assert "not a byte: 0x00 .. 0xff" in session.text()
         await session.press("backspace")
         await session.type("255")
         await session.press("enter")

@@ -172,7 +172,7 @@ def test_expression_is_completed_added_or_rejected_with_a_reason() -> None:
         assert plot(session).paths[-1] == f"deg({SPEED}) - {NEAREST}"
         await session.press("a")
         await session.type("sine(/x)")
-        assert "none of derivative" in session.text()
+        assert "is not one of derivative" in session.text()
 
     run(live(), play, (120, 40))
 

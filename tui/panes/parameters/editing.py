@@ -41,7 +41,7 @@ def _calculated(text: str, parameter: ParameterInfo) -> Value:
     value = evaluate(expression) * scale
     if not math.isfinite(value):
         literal = NUMBER.fullmatch(text.strip().lstrip("+-"))
-        raise ValueError(f"'{cut(text, 24)}' is too large" if literal else "the result is no finite number")
+        raise ValueError(f"'{cut(text, 24)}' is too large" if literal else "the result is not a finite number")
     if parameter.kind is Kind.DOUBLE:
         return float(f"{value:.12g}")  # 30 cm is 0.3 m exactly, despite binary rounding
     nearest = round(value)

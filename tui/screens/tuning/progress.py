@@ -26,7 +26,7 @@ from textual.app import ComposeResult
 from textual.binding import BindingType
 
 POLLS_PER_S = 4.0
-"""Times a second that progress is looked at."""
+"""How often per second the progress is polled."""
 CURVE = 5
 """Lines of the curve."""
 BAR = 24
@@ -42,10 +42,10 @@ class SettingRows(RowList):
         self._specification = specification
         self.rows: tuple[SettingResult, ...] = ()
         self.first: SettingResult | None = None
-        """How it was before."""
+        """The setting before the tuning."""
 
     def row_count(self) -> int:
-        """The number of judged settings."""
+        """The number of evaluated settings."""
         return len(self.rows)
 
     def row(self, index: int, width: int) -> list[Segment]:

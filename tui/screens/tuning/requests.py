@@ -17,7 +17,7 @@ class TuningRequests(App[None]):
     """An app whose panes may request a tuning."""
 
     tuner: Tuner | None = None
-    """Who makes the runs; None: nobody."""
+    """Makes the runs; None: tuning is not available."""
 
     def on_pane_tuning_wanted(self, event: Pane.TuningWanted) -> None:
         """Start a tuning, and show it over the panes."""

@@ -1,1 +1,1 @@
-"""Arithmetic that people type, over numbers or over curves; parsed here, and never run as Python."""
+"""Arithmetic that people type, over numbers or over curves; it is parsed here and never run as Python."""

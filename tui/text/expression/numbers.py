@@ -15,7 +15,7 @@ from bot_console.tui.text.expression.tree import Number as Typed
 Number: TypeAlias = "int | float"
 
 MAX_BITS = 400
-"""Bits that a whole number may have, so that no typing error keeps the console busy."""
+"""Maximum bits of an integer, so that no typing error keeps the console busy."""
 
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+")
 
@@ -38,7 +38,7 @@ _TWO: Mapping[str, Callable[[Number, Number], Number]] = {
 
 
 def evaluate(text: str, names: Mapping[str, Number] | None = None) -> Number:
-    """The value of an expression; raises `ValueError` with what is wrong with it."""
+    """The value of an expression; raises `ValueError` that says what is wrong with it."""
     try:
         tree = parse(text)
     except ValueError as error:
@@ -50,7 +50,9 @@ def evaluate(text: str, names: Mapping[str, Number] | None = None) -> Number:
 
 
 def value_of(tree: Tree, names: Mapping[str, Number], text: str = "it") -> Number:
-    """The value of an expression that was read, with values of names and paths; raises `ValueError` as `evaluate`."""
+    """The value of a parsed expression, given the values of its names and paths; raises `ValueError` as `evaluate`
+    does.
+    """
     try:
         return _value(tree, {**CONSTANTS, **names})
     except ZeroDivisionError:

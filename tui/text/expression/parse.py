@@ -28,14 +28,16 @@ _RANKS = {"+": 1, "-": 1, "*": 2, "/": 2, "//": 2, "%": 2}
 
 
 def parse(text: str, *, paths: bool = False) -> Tree:
-    """The tree of an expression; raises `ValueError` with what is wrong and where. Paths are read where asked for."""
+    """Parse an expression; raises `ValueError` that says what is wrong and where. `paths` allows topics and
+    parameters.
+    """
     if len(text) > MAX_CHARACTERS:
         raise ValueError(f"an expression of more than {MAX_CHARACTERS} characters")
     return Reader(text, paths).whole()
 
 
 class Incomplete(ValueError):
-    """The text ends where the expression must go on."""
+    """The text ends before the expression is complete."""
 
 
 class Reader:
@@ -76,7 +78,7 @@ class Reader:
         raise Incomplete(why if self._text.strip() else f"{why}, but nothing was typed")
 
     def sum(self, least: int = 1) -> Tree:
-        """What binds at least as closely as `+` (1) or `*` (2)."""
+        """Parse operators that bind at least as closely as `+` (1) or `*` (2)."""
         left = self._sign()
         while True:
             begin = self._at

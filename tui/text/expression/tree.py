@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 OF_ARRAYS = ("min", "max", "mean", "sum", "std", "len", "yaw")
-"""What is made of a whole array, or of a quaternion, at each message: `min(/scan/ranges)` or `/scan/ranges.min()`."""
+"""Functions of a whole array, or of a quaternion, of one message: `min(/scan/ranges)` or `/scan/ranges.min()`."""
 
 
 @dataclass(frozen=True, slots=True)

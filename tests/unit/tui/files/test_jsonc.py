@@ -63,7 +63,7 @@ def test_member_is_added_once() -> None:
         ('{\n\n"a": [1 2]}', "line 3: it is not JSON"),
         ("{\n'a': 1}", "line 2: it is not JSON"),
         ("[1]", "it is no JSON object"),
-        ('{"paths": "lib"}', '"paths" is no list'),
+        ('{"paths": "lib"}', '"paths" is not a list'),
         ("// nothing", "it is empty"),
         ('{"a": "open}', "line 1: it is not JSON"),
         ("[" * 100_000, "it is not JSON"),

@@ -84,7 +84,7 @@ def read(text: str) -> Formula | str:
         if isinstance(each, Call):
             _check_call(each)
         elif isinstance(each, Name) and each.text not in CONSTANTS:
-            raise ValueError(f"'{each.text}' is no path; paths begin with /")
+            raise ValueError(f"'{each.text}' is not a path; paths begin with /")
         elif any(isinstance(part, Span) for part in children(each)):
             raise ValueError("a length of time stands only at the end of mean, min, max or std")
     return Formula(text.strip(), tree, paths)

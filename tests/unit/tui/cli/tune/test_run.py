@@ -25,7 +25,7 @@ BUMPED = SettingResult((4.0,), -1.0, (-1.0, -1.0), 3)
 @pytest.mark.parametrize(
     ("words", "why"),
     [
-        (["max_speed", "--score", "spede"], "--score: 'spede' is no score"),
+        (["max_speed", "--score", "spede"], "--score: 'spede' is not a score"),
         (["max_speed", "--profile", "moon"], "there is no profile 'moon'; profiles: competition"),
         (["max_speed", "--search", "luck"], "invalid choice"),
         ([], "required"),

@@ -206,7 +206,7 @@ def test_recorded_profiles_can_be_overridden(bag: Bag) -> None:
 @pytest.mark.parametrize(
     ("text", "why"),
     [
-        ("a: [", "no YAML"), ("[]", "map topics"), ("/a: 5", "map policies"), ("/a: {relability: x}", "no policy"),
+        ("a: [", "not YAML"), ("[]", "map topics"), ("/a: 5", "map policies"), ("/a: {relability: x}", "no policy"),
         ("/a: {reliability: strong}", "cannot be 'strong'"), ("/a: {lifespan: 5}", "cannot be '5'"),
     ],
 )  # fmt: skip

@@ -48,7 +48,7 @@ def test_score_is_completed(typed: str, first: str) -> None:
 
 
 def test_invalid_score_is_rejected_with_a_reason() -> None:
-    assert tuning.scores(PATHS, "zzz")[0].about.startswith("✗ 'zzz' is no score")
+    assert tuning.scores(PATHS, "zzz")[0].about.startswith("✗ 'zzz' is not a score")
 
 
 @pytest.mark.parametrize(("text", "value"), [("60 60", (60, 60.0)), ("12", (12, 60.0)), ("9 2.5", (9, 2.5))])

@@ -58,7 +58,7 @@ def test_function_of_one_message_becomes_a_path(text: str, path: str) -> None:
     [
         ("2 + 3", "name a path"), ("/a/x +", r"a number or a path must follow \+"),
         ("/a/x 2", "operator"), ("(/a/x", "bracket is missing"),
-        ("speed + /a/x", "no path; paths begin with /"), ("sine(/a/x)", "none of derivative, abs"),
+        ("speed + /a/x", "not a path; paths begin with /"), ("sine(/a/x)", "not one of derivative, abs"),
         ("mean(/a/x + 1)", r"write mean\(a path, 1 s\)"), ("mean(1 s, /a/x)", "stands last"),
         ("atan2(/a/x)", "takes 2"),
         ("/a/x + 1 s", "only at the end"), ("derivative(/a/x, 1 s)", "over a length of time"),
@@ -105,7 +105,7 @@ def test_shared_paths_are_released_with_their_last_curve() -> None:
     timeline.remove(0)
     assert detach(console) == ["/c/z", "/c/y", A]
     wrong = timeline.add("sine(/a/x)")
-    assert not wrong.ok and "none of" in wrong.text
+    assert not wrong.ok and "not one of" in wrong.text
 
 
 def test_samples_are_placed_by_header_stamps_on_request() -> None:

@@ -63,7 +63,7 @@ def test_custom_score_is_evaluated() -> None:
     found = figures(of(first_order(0.8)), reference=3.0)
     assert score("10*overshoot + settling", found) == pytest.approx(found.settling, abs=0.01)
     assert "score 2.397" in figures_text(found, "settling")
-    with pytest.raises(ValueError, match="none of"):
+    with pytest.raises(ValueError, match="not one of"):
         score("speed", found)
 
 
