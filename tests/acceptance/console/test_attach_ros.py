@@ -60,7 +60,9 @@ from launch import LaunchDescription
 from launch.actions import ExecuteProcess
 
 def generate_launch_description():
-    return LaunchDescription([ExecuteProcess(cmd=[sys.executable, {program!r}], name="launched", output="screen")])
+    shown = ExecuteProcess(cmd=["sh", "-c", "echo guard ${{_ROS_WHEELS_BOOTSTRAP_COMPLETE-none}}"], output="screen")
+    launched = ExecuteProcess(cmd=[sys.executable, {program!r}], name="launched", output="screen")
+    return LaunchDescription([launched, shown])
 """
 
 
@@ -108,6 +110,7 @@ def test_attached_console_shows_robot_launches_beside_it_and_leaves_it_alone(
     terminal.read_until(lambda: b"launched-1 started" in terminal.output, "the launched process")
     terminal.type("2")
     terminal.read_until(lambda: b"second is up" in terminal.output, "its line in the log")
+    assert b"guard none" in terminal.output
     terminal.type("q")
     assert terminal.wait() == 0
     assert terminal.is_usable()

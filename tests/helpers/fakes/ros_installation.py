@@ -14,8 +14,9 @@ from pathlib import Path
 from bot_console.runtime.importer import GENERATED, PACKAGES, RUNTIME
 
 HOOK = """\
-import sys
+import os, sys
 
+os.environ["_ROS_WHEELS_BOOTSTRAP_COMPLETE"] = "1"  # As the wheels of PyPI do in every Python of their environment.
 sys.path.append({helpers!r})
 from bot_console.runtime.children.child_discovery import let_children_meet
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains

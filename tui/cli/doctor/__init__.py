@@ -31,6 +31,13 @@ examples:
 
 exit codes: 0 all is well enough, 1 something fails, 2 wrong usage
 """
+BEYOND_RANGE = "search the network: bot-console doctor --ros --range SUBNET"
+IN_NETWORK = (
+    "check whether the robot has this ROS_DOMAIN_ID and middleware; where the network lets no multicast pass, name its "
+    "address in ROS_STATIC_PEERS"
+)
+LISTEN_S = 2.0
+"""Seconds to listen to messages, without an option."""
 UPSTREAM_OPTIONS = ("--report", "-r", "--include-warnings", "-iw")
 
 
@@ -58,9 +65,9 @@ def run(words: Sequence[str]) -> int:
     report(terminal_findings(os.environ))
     report(machine_findings(os.environ))
     if given.ros:
-        _ros(report)
+        _ros(given.seconds, report)
     else:
-        _zenoh(way, given.seconds, given.capture, report)
+        _zenoh(way, LISTEN_S if given.seconds is None else given.seconds, given.capture, report)
     if given.json:
         print(json.dumps(as_json(findings), indent=2))
     return exit_code(findings)
@@ -83,7 +90,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--ros", action="store_true", help="check the ROS 2 of this machine, through its own rclpy")
     add("--range", choices=RANGES, help="with --ros: search in this discovery range instead of the environment's")
     add("--json", action="store_true", help="print the findings as JSON, for scripts")
-    add("--seconds", type=float, default=2.0, metavar="S", help="seconds to listen to messages")
+    add("--seconds", type=float, metavar="S", help="seconds to listen to messages, or to search for nodes with --ros")
     add(
         "--capture",
         type=Path,
@@ -101,7 +108,7 @@ def _change_range(wanted: str) -> DoctorFinding:
     return DoctorFinding(Level.NOTE, "range", f"searching with {wanted}{instead}: {network_use(os.environ)}")
 
 
-def _ros(report: Callable[[Sequence[DoctorFinding]], None]) -> None:
+def _ros(seconds: float | None, report: Callable[[Sequence[DoctorFinding]], None]) -> None:
     ros = find_machine_ros()
     if ros is None or not ros.usable:
         hint = NO_ROS if ros is None else how_to_install(ros)
@@ -109,14 +116,10 @@ def _ros(report: Callable[[Sequence[DoctorFinding]], None]) -> None:
         return
     report([DoctorFinding(Level.OK, "network", network_use(os.environ))])
     try:
-        from bot_console.tui.cli.doctor.nodes import node_findings
+        from bot_console.tui.cli.doctor.nodes import DDS_DISCOVERY_S, node_findings
 
-        hint = (
-            ""
-            if discovery_range(os.environ) == "SUBNET"
-            else "search the network: bot-console doctor --ros --range SUBNET"
-        )
-        report(node_findings(alone_hint=hint))
+        hint = IN_NETWORK if discovery_range(os.environ) == "SUBNET" else BEYOND_RANGE
+        report(node_findings(alone_hint=hint, settle=DDS_DISCOVERY_S if seconds is None else seconds))
     # A library, or the middleware that RMW_IMPLEMENTATION names, is missing.
     except (ImportError, RuntimeError) as error:
         hint = "check whether `ros2 node list` works in this shell, and source its setup file again"

@@ -20,6 +20,8 @@ TIMEOUT = re.compile(r"(cmd|command|vel|twist|input|watchdog).*time_?out|time_?o
 """Names of the parameters that stop a base or controller when commands cease."""
 SETTLE, TIMEOUT_S = 1.5, 3.0
 """Seconds for discovery, and for a node to list its parameters."""
+DDS_DISCOVERY_S = 4.0
+"""Seconds for discovery over a network: Fast DDS repeats every three seconds what was lost at the start."""
 HOW = (
     "let the base stop by itself when commands cease (ros2_controllers: cmd_vel_timeout; or the emergency "
     "stop of docs/safety.md; the timeout of twist_mux sends no zero): a console that has lost its link cannot stop it"
@@ -27,19 +29,19 @@ HOW = (
 
 
 def node_findings(
-    can_learn: Callable[[str], bool] = lambda type_name: False, alone_hint: str | None = None
+    can_learn: Callable[[str], bool] = lambda type_name: False, alone_hint: str = "", settle: float = SETTLE
 ) -> list[DoctorFinding]:
-    """Run the checks from a node on this process's middleware.
+    """Run the checks from a node on this process's middleware, after `settle` seconds of discovery.
 
-    With `alone_hint`, which may be empty, the nodes are counted, and the hint is given if there are no others.
+    With `alone_hint` the nodes are counted, and the hint is given if there are no others.
     """
     import rclpy
 
     rclpy.init(args=[])
     node = rclpy.create_node("_bot_console_doctor", enable_rosout=False, start_parameter_services=False)
     try:
-        _spin(node, SETTLE)
-        counted = [] if alone_hint is None else [others_finding(node, alone_hint)]
+        _spin(node, settle)
+        counted = [others_finding(node, alone_hint)] if alone_hint else []
         return [*counted, *pair_findings(node), *type_findings(node, can_learn), base_finding(node)]
     finally:
         node.destroy_node()
@@ -55,10 +57,10 @@ def _spin(node: Node, seconds: float, until: Callable[[], bool] = lambda: False)
 
 
 def others_finding(node: Node, alone_hint: str) -> DoctorFinding:
-    """How many other nodes were discovered."""
-    count = sum(name != node.get_name() for name in node.get_node_names())
+    """How many other nodes were discovered, without hidden ones such as those of consoles."""
+    count = sum(not name.startswith("_") for name in node.get_node_names())
     if not count:
-        return DoctorFinding(Level.WARN if alone_hint else Level.NOTE, "graph", "no other node was found", alone_hint)
+        return DoctorFinding(Level.WARN, "graph", "no other node was found", alone_hint)
     return DoctorFinding(Level.OK, "graph", f"{count} other node{'' if count == 1 else 's'}")
 
 

@@ -10,6 +10,8 @@ from collections.abc import Callable, Mapping, Sequence
 
 RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 LOCALHOST_VARIABLE = "ROS_LOCALHOST_ONLY"
+PEERS_VARIABLE = "ROS_STATIC_PEERS"
+"""Addresses that are searched in addition, separated by semicolons."""
 RANGES = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
 """Those of rcl; the first one is its default."""
 CONFIGURATION_VARIABLES = (
@@ -46,15 +48,17 @@ def set_discovery_range(named: str) -> None:
 def _interfaces(reach: str, environ: Mapping[str, str], addresses: Callable[[], Sequence[str]]) -> str:
     if reach == "OFF":
         return "which finds no other node"
+    peers = environ.get(PEERS_VARIABLE, "").replace(";", ", ")
+    named = f" and peers {peers}" if peers and reach != "SYSTEM_DEFAULT" else ""
     if reach == "LOCALHOST":
-        return "this machine only (lo)"
+        return f"this machine (lo){named}" if named else "this machine only (lo)"
     for variable in CONFIGURATION_VARIABLES:
         if environ.get(variable):
             return f"interfaces as in the file of {variable}"
     found = addresses()
     if not found:
         return "interface lo alone: no other one is up"
-    return f"interface{'s' if len(found) > 1 else ''} {', '.join(found)}"
+    return f"interface{'s' if len(found) > 1 else ''} {', '.join(found)}{named}"
 
 
 def network_addresses() -> list[str]:

@@ -17,6 +17,16 @@ RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
         ({RANGE: "subnet"}, ONE, "domain 0, range LOCALHOST, this machine only (lo)"),
         ({RANGE: "SUBNET", "ROS_LOCALHOST_ONLY": "1"}, ONE, "domain 0, range LOCALHOST, this machine only (lo)"),
         ({"ROS_LOCALHOST_ONLY": "0"}, ONE, "domain 0, range SUBNET, interface eth0 (192.0.2.2)"),
+        (
+            {RANGE: "LOCALHOST", "ROS_STATIC_PEERS": "robot;192.0.2.9"},
+            ONE,
+            "domain 0, range LOCALHOST, this machine (lo) and peers robot, 192.0.2.9",
+        ),
+        (
+            {"ROS_STATIC_PEERS": "robot"},
+            ONE,
+            "domain 0, range SUBNET, interface eth0 (192.0.2.2) and peers robot",
+        ),
         ({RANGE: "OFF"}, ONE, "domain 0, range OFF, which finds no other node"),
         (
             {RANGE: "SYSTEM_DEFAULT", "CYCLONEDDS_URI": "file:///c.xml"},
