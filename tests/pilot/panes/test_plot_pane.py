@@ -68,6 +68,22 @@ def test_a_parameter_is_plotted_from_the_parameter_pane() -> None:
     run(live(), play)
 
 
+def test_a_topic_of_which_only_stamps_can_be_plotted_hints_at_parameters() -> None:
+    async def play(session: Session) -> None:
+        await session.press("4")
+        stamp = "/parameter_events/stamp.nanosec"
+        session.console.series[stamp] = ([1.0], [100.0])
+        session.console.series["/odom/header.stamp.sec"] = ([1.0], [100.0])
+        assert plot(session).add("/odom/header.stamp.sec")
+        await session.settle()
+        assert "/node:param" not in session.text(), "it has other numbers"
+        assert plot(session).add(stamp)
+        await session.settle()
+        assert "/node:param." in session.text()
+
+    run(live(), play)
+
+
 def test_pausing_freezes_the_picture_and_counts_new_samples() -> None:
     async def play(session: Session) -> None:
         await session.press("4", "space")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -16,6 +17,7 @@ from bot_console.tui.panes.plot.thresholds import thresholds_of, thresholds_text
 from bot_console.tui.widgets.prompt.question import Choice, Option
 from bot_console.tui.widgets.prompt.question import Line as Asked
 
+STAMP = re.compile(r"[/.](?:nano)?sec$")
 ACROSS = 120
 """Cells of the window that is saved."""
 
@@ -70,10 +72,22 @@ class PlotQuestions(Pane):
         answer = self._timeline.add(path)
         if answer.ok:
             self._chosen = len(self.paths) - 1
+            self._hint_at_parameters(path)
         else:
             self.notify(answer.text, title="Not plotted", severity="warning", markup=False)
         self.take_in(force=True)
         return answer.ok
+
+    def _hint_at_parameters(self, path: str) -> None:
+        """Say how a parameter is plotted if a topic, such as `/parameter_events`, has no numbers but its stamps."""
+        if not STAMP.search(path):
+            return
+        topics = [each.name for each in self.console.snapshot().graph.topics if path.startswith(f"{each.name}/")]
+        topic = max(topics, key=len, default="")
+        numbers = [each for each in self.console.plots.plottable() if topic and each.startswith(f"{topic}/")]
+        if numbers and all(STAMP.search(each) for each in numbers):
+            hint = f"The only numbers of {topic} are stamps. To plot a parameter, type /node:param."
+            self.notify(hint, title="Only stamps", markup=False)
 
     def action_remove_all(self) -> None:
         """Remove all curves."""

@@ -21,6 +21,9 @@ LABEL = 9
 WIDE = 130
 """Cells from which on the legend says more of each curve."""
 
+HEAD_ROOM = 0.05
+"""Share of the span of all values that stays free above the highest one, so that a curve at its limit can be seen."""
+
 MAX_VALUE = 1e300
 """Values beyond are drawn here, so that the difference of two values is always a number."""
 
@@ -139,14 +142,18 @@ def limits_of_values(several: Sequence[npt.NDArray[np.float64]]) -> tuple[float,
 
 
 def limits(reaches: Sequence[Reach]) -> tuple[float, float]:
-    """Limits of the value axis that hold all that is seen, at round numbers."""
+    """Limits of the value axis that hold all that is seen, at round numbers, with head-room above the highest value."""
     low = min((float(np.nanmin(each.low)) for each in reaches if np.isfinite(each.low).any()), default=0.0)
     high = max((float(np.nanmax(each.high)) for each in reaches if np.isfinite(each.high).any()), default=1.0)
     if high - low < 1e-12 * max(1.0, abs(high)):
         pad = abs(high) * 0.1 or 0.5
         low, high = low - pad, high + pad
+        head_room = 0.0
+    else:
+        head_room = HEAD_ROOM * (high - low)
     step = tick_step(high - low, 8)
-    return math.floor(low / step) * step, math.ceil(high / step) * step
+    top = math.ceil(high / step) * step
+    return math.floor(low / step) * step, top if top - high >= head_room else top + step / 2
 
 
 def tick_step(span: float, maximum: int) -> float:

@@ -57,6 +57,13 @@ def test_ticks_are_at_round_numbers(span: float, maximum: int, step: float) -> N
     assert tick_step(span, maximum) == pytest.approx(step)
 
 
+@pytest.mark.parametrize(("low", "high"), [(0.0, 1.0), (-2.0, 0.0), (0.0, 0.99), (1000.0, 2000.0), (3.0, 7.3)])
+def test_a_curve_at_its_limit_has_head_room(low: float, high: float) -> None:
+    seen = reach(np.array([0.0, 1.0]), np.array([low, high]), 0.0, 1.0, 4)
+    bottom, top = limits([seen])
+    assert top - high >= 0.05 * (high - low) and bottom <= low
+
+
 @given(st.floats(-1e9, 1e9), st.floats(0, 1e6))
 def test_limits_enclose_all_values_and_never_coincide(low: float, span: float) -> None:
     seen = reach(np.array([0.0, 1.0]), np.array([low, low + span]), 0.0, 1.0, 4)
