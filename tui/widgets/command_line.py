@@ -25,7 +25,7 @@ class Lines(Protocol):
     """Runs lines."""
 
     def wrong(self, line: str) -> str:
-        """What is wrong with a line; empty when nothing is."""
+        """What is wrong with a line; empty if nothing is."""
         ...
 
     def preview(self, line: str) -> str:
@@ -59,9 +59,9 @@ class CommandField(Vertical):
         self._history = LineHistory()
         self._before: Widget | None = None
         self._tried = -1
-        """Which of the candidates stands in the line; -1: what was typed."""
+        """The index of the candidate in the line; -1: what was typed."""
         self._typed = ""
-        """What stood there before the first of them."""
+        """What was typed before the first candidate replaced it."""
         self._own_change = ""
 
     def _make(self) -> None:
@@ -87,7 +87,7 @@ class CommandField(Vertical):
         self._history.stay()
         self._put("")
         self.add_class("open")
-        # At once, not by `focus`, which comes after the keys that are already on their way.
+        # At once, instead of by `focus`, which takes effect after keys that are already queued.
         self.screen.set_focus(self._field)
         self._begin()
 
@@ -124,7 +124,7 @@ class CommandField(Vertical):
             self._begin()
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
-        """Run the line, or say what is wrong with it."""
+        """Run the line, or report what is wrong with it."""
         event.stop()
         line = event.value.strip()
         wrong = self._lines.wrong(line) if line else ""
@@ -137,7 +137,7 @@ class CommandField(Vertical):
             self._lines.run(line)
 
     def on_descendant_blur(self) -> None:
-        """Give up when the focus goes to a pane; when the terminal loses it, nothing has it."""
+        """Close when the focus moves to a pane; if the terminal loses it, no widget has it."""
         focused = self.screen.focused
         if self.is_open and focused is not None and focused is not self._field:
             self.close()
@@ -145,7 +145,7 @@ class CommandField(Vertical):
     def _complain(self, wrong: str) -> None:
         message = wrong or self._lines.preview(self._field.value)
         self._wrong.update(sanitize(message))
-        # What the line leaves, and a third at least: what is wrong is read whole, in two or three lines.
+        # The width that the line leaves, but at least a third, so that an error can be read in two or three lines.
         width = self.size.width
         self._wrong.styles.max_width = max(width - cell_len(self._field.value) - AROUND, width // 3, 10)
 
@@ -191,7 +191,7 @@ class CommandField(Vertical):
         self._show()
 
     def action_history(self, step: int) -> None:
-        """Recall an earlier line that begins as this one does, or go to a later one."""
+        """Recall an earlier line that begins like this one, or go to a later one."""
         self._put(self._history.step(self._field.value, step))
         self._begin()
 

@@ -27,11 +27,11 @@ from textual.scroll_view import ScrollView
 from textual.strip import Strip
 
 LARGE = 60
-"""Items from which on a graph is laid out beside the event loop."""
+"""Number of items from which a graph is laid out in a thread."""
 
 Content: TypeAlias = Digraph | Chart | Listing
 Manner: TypeAlias = Flow | Size
-"""How something is laid out: a graph in a direction, everything else for a window of a size."""
+"""How to lay something out: a graph in a direction, everything else for a window of a size."""
 
 MARGIN = 2
 """Cells kept free around the selected item when the picture is scrolled to it."""
@@ -79,13 +79,13 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
     """What is shown while nothing is drawn."""
 
     def show_placeholder(self, placeholder: Placeholder) -> None:
-        """Say something else while nothing is drawn."""
+        """Change the text that is shown while nothing is drawn."""
         if placeholder != self.placeholder:
             self.placeholder = placeholder
             self.refresh()
 
     selected: reactive[str] = reactive("", init=False)
-    """The id of the selected item; empty when there is none."""
+    """The id of the selected item; empty if there is none."""
 
     class Resized(Message):
         """The room for the picture has changed."""
@@ -136,7 +136,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
 
     @property
     def is_large(self) -> bool:
-        """Whether laying it out takes so long that it is done beside the event loop."""
+        """Whether laying the graph out takes so long that it is done in a thread."""
         content = self._content
         if isinstance(content, Chart):
             return len(content.boxes) + len(content.links) > LARGE
@@ -159,7 +159,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         return self.outer_size or self.size
 
     def _lay_out(self) -> None:
-        """Draw what is not drawn yet, and choose; a large picture beside the event loop."""
+        """Draw what is not drawn yet, and choose; a large picture in a thread."""
         manners = self._manners()
         missing = [each for each in manners if each not in self._drawings]
         if missing and self.is_large:
@@ -174,7 +174,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
     async def _draw_beside(self) -> None:
         """Lay out a large picture in a thread, in one manner only, while the previous drawing stays.
 
-        One at a time: what comes meanwhile, such as new rates, waits for the next round.
+        One at a time: changes in the meantime, such as new rates, wait for the next round.
         """
         try:
             while self.is_large and (manner := self._manners()[0]) not in self._drawings:

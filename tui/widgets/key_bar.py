@@ -17,9 +17,9 @@ from textual.widgets import Static
 GAP = "  "
 NO_OTHERS: Mapping[str, str] = MappingProxyType({})
 FILTER = "slash"
-"""The key of the pane that gives way last."""
+"""The key of the pane that is left out last."""
 FIRST_DROPPED = ("app.line", "app.quit")
-"""Keys that work everywhere and that the help names where the bar is short; those of the pane come before them."""
+"""Global keys that a short bar leaves out after the pane's keys, since the help names them."""
 STOP = "app.stop"
 
 
@@ -91,7 +91,7 @@ class KeyBar(Static):
 
 
 def fitting(first: Sequence[Shown], keys: Sequence[Shown], columns: int) -> list[Shown]:
-    """The keys that have room: those of a mode and the stop last of all to be left out, then help, then the pane's."""
+    """The keys that fit: first the pane's are left out, then help, and last those of a mode and the stop."""
     kept = [*first, *keys]
     own = [each for each in keys if not each.id.startswith("app.")]
     everywhere = [each for each in keys if each.id.startswith("app.") and each.id != STOP]

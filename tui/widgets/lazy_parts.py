@@ -1,4 +1,4 @@
-"""A container whose parts are made when it is first shown: most panes of a run are never looked at."""
+"""A container whose parts are made when it is first shown, since most panes of a run are never looked at."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class LazyParts(Container):
     """
 
     _late = False
-    """Whether the parts come by `make_parts`, also when that was before the mount is over."""
+    """Whether `make_parts` makes the parts, also if it was called before the mount is complete."""
     _missing = False
 
     def __init__(self, *children: Widget, **how: Any) -> None:

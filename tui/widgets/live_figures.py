@@ -12,10 +12,10 @@ FIGURE = re.compile(r" *[-+↶↷]?\d*(?:\.\d+|\d)")
 
 
 class LiveFigures(StaticText):
-    """Shows changed words at once, and changed figures at most every `EVERY` beats, always the newest in the end."""
+    """Shows changed words at once, and changed figures at most every `EVERY` ticks, so the newest may be delayed."""
 
     EVERY = 5
-    """Beats of the app, of which there are ten a second, for which figures stand before others take their place."""
+    """Ticks of the app, ten per second, for which figures stay before others replace them."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -23,7 +23,7 @@ class LiveFigures(StaticText):
         self._newest: str = ""
         self._wait = 0
         self._heartbeats = False
-        """Whether there are beats; without them, nothing would ever show what waits."""
+        """Whether `heartbeat` is being called; without it, nothing would ever show delayed figures."""
 
     def show_live(self, text: str) -> None:
         """Show a text whose figures may be delayed."""

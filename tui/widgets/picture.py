@@ -18,13 +18,13 @@ from textual.strip import Strip
 Piece: TypeAlias = "tuple[str, str]"
 """Text and the name of its style, one of `Picture.STYLES`; empty for the plain one.
 
-Where the colours are data, as in a drawing, the name says them: `#b3b8ff on #4556ff`.
+If the colours are data, as in a drawing, the name contains them: `#b3b8ff on #4556ff`.
 """
 
 Line: TypeAlias = "tuple[Piece, ...]"
 
 CLOSE = 10
-"""Cells of which drawing costs about as much as moving the cursor over them."""
+"""Number of cells that cost about as much to draw as a cursor move over them."""
 
 
 class Picture(StyledByPart):
@@ -63,7 +63,7 @@ class Picture(StyledByPart):
     """What is shown while there are no lines."""
 
     def show_placeholder(self, placeholder: Placeholder) -> None:
-        """Say something else while there are no lines."""
+        """Change the text that is shown while there are no lines."""
         if placeholder != self.placeholder:
             self.placeholder = placeholder
             self.refresh()
@@ -120,7 +120,7 @@ def changes(before: Line, after: Line, width: int) -> list[tuple[int, int]]:
 
 
 def _cells(line: Line, width: int) -> list[Piece] | None:
-    """Letter and style of each cell; None if any letter is not exactly one cell wide."""
+    """Character and style of each cell; None if any character is not exactly one cell wide."""
     if any(cell_len(text) != len(text) for text, _ in line):
         return None
     cells = [(character, style) for text, style in line for character in text][:width]

@@ -1,4 +1,4 @@
-"""What an empty part of a pane says in its middle: what it is for, and keys that lead on."""
+"""The text in the middle of an empty part of a pane: what the part is for, and keys that lead on."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ FILTERED_OUT = Placeholder("Nothing matches the filter.", (("esc", "Clear the fi
 
 
 def placeholder_lines(placeholder: Placeholder, width: int, height: int) -> Sequence[Line]:
-    """The lines of a placeholder in the middle of so many cells; keys are left out where there is no room for them."""
+    """The lines of a placeholder, centred in a part of a pane; keys are left out if there is no room for them."""
     columns = min(width - 2 * MARGIN, MAX_COLUMNS)
     if not placeholder.sentence or columns < 8 or height < 1:
         return ()

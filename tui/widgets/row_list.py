@@ -1,4 +1,4 @@
-"""A virtual list: rows are drawn when they are visible, so that a million cost what forty do."""
+"""A virtual list: only visible rows are drawn, so that a million cost what forty do."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from textual.scroll_view import ScrollView
 from textual.strip import Strip
 
 LOUD = ("warn", "error", "good")
-"""Styles whose colour says something."""
+"""Styles whose colour has a meaning."""
 UNCUT = 1000
-"""Cells in which a row that is searched has room for all it says."""
+"""Cells that a row is given when it is searched, so that nothing is cut off."""
 
 
 class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[reportIncompatibleMethodOverride] -- Textual's own
@@ -54,12 +54,12 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
             return self.rows
 
     _by_person = False
-    """Whether a person is moving the cursor."""
+    """Whether the user is moving the cursor."""
     placeholder = NO_PLACEHOLDER
     """What is shown while there are no rows."""
 
     def show_placeholder(self, placeholder: Placeholder) -> None:
-        """Say something else while there are no rows."""
+        """Change the text that is shown while there are no rows."""
         if placeholder != self.placeholder:
             self.placeholder = placeholder
             self.refresh()
@@ -120,7 +120,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         return _on(_fitted(Strip(self.row(index, width)), width, base), base)
 
     def _below_rows(self, y: int, width: int, base: Style) -> Strip:
-        """A line without a row: blank, or part of the placeholder where there are no rows at all."""
+        """A line without a row: blank, or part of the placeholder if there are no rows at all."""
         lines = placeholder_lines(self.placeholder, width, self.size.height) if not self.row_count() else ()
         if y >= len(lines):
             return Strip.blank(width, base)
@@ -141,7 +141,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         self.post_message(self.Moved(self, after, by_person=self._by_person))
 
     def choose(self, index: int) -> None:
-        """Move the cursor for a person, by key, mouse or search."""
+        """Move the cursor for the user, by key, mouse or search."""
         self._by_person = True
         try:
             self.cursor = index
@@ -172,7 +172,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
             self.post_message(self.Moved(self, before, by_person=True))
 
     def matches(self, index: int, query: Query) -> bool:
-        """Whether a row matches a filter; by default judged by its drawn text."""
+        """Whether a row matches a filter; by default decided by its drawn text."""
         return query.matches("".join(each.text for each in self.row(index, UNCUT)))
 
     def find(self, query: Query, step: int) -> bool:

@@ -15,7 +15,7 @@ W = TypeVar("W", bound="StaticText")
 
 
 class StaticText(Static):
-    """One line, or as many as its style allows. Control characters are shown; long lines end with an ellipsis."""
+    """One line, or as many as its style allows. Control characters are visible; long lines end with an ellipsis."""
 
     DEFAULT_CSS = """
     StaticText { height: 1; padding: 0 1; color: $text-muted; background: $surface;
@@ -27,7 +27,7 @@ class StaticText(Static):
         self._last_message: str | Text = ""
         self._lines: Sequence[Text] = ()
         self._other: Sequence[Region] = ()
-        """What alone is drawn next."""
+        """The only regions to be drawn next."""
 
     def show_text(self, what: str | Text) -> None:
         """Show a text without a layout, redrawing only changed lines."""
@@ -43,7 +43,7 @@ class StaticText(Static):
                 self._other = ()
 
     def show_whole(self, what: str, maximum: int) -> None:
-        """Show a text in as many lines as it needs, up to `most`; the widget's style must wrap."""
+        """Show a text in as many lines as it needs, up to `maximum`; the widget's style must wrap."""
         width = self.content_size.width
         console = self.app.console  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
         need = len(Text(sanitize(what)).wrap(console, width)) if width else 1

@@ -13,7 +13,7 @@ from rich.style import Style
 from rich.text import Text
 
 STATE_COLUMNS = 25
-"""Columns of the state and its reason, so that the figures after it do not move; a longer one takes what it needs."""
+"""Columns of the state and its reason, so that the figures after it do not move; a longer text takes what it needs."""
 MAX_NAMED_TOPICS = 3
 """Topics missing in a recording that are named one by one."""
 UNKNOWN = NO_ROBOT, NO_DATA = "no robot yet", "no command and no odometry yet"
@@ -40,7 +40,7 @@ class StatusBar(LiveFigures):
     _acknowledged = 0
     _shown: tuple[ConsoleSnapshot, int] | None = None
     alarms: Sequence[str] = ()
-    """The names of the alarms that hold."""
+    """The names of the active alarms."""
 
     def show(self, snapshot: ConsoleSnapshot, held_back: int = 0) -> None:
         """Show the state of a snapshot."""
@@ -81,10 +81,10 @@ def status_text(
     alarms: Sequence[str] = (),
     columns: int | None = None,
 ) -> str:
-    """The text of the line: the state, figures, problems, and what else is to be known.
+    """The text of the line: the state, figures, problems, and further notes.
 
-    `acknowledged` errors are not counted, and `alarms` are the names of the active ones. In a line of so many `columns`
-    what matters least is left out.
+    `acknowledged` errors are not counted, and `alarms` are the names of the active ones. If not everything fits into
+    `columns`, the least important parts are left out.
     """
     state, problem = state_text(snapshot), sanitize(snapshot.problem)
     if problem:
@@ -115,14 +115,14 @@ def status_text(
 
 
 def _line(essential: Sequence[str], figures: Sequence[str], rest: Sequence[str]) -> str:
-    """The state, padded so that figures stay in place whatever it is, then all else."""
+    """The state, padded so that the figures stay in place, then everything else."""
     state, *problems = essential
     begin = f"{state:<{STATE_COLUMNS}}" if state and figures else state
     return "  ".join(each for each in (begin, *figures, *problems, *rest) if each).rstrip()
 
 
 def _problems(snapshot: ConsoleSnapshot, acknowledged: int, alarms: Sequence[str]) -> Iterator[tuple[str, str]]:
-    """What has gone wrong, what is watched, and what is recorded, each in many words and in few; the worst first."""
+    """Problems, alarms and the recording, each in a long and a short form; the worst first."""
     if snapshot.drive.stopped and snapshot.link.silent_s:
         yield _both(link_text(snapshot.link))
     if snapshot.drive.means_news and not snapshot.drive.stopped:
@@ -149,12 +149,12 @@ def _problems(snapshot: ConsoleSnapshot, acknowledged: int, alarms: Sequence[str
 
 
 def _both(text: str) -> tuple[str, str]:
-    """A text that is short enough in any case."""
+    """The long and the short form of a text that is short enough anyway."""
     return text, text
 
 
 def state_text(snapshot: ConsoleSnapshot) -> str:
-    """The state of the robot in a word, and the reason for it."""
+    """The state of the robot in a word, with its reason."""
     drive = snapshot.drive
     if drive.stopped:
         return stop_text(drive)
@@ -190,7 +190,7 @@ def drive_figures(drive: DriveInfo) -> list[str]:
 
 
 def _fixed(value: float) -> str:
-    """A speed in four cells, with a second decimal place where the first alone would be zero."""
+    """A speed in four cells, with a second decimal place if the first alone would be zero."""
     small = 0.005 <= abs(value) < 0.095
     return f"{value:.2f}".replace("-0.", "-.") if small else f"{figure(value) if _is_visible(value) else '0.0':>4}"
 

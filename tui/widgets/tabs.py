@@ -58,13 +58,13 @@ class Tabs(Static):
 
 
 LENGTHS = 4
-"""How long a title can be: with room around it, short, three letters, and none."""
+"""Number of lengths of a title: with room around it, short, three characters, and none."""
 
 
 def tab_texts(tabs: Sequence[Tab], width: int, colour: str) -> list[Text]:
     """Keys and titles of the panes, in parts that follow each other without a gap.
 
-    Where room is short titles are shortened, the last ones first, and the shown one after all others.
+    If there is little room, titles are shortened, the last ones first, and that of the shown pane after all others.
     """
     order = sorted(reversed(range(len(tabs))), key=lambda at: tabs[at].shown)
     lengths = [0] * len(tabs)
@@ -84,7 +84,7 @@ def _parts(tabs: Sequence[Tab], lengths: Sequence[int], width: int, colour: str)
         label = _label(tab, length)
         if tab.shown:
             used = sum(part.cell_len for part in parts) + cell_len(label) + 1
-            end = "]" if at + 1 < len(tabs) or used < width else ""  # in the last column it has no room
+            end = "]" if at + 1 < len(tabs) or used < width else ""  # it has no room in the last column
             parts.append(Text(f"[{label}{end}", Style(color=colour, bold=True, reverse=True)))
         else:
             follows = at > 0 and tabs[at - 1].shown
@@ -96,6 +96,6 @@ def _parts(tabs: Sequence[Tab], lengths: Sequence[int], width: int, colour: str)
 
 def _label(tab: Tab, length: int) -> str:
     word = (tab.title, tab.short, tab.short[:3], "")[length]
-    # A key that is the first letter of so short a title need not stand before it.
+    # A key that is the first character of such a short title is not written in front of it.
     merged = length == LENGTHS - 2 and word.startswith(tab.key)
     return sanitize(word if merged else f"{tab.key} {word}".strip())

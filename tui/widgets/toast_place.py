@@ -1,4 +1,4 @@
-"""Where notifications stand: above the status line, but never over the row or the text field that has the keyboard."""
+"""Places notifications above the status line, but never over the row or the text field that has the keyboard."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from textual.widgets import Input
 BELOW = 2
 """Lines of the status line and the key bar, below notifications."""
 MAX_LINES = 6
-"""Lines that a notification takes at most, as in the style sheet."""
+"""Maximum lines of a notification, as in the style sheet."""
 LEFT = 2
-"""Columns to the left of notifications; the right of a pane's lower edge says what it shows."""
+"""Columns to the left of notifications; the right end of a pane's lower edge is left visible."""
 RACK = "#textual-toastrack"
 
 
 def place_toasts(screen: Screen[object], *, another: bool = False) -> None:
-    """Show the newest notification of a screen, or none if `another` comes; the row at the cursor is seen beside it."""
+    """Show the newest notification of a screen, or none if `another` follows; the row at the cursor stays visible."""
     try:
         rack = screen.query_one(RACK)
     except (NoMatches, ScreenStackError):
         return
-    # The style sheet does so for those that come, but not for the one before a notification that goes.
+    # The style sheet does so for new notifications, but not for the one before a notification that is removed.
     for each in rack.children:
         each.display = not another and each is rack.children[-1]
     below = lines_below(line_in_use(screen.focused), screen.size.height)
@@ -33,13 +33,13 @@ def place_toasts(screen: Screen[object], *, another: bool = False) -> None:
 
 
 def lines_below(line: int | None, height: int) -> int:
-    """The lines to leave free below a notification on a screen of a `height`, where a `line` must be seen."""
+    """The lines to leave free below a notification on a screen of a `height`, if a `line` must stay visible."""
     covered = line is not None and height - BELOW - MAX_LINES <= line < height - BELOW
     return height - line if line is not None and covered else BELOW
 
 
 def line_in_use(focused: Widget | None) -> int | None:
-    """The line on the screen of the row at the cursor, or of a text field; None where neither has the keyboard."""
+    """The line on the screen of the row at the cursor, or of a text field; None if neither has the keyboard."""
     if isinstance(focused, RowList) and focused.row_count():
         return focused.content_region.y + focused.cursor - focused.scroll_offset.y
     return focused.region.y if isinstance(focused, Input) else None

@@ -23,7 +23,7 @@ class Flow:
     gap: int
     """Between two items that stand across."""
     lane: int
-    """From one way back to the next."""
+    """From one backward line to the next."""
     shortest: int
     """The length of an arrow that runs straight."""
 

@@ -78,7 +78,7 @@ class Lines:
         key = (a, b)
         found = self._unions.get(key)
         if found is None:
-            united = a | b  # one of the two if it contains all: equal sets shall be one object
+            united = a | b  # one of the two if it contains all: equal sets should be one object
             found = self._unions[key] = next((each for each in key if len(each) == len(united)), united)
         return found
 

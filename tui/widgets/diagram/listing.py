@@ -1,4 +1,4 @@
-"""A list in place of a drawing: one item per entry, which continues on further rows where it is long. Pure."""
+"""A list in place of a drawing: one entry per item, which continues on further rows if it is long. Pure."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from rich.cells import cell_len
 
 INDENT = 4
 SHORTEST = 20
-"""Cells of a row at least; in less room the list is cut at the edge."""
+"""Minimum cells of a row; in less room, the list is cut at the edge."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ def draw_listing(listing: Listing, width: int) -> Drawing:
 
 
 def wrapped(text: str, width: int) -> list[str]:
-    """A text in lines of at most so many cells; those after the first are indented."""
+    """A text in lines of at most `width` cells; those after the first are indented."""
     lines: list[str] = []
     line = ""
     for word in text.split(" "):

@@ -9,9 +9,9 @@ from bot_console.tui.widgets.diagram.drawing import Place
 
 EMPTY, LINK, BOX, CHOSEN = " ", "·", "▪", "●"
 MAX_CELLS = (30, 9)
-"""Cells of the map at most."""
+"""Maximum size of the map in cells."""
 SHARE = 4
-"""It takes a quarter of the window's width and height at most."""
+"""The map takes at most a quarter of the window's width and height."""
 MIN_CELLS = (8, 3)
 
 
@@ -26,7 +26,7 @@ class Window:
 
 
 def map_size(width: int, height: int, window: Window) -> tuple[int, int]:
-    """Columns and lines of the map of a picture of a size in a window; (0, 0) where it is not needed or has no room."""
+    """Columns and lines of the map of a picture in a window; (0, 0) if it is not needed or has no room."""
     if width <= window.width and height <= window.height:
         return 0, 0
     columns, lines = min(MAX_CELLS[0], window.width // SHARE), min(MAX_CELLS[1], window.height // SHARE)
@@ -35,7 +35,7 @@ def map_size(width: int, height: int, window: Window) -> tuple[int, int]:
 
 
 def map_lines(places: Mapping[str, Place], extent: tuple[int, int], size: tuple[int, int], selected: str) -> list[str]:
-    """The lines of the map, one letter per cell."""
+    """The lines of the map, one character per cell."""
     columns, lines = size
     cells = [[EMPTY] * columns for _ in range(lines)]
     order = (EMPTY, LINK, BOX, CHOSEN)

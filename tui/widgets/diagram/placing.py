@@ -14,10 +14,10 @@ from bot_console.tui.widgets.diagram.ordering import ITEM, Columns, Key
 
 SWEEPS = 7
 STRAIGHT = 8.0
-"""How much more it matters to keep an arrow straight that is the only one of its item."""
+"""The weight of keeping an arrow straight if it is the only one of its item."""
 
 BEND = 6
-"""Cells by which an item is moved at most to straighten an arrow."""
+"""Maximum cells by which an item is moved to straighten an arrow."""
 
 
 @dataclass

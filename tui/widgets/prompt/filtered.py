@@ -17,10 +17,10 @@ class Findable(Widget):
     BINDINGS: ClassVar[list[BindingType]] = keymap.bindings("find")
 
     words = ""
-    """The filter, as it was typed; empty when there is none."""
+    """The filter as typed; empty if there is none."""
 
     _sought = ""
-    """The last words looked for, which outlive the filter."""
+    """The last search words, which are kept when the filter is cleared."""
 
     def ask_words(self, line: Line) -> None:
         """Ask for the words."""
@@ -35,7 +35,7 @@ class Findable(Widget):
         raise NotImplementedError
 
     def stands_on_match(self, words: str) -> bool:
-        """Whether the cursor is on a match already."""
+        """Whether the cursor is already on a match."""
         raise NotImplementedError
 
     def set_filter(self, words: str) -> None:

@@ -20,14 +20,14 @@ AROUND = 5
 
 
 class _Completing(Suggester):
-    """Suggests what a function makes of the text, which may change from moment to moment."""
+    """Suggests the result of a function of the text, which may change at any time."""
 
     def __init__(self, complete: Callable[[str], str]) -> None:
         super().__init__(use_cache=False, case_sensitive=True)
         self._complete = complete
 
     async def get_suggestion(self, value: str) -> str | None:
-        """The text as it may go on."""
+        """The suggested continuation of the text."""
         return self._complete(value) or None
 
 
@@ -57,7 +57,7 @@ class Prompt(Requester[str], Horizontal):
         self.mount(self._label, self._field, self._wrong)
 
     def ask(self, line: Line) -> None:
-        """Ask for a line, giving up a question that is already open."""
+        """Ask for a line; a question that is already open is cancelled."""
         self.give_up()
         if not self.children:
             self._make()
@@ -104,7 +104,7 @@ class Prompt(Requester[str], Horizontal):
             self.answer(event.value)
 
     def on_descendant_blur(self) -> None:
-        """Keep the focus if it moves elsewhere in the pane; give up if it moves to another pane."""
+        """Keep the focus if it moves elsewhere in the pane; cancel if it moves to another pane."""
         focused, field = self.screen.focused, self._field
         if not self.is_open or focused is None or focused is field:  # None when the terminal itself loses the focus
             return

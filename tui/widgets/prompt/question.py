@@ -33,7 +33,7 @@ class Question(Generic[A]):
     """Called once, with the answer."""
 
     gone: Callable[[], str] = _all_well
-    """Why nobody can answer any more, for instance that a node has left; empty while it makes sense to ask."""
+    """Why nobody can answer any more, for instance that a node has left; empty as long as the question makes sense."""
 
     given_up: Callable[[], object] = _nothing
     """Called once, instead of `then`."""
@@ -45,19 +45,19 @@ class Line(Question[str]):
 
     text: str = ""
     check: Callable[[str], str] = _all_well
-    """What is wrong with a text, in words; empty when nothing is."""
+    """What is wrong with a text; empty if nothing is."""
 
     preview: Callable[[str], str] = _all_well
-    """What will come of a text that has nothing wrong with it; said beside the field before it is taken."""
+    """The effect of a valid text, shown beside the field before it is accepted."""
 
     typed: Callable[[str], object] = _nothing
-    """Called with each text on the way that has nothing wrong with it."""
+    """Called with each valid text while it is being typed."""
 
     suggestions: Sequence[str] = ()
-    """The first that begins as the text does is shown dim; the right arrow key takes it."""
+    """The first one that begins like the text is shown dim; the right arrow key accepts it."""
 
     complete: Callable[[str], str] | None = None
-    """How a text may go on, shown dim likewise; empty where it is complete or unknown."""
+    """The continuation of a text, also shown dim; empty if it is complete or unknown."""
 
 
 @dataclass(frozen=True)
@@ -74,10 +74,10 @@ class Option:
 
     title: str
     about: str = ""
-    """Said dim after the title: a folder, a key."""
+    """Shown dim after the title: a folder, a key."""
 
     value: str = ""
-    """What is answered; empty: the title."""
+    """The answer; empty: the title."""
 
 
 @dataclass(frozen=True)
@@ -88,10 +88,10 @@ class Choice(Question[str]):
     """The options for what was typed, the best first."""
 
     hint: str = ""
-    """Said in the empty field."""
+    """Shown in the empty field."""
 
     empty: str = ""
-    """Said where nothing is found."""
+    """Shown if nothing is found."""
 
 
 @dataclass(frozen=True)
@@ -115,14 +115,14 @@ class Fill(Question[None]):
 
     payload: Payload
     name: str
-    """Of the topic, service or action."""
+    """The name of the topic, service or action."""
     type: str
     traffic: Topics
     """What sends it."""
 
 
 class Requester(Generic[A]):
-    """Shows a question, which ends exactly once: answered, given up, or closed because its subject is gone."""
+    """Shows a question, which ends exactly once: answered, cancelled, or closed because its subject is gone."""
 
     _question: Question[A] | None = None
 

@@ -15,13 +15,13 @@ from textual.containers import Container
 from textual.geometry import Size
 
 NARROWEST = 30
-"""Columns that a line needs beside others: what `topic echo` prints is narrow and long."""
+"""Minimum columns of a panel beside others: the output of `topic echo` is narrow and long."""
 TALLEST, LOWEST = 8, 5
-"""Rows of a panel, its border counted."""
+"""Maximum and minimum rows of a panel, with its border."""
 NOT_PANES = 3
-"""Rows of the terminal that are tabs, status line and key bar; of the rest the panes keep half."""
+"""Rows of the terminal for tabs, status line and key bar; the panes keep half of the rest."""
 MAX_STREAMS = 6
-"""Lines that may go on, in a terminal of any size."""
+"""Maximum number of running lines, in a terminal of any size."""
 
 
 def _across(size: Size) -> int:
@@ -84,7 +84,7 @@ class StreamPanels(Container):
         self.poll()
 
     def end(self, panel: StreamPanel) -> None:
-        """End a stream, and take its panel away."""
+        """End a stream and remove its panel."""
         if panel in self._panels:
             self._panels.remove(panel)
             panel.stop()

@@ -1,4 +1,4 @@
-"""What is taken in a flow chart while its boxes are placed. Pure."""
+"""The cells that are occupied in a flow chart while its boxes are placed. Pure."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ from collections.abc import Iterable
 
 
 class Cells:
-    """What is taken: cells of boxes and of horizontal and vertical lines, and rows that are kept free to the right."""
+    """Occupied cells of boxes and of horizontal and vertical lines, and rows that are kept free to the right."""
 
     def __init__(self) -> None:
         self.boxes: set[tuple[int, int]] = set()
         self.across: set[tuple[int, int]] = set()
         self.down: set[tuple[int, int]] = set()
         self.kept: dict[int, int] = {}
-        """The column from which on a row is kept for a line that leads back."""
+        """The column from which a row is kept free for a line that leads back."""
         self.last: dict[int, int] = {}
-        """The last cell taken in each row."""
+        """The last occupied cell of each row."""
 
     def add(self, kind: set[tuple[int, int]], cells: Iterable[tuple[int, int]]) -> None:
-        """Take cells of a kind."""
+        """Occupy cells of a kind."""
         for x, y in cells:
             kind.add((x, y))
             self.last[y] = max(self.last.get(y, -1), x)

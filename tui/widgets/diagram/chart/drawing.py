@@ -15,7 +15,7 @@ from bot_console.tui.widgets.diagram.lines import LEFT, RIGHT, UP, Lines
 from rich.cells import cell_len
 
 WIDE = 116
-"""Columns from which on a chain of boxes runs from left to right rather than down."""
+"""Columns from which a chain of boxes runs from left to right instead of down."""
 RIGHTWARD = (99, 3, 2, 1, 0)
 SLACK = (0, 4, 10)
 WORDS = (
@@ -23,13 +23,13 @@ WORDS = (
     Style(pad=0, words=3), Style(pad=0, words=3, framed=False), Style(pad=0, words=3, framed=False, cells=10),
     Style(pad=0, words=1, framed=False, cells=7),
 )  # fmt: skip
-"""From roomy to narrow: with blanks around the words, and with frames, as long as there is room for them."""
+"""Styles from roomy to narrow: with blanks around the words and with frames as long as there is room for them."""
 SOME_LINKS, MANY_LINKS = 24, 80
-"""Links from which on few plans are tried, and only one."""
+"""Numbers of links from which few plans are tried, and only one."""
 
 
 def best_plan(chart: Chart, width: int, height: int) -> Plan:
-    """The first plan that fits, else the one of which most is visible."""
+    """The first plan that fits, else the one with the largest visible part."""
     lengths = (replace(each, words=tuple("─" * cell_len(word) for word in each.words)) for each in chart.links)
     return planned(chart, _best_style(Chart(chart.boxes, tuple(lengths)), width, height), width)
 
@@ -136,7 +136,7 @@ def _draw_back(lines: Lines, plan: Plan, link: ChartLink) -> None:
 
 
 def _draw_bracket(lines: Lines, target: Placed, x: int, port: int, edges: frozenset[Edge], side: int) -> None:
-    """From one line an arrow to each member; the lines of several sources join here."""
+    """From one line, draw an arrow to each member; the lines of several sources join here."""
     owner = f"{target.box.id} {side}"
     rows = target.member_rows()
     lines.down(x, min(port, *rows), max(port, *rows), edges, owner)

@@ -17,7 +17,7 @@ from rich.cells import cell_len
 BRACKET = 2
 """Cells between a box of several members and the line from which an arrow leads to each of them, with the arrow."""
 LOOK_BACK_ROWS = 40
-"""How far above the lowest box a place for the next one is looked for."""
+"""Rows above the lowest box in which a place for the next one is searched."""
 
 
 @dataclass(frozen=True)
@@ -26,15 +26,15 @@ class Style:
 
     rightward: int = 0
     slack: int = 0
-    """Cells by which a box may move to the right to stand higher."""
+    """Cells by which a box may move to the right to get a higher place."""
     words: int = 99
-    """Words on a line at most."""
+    """Maximum number of words on a line."""
     pad: int = 1
     """Cells kept free on both sides of the words."""
     framed: bool = True
-    """Whether boxes have a frame; a row for each name and each arrow is all that the others take."""
+    """Whether boxes have a frame; without one, a box takes only a row for each name and each arrow."""
     cells: int = 99
-    """The length of a word at most."""
+    """Maximum length of a word in cells."""
 
     @property
     def frame(self) -> int:
@@ -43,7 +43,7 @@ class Style:
 
     @property
     def dash(self) -> int:
-        """The cells of line at least between words and what they lead to."""
+        """The minimum cells of line between words and what they lead to."""
         return int(self.framed)
 
 
@@ -98,7 +98,7 @@ class Label:
 
 @dataclass
 class Plan:
-    """Where everything stands: boxes by id, forward and backward links, the lanes of the latter, and the labels."""
+    """The positions of everything: boxes by id, forward and backward links, the lanes of the latter, and the labels."""
 
     placed: dict[str, Placed] = field(default_factory=lambda: {})
     forward: list[ChartLink] = field(default_factory=lambda: [])
@@ -172,7 +172,7 @@ class _Builder:
         return self.plan.placed[link.source].trunk
 
     def _spot(self, wants: _Wants) -> tuple[int, int]:
-        """The highest free place; of those of one height the leftmost."""
+        """The highest free place; among those at the same height, the leftmost."""
         live = [self.plan.placed[each].trunk for each, left in self._left.items() if left]
         left = BRACKET if len(wants.box.members) > 1 and wants.ins else 0
         first = max((each + 2 for each in live), default=0) + left
