@@ -10,7 +10,13 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any
 
-from bot_console.runtime.rosidl.cdr_read import HEADER_SIZE, ORDERS, CdrError
+HEADER_SIZE = 4
+ORDERS = {0: ">", 1: "<"}
+"""Byte order by the second byte of the header."""
+
+
+class CdrError(ValueError):
+    """The bytes are not a message of the requested class."""
 
 
 def serialize(message: Any) -> bytes:

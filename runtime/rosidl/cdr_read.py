@@ -24,19 +24,11 @@ from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any
 
+from bot_console.runtime.rosidl.cdr import HEADER_SIZE, CdrError
 from bot_console.runtime.rosidl.cdr_layout import ANYWHERE, CODES, FILLER, START, Part, Place, parts, row
 from bot_console.runtime.rosidl.cdr_source import Source
 from bot_console.runtime.rosidl.definition import TYPECODES
 from bot_console.runtime.rosidl.slot_types import nested_class
-
-HEADER_SIZE = 4
-ORDERS = {0: ">", 1: "<"}
-"""Byte order by the second byte of the header."""
-
-
-class CdrError(ValueError):
-    """The bytes are not a message of the requested class."""
-
 
 LENGTHS = {order: row(["I"], ANYWHERE, order)[0] for order in "<>"}
 

@@ -38,6 +38,12 @@ setup(
     entry_points={{'console_scripts': [{scripts}]}},
 )
 """
+SETUP_CFG = """[develop]
+script_dir=$base/lib/{name}
+[install]
+install_scripts=$base/lib/{name}
+"""
+"""As `ros2 pkg create` writes it; the page does not print it."""
 DATA_FILES_ROW = 81
 LOG = re.compile(r"^(?:\[\w+-\d+\] )?\[(\w+)\] \[\d{10}\.\d{9}\] \[([^\]]+)\]: (.*)$")
 STATED = re.compile(r"^\[(\w+)\] (?:\[([^\]]+)\]: )?(.*)$")
@@ -187,6 +193,9 @@ def _package(folder: Path, modules: list[Path]) -> None:
     code.mkdir(parents=True)
     (folder / "package.xml").write_text(MANIFEST.format(name=folder.name), "utf-8")
     (code / "__init__.py").touch()
+    (folder / "setup.cfg").write_text(SETUP_CFG.format(name=folder.name), "utf-8")
+    (folder / "resource").mkdir()
+    (folder / "resource" / folder.name).touch()
     for each in modules:
         shutil.copy(each, code)
     for name in ("config", "launch"):

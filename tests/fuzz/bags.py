@@ -44,7 +44,7 @@ def metadata(text: str) -> None:
 
     folder = file(text, "metadata.yaml").parent
     with suppress(NoBag):
-        _files(folder)
+        _files(folder, {})
     qos_profiles(text)
 
 

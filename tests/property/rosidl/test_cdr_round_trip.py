@@ -6,8 +6,7 @@ import importlib
 from typing import Any
 
 import pytest
-from bot_console.runtime.rosidl.cdr import deserialize, serialize
-from bot_console.runtime.rosidl.cdr_read import CdrError
+from bot_console.runtime.rosidl.cdr import CdrError, deserialize, serialize
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from bot_console.runtime.rosidl.cdr import deserialize, serialize
-from bot_console.runtime.rosidl.cdr_read import CdrError
+from bot_console.runtime.rosidl.cdr import CdrError, deserialize, serialize
 from bot_console.runtime.rosidl.conversion import FieldTypeError
 from example_interfaces.msg import WString
 from example_interfaces.srv import AddTwoInts

@@ -10,6 +10,8 @@ from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 class Link:
     """A session and its sender, which record who sends what."""
 
+    never_waits = False
+
     def __init__(self):
         self.sent = []
 

@@ -113,7 +113,7 @@ def test_setup_reports_real_rclpy_and_another_python(home: Path, tmp_path: Path)
     [
         ("ros2 topi", ["topic"]),
         pytest.param("ros2 param l", ["list", "load"], marks=pytest.mark.soak),
-        ("bot-console setup ", ["bash", "fish", "venv", "zsh"]),
+        ("bot-console setup ", ["bash", "editor", "fish", "venv", "zsh"]),
         ("ros2 interface show std_msgs/msg/Strin", ["std_msgs/msg/String"]),
         ("ros2 launch bot_console_robot robot_system.launch.py nav", ["navigator:="]),
         ("ros2 launch bot_console_robot robot_system.launch.py navigator:=", []),

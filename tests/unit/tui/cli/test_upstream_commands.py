@@ -36,7 +36,7 @@ def test_prefix_runs_before_the_executable() -> None:
     )
     assert ended.returncode == 0, ended.stderr
     assert ended.stdout.startswith("with this ")
-    assert ended.stdout.endswith(" demo_nodes_py talker --ros-args -r __node:=t\n")
+    assert ended.stdout.endswith("/demo_nodes_py/talker --ros-args -r __node:=t\n")
 
 
 def test_prefix_is_refused_for_a_program_of_the_console(capsys: pytest.CaptureFixture[str]) -> None:
