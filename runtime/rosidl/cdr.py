@@ -10,13 +10,9 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any
 
-HEADER_SIZE = 4
-ORDERS = {0: ">", 1: "<"}
-"""Byte order by the second byte of the header."""
+from bot_console.runtime.rosidl.cdr_header import HEADER_SIZE, ORDERS, CdrError
 
-
-class CdrError(ValueError):
-    """The bytes are not a message of the requested class."""
+__all__ = ["CdrError", "deserialize", "serialize"]
 
 
 def serialize(message: Any) -> bytes:

@@ -24,7 +24,7 @@ from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any
 
-from bot_console.runtime.rosidl.cdr import HEADER_SIZE, CdrError
+from bot_console.runtime.rosidl.cdr_header import HEADER_SIZE, CdrError
 from bot_console.runtime.rosidl.cdr_layout import ANYWHERE, CODES, FILLER, START, Part, Place, parts, row
 from bot_console.runtime.rosidl.cdr_source import Source
 from bot_console.runtime.rosidl.definition import TYPECODES

@@ -1,0 +1,9 @@
+"""The header of a serialized message, and the error for bytes that are none. Apart, since it costs no generator."""
+
+HEADER_SIZE = 4
+ORDERS = {0: ">", 1: "<"}
+"""Byte order by the second byte of the header."""
+
+
+class CdrError(ValueError):
+    """The bytes are not a message of the requested class."""
