@@ -19,7 +19,7 @@ NO_OTHERS: Mapping[str, str] = MappingProxyType({})
 FILTER = "slash"
 """The key of the pane that is left out last."""
 FIRST_DROPPED = ("app.line", "app.quit")
-"""Global keys that a short bar leaves out after the pane's keys, since the help names them."""
+"""Global keys that a short bar leaves out first, before those of the pane, since the help names them."""
 STOP = "app.stop"
 
 
@@ -91,7 +91,7 @@ class KeyBar(Static):
 
 
 def fitting(first: Sequence[Shown], keys: Sequence[Shown], columns: int) -> list[Shown]:
-    """The keys that fit: first the pane's are left out, then help, and last those of a mode and the stop."""
+    """The keys that fit: `FIRST_DROPPED` are left out first, then the pane's keys, help, and last those of a mode."""
     kept = [*first, *keys]
     own = [each for each in keys if not each.id.startswith("app.")]
     everywhere = [each for each in keys if each.id.startswith("app.") and each.id != STOP]
