@@ -105,6 +105,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("parameters.dismiss", "x", "dismiss", "Dismiss the refusal, or drop the mark"),
         Key("parameters.plot", "p", "plot", "Plot this parameter"),
         Key("parameters.copy", "y", "copy", "Copy the ros2 command of this parameter"),
+        Key("parameters.copy_part", "Y", "copy_part", "Copy its name, its value or its node alone", shown="Y"),
         Key("parameters.tune", "T", "tune", "Tune it, or what is marked: many runs find what scores best", shown="T"),
         Key("parameters.save", "s", "save", "Save to a ROS parameter file"),
     ),

@@ -294,6 +294,20 @@ def test_reset_undo_redo_folding_and_filters_work() -> None:
     run(live(), play)
 
 
+def test_a_name_a_value_or_a_node_is_copied_alone() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1", "home", "Y")
+        assert session.app.clipboard == "/robot_navigator"
+        await session.press("down", "Y", "enter")
+        assert session.app.clipboard == "detection_threshold"
+        await session.press("Y")
+        await session.type("val")
+        await session.press("enter")
+        assert session.app.clipboard == "100"
+
+    run(live(), play)
+
+
 def test_the_command_is_shown_and_copied_and_values_are_saved() -> None:
     async def play(session: Session) -> None:
         await session.press("1")

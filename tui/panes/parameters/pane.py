@@ -13,7 +13,7 @@ from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ConsoleSnapshot, ParameterTree, same
 from bot_console.tui.console.query import parse
-from bot_console.tui.format import command_of, counted, sanitize
+from bot_console.tui.format import command_of, counted, sanitize, value_text
 from bot_console.tui.panes.parameters.absences import Absences
 from bot_console.tui.panes.parameters.details import details
 from bot_console.tui.panes.parameters.edit_pane import EditPane
@@ -332,9 +332,26 @@ class ParametersPane(EditPane):
         """Copy the command that sets this parameter, through the terminal (OSC 52)."""
         parameter = self._at()
         if parameter is not None:
-            text = command_of(parameter, parameter.value)
-            self.host.copy_to_clipboard(text)
-            self.notify(text, title="Copied", markup=False)
+            self._copy(command_of(parameter, parameter.value))
+
+    def _copy(self, text: str) -> None:
+        self.host.copy_to_clipboard(text)
+        self.notify(text, title="Copied", markup=False)
+
+    def action_copy_part(self) -> None:
+        """Ask which part to copy: of a parameter the name, the value or the node, of a node its name."""
+        row = self._list.current
+        if row is None:
+            return
+        if row.parameter is None:
+            self._copy(row.node)
+            return
+        parts = {"name": row.parameter.name, "value": value_text(row.parameter.value), "node": row.node}
+
+        def find(typed: str) -> list[Option]:
+            return [Option(each, sanitize(text)) for each, text in parts.items() if typed.lower() in each]
+
+        self.ask(Choice("Copy", lambda chosen: self._copy(parts[chosen]), find=find))
 
     def action_save(self) -> None:
         """Ask what to save, then where."""
