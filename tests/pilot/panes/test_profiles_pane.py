@@ -161,6 +161,8 @@ def test_node_that_can_check_values_is_asked_before_applying() -> None:
         assert questions == [(check.name, {"parameters": [{"name": SANITIZED.name, "value": value}]})]
         assert f"{SANITIZED.node}  checking ..." in session.text()
         assert "/safety_monitor  can't check in advance" in session.text()
+        words = " ".join(session.text().replace("│", " ").split())
+        assert "1 of 2 nodes can't check in advance: no service ~/check_parameters" in words
         answers[0].set_result(Answer(False, "not in this hall"))
         await session.settle()
         assert (

@@ -11,6 +11,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ConsoleSnapshot, ParameterTree, ProfileDifference, Value
 from bot_console.tui.console.parameters.dry_run import SERVICE, TYPE, can_be_asked, question
 from bot_console.tui.console.protocol import Console
+from bot_console.tui.format import counted
 from bot_console.tui.panes.pane import answer_of
 
 Asked = tuple[ParameterTree, Mapping[str, Value]]
@@ -29,6 +30,8 @@ class Asking:
     heard: Callable[[], object]
     unasked: frozenset[str] = frozenset()
     """The nodes that can't check in advance."""
+    concerned: int = 0
+    """The number of nodes whose values would change."""
     answers: dict[str, Answer | None] = field(default_factory=dict[str, "Answer | None"])
     """The answer of each node asked; None until it has answered."""
     _asked: dict[str, Asked] = field(default_factory=dict[str, "Asked"])
@@ -44,7 +47,7 @@ class Asking:
                 wanted.setdefault(each.node, {})[each.name] = each.then
         refused = {each.node for each in differences if each.refusal and not each.unknown}
         open_to_it = can_be_asked(snapshot.graph)
-        self.unasked = frozenset(wanted) - open_to_it
+        self.concerned, self.unasked = len(wanted), frozenset(wanted) - open_to_it
         # If the descriptor refuses a value, the node need not be asked, and its rules do not expect such values.
         now = {node: wanted[node] for node in wanted if node in open_to_it and node not in refused}
         for node in [each for each in self._asked if each not in now]:
@@ -76,6 +79,13 @@ class Asking:
             for node, answer in self.answers.items()
             if answer is not None and not answer.ok
         }
+
+    def unasked_text(self) -> str:
+        """How many nodes can't check in advance, and why; empty if all can."""
+        if not self.unasked:
+            return ""
+        of, count = self.concerned, len(self.unasked)
+        return f"{count} of {counted(of, 'node')} can't check in advance: no service ~/{SERVICE}"
 
     def words(self, node: str) -> tuple[str, str]:
         """The note beside a node's name, and its style; empty if nothing would change."""

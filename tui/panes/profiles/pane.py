@@ -152,8 +152,8 @@ class ProfilesPane(ListPane):
         text += f", {counted(refusing, 'node')} against it" if refusing else ""
         text += f", {unknown} unknown to its node and left out" if unknown else ""
         text += f", not running: {', '.join(absent)}" if absent else ""
-        unasked = len(self._asking.unasked)
-        text += f", {counted(unasked, 'node')} cannot be asked before" if unasked else ""
+        unasked = self._asking.unasked_text()
+        text += f"; {unasked}" if unasked else ""
         return text + ("; w also resets the simulator into its world" if reset and profile.world else "")
 
     def _absent(self, profile: Profile) -> list[str]:
