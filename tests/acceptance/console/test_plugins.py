@@ -114,7 +114,7 @@ def test_faulty_plugin_ends_alone(source: Path, fault: str) -> None:
         await pilot.pause()
         broken = app.query_one(BrokenPane)
         assert broken.display
-        message = {"no_widget": "no class of a Textual widget", "missing": "nothing_of_the_kind"}.get(fault, "no luck")
+        message = {"no_widget": "not a Textual widget class", "missing": "nothing_of_the_kind"}.get(fault, "no luck")
         assert message in "\n".join(strip.text for strip in app.screen._compositor.render_strips())
         await pilot.press("1")
         assert app.current_pane.id == "parameters", "everything else goes on"

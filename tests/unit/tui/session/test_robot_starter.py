@@ -6,6 +6,8 @@ from bot_console.tui.session.robot_starter import GRAPH_POLL_S, SETTLED_S, Robot
 from geometry_msgs.msg import Twist
 from rclpy.context import Context
 
+OWN_DOMAIN = 91
+"""A domain in which no node of another test of this process is met."""
 POLLS = int(SETTLED_S / GRAPH_POLL_S) + 2
 """Polls of an unchanged graph until its nodes count as up."""
 
@@ -14,7 +16,7 @@ POLLS = int(SETTLED_S / GRAPH_POLL_S) + 2
 def make():
     """Makes nodes of one graph."""
     context = Context()
-    context.init([])
+    context.init([], domain_id=OWN_DOMAIN)
     nodes = []
 
     def made(name):
