@@ -88,7 +88,7 @@ def test_run_starts_a_node_and_bag_records_behind_the_named_router(place: str, t
             assert talker.stdout is not None and talker.stdout.readline() == b"heard\n"
             recorder.send_signal(signal.SIGINT)
         talker.kill()
-    assert recorder.returncode == 0
+    assert recorder.returncode in (0, 130), "130 where the interrupt came before it began to spin"
     assert "/chatter | Type: std_msgs/msg/String" in run(place, *program[1:], "bag", "info", str(bag)).stdout
 
 
