@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
+import os
 import sys
 from dataclasses import replace
 from pathlib import Path
 
+from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError
 from bot_console.tui.arrangement.plugin_pane import PluginEntry
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.learn.command_log import FolderRefusedError, open_log
+from bot_console.tui.learn.command_log import open_log
 from bot_console.tui.learn.course import CourseError, find_course, names, read_course
 from bot_console.tui.learn.layout import NAME
 from bot_console.tui.learn.lesson import CourseLesson
@@ -53,7 +56,8 @@ def run(words: list[str]) -> int:
     try:
         return _show(CourseLesson(course, workspace, log), workspace)
     finally:
-        log.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            os.remove(log)
 
 
 def listing(lesson: CourseLesson) -> str:

@@ -57,31 +57,11 @@ _ROS2 = {
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command line and return its exit code: 0 done, 1 failed, 2 wrong usage.
-
-    While a lesson is open in this domain, it learns of the command.
-    """
+    """Run a command line and return its exit code: 0 done, 1 failed, 2 wrong usage."""
     words = list(sys.argv[1:] if argv is None else argv)
     if words == ["--version"]:
         print(f"bot-console {__version__}")
         return 0
-    from bot_console.tui.learn.open_lesson import wanted_log
-
-    log = wanted_log() if words[:1] not in ([], ["learn"], ["complete"], ["stop"], ["release"]) else ""
-    if not log:
-        return _main(words)
-    from bot_console.tui.learn.command_log import append
-
-    append(log, words, None)
-    code = 1
-    try:
-        code = _main(words)
-    finally:
-        append(log, words, code)
-    return code
-
-
-def _main(words: Words) -> int:
     from bot_console.runtime.programs.exit_messages import help_is_english, report_help_errors
 
     help_is_english()
@@ -151,8 +131,18 @@ def _in_workspace(words: Words) -> Words:
 def program() -> NoReturn:
     """The entry point of the process."""
     from bot_console.runtime.programs.exit_messages import run_and_report
+    from bot_console.tui.learn.command_log import log_for, record
 
-    end_program(run_and_report(_program))
+    words, code = sys.argv[1:], 1
+    log = log_for(words)  # of the lesson that is open in this domain
+    if log:
+        record(log, words, None)
+    try:
+        code = run_and_report(_program)
+    finally:
+        if log:
+            record(log, words, code)
+    end_program(code)
 
 
 def _program() -> int:

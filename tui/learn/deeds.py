@@ -8,14 +8,10 @@ from dataclasses import dataclass, field
 
 from bot_console.tui.console.model import Change, ConsoleSnapshot, ParameterInfo
 from bot_console.tui.format import value_text
+from bot_console.tui.learn.command_log import Command
 
-
-@dataclass(frozen=True)
-class Command:
-    """A command line that has ended or, as `code` None says, still runs."""
-
-    words: tuple[str, ...]
-    code: int | None = None
+MAX_STEP_M = 1.0
+"""A greater distance between two snapshots is a robot that was moved elsewhere."""
 
 
 @dataclass
@@ -35,9 +31,7 @@ class Deeds:
     profiles: set[str] = field(default_factory=set[str])
     steered: bool = False
     metres: float = 0.0
-    """The way that the robot has driven."""
-    metres_before: float = 0.0
-    """The way that it had driven when the step that is judged had only its driving left."""
+    """The distance that the robot has driven."""
     _place: tuple[float, float] | None = None
 
     def observe(self, snapshot: ConsoleSnapshot) -> None:
@@ -68,22 +62,17 @@ class Deeds:
     def refusals(self, name: str) -> list[str]:
         """The reasons for which a value of a parameter was refused; empty ones for those of other terminals."""
         here = [each.reason for each in self.changes if each.name == name and not each.accepted]
-        return here + ["" for each in self.commands if each.code and is_set_of(each.words, name)]
+        return here + ["" for each in self.commands if each.code and is_set_of(each, name)]
 
     def values_set(self, name: str) -> list[str]:
         """The values that somebody has set, as texts."""
         here = [value_text(each.new) for each in self.changes if each.name == name and each.accepted]
-        return here + [each.words[-1] for each in self.commands if each.code == 0 and is_set_of(each.words, name)]
+        return here + [each.words[-1] for each in self.commands if each.code == 0 and is_set_of(each, name)]
 
 
-MAX_STEP_M = 1.0
-"""A longer way between two snapshots is a robot that was put elsewhere."""
-
-
-def is_set_of(words: Sequence[str], name: str) -> bool:
+def is_set_of(command: Command, name: str) -> bool:
     """Whether a command line is `param set NODE NAME VALUE`, of `ros2` or not."""
-    rest = list(words[1:] if words[:1] == ("ros2",) else words)
-    plain = [each for each in rest if not each.startswith("--")]
+    plain = [each for each in command.verb if not each.startswith("--")]
     return plain[:2] == ["param", "set"] and len(plain) >= 5 and plain[3] == name
 
 

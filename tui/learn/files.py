@@ -5,6 +5,7 @@ from __future__ import annotations
 import fnmatch
 import os
 from collections.abc import Iterator
+from functools import cached_property
 from pathlib import Path
 
 from bot_console.runtime.workspace.discover import Workspace, default_folders
@@ -12,22 +13,23 @@ from bot_console.runtime.workspace.package import Package
 
 SKIPPED = frozenset(("build", "install", "log", "__pycache__", "node_modules"))
 MAX_FILES = 5000
-"""Files of a workspace that are looked at."""
+"""Files of a workspace that are read."""
 MAX_FILE_BYTES = 1_000_000
 
 
 class WorkspaceFiles:
-    """One look at a workspace. Make a new one to see what has changed since."""
+    """A workspace at one moment: make another one to see later changes."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self._packages: list[Package] | None = None
-        self._listed: list[Path] | None = None
+        self._files = sorted(_below(folder))
+        self.stamp = hash(tuple((str(each), _changed(each)) for each in self._files))
+        """A number that differs for a workspace in which a file was added, removed or written."""
 
     def matching(self, pattern: str) -> list[Path]:
         """The files whose path within the workspace ends with a pattern of shells, such as `config/*.yaml`."""
         wanted = f"*/{pattern.lstrip('/')}"
-        return [each for each in self._files() if fnmatch.fnmatch(f"/{each.relative_to(self.folder)}", wanted)]
+        return [each for each in self._files if fnmatch.fnmatch(f"/{each.relative_to(self.folder)}", wanted)]
 
     def text(self, path: Path) -> str:
         """The text of a file; empty if it cannot be read or is too large."""
@@ -36,32 +38,22 @@ class WorkspaceFiles:
         except OSError:
             return ""
 
+    @cached_property
     def packages(self) -> list[Package]:
         """The packages, the one that was changed last first."""
-        if self._packages is None:
-            found = Workspace(list(default_folders(self.folder))).packages.values()
-            inside = [each for each in found if self.folder.resolve() in each.folder.resolve().parents]
-            inside += [each for each in found if each.folder.resolve() == self.folder.resolve()]
-            self._packages = sorted(inside, key=lambda each: -_changed(each.folder))
-        return self._packages
+        found = Workspace(list(default_folders(self.folder))).packages.values()
+        root = self.folder.resolve()
+        inside = [each for each in found if root in (each.folder.resolve(), *each.folder.resolve().parents)]
+        return sorted(inside, key=lambda each: -_changed(each.folder))
 
     def package_name(self, usual: str) -> str:
         """The student's package: the one that the course calls so, else the one that was changed last; else `usual`."""
-        found = [each.name for each in self.packages()]
+        found = [each.name for each in self.packages]
         return usual if usual in found else next(iter(found), usual)
 
     def name_of(self, path: Path) -> str:
-        """How a file is called in a text."""
+        """The path of a file within the workspace, for texts."""
         return str(path.relative_to(self.folder))
-
-    def stamp(self) -> int:
-        """A number that changes when a file is added, removed or written."""
-        return hash(tuple((str(each), _changed(each)) for each in self._files()))
-
-    def _files(self) -> list[Path]:
-        if self._listed is None:
-            self._listed = sorted(_below(self.folder))
-        return self._listed
 
 
 def _below(folder: Path) -> Iterator[Path]:

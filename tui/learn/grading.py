@@ -20,16 +20,16 @@ from bot_console.tui.learn.sandbox import Finished, Sandbox, make_sandbox
 
 ROW_TIMEOUT_S = 90.0
 """Seconds that a row may take."""
-NODES_WAIT_S = 15
-"""Seconds that the nodes of a row have until they are there."""
+NODES_TIMEOUT_S = 15
+"""Seconds within which the nodes of a row have to appear."""
 SEED = 1
 SHELL = """\
 {starts}
 $BOT_CONSOLE check "$HOME/script" --json --wait {wait} > "$HOME/report" 2> "$HOME/problem"
 """
 DRIVE = '$BOT_CONSOLE --headless --fast --seed {seed} --duration {seconds} --launch {words} > "$HOME/report"'
-STEP_LINES = 3
-"""Lines of a program's output that explain a failure."""
+EXPLAINING_LINES = 3
+"""How many of the last lines of a program's output explain a failure."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class RowResult:
 
 
 def grade(course: Course, workspace: Path, *, allow_network: bool = False) -> Iterator[RowResult]:
-    """The results, row by row; raises `NoSandboxError` if the workspace cannot be closed in."""
+    """The results, row by row; raises `NoSandboxError` if it cannot be isolated."""
     for row in course.rows():
         with tempfile.TemporaryDirectory(prefix="bc-grade-", ignore_cleanup_errors=True) as folder:
             sandbox = make_sandbox(workspace, Path(folder), allow_network=allow_network)
@@ -67,7 +67,7 @@ def _why(row: GradeRow, sandbox: Sandbox, course: Course) -> str:
 def _script(row: GradeRow, sandbox: Sandbox, names: dict[str, str]) -> str:
     (sandbox.folder / "home" / "script").write_text(with_names(row.script, names), encoding="utf-8")
     starts = [f"$BOT_CONSOLE {_line(words, names)} &" for words in row.starts]
-    done = sandbox.run(SHELL.format(starts="\n".join(starts), wait=NODES_WAIT_S), ROW_TIMEOUT_S)
+    done = sandbox.run(SHELL.format(starts="\n".join(starts), wait=NODES_TIMEOUT_S), ROW_TIMEOUT_S)
     report = _report(sandbox)
     if report is None:
         problem = _text(sandbox.folder / "home" / "problem").strip()
@@ -82,8 +82,12 @@ def _drive(drive: Drive, sandbox: Sandbox, names: dict[str, str]) -> str:
     report = _report(sandbox)
     if done.why or report is None or "distance" not in report:
         return done.why or _explained("the run has no report", done)
-    way = float(report["distance"])
-    return "" if way > drive.metres else f"the robot drove {way:.2f} m in {drive.seconds} s, not {drive.metres:g} m"
+    distance = float(report["distance"])
+    return (
+        ""
+        if distance > drive.metres
+        else f"the robot drove {distance:.2f} m in {drive.seconds} s, not {drive.metres:g} m"
+    )
 
 
 def _line(words: Sequence[str], names: dict[str, str]) -> str:
@@ -107,7 +111,7 @@ def _text(path: Path) -> str:
 
 def _explained(why: str, done: Finished) -> str:
     lines = [each.strip() for each in done.output.splitlines() if each.strip()]
-    return f"{why} ({' / '.join(lines[-STEP_LINES:])})" if lines else why
+    return f"{why} ({' / '.join(lines[-EXPLAINING_LINES:])})" if lines else why
 
 
 def table(results: Sequence[RowResult]) -> str:

@@ -17,12 +17,24 @@ from bot_console.tui.learn.deeds import Deeds, names_of
 from bot_console.tui.learn.files import WorkspaceFiles
 
 
-def missing(condition: Condition, deeds: Deeds, files: WorkspaceFiles, names: dict[str, str]) -> str:
-    """What is missing, in a sentence; empty if the condition holds. `names` learns what `as` gives a name to."""
+def missing(
+    condition: Condition,
+    deeds: Deeds,
+    files: WorkspaceFiles,
+    names: dict[str, str],
+    *,
+    driven_before: float = 0.0,
+) -> str:
+    """What is missing, in a sentence; empty if the condition holds. `names` gets the names that `as` introduces.
+
+    `driven_before` is the distance (m) that does not count, since the robot drove it before it was asked to.
+    """
     words = [with_names(each, names) for each in condition.words]
     if condition.verb == "saw-node":
         return _node(words, deeds, names)
-    if condition.verb.startswith("saw-"):
+    if condition.verb == "saw-move":
+        return _moved(words, deeds.metres - driven_before)
+    if condition.once:
         return _DEEDS[condition.verb](words, deeds)
     return _STATES[condition.verb](words, files)
 
@@ -116,8 +128,8 @@ def _in_order(wanted: Sequence[str], given: Sequence[str]) -> bool:
 def _launch(words: Sequence[str], deeds: Deeds) -> str:
     file, argument = words[0], words[1] if len(words) > 1 else ""
     for each in deeds.commands:
-        rest = [*(each.words[1:] if each.words[:1] == ("ros2",) else each.words)]
-        launched = rest[:1] == ["launch"] and any(fnmatch.fnmatch(word, f"*{file}") for word in rest[1:])
+        verb, *rest = each.verb or ("",)
+        launched = verb == "launch" and any(fnmatch.fnmatch(word, f"*{file}") for word in rest)
         if launched and (not argument or any(fnmatch.fnmatch(word, argument) for word in rest)):
             return ""
     if not argument and any(fnmatch.fnmatch(each, f"*{file}") for each in deeds.launches):
@@ -125,8 +137,8 @@ def _launch(words: Sequence[str], deeds: Deeds) -> str:
     return f"waiting for: a launch of {file}{f' with {argument}' if argument else ''}"
 
 
-def _moved(words: Sequence[str], deeds: Deeds) -> str:
-    left = float(words[0]) - (deeds.metres - deeds.metres_before)
+def _moved(words: Sequence[str], driven: float) -> str:
+    left = float(words[0]) - driven
     return "" if left <= 0 else f"waiting for: the robot to drive {left:.1f} m"
 
 
@@ -154,7 +166,6 @@ _DEEDS: Mapping[str, Callable[[Sequence[str], Deeds], str]] = {
     "saw-layout": _among("a saved layout {}", lambda deeds: deeds.layouts),
     "saw-profile": _among("a profile {} to be applied", lambda deeds: deeds.profiles),
     "saw-steering": lambda words, deeds: "" if deeds.steered else "waiting for: the robot to be driven by your keys",
-    "saw-move": _moved,
 }
 
 
@@ -168,7 +179,7 @@ def _file(words: Sequence[str], files: WorkspaceFiles) -> str:
 
 
 def _entry_point(words: Sequence[str], files: WorkspaceFiles) -> str:
-    packages = files.packages()
+    packages = files.packages
     if not packages:
         return "there is no package yet: a folder with package.xml and setup.py"
     for each in packages:
@@ -185,7 +196,7 @@ def _installed(words: Sequence[str], files: WorkspaceFiles) -> str:
     wanted = files.matching(words[0])
     if not wanted:
         return f"there is no file {words[0]} in {files.folder}"
-    for package in files.packages():
+    for package in files.packages:
         installed = {each.resolve() for _, sources in package.data_files for each in sources}
         wanted = [each for each in wanted if each.resolve() not in installed]
     if not wanted:

@@ -16,8 +16,8 @@ from bot_console.tui.learn.judging import missing, with_names
 from bot_console.tui.learn.lesson_view import LessonView, OnScreen
 from bot_console.tui.learn.progress import Progress, read_progress
 
-FILES_POLL_S = 1.0
-"""Seconds between two looks at the files of the workspace and at the commands of other terminals."""
+JUDGE_POLL_S = 1.0
+"""Seconds between two polls of the workspace's files and of the commands of other terminals."""
 
 
 class CourseLesson:
@@ -27,19 +27,21 @@ class CourseLesson:
         self,
         course: Course,
         workspace: Path,
-        commands: Path | None = None,
+        commands: str = "",
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """`commands` is the file in which the command lines of the domain are written down."""
+        """`commands` is the file in which the command lines of the domain are recorded; empty if none are."""
         self.course = course
         self._workspace = workspace
         self._commands = commands
         self._clock = clock
         self._deeds = Deeds()
         self._files = WorkspaceFiles(workspace)
-        self._looked = float("-inf")
-        self._metres_before: dict[str, float] = {}
-        """By step, how far the robot had driven when all but the driving was done."""
+        self._judged_at = float("-inf")
+        self._states: dict[str, str] = {}
+        """By condition on files, what is missing in the files as they are."""
+        self._driven_before: dict[str, float] = {}
+        """By step, how far (m) the robot had driven when only its driving was left to do."""
         self._missing: dict[str, list[str]] = {}
         """By step, what each condition misses; an empty text is a condition that holds."""
         self.progress: Progress = read_progress(workspace, course.name)
@@ -48,7 +50,10 @@ class CourseLesson:
         self._judge()
 
     def observe(self, snapshot: ConsoleSnapshot, changes: Iterable[Change], screen: OnScreen) -> Sequence[str]:
-        """Take in what has happened; the titles of steps that are done since. Steps that are shown and done go on."""
+        """Take in what has happened, and return the titles of the steps that this has completed.
+
+        If the step being shown is among them, the next open one is shown.
+        """
         self._deeds.observe(snapshot)
         self._deeds.add_changes(changes)
         self._deeds.panes |= {screen.pane} - {""}
@@ -56,11 +61,13 @@ class CourseLesson:
         self._deeds.layouts |= screen.layouts
         self._deeds.steered |= screen.steers
         now = self._clock()
-        if now - self._looked < FILES_POLL_S:
+        if now - self._judged_at < JUDGE_POLL_S:
             return ()
-        self._looked = now
-        self._files = WorkspaceFiles(self._workspace)
-        if self._commands is not None:
+        self._judged_at = now
+        files = WorkspaceFiles(self._workspace)
+        if files.stamp != self._files.stamp:
+            self._files, self._states = files, {}
+        if self._commands:
             self._deeds.commands = read_log(self._commands)
         before = {each.id for each in self._steps if self.is_done(each)}
         self._judge()
@@ -73,15 +80,11 @@ class CourseLesson:
         """Whether all conditions of a step hold."""
         return not any(self._missing[step.id])
 
-    def what_is_missing(self, step: Step) -> list[str]:
-        """What each condition of a step misses; an empty text for one that holds."""
-        return self._missing[step.id]
-
     def view(self) -> LessonView:
         """The step to show now."""
         step = self._steps[self._at]
         waits = tuple(
-            (not why, self._asked(condition) if not why else self._with_hint(condition, why))
+            (not why, self._named(condition.text) if not why else self._with_hint(condition, why))
             for condition, why in zip(step.conditions, self._missing[step.id], strict=True)
         )
         return LessonView(
@@ -113,28 +116,30 @@ class CourseLesson:
         for step in self._steps:
             held = self.progress.held.setdefault(step.id, [])
             self._missing[step.id] = []
-            self._deeds.metres_before = self._metres_before.get(step.id, self._deeds.metres)
+            before = self._driven_before.get(step.id, self._deeds.metres)
             for condition in step.conditions:
-                why = "" if condition.once and condition.text in held else self._why(condition, names)
+                why = "" if condition.once and condition.text in held else self._why(condition, names, before)
                 self._missing[step.id].append(why)
                 if condition.once and not why and condition.text not in held:
                     held.append(condition.text)
                     changed = True
             left = [each for each, why in zip(step.conditions, self._missing[step.id], strict=True) if why]
             if all(each.verb == "saw-move" for each in left):
-                self._metres_before.setdefault(step.id, self._deeds.metres)
+                self._driven_before.setdefault(step.id, self._deeds.metres)
         if changed or names != self.progress.names:
             self.progress.names = names
             self.progress.save()
 
-    def _why(self, condition: Condition, names: dict[str, str]) -> str:
-        return missing(condition, self._deeds, self._files, names)
+    def _why(self, condition: Condition, names: dict[str, str], driven_before: float) -> str:
+        if condition.once:
+            return missing(condition, self._deeds, self._files, names, driven_before=driven_before)
+        text = with_names(condition.text, names)
+        if text not in self._states:
+            self._states[text] = missing(condition, self._deeds, self._files, names)
+        return self._states[text]
 
     def _with_hint(self, condition: Condition, why: str) -> str:
         return f"{why}: {self._named(condition.hint)}" if condition.hint else why
-
-    def _asked(self, condition: Condition) -> str:
-        return self._named(condition.text)
 
     def _named(self, text: str) -> str:
         return with_names(text, self.progress.names)

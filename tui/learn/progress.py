@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
-import os
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, cast
+
+from bot_console.tui.files.save_file import NotSaved, save_file
 
 FOLDER = ".bot-console"
 VERSION = 1
@@ -24,15 +25,12 @@ class Progress:
     """Why it could not be read or written; empty if it could."""
 
     def save(self) -> None:
-        """Write it, in one piece; `problem` says why that failed."""
+        """Save it; `problem` says why that failed."""
         text = json.dumps({"version": VERSION, "at": self.at, "held": self.held, "names": self.names}, indent=1)
-        new = self.path.with_name(self.path.name + ".new")
         try:
-            self.path.parent.mkdir(exist_ok=True)
-            new.write_text(text, encoding="utf-8")
-            os.replace(new, self.path)
-        except OSError as error:
-            self.problem = f"progress is not kept: {self.path}: {error.strerror}"
+            save_file(self.path, text)
+        except NotSaved as error:
+            self.problem = f"progress is not saved: {error}"
 
 
 def read_progress(workspace: Path, course: str) -> Progress:

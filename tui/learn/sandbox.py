@@ -1,4 +1,4 @@
-"""Runs what a student has written, closed in as far as the kernel allows it.
+"""Runs what a student has written, isolated as far as the kernel allows it.
 
 A copy of the workspace, a network and process table of its own (user, network and process namespaces of Linux), a limit
 of time, and one of memory that all processes of a run share. It protects the network, other processes and the machine's
@@ -14,11 +14,12 @@ import sys
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 NAMESPACES = ("unshare", "--user", "--map-root-user", "--net", "--pid", "--fork", "--kill-child", "--mount-proc")
 MAX_MEMORY_BYTES = 2_000_000_000
-"""Resident memory of all processes of a run together."""
+"""Resident memory that all processes of a run may use together."""
 MEMORY_POLL_S = 0.2
 MAX_OUTPUT_BYTES = 2_000_000
 SKIPPED = shutil.ignore_patterns(".git", "build", "install", "log", "__pycache__", ".bot-console")
@@ -39,7 +40,7 @@ class Finished:
 
 @dataclass(frozen=True)
 class Sandbox:
-    """A copy of a workspace in `folder`, and the prefix of commands that run closed in; empty: with the network."""
+    """A copy of a workspace in `folder`, and the prefix of isolated commands; empty: without isolation."""
 
     folder: Path
     prefix: Sequence[str]
@@ -81,9 +82,12 @@ class Sandbox:
 
 
 def make_sandbox(workspace: Path, folder: Path, *, allow_network: bool) -> Sandbox:
-    """Copy a workspace into an empty folder; raises `NoSandboxError` if it cannot be closed in and has to be."""
+    """Copy a workspace into an empty folder.
+
+    Raises `NoSandboxError` if programs cannot be isolated, unless the network is allowed.
+    """
     prefix: Sequence[str] = NAMESPACES
-    if not can_close_in():
+    if not can_isolate():
         if not allow_network:
             raise NoSandboxError(
                 "this system gives programs no network namespace of their own, so that what is graded could reach the "
@@ -96,7 +100,8 @@ def make_sandbox(workspace: Path, folder: Path, *, allow_network: bool) -> Sandb
     return Sandbox(folder, prefix)
 
 
-def can_close_in() -> bool:
+@cache
+def can_isolate() -> bool:
     """Whether programs of this user can have namespaces of their own."""
     if not sys.platform.startswith("linux") or shutil.which(NAMESPACES[0]) is None:
         return False
@@ -118,16 +123,16 @@ def _wait(process: subprocess.Popen[bytes], seconds: float) -> str:
         why = ""
         if time.monotonic() > deadline:
             why = f"it took longer than {seconds:g} s"
-        elif _memory_below(process.pid) > MAX_MEMORY_BYTES:
+        elif _resident_bytes(process.pid) > MAX_MEMORY_BYTES:
             why = f"it took more than {MAX_MEMORY_BYTES // 1_000_000} MB of memory"
         if why:
-            _kill_below(process.pid)
+            _kill_all(process.pid)
             process.wait()
             return why
 
 
-def _below(pid: int) -> list[int]:
-    """A process and all that descend from it."""
+def _with_descendants(pid: int) -> list[int]:
+    """A process and its descendants."""
     children: dict[int, list[int]] = {}
     for each in os.listdir("/proc") if os.path.isdir("/proc") else ():
         if each.isdigit():
@@ -142,10 +147,10 @@ def _below(pid: int) -> list[int]:
     return found
 
 
-def _memory_below(pid: int) -> int:
+def _resident_bytes(pid: int) -> int:
     page = os.sysconf("SC_PAGE_SIZE")
     total = 0
-    for each in _below(pid):
+    for each in _with_descendants(pid):
         try:
             total += int(Path(f"/proc/{each}/statm").read_text("utf-8").split()[1]) * page
         except (OSError, ValueError, IndexError):
@@ -153,8 +158,8 @@ def _memory_below(pid: int) -> int:
     return total
 
 
-def _kill_below(pid: int) -> None:
-    for each in reversed(_below(pid)):
+def _kill_all(pid: int) -> None:
+    for each in reversed(_with_descendants(pid)):
         try:
             os.kill(each, 9)
         except OSError:

@@ -14,12 +14,12 @@ import pytest
 from bot_console.tui.learn import sandbox
 from bot_console.tui.learn.course import find_course, read_course
 from bot_console.tui.learn.grading import RowResult, as_junit, grade
-from bot_console.tui.learn.sandbox import NoSandboxError, can_close_in, make_sandbox
+from bot_console.tui.learn.sandbox import NoSandboxError, can_isolate, make_sandbox
 from course.page import make_workspace
 from course.rows import rows
 
 needs_course = pytest.mark.skipif(not rows(), reason="BOT_CONSOLE_COURSE names no course")
-needs_namespaces = pytest.mark.skipif(not can_close_in(), reason="programs get no namespaces of their own here")
+needs_namespaces = pytest.mark.skipif(not can_isolate(), reason="programs get no namespaces of their own here")
 
 FILES, PROGRAMS, LAUNCHES, DEFAULTS, VALID, SPEED, DISTANCE, THRESHOLD, NAME, SYSTEM, DRIVES = (
     each.title for each in read_course(find_course("week6")).rows()
@@ -190,7 +190,7 @@ def test_run_that_does_not_end_is_ended(tmp_path: Path) -> None:
 
 
 def test_without_namespaces_grading_needs_consent(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sandbox, "can_close_in", lambda: False)
+    monkeypatch.setattr(sandbox, "can_isolate", lambda: False)
     with pytest.raises(NoSandboxError, match="--allow-network"):
         make_sandbox(_empty(tmp_path), _new(tmp_path), allow_network=False)
     assert make_sandbox(tmp_path / "empty", _new(tmp_path, "other"), allow_network=True).prefix == ()

@@ -57,7 +57,7 @@ class Clock:
 def run(folder: Path, play: Callable[[Session], Awaitable[None]], size: tuple[int, int]) -> None:
     (folder / "course.md").write_text("# C\n", encoding="utf-8")
     (folder / "1.md").write_text(CHAPTER, encoding="utf-8")
-    lesson = CourseLesson(read_course(folder), folder, None, Clock())
+    lesson = CourseLesson(read_course(folder), folder, "", Clock())
     entry = PluginEntry("lesson", "", "Lesson", "", find=lambda: LessonPane.of(lesson), source="a test")
 
     async def main() -> None:

@@ -47,7 +47,7 @@ def run(words: list[str]) -> int:
     parser.add_argument("--stop", action="store_true", help="stop at the first step that fails")
     parser.add_argument("--course", metavar="COURSE", help="grade the workspace SCRIPT by the rows of a course")
     parser.add_argument("--junit", metavar="FILE", help="with --course: also write a report of JUnit")
-    parser.add_argument("--allow-network", action="store_true", help="with --course: also where it cannot be closed in")
+    parser.add_argument("--allow-network", action="store_true", help="with --course: also without isolation")
     parser.add_argument("--wait", type=float, default=10.0, metavar="S", help="seconds to wait for nodes (10)")
     given = parser.parse_args(words)
     if not given.script:

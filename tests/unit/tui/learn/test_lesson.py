@@ -20,10 +20,10 @@ from bot_console.tui.console.model import (
     Range,
 )
 from bot_console.tui.console.robot.robot_model import Pose, WorldInfo
-from bot_console.tui.learn.command_log import append, read_log
+from bot_console.tui.learn.command_log import Command, read_log, record
 from bot_console.tui.learn.conditions import Condition, read_condition
 from bot_console.tui.learn.course import Course, Step, find_course, read_course
-from bot_console.tui.learn.deeds import Command, Deeds
+from bot_console.tui.learn.deeds import Deeds
 from bot_console.tui.learn.files import WorkspaceFiles
 from bot_console.tui.learn.judging import missing
 from bot_console.tui.learn.lesson import CourseLesson
@@ -47,7 +47,7 @@ setup(
 
 
 class Clock:
-    """Time that goes on by more than the interval between two looks at the files with each reading."""
+    """Time that goes on by more than the interval between two polls of the files with each reading."""
 
     now = 0.0
 
@@ -185,7 +185,7 @@ def test_missing_state_of_the_workspace_is_named(condition: str, text: str, pack
     assert text in found and bool(found) == bool(text), found
 
 
-def lesson(folder: Path, text: str, commands: Path | None = None) -> CourseLesson:
+def lesson(folder: Path, text: str, commands: str = "") -> CourseLesson:
     course = folder / "course"
     course.mkdir(exist_ok=True)
     (course / "course.md").write_text("# C\n", encoding="utf-8")
@@ -261,15 +261,15 @@ def test_own_names_of_the_student_are_followed(tmp_path: Path) -> None:
 def test_commands_of_other_terminals_count(tmp_path: Path) -> None:
     log = tmp_path / "log"
     log.touch()
-    held = lesson(tmp_path, "## A\n```step\nsaw-command param list\n```\n", log)
-    append(str(log), ["ros2", "param", "list", "\udcff"], None)
+    held = lesson(tmp_path, "## A\n```step\nsaw-command param list\n```\n", str(log))
+    record(str(log), ["ros2", "param", "list", "\udcff"], None)
     with log.open("a", encoding="utf-8") as file:
         file.write("no json\n[]\n")
-    append(str(log), ["ros2", "param", "list", "\udcff"], 1)
+    record(str(log), ["ros2", "param", "list", "\udcff"], 1)
     assert held.observe(snapshot(), [], OnScreen()) == []
-    append(str(log), ["ros2", "param", "list"], 0)
+    record(str(log), ["ros2", "param", "list"], 0)
     assert held.observe(snapshot(), [], OnScreen()) == ["A"]
-    assert [each.code for each in read_log(log)] == [1, 0]
+    assert [each.code for each in read_log(str(log))] == [1, 0]
 
 
 def deed(condition: Condition, deeds: Deeds) -> bool:
