@@ -7,6 +7,7 @@ import operator
 import os
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
+from typing import NamedTuple
 
 from bot_console.runtime.children.own_processes import beginnings, begun, fork_server
 from bot_console.runtime.process.fork_server import Job, Report
@@ -101,6 +102,35 @@ class _Feed(asyncio.Protocol):
         self._end()
 
 
+class OwnEnds(NamedTuple):
+    """Our ends of what connects us with a process of the fork server; the caller has to close them."""
+
+    report: int
+    stdout: int
+    stderr: int
+    data: int
+    stdin: int
+
+
+def start_job(job: Job, *, emulate_tty: bool, channel: int | None = None) -> OwnEnds:
+    """Let the fork server start a job with streams of its own; raises `OSError`, and leaves nothing open then."""
+    from launch.child.terminals import open_pipes, open_terminals
+
+    with ExitStack() as kept, ExitStack() as given:
+        out, error = open_terminals() if emulate_tty else open_pipes()
+        child_input, own_input = os.pipe()
+        own_data, child_data = os.pipe()
+        for each in (child_input, out.child_end, error.child_end, child_data):
+            given.callback(os.close, each)
+        for each in (own_input, own_data, out.own_end, error.own_end):
+            kept.callback(os.close, each)
+        report = fork_server().start(
+            job, stdin=child_input, stdout=out.child_end, stderr=error.child_end, data=child_data, channel=channel
+        )
+        kept.pop_all()
+    return OwnEnds(report, out.own_end, error.own_end, own_data, own_input)
+
+
 async def start_forked_child(
     program: PythonProgram,
     name: str,
@@ -112,30 +142,17 @@ async def start_forked_child(
     output: Output,
 ) -> ForkedChild:
     """Run a program in a separate process; raises `OSError` if it cannot be started."""
-    from launch.child.terminals import open_pipes, open_terminals
-
     loop = asyncio.get_running_loop()
     child = ForkedChild(name, output, loop)
     words = (beginnings(), program.function, program.arguments)
     first = f"{begun.__module__}:{begun.__name__}"
     job = Job(name, first, words, list(argv), dict(env), os.path.abspath(cwd or os.getcwd()))
-    with ExitStack() as kept, ExitStack() as given:
-        out, error = open_terminals() if emulate_tty else open_pipes()
-        child_input, own_input = os.pipe()
-        own_data, child_data = os.pipe()
-        for each in (child_input, out.child_end, error.child_end, child_data):
-            given.callback(os.close, each)
-        for each in (own_input, own_data, out.own_end, error.own_end):
-            kept.callback(os.close, each)
-        report = fork_server().start(
-            job, stdin=child_input, stdout=out.child_end, stderr=error.child_end, data=child_data
-        )
-        kept.pop_all()  # the transports own them now
-    await _feed(child, report, child.reported, child.all_reported)
-    await _feed(child, own_data, child.news.feed, child.news_end)
-    for fd, end in ((1, out.own_end), (2, error.own_end)):
+    own = start_job(job, emulate_tty=emulate_tty)
+    await _feed(child, own.report, child.reported, child.all_reported)
+    await _feed(child, own.data, child.news.feed, child.news_end)
+    for fd, end in ((1, own.stdout), (2, own.stderr)):
         child.transports.append(await read_stream(child, fd, end))
-    child.input, _ = await loop.connect_write_pipe(asyncio.Protocol, os.fdopen(own_input, "wb", buffering=0))
+    child.input, _ = await loop.connect_write_pipe(asyncio.Protocol, os.fdopen(own.stdin, "wb", buffering=0))
     child.transports.append(child.input)
     await child.started
     return child

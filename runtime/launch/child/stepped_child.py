@@ -6,16 +6,15 @@ import asyncio
 import operator
 import os
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import ExitStack
 from functools import partial
 from typing import Any
 
-from bot_console.runtime.children.own_processes import MEMBER_PROGRAM, fork_server
+from bot_console.runtime.children.own_processes import MEMBER_PROGRAM
 from bot_console.runtime.process.fork_server import Job, Report
 from bot_console.runtime.process.lockstep.coordinator import Coordinator
 from bot_console.runtime.process.lockstep.member_process import MemberProcess
 from launch.child.child import Output
-from launch.child.forked_child import ForkedChild
+from launch.child.forked_child import ForkedChild, OwnEnds, start_job
 from launch.child.python_program import PythonProgram
 
 
@@ -29,17 +28,17 @@ class SteppedChild(ForkedChild):
         self._exit_report = b""
         self._input = -1
 
-    def read_all(self, report: int, stdout: int, stderr: int, data: int, stdin: int) -> None:
-        """Read these descriptors in its turns; `stdin` is our end of its standard input."""
-        self._input = stdin
-        self._member.read(report, self._take_report, self._pass_on_exit, at_once=True)
-        for fd, end in ((1, stdout), (2, stderr)):
+    def read_all(self, own: OwnEnds) -> None:
+        """Read its streams in its turns."""
+        self._input = own.stdin
+        self._member.read(own.report, self._take_report, self._pass_on_exit, at_once=True)
+        for fd, end in ((1, own.stdout), (2, own.stderr)):
             self._member.read(
                 end,
                 partial(self._in_loop, self.pipe_data_received, fd),
                 partial(self._in_loop, self.pipe_connection_lost, fd, None),
             )
-        self._member.read(data, partial(self._in_loop, self.news.feed), partial(self._in_loop, self.news_end))
+        self._member.read(own.data, partial(self._in_loop, self.news.feed), partial(self._in_loop, self.news_end))
 
     def _take_report(self, data: bytes) -> None:
         self._report.feed(data)
@@ -88,30 +87,11 @@ async def start_stepped_child(
     output: Output,
 ) -> SteppedChild:
     """Run a program in a separate process of the run; raises `OSError` if it cannot be started."""
-    from launch.child.terminals import open_pipes, open_terminals
-
     member = coordinator.new_member(name)
     child = SteppedChild(member, name, output, asyncio.get_running_loop())
     arguments = (member.number, program.function, program.arguments)
     job = Job(name, MEMBER_PROGRAM, arguments, list(argv), dict(env), os.path.abspath(cwd or os.getcwd()))
-    with ExitStack() as kept, ExitStack() as given:
-        out, error = open_terminals() if emulate_tty else open_pipes()
-        child_input, own_input = os.pipe()
-        own_data, child_data = os.pipe()
-        for each in (child_input, out.child_end, error.child_end, child_data):
-            given.callback(os.close, each)
-        for each in (own_input, own_data, out.own_end, error.own_end):
-            kept.callback(os.close, each)
-        report = fork_server().start(
-            job,
-            stdin=child_input,
-            stdout=out.child_end,
-            stderr=error.child_end,
-            data=child_data,
-            channel=member.member_end.fileno(),
-        )
-        kept.pop_all()  # the two objects below own them
-    child.read_all(report, out.own_end, error.own_end, own_data, own_input)
+    child.read_all(start_job(job, emulate_tty=emulate_tty, channel=member.member_end.fileno()))
     member.start()
     await child.started
     return child

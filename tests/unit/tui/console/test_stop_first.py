@@ -2,67 +2,32 @@
 
 from __future__ import annotations
 
-import itertools
 import sqlite3
 import threading
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from base_rig import Base, served_base
 from bot_console.tui.console.graph.warnings import GraphWarnings
 from bot_console.tui.console.logs.rosout import RosoutWatch
 from bot_console.tui.console.model import ChangeSource, LogFilter
 from bot_console.tui.console.parameters.history import History
 from bot_console.tui.console.parameters.journal import Journal
 from bot_console.tui.console.parameters.profile_store import ProfileStore
-from bot_console.tui.console.robot import robot_drive
 from bot_console.tui.console.robot.drive_link import DriveLink
 from bot_console.tui.console.robot.drive_node import DriveNode
 from bot_console.tui.console.robot.world_watch import WorldWatch
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.widgets.status_bar import status_text
-from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
 from diagnostic_msgs.msg import DiagnosticArray
-from rclpy.clock import Clock, ClockType
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 from rigs import TIMEOUT_S, until
-
-_domains = itertools.count(8400)
-
-
-class Base:
-    """A robot's base with a lock, served in a thread."""
-
-    def __init__(self, domain: int) -> None:
-        self.context = Context()
-        self.context.init(["test"], domain_id=domain)
-        self.node = Node("simulator", context=self.context)
-        self.stop = EmergencyStop(self.node, Clock(clock_type=ClockType.STEADY_TIME), BASE, ARBITER, lambda: None)
-        self._executor = SingleThreadedExecutor(context=self.context)
-        self._executor.add_node(self.node)
-        self._thread = threading.Thread(target=self._executor.spin, daemon=True)
-        self._thread.start()
-
-    def held(self) -> bool:
-        return self.stop.lock.held
-
-    def close(self) -> None:
-        self._executor.shutdown()
-        self._thread.join(TIMEOUT_S)
-        self.node.destroy_node()
-        self.context.try_shutdown()
 
 
 @pytest.fixture
 def base(monkeypatch: pytest.MonkeyPatch) -> Iterator[Base]:
-    domain = next(_domains)
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
-    monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)
-    made = Base(domain)
-    yield made
-    made.close()
+    with served_base(monkeypatch) as made:
+        yield made
 
 
 @pytest.fixture
@@ -96,11 +61,11 @@ def test_a_stop_reaches_the_robot_whatever_else_fails(
     console.start()
     console.wait_ready(TIMEOUT_S)
     console.drive.stop(True, "a foot under the wheel")
-    until(base.held, "the lock")
+    until(base.is_held, "the lock")
     until(lambda: console.snapshot().drive.stop_confirmed, "the acknowledgement")
     assert "ALL STOP held" in status_text(console.snapshot())
     console.drive.stop(False)
-    until(lambda: not base.held(), "the release")
+    until(lambda: not base.is_held(), "the release")
 
 
 @pytest.mark.parametrize("part", ["the history", "reading the history", "the profiles"])
@@ -145,7 +110,7 @@ def test_an_error_in_the_robots_reports_is_logged_once_and_the_link_stays_up(
     for _ in range(3):
         verdicts.publish(DiagnosticArray())
     console.drive.stop()
-    until(base.held, "the lock")
+    until(base.is_held, "the lock")
     message = [console.logs.record(each) for each in console.logs.matching(LogFilter(), 0)]
     assert sum("whatever it is" in each.text for each in message if each) == 1
 

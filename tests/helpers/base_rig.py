@@ -1,0 +1,53 @@
+"""A robot's base with a lock in a domain of its own, to which a console connects."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+from bot_console.tui.console.robot import robot_drive
+from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
+from rclpy.clock import Clock, ClockType
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rigs import TIMEOUT_S
+
+_domains = itertools.count(8600)
+
+
+class Base:
+    """A robot's base with a lock, served in a thread."""
+
+    def __init__(self, domain: int) -> None:
+        self.context = Context()
+        self.context.init(["test"], domain_id=domain)
+        self.node = Node("simulator", context=self.context)
+        self.stop = EmergencyStop(self.node, Clock(clock_type=ClockType.STEADY_TIME), BASE, ARBITER, lambda: None)
+        self._executor = SingleThreadedExecutor(context=self.context)
+        self._executor.add_node(self.node)
+        self._thread = threading.Thread(target=self._executor.spin, daemon=True)
+        self._thread.start()
+
+    def is_held(self) -> bool:
+        return self.stop.lock.held
+
+    def close(self) -> None:
+        self._executor.shutdown()
+        self._thread.join(TIMEOUT_S)
+        self.node.destroy_node()
+        self.context.try_shutdown()
+
+
+@contextmanager
+def served_base(monkeypatch: pytest.MonkeyPatch) -> Iterator[Base]:
+    """A base, in a domain that consoles made meanwhile join."""
+    domain = next(_domains)
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+    monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)
+    made = Base(domain)
+    yield made
+    made.close()
