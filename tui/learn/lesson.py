@@ -16,7 +16,7 @@ from bot_console.tui.learn.judging import missing, with_names
 from bot_console.tui.learn.lesson_view import LessonView, OnScreen
 from bot_console.tui.learn.progress import Progress, read_progress
 
-JUDGE_POLL_S = 1.0
+POLL_S = 1.0
 """Seconds between two polls of the workspace's files and of the commands of other terminals."""
 
 
@@ -37,7 +37,7 @@ class CourseLesson:
         self._clock = clock
         self._deeds = Deeds()
         self._files = WorkspaceFiles(workspace)
-        self._judged_at = float("-inf")
+        self._polled_at = float("-inf")
         self._states: dict[str, str] = {}
         """By condition on files, what is missing in the files as they are."""
         self._driven_before: dict[str, float] = {}
@@ -61,9 +61,9 @@ class CourseLesson:
         self._deeds.layouts |= screen.layouts
         self._deeds.steered |= screen.steers
         now = self._clock()
-        if now - self._judged_at < JUDGE_POLL_S:
+        if now - self._polled_at < POLL_S:
             return ()
-        self._judged_at = now
+        self._polled_at = now
         files = WorkspaceFiles(self._workspace)
         if files.stamp != self._files.stamp:
             self._files, self._states = files, {}
