@@ -23,7 +23,7 @@ from ros2cli.advice import advise
 
 HIDDEN = "_"
 HINT_POLLS = 4
-"""Checks without an answer after which a person is told what is waited for."""
+"""Checks without an answer after which the message names what is being waited for."""
 SERVER_POLL_S = 0.5
 """Seconds between checks whether a request can still be answered."""
 GONE_POLLS = 20

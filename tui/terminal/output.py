@@ -56,7 +56,7 @@ def installed_version(package: str) -> str:
 
 
 MAX_CLIPBOARD_BYTES = 32_768
-"""Bytes of text: terminals drop larger ones whole, some from 74,994 letters of base64 on; a slow line is held up."""
+"""Bytes of text: terminals drop larger ones whole, some from 74,994 characters of base64 on; a slow line is held up."""
 
 
 def osc52(text: str) -> str:

@@ -35,7 +35,7 @@ class Link:
         self.send = send
         self.process = process
         self.published_elsewhere: Callable[[], int] = lambda: 0
-        """How many messages other processes have published, as far as this one is told."""
+        """How many messages other processes have published, as far as this one knows."""
         self.numbers = itertools.count(1)
         self.subscriptions: dict[str, dict[int, Received]] = {}
         self.served: dict[str, dict[int, Callable[[Query], None]]] = {}

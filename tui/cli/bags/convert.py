@@ -37,7 +37,7 @@ def add_convert_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def convert(given: argparse.Namespace) -> int:
-    """Write bags anew with other settings; 0 done, 1 failed."""
+    """Rewrite bags with other settings; 0 done, 1 failed."""
     from bot_console.tui.console.bags.reader import Bag
 
     try:
@@ -124,7 +124,7 @@ def _filters(output: Mapping[str, Any]) -> argparse.Namespace:
 
 
 def reindex(given: argparse.Namespace) -> int:
-    """Write the metadata of a bag folder anew; 0 done, 1 failed."""
+    """Rebuild the metadata of a bag folder; 0 done, 1 failed."""
     from bot_console.tui.console.bags.reader import Bag
 
     if not given.bag.is_dir():

@@ -135,7 +135,7 @@ class LogStore:
             for _, level, _ in kept:
                 self._counts[level] += 1
             self._recent_errors = deque(kept, MAX_RECENT_ERRORS)
-            self._state = LogState(-1)  # made anew when it is next asked for
+            self._state = LogState(-1)  # made again when it is next requested
 
     def _roll(self) -> LogSegment:
         kept = self.segments

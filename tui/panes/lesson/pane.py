@@ -69,7 +69,7 @@ class LessonPane(Pane):
         self._draw()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Draw; what has happened is looked at by `tick`, since lessons go on while the pane is hidden."""
+        """Draw the step. What has happened is polled by `tick`, since lessons go on while the pane is hidden."""
         self._draw()
 
     def tick(self) -> None:
