@@ -9,6 +9,7 @@ Every command imports this module, so its own imports are few.
 from __future__ import annotations
 
 import os
+import signal
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -20,6 +21,8 @@ MAX_WORDS, MAX_WORD_CHARACTERS = 40, 200
 """Of a command line, what is recorded."""
 MAX_BYTES = 4_000_000
 """The size from which nothing more is recorded."""
+ENDED_BY_SIGNAL = (128 + signal.SIGINT, 128 + signal.SIGTERM)
+"""Exit codes of commands after Ctrl-C and SIGTERM."""
 UNRECORDED = frozenset(("--version", "complete", "learn", "release", "stop"))
 """Commands that no step asks for, or that nothing may delay."""
 
@@ -29,6 +32,11 @@ class Command(NamedTuple):
 
     words: tuple[str, ...]
     code: int | None = None
+
+    @property
+    def failed(self) -> bool:
+        """Whether it ended with an error. Ctrl-C and SIGTERM end a program that works."""
+        return self.code not in (None, 0, *ENDED_BY_SIGNAL)
 
     @property
     def verb(self) -> tuple[str, ...]:

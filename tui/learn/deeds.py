@@ -62,7 +62,7 @@ class Deeds:
     def refusals(self, name: str) -> list[str]:
         """The reasons for which a value of a parameter was refused; empty ones for those of other terminals."""
         here = [each.reason for each in self.changes if each.name == name and not each.accepted]
-        return here + ["" for each in self.commands if each.code and is_set_of(each, name)]
+        return here + ["" for each in self.commands if each.failed and is_set_of(each, name)]
 
     def values_set(self, name: str) -> list[str]:
         """The values that somebody has set, as texts."""

@@ -106,7 +106,7 @@ def _refused(words: Sequence[str], deeds: Deeds) -> str:
 
 def _command(words: Sequence[str], deeds: Deeds) -> str:
     ran = [each for each in deeds.commands if _in_order(words, each.words)]
-    if any(not each.code for each in ran):
+    if any(not each.failed for each in ran):
         return ""
     failed = f"; it ended with exit code {ran[-1].code}" if ran else ""
     return f"waiting for: {' '.join(words)}{failed}"
@@ -114,9 +114,9 @@ def _command(words: Sequence[str], deeds: Deeds) -> str:
 
 def _failure(words: Sequence[str], deeds: Deeds) -> str:
     ran = [each for each in deeds.commands if _in_order(words, each.words)]
-    if any(each.code for each in ran):
+    if any(each.failed for each in ran):
         return ""
-    went_on = "; it did not fail" if any(each.code == 0 for each in ran) else ""
+    went_on = "; it did not fail" if any(each.code is not None for each in ran) else ""
     return f"waiting for: {' '.join(words)}, to see it fail{went_on}"
 
 

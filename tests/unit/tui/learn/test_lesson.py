@@ -120,6 +120,9 @@ SPEED = parameter("/robot", "speed", 1.0)
             "waiting for: run *, to see it fail; it di",
         ),
         ("saw-failure run *", seen(commands=[Command(("run", "a.py"), None)]), "waiting for: run *, to see it fail"),
+        ("saw-failure run *", seen(commands=[Command(("run", "a.py"), 130)]), "waiting for: run *, to see it fail; it"),
+        ("saw-command run *", seen(commands=[Command(("run", "a.py"), 130)]), ""),
+        ("saw-refused speed", seen(commands=[Command(("param", "set", "/n", "speed", "9"), 130)]), "waiting for: a"),
         ("saw-launch *.launch.py a:=*", seen(commands=[Command(("launch", "p", "x.launch.py", "a:=1"))]), ""),
         (
             "saw-launch *.launch.py b:=*",
