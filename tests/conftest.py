@@ -124,30 +124,25 @@ def pytest_xdist_auto_num_workers() -> int:
     return (os.cpu_count() or 1) + 1
 
 
-BESIDE_OTHERS = (
-    "tests/acceptance/",
-    "tests/contract/",
-    "tests/course/",
-    "tests/pilot/",
-    "tests/snapshot/",
-    "tests/unit/launch/",
-    "tests/unit/ros2cli/",
-    "tests/unit/rmw/zenoh/",
-    "tests/unit/process/",
-    "tests/unit/tui/cli/",
-)
-
-
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """One order, however they were read; and tests over processes, terminals and screens are tried twice.
+    """One order, however they were read; and each test is tried twice.
 
-    Beside others one of the parts may come too late. The summary counts what needed its second try (`rerun`) and shows
-    what failed in the first; a fault fails both.
+    On a busy machine a part of what a test waits for may come too late. The summary counts what needed its second try
+    (`rerun`) and shows what failed in the first; a fault fails both.
     """
     items.sort(key=lambda each: each.path)
     for item in items:
-        if item.nodeid.startswith(BESIDE_OTHERS):
-            item.add_marker(pytest.mark.flaky(reruns=1))
+        item.add_marker(pytest.mark.flaky(reruns=1))
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item: pytest.Function) -> None:
+    """A second try gets new fixtures of its module: it would fail again with a system that the first has broken."""
+    if getattr(item, "execution_count", 1) > 1:
+        for definitions in item._fixtureinfo.name2fixturedefs.values():
+            for each in definitions:
+                if each.scope == "module":
+                    each.finish(item._request)
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -164,10 +164,16 @@ BUSY = {"loops": "while True:\n    pass\n", "computes": "sum(iter(int, 1))\n"}
 ENDLESS = {
     "floods": "while True:\n    print('flood ' * 20)\n",
     "holds": "held = bytearray(b'x' * 300_000_000)\ntime.sleep(1000)\n",
-    "closes": "os.closerange(0, 256)\ntime.sleep(1000)\n",
+    "closes": "os.closerange(0, 3)\ntime.sleep(1000)\n",
     "deaf": "import signal\nfor each in (2, 15):\n    signal.signal(each, signal.SIG_IGN)\ntime.sleep(1000)\n",
 }
 """Other things that never end by themselves."""
+
+
+CLOSES_ALL = "os.closerange(0, 256)\ntime.sleep(1000)\n"
+"""A node that closes descriptors of the middleware, too. Zenoh aborts if one of its threads is about to wait on them;
+if all of them wait already, the node goes on.
+"""
 
 
 @pytest.mark.parametrize("name", ["loops", pytest.param("computes", marks=pytest.mark.soak)])
@@ -214,6 +220,13 @@ def test_host_with_thread_holding_interpreter_lock_is_named_and_ended(tmp_path: 
     launcher.close(timeout_s=10 * TIMEOUT_S)
     host.end(timeout_s=10 * TIMEOUT_S)
     assert host.process.returncode == -9
+
+
+def test_node_that_closes_all_descriptors_harms_no_other(system: System) -> None:
+    system.start({"all": HEAD + CLOSES_ALL})
+    system.all_others_go_on()
+    killed = system.launcher.kill(system.named("all").key).result(TIMEOUT_S)
+    assert system.named("all").exit_code == (-9 if killed.ok else -signal.SIGABRT), (killed, system.named("all"))
 
 
 def test_robot_can_be_stopped_beside_nodes_that_never_end(system: System) -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import fcntl
 import os
+import select
 import sys
 import threading
 from collections.abc import Callable, Generator, Iterator
@@ -21,6 +22,10 @@ MAX_LINE_BYTES = 1 << 16
 """Bytes after which an unterminated line is logged as it is."""
 FIRST = 100
 """Our descriptors start here, beyond those that programs usually close or count."""
+DRAIN_TIMEOUT_S = 10.0
+"""How long at most the end waits until the lines written before it are in the log."""
+MAX_PIPE_BYTES = 1 << 20
+"""The most that a pipe holds on Linux, unless root has raised it."""
 
 
 @contextlib.contextmanager
@@ -67,7 +72,8 @@ def _captured(number: int, name: str, printed: Printed) -> Generator[None]:
     reading, writing = os.pipe()
     os.dup2(writing, number)
     os.close(writing)
-    reader = threading.Thread(target=_report, args=(reading, printed), name="descriptors", daemon=True)
+    ended, end = os.pipe()
+    reader = threading.Thread(target=_report, args=(reading, ended, printed), name="descriptors", daemon=True)
     reader.start()
     setattr(sys, name, screen)
     try:
@@ -78,22 +84,23 @@ def _captured(number: int, name: str, printed: Printed) -> Generator[None]:
             screen.flush()
         os.dup2(saved, number)  # This closes the last writing end, unless a child of this process has one.
         os.close(saved)
-        reader.join(0.5)
+        os.close(end)
+        reader.join(DRAIN_TIMEOUT_S)
         with contextlib.suppress(OSError):
             screen.close()
 
 
-def _report(descriptor: int, printed: Printed) -> None:
-    for line in _lines(descriptor):
+def _report(descriptor: int, ended: int, printed: Printed) -> None:
+    for line in _lines(descriptor, ended):
         from bot_console.tui.console.model import Severity  # Imported with the first line, which most runs never have.
 
         printed(Severity.INFO, LABEL, line)
 
 
-def _lines(descriptor: int) -> Iterator[str]:
+def _lines(descriptor: int, ended: int) -> Iterator[str]:
     rest = b""
     try:
-        while data := os.read(descriptor, 65536):
+        for data in _blocks(descriptor, ended):
             *whole, rest = (rest + data).split(b"\n")
             if len(rest) > MAX_LINE_BYTES:
                 whole, rest = [*whole, rest], b""
@@ -102,3 +109,16 @@ def _lines(descriptor: int) -> Iterator[str]:
             yield rest.decode("utf-8", "replace")
     finally:
         os.close(descriptor)
+        os.close(ended)
+
+
+def _blocks(descriptor: int, ended: int) -> Iterator[bytes]:
+    """What is written until `ended` is closed, even if a child goes on writing after that."""
+    readable: list[int] = []
+    while ended not in readable:
+        readable, _, _ = select.select([descriptor, ended], [], [])
+        if descriptor in readable:
+            data = os.read(descriptor, MAX_PIPE_BYTES if ended in readable else 65536)
+            if not data:
+                return
+            yield data

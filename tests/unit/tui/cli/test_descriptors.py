@@ -3,6 +3,9 @@
 import os
 import subprocess
 import sys
+import threading
+
+from bot_console.tui.cli.foreground.descriptors import captured_descriptors
 
 PROGRAM = """
 import os, sys
@@ -45,9 +48,25 @@ def test_child_that_outlives_the_console_does_not_block_its_end() -> None:
     assert b"half a line" in done.stdout
 
 
-def test_descriptors_are_restored() -> None:
-    from bot_console.tui.cli.foreground.descriptors import captured_descriptors
+def test_lines_written_before_the_end_are_reported_however_slow_the_log_is() -> None:
+    reported: list[str] = []
+    begun = threading.Event()
 
+    def report(severity: int, label: str, text: str) -> None:
+        if not reported:
+            begun.set()
+            threading.Event().wait(0.6)
+        reported.append(text)
+
+    with captured_descriptors(report):
+        os.write(1, b"the first\n")
+        assert begun.wait(60)
+        os.write(1, b"written later\n" * 4000)
+        subprocess.Popen(["sh", "-c", "while echo more; do :; done"], stderr=subprocess.DEVNULL)
+    assert reported[:4001] == ["the first"] + ["written later"] * 4000
+
+
+def test_descriptors_are_restored() -> None:
     before = [os.fstat(number)[:3] for number in (1, 2)], sys.__stdout__, sys.__stderr__
     with captured_descriptors(lambda *line: None):
         assert [os.fstat(number)[:3] for number in (1, 2)] != before[0]
